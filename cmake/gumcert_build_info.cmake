@@ -1,0 +1,46 @@
+# The header <gumcert_build_info.h>: version and commit, which a record names as its maker.
+#
+# Written at each build, because the commit changes without CMake being run again; rewritten only when it differs.
+# As a script (cmake -P) this file writes the header, included it makes the target gumcert::build_info.
+if(CMAKE_SCRIPT_MODE_FILE)
+    set(commit unknown)
+    find_program(git_program git)
+    if(git_program)
+        execute_process(COMMAND ${git_program} -C ${SOURCE_DIR} rev-parse --show-prefix --short=12 HEAD
+                        RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
+        # The prefix, first, is empty when the tree is the top of its repository and not a folder in somebody else's.
+        if(result EQUAL 0 AND output MATCHES "^\n?([0-9a-f]+)$")
+            set(commit ${CMAKE_MATCH_1})
+            execute_process(COMMAND ${git_program} -C ${SOURCE_DIR} status --porcelain --untracked-files=no
+                            OUTPUT_VARIABLE changes ERROR_QUIET)
+            if(changes)
+                string(APPEND commit "-modified")
+            endif()
+        endif()
+    endif()
+    file(CONFIGURE OUTPUT ${HEADER} @ONLY CONTENT [[
+#pragma once
+
+#include <string_view>
+
+namespace gumcert {
+
+inline constexpr std::string_view k_version = "@VERSION@";
+/// Twelve digits of the commit, "-modified" behind it when files differed; "unknown" outside a repository.
+inline constexpr std::string_view k_commit = "@commit@";
+
+}  // namespace gumcert
+]])
+    return()
+endif()
+
+set(gumcert_build_info_dir ${PROJECT_BINARY_DIR}/generated)
+add_custom_target(gumcert_build_info_header
+    COMMAND ${CMAKE_COMMAND} -DSOURCE_DIR=${PROJECT_SOURCE_DIR} -DVERSION=${PROJECT_VERSION}
+            -DHEADER=${gumcert_build_info_dir}/gumcert_build_info.h -P ${CMAKE_CURRENT_LIST_FILE}
+    BYPRODUCTS ${gumcert_build_info_dir}/gumcert_build_info.h
+    COMMENT "Version and commit")
+add_library(gumcert_build_info INTERFACE)
+add_library(gumcert::build_info ALIAS gumcert_build_info)
+target_include_directories(gumcert_build_info INTERFACE ${gumcert_build_info_dir})
+add_dependencies(gumcert_build_info gumcert_build_info_header)

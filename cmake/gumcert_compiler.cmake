@@ -1,0 +1,30 @@
+# Compiler settings of every target of the project, through one interface target that is never exported.
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+    set(CMAKE_BUILD_TYPE RelWithDebInfo CACHE STRING "Kind of build; the presets set their own" FORCE)
+endif()
+
+add_library(gumcert_compile_options INTERFACE)
+target_compile_options(gumcert_compile_options INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor
+    -Woverloaded-virtual -Wdouble-promotion -Wformat=2 -Wcast-align
+    # Not -Wnull-dereference: g++ 12 sees one in the inlined loops of Eigen, optimised, where there is none.
+    $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond -Wlogical-op>
+    # The same digits from every build: no contraction into fused multiply-add.
+    -ffp-contract=off)
+option(GUMCERT_WARNINGS_AS_ERRORS "Treat warnings as errors" OFF)
+if(GUMCERT_WARNINGS_AS_ERRORS)
+    target_compile_options(gumcert_compile_options INTERFACE -Werror)
+endif()
+# Digits that depend on the machine or on algebra done by the compiler cannot be signed for.
+string(TOUPPER "${CMAKE_BUILD_TYPE}" gumcert_build_type)
+foreach(flags IN ITEMS "${CMAKE_CXX_FLAGS}" "${CMAKE_CXX_FLAGS_${gumcert_build_type}}")
+    if(flags MATCHES "-ffast-math|-Ofast|-funsafe-math-optimizations|-march=native")
+        message(FATAL_ERROR "compiler flags: ${CMAKE_MATCH_0} — results must not depend on the machine that built the "
+                            "program — remove the flag")
+    endif()
+endforeach()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()

@@ -1,0 +1,25 @@
+# Every public header compiles alone: one source a header, which includes it twice and nothing else.
+#
+# The target is part of the ordinary build when the tests are, so a header that leans on what its neighbours included
+# stops the build with its own name.
+function(gumcert_header_self_check)
+    get_property(layers GLOBAL PROPERTY GUMCERT_LAYERS)
+    add_library(header_self_check OBJECT)
+    set(any FALSE)
+    foreach(layer IN LISTS layers)
+        string(REPLACE "/" "_" name ${layer})
+        target_link_libraries(header_self_check PRIVATE ${name})
+        gumcert_public_headers(${layer} headers)
+        foreach(header IN LISTS headers)
+            set(unit ${CMAKE_CURRENT_BINARY_DIR}/header_self_check/${header}.cpp)
+            file(CONFIGURE OUTPUT ${unit} CONTENT "#include \"${header}\"\n#include \"${header}\"\n")
+            target_sources(header_self_check PRIVATE ${unit})
+            set(any TRUE)
+        endforeach()
+    endforeach()
+    if(NOT any)
+        message(FATAL_ERROR "header_self_check: no public header found — a layer has headers — look at GUMCERT_LAYERS")
+    endif()
+    target_link_libraries(header_self_check PRIVATE $<BUILD_INTERFACE:gumcert_compile_options>)
+    target_compile_options(header_self_check PRIVATE -O0 -g0)
+endfunction()

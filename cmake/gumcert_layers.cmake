@@ -1,0 +1,106 @@
+# A layer is a folder of the tree: its *.h and *.cpp make one static library, included from the root of the tree.
+#
+# The tables below are the whole law of who may use whom (docs/architecture.md, docs/adr/0001-layers.md). They are read
+# by gumcert_layer() for the link lines and by tests/lint/check_includes.py for every #include; there is no second copy.
+# A new arrow is one line here and an ADR. Keep each entry in the form set(NAME word word ...): the scanner reads it.
+
+# The layers from the foundation upwards. An edge may only point to a layer further left, so there are no cycles.
+set(GUMCERT_LAYER_FOLDERS gum/quantity gum engine engine/job reports/record reports app app/cli)
+
+# Our own layers whose headers a layer may include and whose library it may link.
+set(GUMCERT_EDGES_gum_quantity)
+set(GUMCERT_EDGES_gum            gum/quantity)
+set(GUMCERT_EDGES_engine         gum/quantity)
+set(GUMCERT_EDGES_engine_job     gum/quantity gum engine)
+set(GUMCERT_EDGES_reports_record gum/quantity gum)
+set(GUMCERT_EDGES_reports        gum/quantity gum reports/record)
+set(GUMCERT_EDGES_app            gum/quantity gum engine engine/job reports/record reports)
+set(GUMCERT_EDGES_app_cli        gum/quantity reports/record reports app)
+
+# Headers from outside that a layer may include: a first folder (Eigen) or one file (udunits2.h). The standard library is
+# free for all; what a layer may not do with it is in tests/lint/check_includes.py. Headers of POSIX count as foreign.
+set(GUMCERT_THIRD_PARTY_gum_quantity   Eigen udunits2.h)
+set(GUMCERT_THIRD_PARTY_gum            Eigen boost Random123)
+set(GUMCERT_THIRD_PARTY_engine         Eigen ceres glog cholmod.h umfpack.h SuiteSparseQR.hpp suitesparse)
+set(GUMCERT_THIRD_PARTY_engine_job     Eigen nlohmann valijson)
+set(GUMCERT_THIRD_PARTY_reports_record nlohmann)
+set(GUMCERT_THIRD_PARTY_reports        fmt kainjow nlohmann libxml xmlsec qpdf
+                                       fcntl.h spawn.h sys/wait.h unistd.h)  # the PDF step is a program of its own
+set(GUMCERT_THIRD_PARTY_app            Eigen fmt gumcert_build_info.h nlohmann openssl fcntl.h unistd.h)
+set(GUMCERT_THIRD_PARTY_app_cli        CLI fmt glog gumcert_build_info.h nlohmann unistd.h)
+
+# Layers that may open files; the others are handed what they need and hand back what they made.
+set(GUMCERT_MAY_TOUCH_FILES engine/job reports app app/cli)
+
+# Never in a header of any layer: what they bring must stay behind the layer's own types.
+set(GUMCERT_NOT_IN_HEADERS boost ceres sqlite3.h)
+# Headers of ours that only their own layer may include. They are not installed, and the line above leaves them alone.
+set(GUMCERT_PRIVATE_HEADERS)
+
+foreach(layer IN LISTS GUMCERT_LAYER_FOLDERS)
+    string(REPLACE "/" "_" name ${layer})
+    foreach(used IN LISTS GUMCERT_EDGES_${name})
+        list(FIND GUMCERT_LAYER_FOLDERS ${layer} position)
+        list(FIND GUMCERT_LAYER_FOLDERS ${used} used_position)
+        if(used_position EQUAL -1 OR NOT used_position LESS position)
+            message(FATAL_ERROR "${layer}: may use ${used} — an edge points to a layer below — correct the table in "
+                                "cmake/gumcert_layers.cmake")
+        endif()
+    endforeach()
+endforeach()
+
+set_property(GLOBAL PROPERTY GUMCERT_LAYERS "")
+
+# Refuse a layer that is not in the table, and a use that is not an edge of it.
+function(gumcert_check_edges folder)
+    if(NOT folder IN_LIST GUMCERT_LAYER_FOLDERS)
+        message(FATAL_ERROR "${folder}: not a layer — every layer has its lines in cmake/gumcert_layers.cmake — "
+                            "add them there with an ADR")
+    endif()
+    string(REPLACE "/" "_" name ${folder})
+    foreach(used IN LISTS ARGN)
+        if(NOT used IN_LIST GUMCERT_EDGES_${name})
+            message(FATAL_ERROR "${folder}: uses ${used} — the edge is not in cmake/gumcert_layers.cmake — "
+                                "remove the use, or add the edge with an ADR")
+        endif()
+    endforeach()
+endfunction()
+
+# gumcert_layer(folder [USES layer...] [PUBLIC package...] [PRIVATE package...] [HEADER_ONLY package...])
+#
+# Makes the library gumcert::<folder with _ for />. HEADER_ONLY packages are needed to compile the layer, but not by
+# whoever links the installed library.
+function(gumcert_layer folder)
+    cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "USES;PUBLIC;PRIVATE;HEADER_ONLY")
+    if(ARG_UNPARSED_ARGUMENTS)
+        message(FATAL_ERROR "${folder}: ${ARG_UNPARSED_ARGUMENTS} — only USES, PUBLIC, PRIVATE and HEADER_ONLY are known")
+    endif()
+    gumcert_check_edges(${folder} ${ARG_USES})
+    string(REPLACE "/" "_" name ${folder})
+
+    file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+    add_library(${name} STATIC ${sources})
+    add_library(gumcert::${name} ALIAS ${name})
+    set_target_properties(${name} PROPERTIES OUTPUT_NAME gumcert_${name} EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
+    target_compile_features(${name} PUBLIC cxx_std_20)
+    target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/gumcert>)
+    target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:gumcert_compile_options> ${ARG_PRIVATE} PUBLIC ${ARG_PUBLIC})
+    foreach(package IN LISTS ARG_HEADER_ONLY)
+        target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:${package}>)
+    endforeach()
+    foreach(used IN LISTS ARG_USES)
+        string(REPLACE "/" "_" used_name ${used})
+        target_link_libraries(${name} PUBLIC ${used_name})
+    endforeach()
+    set_property(GLOBAL APPEND PROPERTY GUMCERT_LAYERS ${folder})
+endfunction()
+
+# The headers of a layer that others may include, relative to the root of the tree.
+function(gumcert_public_headers folder result)
+    file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/${folder}/*.h)
+    if(GUMCERT_PRIVATE_HEADERS)
+        list(REMOVE_ITEM headers ${GUMCERT_PRIVATE_HEADERS})
+    endif()
+    set(${result} ${headers} PARENT_SCOPE)
+endfunction()

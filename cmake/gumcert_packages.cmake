@@ -1,0 +1,20 @@
+# Every package that a layer may ask for. docs/dependencies.md says why each one; scripts/packages.txt installs them.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Boost 1.74 REQUIRED)
+find_package(Ceres 2.1 REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(fmt 9 REQUIRED)
+find_package(OpenSSL 3 REQUIRED)
+find_package(CLI11 2.1 REQUIRED)
+
+# Two packages of headers bring no package file of their own that Debian installs.
+function(gumcert_header_package name header debian_package)
+    find_path(${name}_INCLUDE_DIR NAMES ${header} DOC "Folder of ${header}")
+    if(NOT ${name}_INCLUDE_DIR)
+        message(FATAL_ERROR "${header}: not found — the build needs it — install ${debian_package}, or run scripts/setup")
+    endif()
+    add_library(gumcert::${name} INTERFACE IMPORTED)
+    target_include_directories(gumcert::${name} SYSTEM INTERFACE ${${name}_INCLUDE_DIR})
+endfunction()
+gumcert_header_package(mustache kainjow/mustache.hpp libkainjow-mustache-dev)
+gumcert_header_package(valijson valijson/validator.hpp libvalijson-dev)

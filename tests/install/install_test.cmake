@@ -1,0 +1,62 @@
+# Installs the build into a fresh folder, builds a foreign project against it and runs what came out.
+#
+#   cmake -DBUILD_DIR=... -DWORK_DIR=... -DCOMPILER=... -DFLAGS=... -P install_test.cmake
+cmake_minimum_required(VERSION 3.25)
+
+function(run description)
+    execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    if(NOT result EQUAL 0)
+        message("${output}")
+        message(FATAL_ERROR "${description} failed (${result})")
+    endif()
+    set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+set(prefix ${WORK_DIR}/prefix)
+file(REMOVE_RECURSE ${WORK_DIR})
+file(MAKE_DIRECTORY ${WORK_DIR})
+
+run("installation" ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix})
+
+run("configuring the consumer" ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${WORK_DIR}/consumer -G Ninja
+    -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_BUILD_TYPE=Release)
+run("building the consumer" ${CMAKE_COMMAND} --build ${WORK_DIR}/consumer)
+run("running the consumer" ${WORK_DIR}/consumer/consumer)
+# JCGM 100:2008, table G.2, column 95.45 %
+set(expected "1 13.97\n5 2.65\n10 2.28\n50 2.05\ninf 2.00\n")
+if(NOT output STREQUAL expected)
+    message(FATAL_ERROR "the consumer printed\n${output}instead of\n${expected}")
+endif()
+
+# The installed package must not remember the tree that it was built from.
+file(GLOB_RECURSE package_files ${prefix}/lib/cmake/*.cmake ${prefix}/lib/*/cmake/*.cmake)
+if(NOT package_files)
+    message(FATAL_ERROR "no package file was installed below ${prefix}")
+endif()
+get_filename_component(source_dir ${CMAKE_CURRENT_LIST_DIR}/../.. ABSOLUTE)
+foreach(file IN LISTS package_files)
+    file(READ ${file} text)
+    string(FIND "${text}" "${source_dir}/" position)
+    if(NOT position EQUAL -1)
+        message(FATAL_ERROR "${file} names a path of the source tree")
+    endif()
+endforeach()
+
+foreach(wanted bin/gumcert share/gumcert/templates share/gumcert/schemas share/gumcert/package-lock.json
+               share/gumcert/LICENSE share/gumcert/NOTICE include/gumcert/gum/coverage.h)
+    if(NOT EXISTS ${prefix}/${wanted})
+        message(FATAL_ERROR "${wanted} was not installed")
+    endif()
+endforeach()
+run("the installed program" ${prefix}/bin/gumcert --version)
+if(NOT output MATCHES "0\\.1\\.0")
+    message(FATAL_ERROR "gumcert --version printed ${output}")
+endif()
+
+# The installed program makes a certificate by itself: its templates and its PDF module came along.
+run("the example" ${prefix}/bin/gumcert run ${CMAKE_CURRENT_LIST_DIR}/../../examples/rotary_table/job.json -o ${WORK_DIR}/out)
+foreach(wanted record.json certificate.html certificate.pdf)
+    if(NOT EXISTS ${WORK_DIR}/out/${wanted})
+        message(FATAL_ERROR "the installed program did not write ${wanted}")
+    endif()
+endforeach()
