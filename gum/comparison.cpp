@@ -1,0 +1,83 @@
+#include "gum/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "gum/argument_check.h"
+#include "gum/coverage.h"
+
+namespace gumcert::gum {
+namespace {
+
+double difference_uncertainty_for_score(double laboratory, double reference, double correlation, const char* symbol) {
+    const double combined = uncertainty_of_difference(laboratory, reference, correlation);
+    if (!(combined > 0.0) || !std::isfinite(combined)) {
+        refuse("GC-GUM-0031", std::string(symbol) + " of the difference",
+               number_text(combined) + " from laboratory " + number_text(laboratory) + " and reference " +
+                   number_text(reference) + " with correlation " + number_text(correlation),
+               "a score divides by it, so it must be greater than 0", "State the uncertainty of at least one side.");
+    }
+    return combined;
+}
+
+}  // namespace
+
+double uncertainty_of_difference(double laboratory, double reference, double correlation) {
+    require_not_negative(laboratory, "uncertainty of the laboratory value");
+    require_not_negative(reference, "uncertainty of the reference value");
+    if (!(correlation >= -1.0 && correlation <= 1.0)) {
+        refuse("GC-GUM-0030", "correlation of laboratory and reference", number_text(correlation),
+               "must lie between -1 and 1", "Correct the correlation coefficient.");
+    }
+    if (correlation == 0.0) {
+        return std::sqrt(laboratory * laboratory + reference * reference);
+    }
+    // u_x² + u_X² − 2 r u_x u_X, written so that nothing cancels when r is close to 1 and the two are nearly equal.
+    const double gap = laboratory - reference;
+    return std::sqrt(gap * gap + 2.0 * (1.0 - correlation) * laboratory * reference);
+}
+
+ComparisonScore score(const ComparedValue& laboratory, const ComparedValue& reference, double correlation) {
+    require_finite(laboratory.value, "laboratory value");
+    require_finite(reference.value, "reference value");
+    ComparisonScore result;
+    result.difference = laboratory.value - reference.value;
+    require_finite(result.difference, "difference of laboratory and reference value");
+    result.u_difference = difference_uncertainty_for_score(laboratory.standard_uncertainty,
+                                                           reference.standard_uncertainty, correlation, "u");
+    result.U_difference = difference_uncertainty_for_score(laboratory.expanded_uncertainty,
+                                                           reference.expanded_uncertainty, correlation, "U");
+    result.en = result.difference / result.U_difference;
+    result.zeta = result.difference / result.u_difference;
+    return result;
+}
+
+ComparisonSummary summarise(std::span<const ComparisonScore> scores) {
+    if (scores.empty()) {
+        refuse("GC-GUM-0032", "comparison", "no points", "a summary needs at least 1 point",
+               "Give the points that both sides measured.");
+    }
+    ComparisonSummary summary;
+    summary.points = scores.size();
+    double sum_of_absolute_en = 0.0;
+    double sum_of_squared_en = 0.0;
+    for (const ComparisonScore& point : scores) {
+        require_finite(point.en, "E_n");
+        require_finite(point.zeta, "zeta");
+        const double absolute_en = std::abs(point.en);
+        sum_of_absolute_en += absolute_en;
+        sum_of_squared_en += point.en * point.en;
+        summary.sum_of_squared_zeta += point.zeta * point.zeta;
+        summary.largest_absolute_en = std::max(summary.largest_absolute_en, absolute_en);
+        summary.count_above_1 += absolute_en > 1.0 ? 1 : 0;
+    }
+    const auto m = static_cast<double>(summary.points);
+    summary.mean_absolute_en = sum_of_absolute_en / m;
+    summary.rms_en = std::sqrt(sum_of_squared_en / m);
+    summary.p_low = chi_square_lower_tail(summary.sum_of_squared_zeta, m);
+    summary.p_high = chi_square_upper_tail(summary.sum_of_squared_zeta, m);
+    return summary;
+}
+
+}  // namespace gumcert::gum

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace gumcert::gum {
+
+/// One side of a comparison at one point. All members are in the same unit, the same as on the other side.
+struct ComparedValue {
+    double value = 0.0;
+    double standard_uncertainty = 0.0;  ///< u ≥ 0
+    double expanded_uncertainty = 0.0;  ///< U ≥ 0, for a coverage probability of about 95 %
+};
+
+/// Scores of one point.
+struct ComparisonScore {
+    double difference = 0.0;    ///< D = x − X, laboratory minus reference
+    double u_difference = 0.0;  ///< standard uncertainty of D
+    double U_difference = 0.0;  ///< expanded uncertainty of D: also D_fail, the smallest |D| that fails
+    double en = 0.0;            ///< E_n = D / U_difference, [1]
+    double zeta = 0.0;          ///< ζ = D / u_difference, [1]
+};
+
+/// Uncertainty of a difference x − X of two quantities with correlation r.
+///
+/// √(u_x² + u_X² − 2 r u_x u_X)                                        (JCGM 100:2008, 5.2.2; u or U alike)
+/// \param correlation  r, −1 ≤ r ≤ 1
+/// \return never negative, in the unit of the uncertainties; 0 only for r = 1 with equal uncertainties, or both 0
+/// \throws InputError  GC-GUM-0001, -0002 for an uncertainty, GC-GUM-0030 for r out of range
+[[nodiscard]] double uncertainty_of_difference(double laboratory, double reference, double correlation = 0.0);
+
+/// E_n number and ζ-score of a laboratory value against a reference value (ISO 13528:2022; ISO/IEC 17043 for E_n).
+///
+/// E_n = D / √(U_x² + U_X² − 2 r U_x U_X),  ζ = D / √(u_x² + u_X² − 2 r u_x u_X)
+/// \param correlation  r between x and X; not 0 where both depend on the same standard, sensor or artefact
+/// \throws InputError  for a number that is not finite, a negative uncertainty, r outside [−1, 1] (GC-GUM-0030), or an
+///                     uncertainty of the difference that is 0 (GC-GUM-0031): no score exists then
+/// |E_n| ≤ 1 says only that |D| is not larger than its expanded uncertainty. An uncertainty stated too large always
+/// passes, and a reference with U_X ≥ U_x validates nothing.
+[[nodiscard]] ComparisonScore score(const ComparedValue& laboratory, const ComparedValue& reference,
+                                    double correlation = 0.0);
+
+/// Companion numbers of the scores of several points.
+struct ComparisonSummary {
+    std::size_t points = 0;         ///< m
+    std::size_t count_above_1 = 0;  ///< points with |E_n| > 1
+    double mean_absolute_en = 0.0;
+    double largest_absolute_en = 0.0;
+    double rms_en = 0.0;               ///< √(Σ E_n² / m); about 0.5 where uncertainties are right and k = 2
+    double sum_of_squared_zeta = 0.0;  ///< Σ ζ²
+    double p_low = 0.0;                ///< P(χ²_m ≤ Σ ζ²); small: uncertainties too large, or points correlated
+    double p_high = 0.0;               ///< P(χ²_m ≥ Σ ζ²); small: uncertainties too small
+};
+
+/// \throws InputError  GC-GUM-0032 for no points; GC-GUM-0001 for a score that is not finite
+/// p_low and p_high hold for points that are independent of each other. Points measured with one set-up share effects
+/// and are not so many independent proofs.
+[[nodiscard]] ComparisonSummary summarise(std::span<const ComparisonScore> scores);
+
+}  // namespace gumcert::gum

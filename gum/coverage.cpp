@@ -1,0 +1,101 @@
+#include "gum/coverage.h"
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <string>
+
+#include "gum/argument_check.h"
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::gum {
+namespace {
+
+// An overflow is reported as our own failure below, not as an exception of the library.
+using Policy =
+    boost::math::policies::policy<boost::math::policies::overflow_error<boost::math::policies::ignore_error>>;
+using NormalDistribution = boost::math::normal_distribution<double, Policy>;
+using StudentDistribution = boost::math::students_t_distribution<double, Policy>;
+using ChiSquareDistribution = boost::math::chi_squared_distribution<double, Policy>;
+
+void require_chi_square_arguments(double chi_square, double degrees_of_freedom) {
+    require_not_negative(chi_square, "chi-square");
+    require_positive(degrees_of_freedom, "degrees of freedom of chi-square");
+}
+
+}  // namespace
+
+double coverage_factor(double coverage_probability, double degrees_of_freedom) {
+    require_probability(coverage_probability, "coverage probability");
+    require_degrees_of_freedom(degrees_of_freedom, "degrees of freedom");
+    // The probability outside one end of the interval; the upper tail keeps its digits when p is close to 1.
+    const double tail = (1.0 - coverage_probability) / 2.0;
+    if (std::isinf(degrees_of_freedom)) {
+        return boost::math::quantile(boost::math::complement(NormalDistribution(), tail));
+    }
+    double k = std::numeric_limits<double>::infinity();
+    try {
+        k = boost::math::quantile(boost::math::complement(StudentDistribution(degrees_of_freedom), tail));
+    } catch (const std::runtime_error&) {
+        // The iteration of the library did not end: the same refusal as for an overflow.
+    }
+    if (!std::isfinite(k)) {
+        throw NoResultError(Diagnostic{.code = "GC-GUM-0010",
+                                       .where = "coverage factor",
+                                       .what = "no finite value for coverage probability " +
+                                               number_text(coverage_probability) + " and " +
+                                               number_text(degrees_of_freedom) + " degrees of freedom",
+                                       .rule = "an expanded uncertainty needs a finite coverage factor",
+                                       .action = "State the contribution with few degrees of freedom better."});
+    }
+    return k;
+}
+
+double effective_degrees_of_freedom(std::span<const UncertaintyContribution> contributions) {
+    double largest = 0.0;
+    for (const UncertaintyContribution& contribution : contributions) {
+        require_not_negative(contribution.uncertainty, "uncertainty contribution");
+        require_degrees_of_freedom(contribution.degrees_of_freedom, "degrees of freedom of a contribution");
+        largest = std::max(largest, contribution.uncertainty);
+    }
+    if (largest == 0.0) {
+        return std::numeric_limits<double>::infinity();
+    }
+    // Relative to the largest contribution, because fourth powers of uncertainties in metres leave the range of double.
+    double sum_of_squares = 0.0;
+    for (const UncertaintyContribution& contribution : contributions) {
+        const double ratio = contribution.uncertainty / largest;
+        sum_of_squares += ratio * ratio;
+    }
+    double denominator = 0.0;
+    for (const UncertaintyContribution& contribution : contributions) {
+        const double ratio = contribution.uncertainty / largest;
+        const double share = ratio * ratio / sum_of_squares;
+        denominator += share * share / contribution.degrees_of_freedom;
+    }
+    return 1.0 / denominator;  // no finite ν_i: 1/0 = infinity
+}
+
+double chi_square_lower_tail(double chi_square, double degrees_of_freedom) {
+    require_chi_square_arguments(chi_square, degrees_of_freedom);
+    return boost::math::cdf(ChiSquareDistribution(degrees_of_freedom), chi_square);
+}
+
+double chi_square_upper_tail(double chi_square, double degrees_of_freedom) {
+    require_chi_square_arguments(chi_square, degrees_of_freedom);
+    return boost::math::cdf(boost::math::complement(ChiSquareDistribution(degrees_of_freedom), chi_square));
+}
+
+double standard_normal_quantile(double probability) {
+    require_probability(probability, "probability");
+    return boost::math::quantile(NormalDistribution(), probability);
+}
+
+double two_sided_normal_critical_value(double alpha) {
+    require_probability(alpha, "alpha");
+    return boost::math::quantile(boost::math::complement(NormalDistribution(), alpha / 2.0));
+}
+
+}  // namespace gumcert::gum

@@ -1,0 +1,334 @@
+#include "gum/propagation.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+
+#include "gum/argument_check.h"
+#include "gum/coverage.h"
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::gum {
+namespace {
+
+constexpr double k_epsilon = std::numeric_limits<double>::epsilon();
+constexpr double k_symmetry_tolerance = 1e-12;  // relative to u_i u_j: what computing a product A B Aᵀ may leave
+
+/// Rounding that an n×n correlation matrix may carry, relative to its largest eigenvalue.
+double rounding_tolerance(Eigen::Index n) {
+    return 10.0 * static_cast<double>(n) * k_epsilon;
+}
+
+/// V = D R Dᵀ of one group, as the factor F = D L with F Fᵀ = V.
+struct GroupFactor {
+    Eigen::VectorXd u;                    ///< n, standard uncertainties: the diagonal of D
+    std::optional<Eigen::MatrixXd> root;  ///< n×n, L with L Lᵀ = R; none when R is the identity
+};
+
+/// Position of a quantity in its group, as a person counts.
+std::string ordinal(Eigen::Index index) {
+    return "quantity " + std::to_string(index + 1);
+}
+
+std::string place(const InputGroup& group) {
+    return "input group '" + group.name + "'";
+}
+
+/// The quantities that the eigenvector of an offending eigenvalue is made of.
+std::string causes(const Eigen::VectorXd& eigenvector) {
+    const double threshold = 0.5 * eigenvector.cwiseAbs().maxCoeff();
+    std::string text;
+    int named = 0;
+    for (Eigen::Index i = 0; i < eigenvector.size() && named < 6; ++i) {
+        if (std::abs(eigenvector(i)) >= threshold) {
+            text += text.empty() ? ordinal(i) : ", " + ordinal(i);
+            ++named;
+        }
+    }
+    return text;
+}
+
+/// Checks one group and factors its covariance. Every problem found is appended; the factor is usable if none was.
+GroupFactor factor_group(const InputGroup& group, std::vector<Diagnostic>& problems) {
+    const auto report = [&](const char* code, std::string what, std::string rule, std::string action) {
+        problems.push_back(Diagnostic{.code = code,
+                                      .where = place(group),
+                                      .what = std::move(what),
+                                      .rule = std::move(rule),
+                                      .action = std::move(action)});
+    };
+    const Eigen::Index n = group.size();
+    GroupFactor factor;
+
+    if (!(group.degrees_of_freedom > 0.0)) {
+        report("GC-GUM-0005", "degrees of freedom " + number_text(group.degrees_of_freedom),
+               "must be greater than 0 or infinite", "Correct the value, or leave it out where it is infinite.");
+    }
+    for (Eigen::Index i = 0; i < n; ++i) {
+        if (!std::isfinite(group.value(i))) {
+            report("GC-GUM-0050", "estimate of " + ordinal(i) + " is " + number_text(group.value(i)),
+                   "estimates must be finite", "Correct the estimate.");
+            break;
+        }
+    }
+    const Eigen::MatrixXd& V = group.covariance;
+    const bool diagonal = V.cols() == 1;
+    if (V.rows() != n || (V.cols() != n && !diagonal)) {
+        report("GC-GUM-0050",
+               "covariance has " + std::to_string(V.rows()) + " rows and " + std::to_string(V.cols()) +
+                   " columns for " + std::to_string(n) + " quantities",
+               "must be n×n, or n×1 for a diagonal", "Give one row for every quantity.");
+        return factor;
+    }
+    if (!V.allFinite()) {
+        report("GC-GUM-0050", "covariance holds a number that is not finite", "covariances must be finite",
+               "Correct the covariance.");
+        return factor;
+    }
+    const Eigen::VectorXd variance = diagonal ? Eigen::VectorXd(V.col(0)) : Eigen::VectorXd(V.diagonal());
+    for (Eigen::Index i = 0; i < n; ++i) {
+        if (variance(i) < 0.0) {
+            report("GC-GUM-0051", "variance of " + ordinal(i) + " is " + number_text(variance(i)),
+                   "a variance must not be negative", "Correct the covariance.");
+            return factor;
+        }
+    }
+    factor.u = variance.cwiseSqrt();
+    if (diagonal) {
+        return factor;
+    }
+
+    Eigen::MatrixXd R = Eigen::MatrixXd::Identity(n, n);
+    const double tolerance = rounding_tolerance(n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+        for (Eigen::Index i = j + 1; i < n; ++i) {
+            const double scale = factor.u(i) * factor.u(j);
+            const double lower = V(i, j);
+            const double upper = V(j, i);
+            if (std::abs(lower - upper) > std::max(k_symmetry_tolerance, tolerance) * scale) {
+                report("GC-GUM-0052",
+                       "covariance of " + ordinal(i) + " and " + ordinal(j) + " is " + number_text(lower) +
+                           " below and " + number_text(upper) + " above the diagonal",
+                       "a covariance matrix is symmetric", "Correct the covariance.");
+                return factor;
+            }
+            const double covariance = 0.5 * (lower + upper);
+            if (std::abs(covariance) > (1.0 + tolerance) * scale) {
+                report("GC-GUM-0053",
+                       "covariance of " + ordinal(j) + " and " + ordinal(i) + " is " + number_text(covariance) +
+                           " for standard uncertainties " + number_text(factor.u(j)) + " and " +
+                           number_text(factor.u(i)),
+                       "a correlation coefficient lies between -1 and 1", "Correct the covariance.");
+                return factor;
+            }
+            R(i, j) = scale > 0.0 ? covariance / scale : 0.0;
+            R(j, i) = R(i, j);
+        }
+    }
+    // Cholesky succeeds on everything positive definite, at a thirtieth of the cost of the eigenvalues; what it cannot
+    // factor is singular (r = 1: allowed) or indefinite (refused), and only the eigenvalues tell which.
+    const Eigen::LLT<Eigen::MatrixXd> cholesky(R);
+    if (cholesky.info() == Eigen::Success) {
+        factor.root = cholesky.matrixL();
+        return factor;
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(R);
+    if (eigen.info() != Eigen::Success) {
+        report("GC-GUM-0054", "eigenvalues of the correlation matrix could not be computed",
+               "a covariance matrix is positive semi-definite", "Correct the covariance.");
+        return factor;
+    }
+    const double smallest = eigen.eigenvalues()(0);
+    if (smallest < -tolerance * eigen.eigenvalues()(n - 1)) {
+        report("GC-GUM-0054",
+               "correlation matrix has the eigenvalue " + number_text(smallest) + ", caused by " +
+                   causes(eigen.eigenvectors().col(0)),
+               "a covariance matrix is positive semi-definite",
+               "Correct the correlations of these quantities; they contradict each other.");
+        return factor;
+    }
+    factor.root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+    return factor;
+}
+
+std::vector<GroupFactor> factor_groups(const std::vector<InputGroup>& groups) {
+    std::vector<Diagnostic> problems;
+    std::vector<GroupFactor> factors;
+    factors.reserve(groups.size());
+    for (const InputGroup& group : groups) {
+        factors.push_back(factor_group(group, problems));
+    }
+    if (!problems.empty()) {
+        throw InputError(std::move(problems));
+    }
+    return factors;
+}
+
+[[noreturn]] void no_result(const char* code, std::string where, std::string what, std::string rule,
+                            std::string action) {
+    throw NoResultError(Diagnostic{.code = code,
+                                   .where = std::move(where),
+                                   .what = std::move(what),
+                                   .rule = std::move(rule),
+                                   .action = std::move(action)});
+}
+
+std::string output_place(const MeasurementModel& model, Eigen::Index output) {
+    return "output '" + model.outputs()[static_cast<std::size_t>(output)].name + "'";
+}
+
+void require_finite_value(const MeasurementModel& model, const Eigen::VectorXd& value) {
+    for (Eigen::Index i = 0; i < value.size(); ++i) {
+        if (!std::isfinite(value(i))) {
+            no_result("GC-GUM-0055", output_place(model, i), "the model gives " + number_text(value(i)),
+                      "a measurement model must be finite at the estimates",
+                      "Check the estimates for a division by 0 or a function outside its domain.");
+        }
+    }
+}
+
+void require_finite_jacobian(const MeasurementModel& model, const Eigen::MatrixXd& jacobian) {
+    if (jacobian.allFinite()) {
+        return;
+    }
+    Eigen::Index first = 0;
+    for (const InputGroup& group : model.inputs()) {
+        for (Eigen::Index j = first; j < first + group.size(); ++j) {
+            for (Eigen::Index i = 0; i < jacobian.rows(); ++i) {
+                if (!std::isfinite(jacobian(i, j))) {
+                    no_result("GC-GUM-0056", output_place(model, i),
+                              "the sensitivity coefficient for " + ordinal(j - first) + " of " + place(group) + " is " +
+                                  number_text(jacobian(i, j)),
+                              "the law of propagation needs a finite derivative at the estimates",
+                              "The model cannot be made linear there: use the Monte Carlo method.");
+                }
+            }
+        }
+        first += group.size();
+    }
+}
+
+void divide_into_shares(BudgetContribution& contribution, const Eigen::VectorXd& total) {
+    contribution.share = Eigen::VectorXd::Zero(total.size());
+    for (Eigen::Index i = 0; i < total.size(); ++i) {
+        if (total(i) > 0.0) {
+            contribution.share(i) = contribution.variance(i) / total(i);
+        }
+    }
+}
+
+std::vector<BudgetContribution> add_up_by_source(const std::vector<InputGroup>& groups,
+                                                 const std::vector<BudgetContribution>& budget,
+                                                 const Eigen::VectorXd& total) {
+    std::vector<BudgetContribution> sources;
+    std::unordered_map<std::string, std::size_t> index_of;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const std::string& source = groups[g].source.empty() ? groups[g].name : groups[g].source;
+        const auto [entry, is_new] = index_of.emplace(source, sources.size());
+        if (is_new) {
+            sources.push_back(BudgetContribution{.name = source, .variance = budget[g].variance, .share = {}});
+        } else {
+            sources[entry->second].variance += budget[g].variance;
+        }
+    }
+    for (BudgetContribution& source : sources) {
+        divide_into_shares(source, total);
+    }
+    return sources;
+}
+
+}  // namespace
+
+Propagation propagate(const MeasurementModel& model, double coverage_probability) {
+    require_probability(coverage_probability, "coverage probability");
+    const std::vector<InputGroup>& groups = model.inputs();
+    const std::vector<GroupFactor> factors = factor_groups(groups);
+
+    Propagation result;
+    result.coverage_probability = coverage_probability;
+    const Eigen::VectorXd x = input_estimates(model);
+    const auto m = static_cast<Eigen::Index>(model.outputs().size());
+    result.value = model.evaluate(x);
+    if (result.value.size() != m) {
+        throw std::logic_error("measurement model: evaluate() does not return one value an output");
+    }
+    require_finite_value(model, result.value);
+    result.jacobian = model.jacobian(x);
+    if (result.jacobian.rows() != m || result.jacobian.cols() != x.size()) {
+        throw std::logic_error("measurement model: jacobian() is not outputs × inputs");
+    }
+    require_finite_jacobian(model, result.jacobian);
+
+    // S = C F with F Fᵀ = V_x, group by group. Then V_y = S Sᵀ is positive semi-definite by construction and a
+    // contribution, being a sum of squares, cannot come out negative.
+    Eigen::MatrixXd S = result.jacobian;
+    Eigen::VectorXd total = Eigen::VectorXd::Zero(m);
+    result.budget.reserve(groups.size());
+    Eigen::Index first = 0;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const Eigen::Index n = groups[g].size();
+        auto block = S.middleCols(first, n);
+        block.array().rowwise() *= factors[g].u.transpose().array();
+        if (factors[g].root) {
+            const Eigen::MatrixXd product = block * *factors[g].root;
+            block = product;
+        }
+        result.budget.push_back(
+            BudgetContribution{.name = groups[g].name, .variance = block.rowwise().squaredNorm(), .share = {}});
+        total += result.budget.back().variance;
+        first += n;
+    }
+    for (Eigen::Index i = 0; i < m; ++i) {
+        if (!std::isfinite(total(i))) {
+            no_result("GC-GUM-0057", output_place(model, i), "the variance is " + number_text(total(i)),
+                      "a standard uncertainty must be finite", "Check the input uncertainties and their units.");
+        }
+    }
+    result.covariance = Eigen::MatrixXd::Zero(m, m);
+    result.covariance.selfadjointView<Eigen::Lower>().rankUpdate(S);
+    result.covariance.triangularView<Eigen::StrictlyUpper>() = result.covariance.transpose();
+    result.covariance.diagonal() = total;  // the same sum as the budget, to the last bit
+
+    result.standard_uncertainty = total.cwiseSqrt();
+    result.effective_degrees_of_freedom.resize(m);
+    result.coverage_factor.resize(m);
+    std::vector<UncertaintyContribution> contributions(groups.size());
+    for (Eigen::Index i = 0; i < m; ++i) {
+        for (std::size_t g = 0; g < groups.size(); ++g) {
+            contributions[g] = {.uncertainty = std::sqrt(result.budget[g].variance(i)),
+                                .degrees_of_freedom = groups[g].degrees_of_freedom};
+        }
+        result.effective_degrees_of_freedom(i) = effective_degrees_of_freedom(contributions);
+        result.coverage_factor(i) = coverage_factor(coverage_probability, result.effective_degrees_of_freedom(i));
+    }
+    result.expanded_uncertainty = result.coverage_factor.cwiseProduct(result.standard_uncertainty);
+
+    for (BudgetContribution& contribution : result.budget) {
+        divide_into_shares(contribution, total);
+    }
+    result.shares_by_source = add_up_by_source(groups, result.budget, total);
+    return result;
+}
+
+Eigen::MatrixXd correlation_matrix(const Eigen::MatrixXd& covariance) {
+    const Eigen::Index m = covariance.rows();
+    Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(m, m);
+    for (Eigen::Index j = 0; j < m; ++j) {
+        for (Eigen::Index i = 0; i < m; ++i) {
+            const double scale = std::sqrt(covariance(i, i)) * std::sqrt(covariance(j, j));
+            if (i != j) {
+                correlation(i, j) = scale > 0.0 ? std::clamp(covariance(i, j) / scale, -1.0, 1.0) : 0.0;
+            }
+        }
+    }
+    return correlation;
+}
+
+}  // namespace gumcert::gum

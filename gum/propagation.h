@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "gum/quantity/measurement_model.h"
+
+namespace gumcert::gum {
+
+/// What one group of inputs, or one source, contributes to every output.
+struct BudgetContribution {
+    std::string name;          ///< name of the group, or of the source
+    Eigen::VectorXd variance;  ///< m, diagonal of c_g V_g c_gᵀ, [unit of y²]; its root is the uncertainty contribution
+    Eigen::VectorXd share;     ///< m, variance / u²(y), [1]; 0 where u(y) is 0
+};
+
+/// Result of the law of propagation for m outputs and n inputs. All vectors are in the order of the model's outputs.
+struct Propagation {
+    double coverage_probability = 0.0;
+    Eigen::VectorXd value;                             ///< m, y = f(x)
+    Eigen::MatrixXd jacobian;                          ///< m×n, sensitivity coefficients ∂y/∂x
+    Eigen::MatrixXd covariance;                        ///< m×m, symmetric, of the outputs, given the input covariances
+    Eigen::VectorXd standard_uncertainty;              ///< m, u(y)
+    Eigen::VectorXd effective_degrees_of_freedom;      ///< m, ν_eff; infinite where no contribution has finite ones
+    Eigen::VectorXd coverage_factor;                   ///< m, k = t_p(ν_eff)
+    Eigen::VectorXd expanded_uncertainty;              ///< m, U = k u(y)
+    std::vector<BudgetContribution> budget;            ///< one a group, in the order of the model's groups
+    std::vector<BudgetContribution> shares_by_source;  ///< groups of one source added up, in order of first appearance
+};
+
+/// Law of propagation of uncertainty through a measurement model.
+///
+/// V_y = C V_x Cᵀ = Σ_g c_g V_g c_gᵀ    (JCGM 100:2008, 5.2.2, eq. 13 in matrix form; JCGM 102:2011, 6.2)
+/// ν_eff by Welch–Satterthwaite over the groups (JCGM 100:2008, G.4.1), k = t_p(ν_eff) with ν_eff not cut to an
+/// integer. A group counts as one contribution with one number of degrees of freedom, whatever the correlations in it.
+///
+/// \param coverage_probability  p, 0 < p < 1
+/// \throws InputError     with every group that is wrong: sizes, numbers that are not finite (GC-GUM-0050), degrees of
+///                        freedom (GC-GUM-0005), negative variance (GC-GUM-0051), not symmetric (GC-GUM-0052),
+///                        correlation above 1 (GC-GUM-0053), not positive semi-definite (GC-GUM-0054)
+/// \throws NoResultError  GC-GUM-0055 to -0057 if the model has no finite value, sensitivity or variance at the
+/// estimates Positive semi-definite is judged on the correlation matrix of a group, so that quantities of very
+/// different size are judged alike: an eigenvalue below −10 n ε λ_max is refused, one between that and 0 is rounding
+/// and taken as 0. A source that is empty counts as a source of the group's name. Valid when the model is near-linear
+/// over the uncertainties. Accuracy: contributions sum to u² within 1e-12 relative.
+[[nodiscard]] Propagation propagate(const MeasurementModel& model, double coverage_probability);
+
+/// Correlation matrix of a covariance matrix.
+/// \param covariance  m×m, symmetric, diagonal ≥ 0
+/// \return m×m; 1 on the diagonal, 0 beside a zero variance; clamped to −1 … 1
+[[nodiscard]] Eigen::MatrixXd correlation_matrix(const Eigen::MatrixXd& covariance);
+
+}  // namespace gumcert::gum

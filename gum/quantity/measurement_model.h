@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace gumcert::gum {
+
+enum class Evaluation { type_a, type_b };  ///< how a standard uncertainty was obtained (JCGM 100:2008, 2.3.2 and 2.3.3)
+
+/// Input quantities that share one source of uncertainty and one covariance block.
+///
+/// Quantities of different groups are uncorrelated; inside a group the covariance says everything. A budget has one row
+/// a group, or one row a `source` when several groups name the same one.
+struct InputGroup {
+    std::string name;             ///< what the budget row is called, e.g. "table repeatability, linear"
+    std::string source;           ///< the source that it belongs to, e.g. "table repeatability"
+    std::string unit;             ///< coherent SI unit of the values, e.g. "m"; "mixed" is not allowed
+    Evaluation evaluation = Evaluation::type_b;
+    std::string distribution = "normal";
+    Eigen::VectorXd value;        ///< n estimates, [unit]
+    Eigen::MatrixXd covariance;   ///< n×n, [unit²]; or n×1: the diagonal of a diagonal matrix
+    double degrees_of_freedom = std::numeric_limits<double>::infinity();
+
+    [[nodiscard]] Eigen::Index size() const { return value.size(); }
+    [[nodiscard]] bool is_diagonal() const { return covariance.cols() == 1 && value.size() != 1; }
+};
+
+struct OutputQuantity {
+    std::string name;  ///< e.g. "EXA(30°)"
+    std::string unit;  ///< coherent SI unit, e.g. "m"
+};
+
+/// A measurement model y = f(x) as the GUM layer sees it (VIM 2.48; JCGM 100:2008, 4.1.1).
+///
+/// An equation, a least-squares fit and the adjustment of a rotary table are models alike. The inputs x are the groups
+/// one after the other, each in the order of its `value`.
+class MeasurementModel {
+public:
+    virtual ~MeasurementModel() = default;
+
+    [[nodiscard]] virtual const std::vector<InputGroup>& inputs() const = 0;
+    [[nodiscard]] virtual const std::vector<OutputQuantity>& outputs() const = 0;
+
+    /// \param x  n estimates of the inputs, coherent SI
+    /// \return   m values of the outputs, coherent SI
+    /// \throws NoResultError if the model has no finite value there
+    [[nodiscard]] virtual Eigen::VectorXd evaluate(const Eigen::VectorXd& x) const = 0;
+
+    /// \return sensitivity coefficients c = ∂y/∂x at x, m×n, [unit of y / unit of x] (JCGM 100:2008, 5.1.3)
+    [[nodiscard]] virtual Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const = 0;
+};
+
+/// The estimates of all groups, one after the other: n values, coherent SI.
+[[nodiscard]] Eigen::VectorXd input_estimates(const MeasurementModel& model);
+
+}  // namespace gumcert::gum

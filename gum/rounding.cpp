@@ -1,0 +1,193 @@
+#include "gum/rounding.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <string_view>
+
+#include "gum/argument_check.h"
+
+namespace gumcert::gum {
+namespace {
+
+constexpr int k_most_digits = 15;           // every decimal of 15 digits survives a double
+constexpr int k_trusted_digits = 12;        // of a computed uncertainty, see RoundingMode::up
+constexpr int k_first_fixed_exponent = -4;  // 1e-4
+constexpr int k_last_fixed_exponent = 5;    // below 1e6
+
+/// ±digits × 10^exponent, digits without leading zeros ("0" for zero).
+struct Decimal {
+    bool negative = false;
+    std::string digits;
+    int exponent = 0;
+
+    [[nodiscard]] bool is_zero() const { return digits == "0"; }
+    /// Power of ten of the leading digit.
+    [[nodiscard]] int leading_exponent() const { return exponent + static_cast<int>(digits.size()) - 1; }
+};
+
+/// The shortest decimal that reads back as the same double; `value` is finite.
+Decimal shortest_decimal(double value) {
+    std::array<char, 40> buffer{};
+    const std::to_chars_result result =
+        std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::scientific);
+    std::string_view text(buffer.data(), static_cast<std::size_t>(result.ptr - buffer.data()));
+    Decimal decimal;
+    if (text.front() == '-') {
+        decimal.negative = true;
+        text.remove_prefix(1);
+    }
+    const std::size_t exponent_sign = text.find('e');
+    for (const char character : text.substr(0, exponent_sign)) {
+        if (character != '.') {
+            decimal.digits += character;
+        }
+    }
+    std::string_view exponent = text.substr(exponent_sign + 1);
+    if (exponent.front() == '+') {
+        exponent.remove_prefix(1);  // from_chars does not take a plus sign
+    }
+    std::from_chars(exponent.data(), exponent.data() + exponent.size(), decimal.exponent);
+    decimal.exponent -= static_cast<int>(decimal.digits.size()) - 1;
+    return decimal;
+}
+
+/// Adds one unit of the last digit.
+void increment(std::string& digits) {
+    auto digit = digits.rbegin();
+    while (digit != digits.rend() && *digit == '9') {
+        *digit++ = '0';
+    }
+    if (digit == digits.rend()) {
+        digits.insert(digits.begin(), '1');
+    } else {
+        ++*digit;
+    }
+}
+
+/// The multiple of 10^quantum_exponent that stands for the number; the result has just that exponent.
+Decimal rounded(const Decimal& number, int quantum_exponent, RoundingMode mode) {
+    Decimal result{.negative = number.negative, .digits = number.digits, .exponent = quantum_exponent};
+    if (number.is_zero()) {
+        return result;
+    }
+    if (number.exponent >= quantum_exponent) {
+        result.digits.append(static_cast<std::size_t>(number.exponent - quantum_exponent), '0');
+        return result;
+    }
+    const auto dropped_count = static_cast<std::size_t>(quantum_exponent - number.exponent);
+    std::string kept = "0";
+    std::string dropped = number.digits;
+    if (dropped_count < number.digits.size()) {
+        kept = number.digits.substr(0, number.digits.size() - dropped_count);
+        dropped = number.digits.substr(kept.size());
+    } else {
+        dropped.insert(0, dropped_count - number.digits.size(), '0');
+    }
+    const bool exact = dropped.find_first_not_of('0') == std::string::npos;
+    const bool tie = dropped.front() == '5' && dropped.find_first_not_of('0', 1) == std::string::npos;
+    const bool last_kept_is_odd = (kept.back() - '0') % 2 != 0;
+    const bool away = mode == RoundingMode::up ? !exact : tie ? last_kept_is_odd : dropped.front() >= '5';
+    if (away) {
+        increment(kept);
+    }
+    result.digits = kept;
+    return result;
+}
+
+/// Rounded to significant digits; a carry (9.96 -> 10) moves the last place, so that the count holds.
+Decimal rounded_to_digits(const Decimal& number, int digits, RoundingMode mode) {
+    const int quantum_exponent = number.leading_exponent() - digits + 1;
+    Decimal result = rounded(number, quantum_exponent, mode);
+    if (static_cast<int>(result.digits.size()) > digits) {
+        result = rounded(number, quantum_exponent + 1, mode);
+    }
+    return result;
+}
+
+std::string sign_text(const Decimal& number) {
+    return number.negative && !number.is_zero() ? "-" : "";
+}
+
+/// Plain decimal text; the exponent is 0 or negative.
+std::string fixed_text(const Decimal& number) {
+    const auto decimals = static_cast<std::size_t>(-number.exponent);
+    std::string text = number.digits;
+    if (text.size() <= decimals) {
+        text.insert(0, decimals + 1 - text.size(), '0');
+    }
+    if (decimals > 0) {
+        text.insert(text.size() - decimals, 1, '.');
+    }
+    return sign_text(number) + text;
+}
+
+/// One digit before the decimal sign and a power of ten.
+std::string power_of_ten_text(const Decimal& number) {
+    std::string text = number.digits;
+    if (text.size() > 1) {
+        text.insert(1, 1, '.');
+    }
+    const int exponent = number.leading_exponent();
+    return sign_text(number) + text + (exponent < 0 ? "E-" : "E+") + std::to_string(std::abs(exponent));
+}
+
+/// Text of a rounded number; every digit of it is significant.
+std::string document_text(const Decimal& number) {
+    return number.exponent > 0 ? power_of_ten_text(number) : fixed_text(number);
+}
+
+void require_digits(int digits) {
+    if (digits < 1 || digits > k_most_digits) {
+        refuse("GC-GUM-0040", "number of significant digits", std::to_string(digits),
+               "must be 1 to " + std::to_string(k_most_digits), "Use 2, or 1 where the profile demands it.");
+    }
+}
+
+}  // namespace
+
+RoundedPair round_to_uncertainty(double value, double U, int digits, RoundingMode mode) {
+    require_finite(value, "value to print");
+    require_positive(U, "uncertainty to print");
+    require_digits(digits);
+    Decimal uncertainty = shortest_decimal(U);
+    if (mode == RoundingMode::up) {
+        uncertainty = rounded_to_digits(uncertainty, std::max(k_trusted_digits, digits), RoundingMode::half_even);
+    }
+    const Decimal printed_uncertainty = rounded_to_digits(uncertainty, digits, mode);
+    const Decimal printed_value =
+        rounded(shortest_decimal(value), printed_uncertainty.exponent, RoundingMode::half_even);
+    return {.value = document_text(printed_value), .U = document_text(printed_uncertainty)};
+}
+
+std::string round_to_quantum(double value, int decimals) {
+    require_finite(value, "value to print");
+    if (decimals < -300 || decimals > 400) {
+        refuse("GC-GUM-0041", "number of decimals", std::to_string(decimals), "must be -300 to 400",
+               "Correct the number of decimals.");
+    }
+    return document_text(rounded(shortest_decimal(value), -decimals, RoundingMode::half_even));
+}
+
+std::string round_significant(double value, int digits) {
+    require_finite(value, "value to print");
+    require_digits(digits);
+    const Decimal number = shortest_decimal(value);
+    if (number.is_zero()) {
+        return "0";
+    }
+    const Decimal printed = rounded_to_digits(number, digits, RoundingMode::half_even);
+    const int leading = printed.leading_exponent();
+    const bool fixed = printed.exponent <= 0 && leading >= k_first_fixed_exponent && leading <= k_last_fixed_exponent;
+    return fixed ? fixed_text(printed) : power_of_ten_text(printed);
+}
+
+std::string percent(double share) {
+    require_finite(share, "share to print");
+    Decimal number = shortest_decimal(share);
+    number.exponent += 2;
+    return document_text(rounded(number, -1, RoundingMode::half_even));
+}
+
+}  // namespace gumcert::gum

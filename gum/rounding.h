@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+
+namespace gumcert::gum {
+
+// The one place that rounds numbers for documents.
+//
+// All rounding is decimal. A double is first written with its shortest digits that read back as the same double, the
+// number that a person would see and check by hand; those digits are then rounded as a person would. So 2.675 to two
+// decimals is a tie and gives 2.68 (half-even), although the nearest double lies a little below 2.675. A tie goes to
+// the even digit: 1.25 gives 1.2, 1.35 gives 1.4.
+//
+// Text: '.' as the decimal sign, ASCII '-', no group separators, never a negative zero. Where the last rounded digit
+// stands above the unit digit, a power of ten keeps zeros out that are not significant: 1.23E+3, 1.0E+2, 0E+2.
+
+enum class RoundingMode {
+    half_even,  ///< to the nearest, ties to the even digit
+    up  ///< an uncertainty is never printed smaller than it is (JCGM 100:2008, 7.2.6); the value stays half-even
+};
+
+/// A value and its expanded (or standard) uncertainty, ending at the same decimal place.
+struct RoundedPair {
+    std::string value;
+    std::string U;
+
+    friend bool operator==(const RoundedPair&, const RoundedPair&) = default;
+};
+
+/// Rounds U to `digits` significant digits and the value to the same decimal place (JCGM 100:2008, 7.2.6).
+///
+/// The number of digits holds after a carry: 0.0996 gives 0.10, 99.6 gives 1.0E+2.
+/// \param value   finite
+/// \param U       greater than 0, in the unit of the value; a quantity without uncertainty is not printed by this
+/// \param digits  1 to 15 significant digits of U
+/// \param mode    for U only; `up` ignores an excess in or after the 13th significant digit, which is noise of the
+///                computation: 0.12000000000000001 stays 0.12
+/// \throws InputError  GC-GUM-0001, -0003 or -0040
+[[nodiscard]] RoundedPair round_to_uncertainty(double value, double U, int digits = 2,
+                                               RoundingMode mode = RoundingMode::half_even);
+
+/// Rounds half-even to a number of decimals: (0.12345, 2) gives "0.12", (1234.5, -1) gives "1.23E+3".
+/// \param decimals  −300 to 400
+/// \throws InputError  GC-GUM-0001 or -0041
+[[nodiscard]] std::string round_to_quantum(double value, int decimals);
+
+/// Rounds half-even to significant digits, for numbers that stand alone: u, χ², condition number, p-value.
+///
+/// Plain decimal from 1e-4 up to below 1e6 while the last digit stands at or below the unit digit, else a power of ten:
+/// 0.000123, 12.3, 1.2E+3 (two digits), 1.23E-5. Zero gives "0".
+/// \param digits  1 to 15
+/// \throws InputError  GC-GUM-0001 or -0040
+[[nodiscard]] std::string round_significant(double value, int digits);
+
+/// A share of a variance in percent with one decimal, half-even, without the sign: 0.1234 gives "12.3".
+/// \throws InputError  GC-GUM-0001
+[[nodiscard]] std::string percent(double share);
+
+}  // namespace gumcert::gum

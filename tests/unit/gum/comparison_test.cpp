@@ -1,0 +1,194 @@
+#include "gum/comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "gum/coverage.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/type_b.h"
+#include "tests/unit/gum/printed.h"
+
+namespace gumcert::gum {
+namespace {
+
+using test::agrees;
+using test::code_of;
+using test::message_of;
+using test::prints_as;
+
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+
+ComparedValue with_k_2(double value, double U) {
+    return {.value = value, .standard_uncertainty = U / 2.0, .expanded_uncertainty = U};
+}
+
+TEST(EnNumber, SignZeroAndBoundary) {
+    // Computed from the formula in double arithmetic, so a boundary case is not exactly 1.
+    EXPECT_NEAR(score(with_k_2(10.05, 0.03), with_k_2(10.0, 0.04)).en, 1.00000000000001, 1e-12);
+    EXPECT_NEAR(score(with_k_2(9.97, 0.03), with_k_2(10.0, 0.04)).en, -0.599999999999987, 1e-12);
+    EXPECT_EQ(score(with_k_2(10.0, 0.03), with_k_2(10.0, 0.04)).en, 0.0);
+    EXPECT_NEAR(score(with_k_2(10.01, 0.02), with_k_2(10.0, 0.0)).en, 0.499999999999989, 1e-12);
+    EXPECT_NEAR(score(with_k_2(50.0000004, 3e-07), with_k_2(50.0, 4e-07)).en, 0.799999995138023, 1e-12);
+}
+
+TEST(EnNumber, ExactlyOneIsNotAboveOne) {
+    const std::array<ComparisonScore, 1> points{score(with_k_2(5.0, 3.0), with_k_2(0.0, 4.0))};
+    EXPECT_EQ(points[0].en, 1.0);
+    EXPECT_EQ(summarise(points).count_above_1, 0U);
+}
+
+TEST(EnNumber, Correlated) {
+    // D = 1, U_x = 1, U_X = 0.8.
+    for (const auto& [r, en] : {std::pair{0.0, "0.781"}, {0.5, "1.091"}, {0.8, "1.667"}, {-0.5, "0.640"}}) {
+        EXPECT_TRUE(prints_as(score(with_k_2(1.0, 1.0), with_k_2(0.0, 0.8), r).en, en)) << "r = " << r;
+    }
+}
+
+TEST(EnNumber, KeyComparisonWithLaboratoriesInsideTheReferenceValue) {
+    const std::array<double, 6> x{12.31, 12.18, 12.42, 12.25, 12.95, 12.05};
+    const std::array<double, 6> u{0.10, 0.15, 0.20, 0.12, 0.15, 0.30};
+    const auto weighted_mean = [&](std::size_t left_out, double& u_mean) {
+        double weights = 0.0;
+        double sum = 0.0;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            if (i != left_out) {
+                weights += 1.0 / (u[i] * u[i]);
+                sum += x[i] / (u[i] * u[i]);
+            }
+        }
+        u_mean = 1.0 / std::sqrt(weights);
+        return sum / weights;
+    };
+    const auto en_of = [&](std::size_t i, double y, double u_y, bool inside) {
+        // A laboratory inside the weighted mean has cov(x, y) = u²(y), so r = u(y)/u(x).
+        return score({x[i], u[i], 2.0 * u[i]}, {y, u_y, 2.0 * u_y}, inside ? u_y / u[i] : 0.0).en;
+    };
+
+    double u_y = 0.0;
+    double y = weighted_mean(x.size(), u_y);
+    EXPECT_TRUE(prints_as(y, "12.37236"));
+    EXPECT_TRUE(prints_as(u_y, "0.05828"));
+    double chi_square = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        chi_square += std::pow((x[i] - y) / u[i], 2);
+    }
+    EXPECT_TRUE(prints_as(chi_square, "19.1142"));
+    EXPECT_TRUE(prints_as(chi_square_upper_tail(chi_square, 5), "0.00183"));
+    const std::array<const char*, 6> all{"-0.384", "-0.696", "0.125", "-0.583", "2.090", "-0.548"};
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        EXPECT_TRUE(prints_as(en_of(i, y, u_y, true), all[i])) << "laboratory " << i + 1;
+    }
+    EXPECT_TRUE(prints_as(en_of(4, y, u_y, false), "1.795")) << "correlation ignored";
+
+    y = weighted_mean(4, u_y);
+    EXPECT_TRUE(prints_as(y, "12.26967"));
+    EXPECT_TRUE(prints_as(u_y, "0.06325"));
+    const std::array<const char*, 6> consistent{"0.260", "-0.330", "0.396", "-0.096", "2.090", "-0.375"};
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        EXPECT_TRUE(prints_as(en_of(i, y, u_y, i != 4), consistent[i])) << "laboratory " << i + 1;
+    }
+}
+
+TEST(EnNumber, MaximumPermissibleErrorIsAHalfWidthNotAStandardUncertainty) {
+    // D = 18, U_X = 5, MPE = 10 as the only term of the other side: taken as u it hides the failure.
+    const ComparisonScore as_u = score({18.0, 10.0, 20.0}, {0.0, 2.5, 5.0});
+    EXPECT_TRUE(prints_as(as_u.en, "0.873"));
+    EXPECT_TRUE(prints_as(as_u.U_difference, "20.62"));
+    const double u = u_from_half_width(10.0);
+    EXPECT_TRUE(prints_as(2.0 * u, "11.55"));
+    const ComparisonScore as_half_width = score({18.0, u, 2.0 * u}, {0.0, 2.5, 5.0});
+    EXPECT_TRUE(prints_as(as_half_width.en, "1.430"));
+    EXPECT_TRUE(prints_as(as_half_width.U_difference, "12.58"));
+}
+
+TEST(Scores, ZetaIsTwiceEnExactlyWhenBothSidesHaveK2) {
+    for (int i = 1; i <= 100; ++i) {
+        const double r = i % 3 == 0 ? 0.0 : (i % 7) / 7.0;
+        const ComparisonScore point = score(with_k_2(1.0 + 0.013 * i, 0.0031 * i), with_k_2(1.0, 0.27 / i), r);
+        EXPECT_EQ(point.zeta, 2.0 * point.en) << i;
+    }
+}
+
+TEST(Scores, NothingCancelsNearFullCorrelation) {
+    // √(2 (1 - r)) u with r = 1 - 2^-40; the textbook form of the sum would leave four digits.
+    const double r = 1.0 - std::ldexp(1.0, -40);
+    EXPECT_TRUE(agrees(uncertainty_of_difference(0.1, 0.1, r), 0.1 * std::sqrt(2.0 * std::ldexp(1.0, -40)), 1e-14));
+    EXPECT_EQ(uncertainty_of_difference(0.1, 0.1, 1.0), 0.0);
+    EXPECT_DOUBLE_EQ(uncertainty_of_difference(0.3, 0.1, 1.0), 0.2);
+    EXPECT_DOUBLE_EQ(uncertainty_of_difference(0.3, 0.1, -1.0), 0.4);
+}
+
+TEST(Scores, RefuseWhatGivesNoScore) {
+    const ComparedValue good = with_k_2(1.0, 0.1);
+    const auto against_good = [&](ComparedValue value, double r = 0.0) {
+        return [value, r, good] { (void)score(value, good, r); };
+    };
+    EXPECT_EQ(code_of<InputError>(against_good({1.0, -0.1, 0.2})), "GC-GUM-0002");
+    EXPECT_EQ(code_of<InputError>(against_good({1.0, 0.1, -0.2})), "GC-GUM-0002");
+    EXPECT_EQ(code_of<InputError>(against_good({std::nan(""), 0.1, 0.2})), "GC-GUM-0001");
+    EXPECT_EQ(code_of<InputError>(against_good({1.0, k_infinity, 0.2})), "GC-GUM-0001");
+    EXPECT_EQ(code_of<InputError>(against_good({1.0, 0.1, std::nan("")})), "GC-GUM-0001");
+    EXPECT_EQ(code_of<InputError>(against_good(good, 1.01)), "GC-GUM-0030");
+    EXPECT_EQ(code_of<InputError>(against_good(good, std::nan(""))), "GC-GUM-0030");
+    EXPECT_EQ(code_of<InputError>(against_good(good, 1.0)), "GC-GUM-0031");
+    EXPECT_EQ(message_of<InputError>([] {
+                  (void)score({1.0, 0.0, 0.0}, {1.5, 0.0, 0.0});
+              }),
+              "u of the difference — 0 from laboratory 0 and reference 0 with correlation 0 — "
+              "a score divides by it, so it must be greater than 0 — State the uncertainty of at least one side.");
+}
+
+TEST(Summary, CompanionNumbers) {
+    std::vector<ComparisonScore> points;
+    for (const double difference : {0.3, -0.4, 1.2, -2.0}) {
+        points.push_back(score(with_k_2(difference, 1.0), with_k_2(0.0, 0.0)));
+    }
+    const ComparisonSummary summary = summarise(points);
+    EXPECT_EQ(summary.points, 4U);
+    EXPECT_EQ(summary.count_above_1, 2U);
+    EXPECT_DOUBLE_EQ(summary.mean_absolute_en, (0.3 + 0.4 + 1.2 + 2.0) / 4.0);
+    EXPECT_DOUBLE_EQ(summary.largest_absolute_en, 2.0);
+    EXPECT_DOUBLE_EQ(summary.rms_en, std::sqrt((0.09 + 0.16 + 1.44 + 4.0) / 4.0));
+    EXPECT_DOUBLE_EQ(summary.sum_of_squared_zeta, 4.0 * (0.09 + 0.16 + 1.44 + 4.0));
+    EXPECT_TRUE(agrees(summary.p_high, chi_square_upper_tail(22.76, 4), 1e-13));
+    EXPECT_NEAR(summary.p_low + summary.p_high, 1.0, 1e-15);
+}
+
+std::vector<ComparisonScore> points_of_equal_en(int m, double en) {
+    return std::vector<ComparisonScore>(static_cast<std::size_t>(m), score(with_k_2(en, 1.0), with_k_2(0.0, 0.0)));
+}
+
+TEST(Summary, SmallScoresSayThatUncertaintiesAreTooLarge) {
+    // 10 points with rms E_n 0.15 have p_low 1.1e-4, 20 points 4e-8.
+    EXPECT_TRUE(prints_as(summarise(points_of_equal_en(10, 0.15)).p_low, "1.1e-4"));
+    EXPECT_TRUE(prints_as(summarise(points_of_equal_en(20, 0.15)).p_low, "4e-8"));
+}
+
+TEST(Summary, BandOfRmsEn) {
+    // 95 % band of rms E_n of m independent points: its ends, half a unit to either side, enclose the 2.5 % tails.
+    // The lower end for m = 10 is 0.28491; tables that round it twice print 0.29.
+    struct Row {
+        int m;
+        double low, high;
+    };
+    for (const Row row : {Row{5, 0.20, 0.80}, {10, 0.28, 0.72}, {20, 0.35, 0.65}, {30, 0.37, 0.63}, {50, 0.40, 0.60}}) {
+        EXPECT_LE(summarise(points_of_equal_en(row.m, row.low - 0.005)).p_low, 0.025) << row.m;
+        EXPECT_GE(summarise(points_of_equal_en(row.m, row.low + 0.005)).p_low, 0.025) << row.m;
+        EXPECT_GE(summarise(points_of_equal_en(row.m, row.high - 0.005)).p_high, 0.025) << row.m;
+        EXPECT_LE(summarise(points_of_equal_en(row.m, row.high + 0.005)).p_high, 0.025) << row.m;
+    }
+}
+
+TEST(Summary, RefusesNoPoints) {
+    EXPECT_EQ(code_of<InputError>([] { (void)summarise({}); }), "GC-GUM-0032");
+    ComparisonScore broken;
+    broken.en = std::nan("");
+    EXPECT_EQ(code_of<InputError>([&] { (void)summarise(std::vector{broken}); }), "GC-GUM-0001");
+}
+
+}  // namespace
+}  // namespace gumcert::gum

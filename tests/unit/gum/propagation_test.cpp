@@ -1,0 +1,508 @@
+#include "gum/propagation.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "gum/coverage.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/type_b.h"
+#include "tests/unit/gum/printed.h"
+
+namespace gumcert::gum {
+namespace {
+
+using test::agrees;
+using test::code_of;
+using test::message_of;
+using test::prints_as;
+
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+
+class FunctionModel : public MeasurementModel {
+public:
+    std::vector<InputGroup> groups;
+    std::vector<OutputQuantity> quantities;
+    std::function<Eigen::VectorXd(const Eigen::VectorXd&)> function;
+    std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> derivative;
+
+    [[nodiscard]] const std::vector<InputGroup>& inputs() const override { return groups; }
+    [[nodiscard]] const std::vector<OutputQuantity>& outputs() const override { return quantities; }
+    [[nodiscard]] Eigen::VectorXd evaluate(const Eigen::VectorXd& x) const override { return function(x); }
+    [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const override { return derivative(x); }
+};
+
+/// y = A x
+FunctionModel linear_model(const Eigen::MatrixXd& A, std::vector<InputGroup> groups) {
+    FunctionModel model;
+    model.groups = std::move(groups);
+    for (Eigen::Index i = 0; i < A.rows(); ++i) {
+        model.quantities.push_back({.name = "y" + std::to_string(i + 1), .unit = "m"});
+    }
+    model.function = [A](const Eigen::VectorXd& x) -> Eigen::VectorXd { return A * x; };
+    model.derivative = [A](const Eigen::VectorXd&) { return A; };
+    return model;
+}
+
+InputGroup group(std::string name, const Eigen::VectorXd& value, const Eigen::MatrixXd& covariance,
+                 double nu = k_infinity, std::string source = "") {
+    InputGroup result;
+    result.name = std::move(name);
+    result.source = std::move(source);
+    result.unit = "m";
+    result.value = value;
+    result.covariance = covariance;
+    result.degrees_of_freedom = nu;
+    return result;
+}
+
+InputGroup single(std::string name, double value, double u, double nu = k_infinity, std::string source = "") {
+    return group(std::move(name), Eigen::VectorXd::Constant(1, value), Eigen::MatrixXd::Constant(1, 1, u * u), nu,
+                 std::move(source));
+}
+
+// --- JCGM 100:2008, H.1: calibration of an end gauge, lengths in metres ------------------------------------------
+
+FunctionModel end_gauge() {
+    constexpr double k_nm = 1e-9;
+    FunctionModel model;
+    model.groups = {single("l_s", 50000623 * k_nm, 25 * k_nm, 18),
+                    single("d, repeatability", 215 * k_nm, 5.8 * k_nm, 24, "comparator"),
+                    single("d, random", 0.0, 3.9 * k_nm, 5, "comparator"),
+                    single("d, systematic", 0.0, 6.7 * k_nm, 8, "comparator"),
+                    single("alpha_s", 11.5e-6, u_from_half_width(2e-6)),
+                    single("theta, mean", -0.1, 0.2, k_infinity, "theta"),
+                    single("theta, cyclic", 0.0, 0.5 / std::sqrt(2.0), k_infinity, "theta"),
+                    single("d_alpha", 0.0, u_from_half_width(1e-6), 50),
+                    single("d_theta", 0.0, u_from_half_width(0.05), 2)};
+    model.quantities = {{.name = "l", .unit = "m"}};
+    model.function = [](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+        return Eigen::VectorXd::Constant(1, x(0) + x(1) + x(2) + x(3) - x(0) * (x(7) * (x(5) + x(6)) + x(4) * x(8)));
+    };
+    model.derivative = [](const Eigen::VectorXd& x) {
+        Eigen::MatrixXd c(1, 9);
+        c << 1.0 - x(7) * (x(5) + x(6)) - x(4) * x(8), 1.0, 1.0, 1.0, -x(0) * x(8), -x(0) * x(7), -x(0) * x(7),
+            -x(0) * (x(5) + x(6)), -x(0) * x(4);
+        return c;
+    };
+    return model;
+}
+
+TEST(Propagation, EndGaugeOfTheGum) {
+    // JCGM 100:2008, H.1, table H.1 and H.1.6, first-order terms. The GUM cuts nu_eff = 16.75 to 16 for its table
+    // (k = 2.92) and multiplies with the rounded u = 32 nm: U = 93 nm. We use nu_eff as it is.
+    const Propagation result = propagate(end_gauge(), 0.99);
+    EXPECT_TRUE(prints_as(result.value(0) * 1e9, "50000838"));
+    const double u_nm = result.standard_uncertainty(0) * 1e9;
+    EXPECT_TRUE(prints_as(u_nm, "32"));
+    EXPECT_TRUE(prints_as(u_nm, "31.7"));
+    EXPECT_TRUE(agrees(u_nm, 31.6638791110086, 1e-12));
+    EXPECT_TRUE(agrees(result.effective_degrees_of_freedom(0), 16.7518557376272, 1e-12));
+    EXPECT_TRUE(prints_as(coverage_factor(0.99, std::floor(result.effective_degrees_of_freedom(0))), "2.92"));
+    EXPECT_TRUE(agrees(coverage_factor(0.99, 16.0) * u_nm, 92.4832762021239, 1e-12));
+    EXPECT_EQ(result.coverage_factor(0), coverage_factor(0.99, result.effective_degrees_of_freedom(0)));
+    EXPECT_LT(result.coverage_factor(0), coverage_factor(0.99, 16.0));
+    EXPECT_GT(result.coverage_factor(0), coverage_factor(0.99, 17.0));
+    EXPECT_DOUBLE_EQ(result.expanded_uncertainty(0), result.coverage_factor(0) * result.standard_uncertainty(0));
+
+    const std::vector<const char*> contributions{"25", "5.8", "3.9", "6.7", "0", "0", "0", "2.9", "16.6"};
+    ASSERT_EQ(result.budget.size(), contributions.size());
+    for (std::size_t g = 0; g < contributions.size(); ++g) {
+        EXPECT_TRUE(prints_as(std::sqrt(result.budget[g].variance(0)) * 1e9, contributions[g]))
+            << result.budget[g].name;
+    }
+    ASSERT_EQ(result.shares_by_source.size(), 6U);
+    EXPECT_EQ(result.shares_by_source[0].name, "l_s") << "a group without a source stands for itself";
+    EXPECT_EQ(result.shares_by_source[1].name, "comparator");
+    EXPECT_TRUE(prints_as(std::sqrt(result.shares_by_source[1].variance(0)) * 1e9, "9.7"));
+    EXPECT_EQ(result.shares_by_source[3].name, "theta");
+}
+
+// --- JCGM 100:2008, H.2: resistance, reactance and impedance measured together -----------------------------------
+
+FunctionModel impedance(bool correlated) {
+    // Five sets of V, I, phi (table H.2); the covariance of the means.
+    Eigen::MatrixXd readings(5, 3);
+    readings << 5.007, 0.019663, 1.0456, 4.994, 0.019639, 1.0438, 5.005, 0.019640, 1.0468, 4.990, 0.019685, 1.0428,
+        4.999, 0.019678, 1.0433;
+    const Eigen::RowVectorXd mean = readings.colwise().mean();
+    const Eigen::MatrixXd centred = readings.rowwise() - mean;
+    const Eigen::MatrixXd covariance = centred.transpose() * centred / (5.0 * 4.0);
+    FunctionModel model;
+    if (correlated) {
+        model.groups = {group("V, I, phi", mean.transpose(), covariance, 4)};
+    } else {
+        model.groups = {group("V, I, phi", mean.transpose(), covariance.diagonal())};
+    }
+    model.quantities = {{.name = "R", .unit = "ohm"}, {.name = "X", .unit = "ohm"}, {.name = "Z", .unit = "ohm"}};
+    model.function = [](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+        return x(0) / x(1) * Eigen::Vector3d(std::cos(x(2)), std::sin(x(2)), 1.0);
+    };
+    model.derivative = [](const Eigen::VectorXd& x) {
+        const double Z = x(0) / x(1);
+        const double R = Z * std::cos(x(2));
+        const double X = Z * std::sin(x(2));
+        Eigen::MatrixXd c(3, 3);
+        c << R / x(0), -R / x(1), -X, X / x(0), -X / x(1), R, Z / x(0), -Z / x(1), 0.0;
+        return c;
+    };
+    return model;
+}
+
+TEST(Propagation, ResistanceAndReactanceOfTheGum) {
+    // JCGM 100:2008, H.2, tables H.2 to H.4, first approach. The GUM prints u(X) = 0.295, which its second approach
+    // gives (0.29549); the law of propagation from the printed readings gives 0.29558.
+    const Propagation result = propagate(impedance(true), 0.9545);
+    EXPECT_TRUE(prints_as(result.value(0), "127.732"));
+    EXPECT_TRUE(prints_as(result.value(1), "219.847"));
+    EXPECT_TRUE(prints_as(result.value(2), "254.260"));
+    EXPECT_TRUE(prints_as(result.standard_uncertainty(0), "0.071"));
+    EXPECT_TRUE(prints_as(result.standard_uncertainty(1), "0.296"));
+    EXPECT_TRUE(prints_as(result.standard_uncertainty(2), "0.236"));
+    EXPECT_TRUE(agrees(result.standard_uncertainty(0), 0.0710714073969955, 1e-10));
+    EXPECT_TRUE(agrees(result.standard_uncertainty(1), 0.29558167735864, 1e-10));
+    EXPECT_TRUE(agrees(result.standard_uncertainty(2), 0.236336130082373, 1e-10));
+    const Eigen::MatrixXd r = correlation_matrix(result.covariance);
+    EXPECT_TRUE(prints_as(r(0, 1), "-0.588"));
+    EXPECT_TRUE(prints_as(r(0, 2), "-0.485"));
+    EXPECT_TRUE(prints_as(r(1, 2), "0.993"));
+    for (Eigen::Index i = 0; i < 3; ++i) {
+        // Observed together, five times: one contribution with four degrees of freedom.
+        EXPECT_TRUE(agrees(result.effective_degrees_of_freedom(i), 4.0, 1e-14));
+        EXPECT_TRUE(prints_as(result.coverage_factor(i), "2.87"));
+        EXPECT_DOUBLE_EQ(result.budget[0].share(i), 1.0);
+    }
+}
+
+TEST(Propagation, ResistanceAndReactanceWithCorrelationIgnored) {
+    // JCGM 100:2008, H.2.4, table H.5.
+    const Propagation result = propagate(impedance(false), 0.9545);
+    EXPECT_TRUE(prints_as(result.standard_uncertainty(0), "0.195"));
+    EXPECT_TRUE(prints_as(result.standard_uncertainty(1), "0.201"));
+    EXPECT_TRUE(prints_as(result.standard_uncertainty(2), "0.204"));
+    const Eigen::MatrixXd r = correlation_matrix(result.covariance);
+    EXPECT_TRUE(prints_as(r(0, 1), "0.056"));
+    EXPECT_TRUE(prints_as(r(0, 2), "0.527"));
+    EXPECT_TRUE(prints_as(r(1, 2), "0.878"));
+    EXPECT_TRUE(prints_as(result.coverage_factor(0), "2.00"));
+}
+
+TEST(Propagation, ResistorsInSeries) {
+    // JCGM 100:2008, 5.2.2, EXAMPLE: ten resistors of 1000 Ω, u = 0.1 Ω, calibrated with one standard (r = 1): 1 Ω;
+    // uncorrelated: 0.32 Ω.
+    const Eigen::MatrixXd sum = Eigen::MatrixXd::Ones(1, 10);
+    const Eigen::VectorXd value = Eigen::VectorXd::Constant(10, 1000.0);
+    const Eigen::MatrixXd full = Eigen::MatrixXd::Constant(10, 10, 0.01);
+    const Propagation correlated = propagate(linear_model(sum, {group("R", value, full)}), 0.9545);
+    EXPECT_TRUE(agrees(correlated.standard_uncertainty(0), 1.0, 1e-14));
+    const Propagation independent =
+        propagate(linear_model(sum, {group("R", value, Eigen::VectorXd::Constant(10, 0.01))}), 0.9545);
+    EXPECT_TRUE(prints_as(independent.standard_uncertainty(0), "0.32"));
+    EXPECT_TRUE(agrees(independent.standard_uncertainty(0), 0.316227766016838, 1e-14));
+}
+
+// --- properties ---------------------------------------------------------------------------------------------------
+
+struct RandomCase {
+    Eigen::MatrixXd A;
+    std::vector<InputGroup> groups;
+};
+
+/// Groups of 1 to 6 quantities, stored dense, diagonal or singular, over twelve decades of size.
+RandomCase random_case(std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    const auto uniform = [&random] { return 2.0 * std::ldexp(static_cast<double>(random() >> 11U), -53) - 1.0; };
+    RandomCase result;
+    const std::size_t count = 1 + random() % 8;
+    Eigen::Index n = 0;
+    for (std::size_t g = 0; g < count; ++g) {
+        const auto size = static_cast<Eigen::Index>(1 + random() % 6);
+        const double scale = std::pow(10.0, 6.0 * uniform());
+        const Eigen::MatrixXd root =
+            Eigen::MatrixXd::NullaryExpr(size, random() % 3 == 0 ? 1 : size, [&] { return scale * uniform(); });
+        Eigen::MatrixXd covariance = root * root.transpose();
+        if (random() % 3 == 0) {
+            covariance = Eigen::MatrixXd(covariance.diagonal());
+        }
+        const double nu = random() % 2 == 0 ? k_infinity : 1.0 + static_cast<double>(random() % 50);
+        result.groups.push_back(group("g" + std::to_string(g), Eigen::VectorXd::NullaryExpr(size, uniform), covariance,
+                                      nu, "s" + std::to_string(random() % 3)));
+        n += size;
+    }
+    const auto m = static_cast<Eigen::Index>(1 + random() % 4);
+    result.A = Eigen::MatrixXd::NullaryExpr(m, n, uniform);
+    return result;
+}
+
+Eigen::MatrixXd dense_covariance(const std::vector<InputGroup>& groups, Eigen::Index n) {
+    Eigen::MatrixXd V = Eigen::MatrixXd::Zero(n, n);
+    Eigen::Index first = 0;
+    for (const InputGroup& g : groups) {
+        if (g.is_diagonal()) {
+            V.block(first, first, g.size(), g.size()) = g.covariance.col(0).asDiagonal();
+        } else {
+            V.block(first, first, g.size(), g.size()) = g.covariance;
+        }
+        first += g.size();
+    }
+    return V;
+}
+
+TEST(PropagationProperty, EqualsTheTripleProduct) {
+    for (std::uint64_t seed = 0; seed < 500; ++seed) {
+        const RandomCase c = random_case(seed);
+        const Propagation result = propagate(linear_model(c.A, c.groups), 0.95);
+        const Eigen::MatrixXd V = dense_covariance(c.groups, c.A.cols());
+        const Eigen::MatrixXd expected = c.A * V * c.A.transpose();
+        // Terms of a group may cancel in the triple product, so the scale is that without cancellation.
+        const Eigen::MatrixXd scale = c.A.cwiseAbs() * V.cwiseAbs() * c.A.cwiseAbs().transpose();
+        EXPECT_TRUE(((result.covariance - expected).cwiseAbs().array() <= 1e-13 * scale.array()).all()) << seed;
+        EXPECT_EQ(result.covariance, result.covariance.transpose()) << seed;
+    }
+}
+
+TEST(PropagationProperty, ContributionsSumToTheVariance) {
+    for (std::uint64_t seed = 0; seed < 500; ++seed) {
+        const RandomCase c = random_case(seed);
+        const Propagation result = propagate(linear_model(c.A, c.groups), 0.95);
+        for (Eigen::Index i = 0; i < c.A.rows(); ++i) {
+            const double variance = std::pow(result.standard_uncertainty(i), 2);
+            double groups = 0.0;
+            double group_shares = 0.0;
+            for (const BudgetContribution& contribution : result.budget) {
+                EXPECT_GE(contribution.variance(i), 0.0);
+                groups += contribution.variance(i);
+                group_shares += contribution.share(i);
+            }
+            double sources = 0.0;
+            double source_shares = 0.0;
+            for (const BudgetContribution& contribution : result.shares_by_source) {
+                sources += contribution.variance(i);
+                source_shares += contribution.share(i);
+            }
+            EXPECT_TRUE(agrees(groups, variance, 1e-12)) << seed;
+            EXPECT_TRUE(agrees(sources, variance, 1e-12)) << seed;
+            EXPECT_TRUE(agrees(result.covariance(i, i), variance, 1e-12)) << seed;
+            EXPECT_NEAR(group_shares, 1.0, 1e-12) << seed;
+            EXPECT_NEAR(source_shares, 1.0, 1e-12) << seed;
+        }
+    }
+}
+
+TEST(PropagationProperty, PermutingGroupsChangesNothing) {
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        const RandomCase c = random_case(seed);
+        const Propagation result = propagate(linear_model(c.A, c.groups), 0.95);
+        std::vector<InputGroup> reversed(c.groups.rbegin(), c.groups.rend());
+        Eigen::MatrixXd A(c.A.rows(), c.A.cols());
+        Eigen::Index from = 0;
+        Eigen::Index to = c.A.cols();
+        for (const InputGroup& g : c.groups) {
+            to -= g.size();
+            A.middleCols(to, g.size()) = c.A.middleCols(from, g.size());
+            from += g.size();
+        }
+        const Propagation permuted = propagate(linear_model(A, reversed), 0.95);
+        for (Eigen::Index i = 0; i < A.rows(); ++i) {
+            EXPECT_TRUE(agrees(permuted.standard_uncertainty(i), result.standard_uncertainty(i), 1e-13)) << seed;
+            EXPECT_TRUE(agrees(permuted.expanded_uncertainty(i), result.expanded_uncertainty(i), 1e-13)) << seed;
+            for (std::size_t g = 0; g < c.groups.size(); ++g) {
+                EXPECT_NEAR(permuted.budget[c.groups.size() - 1 - g].share(i), result.budget[g].share(i), 1e-13);
+            }
+        }
+    }
+}
+
+TEST(PropagationProperty, ScalingTheUnitOfAnOutputScalesTheResult) {
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        const RandomCase c = random_case(seed);
+        const Propagation result = propagate(linear_model(c.A, c.groups), 0.95);
+        const Propagation scaled = propagate(linear_model(1e6 * c.A, c.groups), 0.95);
+        for (Eigen::Index i = 0; i < c.A.rows(); ++i) {
+            EXPECT_TRUE(agrees(scaled.expanded_uncertainty(i), 1e6 * result.expanded_uncertainty(i), 1e-13)) << seed;
+            EXPECT_TRUE(agrees(scaled.coverage_factor(i), result.coverage_factor(i), 1e-13)) << seed;
+        }
+    }
+}
+
+TEST(PropagationProperty, ScalingTheUnitOfAnInputChangesNothing) {
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        const RandomCase c = random_case(seed);
+        const Propagation result = propagate(linear_model(c.A, c.groups), 0.95);
+        std::vector<InputGroup> groups = c.groups;
+        groups[0].value *= 1e9;
+        groups[0].covariance *= 1e18;
+        Eigen::MatrixXd A = c.A;
+        A.leftCols(groups[0].size()) /= 1e9;
+        const Propagation scaled = propagate(linear_model(A, groups), 0.95);
+        for (Eigen::Index i = 0; i < c.A.rows(); ++i) {
+            EXPECT_TRUE(agrees(scaled.expanded_uncertainty(i), result.expanded_uncertainty(i), 1e-12)) << seed;
+        }
+    }
+}
+
+TEST(PropagationProperty, ZeroUncertaintyInGivesZeroOut) {
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        RandomCase c = random_case(seed);
+        for (InputGroup& g : c.groups) {
+            g.covariance.setZero();
+        }
+        const Propagation result = propagate(linear_model(c.A, c.groups), 0.95);
+        EXPECT_TRUE((result.covariance.array() == 0.0).all());
+        EXPECT_TRUE((result.standard_uncertainty.array() == 0.0).all());
+        EXPECT_TRUE((result.expanded_uncertainty.array() == 0.0).all());
+        EXPECT_TRUE((result.effective_degrees_of_freedom.array() == k_infinity).all());
+        for (const BudgetContribution& contribution : result.budget) {
+            EXPECT_TRUE((contribution.share.array() == 0.0).all());
+        }
+        for (const BudgetContribution& contribution : result.shares_by_source) {
+            EXPECT_TRUE((contribution.share.array() == 0.0).all());
+        }
+    }
+}
+
+TEST(Propagation, OneOutputWithoutUncertaintyBesideOthers) {
+    Eigen::MatrixXd A(2, 1);
+    A << 0.0, 2.0;
+    const Propagation result = propagate(linear_model(A, {single("x", 1.0, 0.1, 5)}), 0.95);
+    EXPECT_EQ(result.expanded_uncertainty(0), 0.0);
+    EXPECT_EQ(result.effective_degrees_of_freedom(0), k_infinity);
+    EXPECT_EQ(result.budget[0].share(0), 0.0);
+    EXPECT_TRUE(agrees(result.effective_degrees_of_freedom(1), 5.0, 1e-15));
+    EXPECT_EQ(correlation_matrix(result.covariance), Eigen::Matrix2d::Identity());
+}
+
+TEST(Propagation, SourcesAreAddedUpInOrderOfFirstAppearance) {
+    const Eigen::MatrixXd A = Eigen::MatrixXd::Ones(1, 4);
+    const Propagation result =
+        propagate(linear_model(A, {single("a", 0, 3, k_infinity, "table"), single("b", 0, 1, k_infinity, "tracker"),
+                                   single("c", 0, 4, k_infinity, "table"), single("d", 0, 2)}),
+                  0.95);
+    ASSERT_EQ(result.shares_by_source.size(), 3U);
+    EXPECT_EQ(result.shares_by_source[0].name, "table");
+    EXPECT_DOUBLE_EQ(result.shares_by_source[0].variance(0), 25.0);
+    EXPECT_DOUBLE_EQ(result.shares_by_source[0].share(0), 25.0 / 30.0);
+    EXPECT_EQ(result.shares_by_source[1].name, "tracker");
+    EXPECT_EQ(result.shares_by_source[2].name, "d");
+}
+
+TEST(Propagation, LargeModelWithDiagonalGroups) {
+    // The size of a rotary-table job: 5000 inputs in one diagonal group, 240 outputs. No n×n matrix may appear.
+    const Eigen::Index n = 5000;
+    const Eigen::Index m = 240;
+    const Eigen::MatrixXd A = Eigen::MatrixXd::NullaryExpr(
+        m, n, [](Eigen::Index i, Eigen::Index j) { return std::sin(static_cast<double>(i * 7919 + j * 104729)); });
+    const Eigen::VectorXd variance = Eigen::VectorXd::Constant(n, 4e-14);
+    const Propagation result =
+        propagate(linear_model(A, {group("length noise", Eigen::VectorXd::Zero(n), variance, 1000)}), 0.9545);
+    for (Eigen::Index i = 0; i < m; i += 37) {
+        EXPECT_TRUE(agrees(result.standard_uncertainty(i), 2e-7 * A.row(i).norm(), 1e-12));
+    }
+    EXPECT_NEAR(result.covariance(3, 200), 4e-14 * A.row(3).dot(A.row(200)), 1e-12 * result.covariance(3, 3));
+}
+
+// --- bad input ----------------------------------------------------------------------------------------------------
+
+FunctionModel difference_of_three(double r12, double r13, double r23) {
+    Eigen::MatrixXd V(3, 3);
+    V << 1.0, r12, r13, r12, 1.0, r23, r13, r23, 1.0;
+    Eigen::MatrixXd A(1, 3);
+    A << 1.0, -1.0, -1.0;
+    return linear_model(A, {group("standards", Eigen::Vector3d(1, 2, 3), V)});
+}
+
+TEST(PropagationInput, RefusesCorrelationsThatContradictEachOther) {
+    // r = 0.9, 0.9, -0.9 would give u² = -2.4 for y = a - b - c.
+    const FunctionModel model = difference_of_three(0.9, 0.9, -0.9);
+    const std::string message = message_of<InputError>([&] { (void)propagate(model, 0.95); });
+    EXPECT_NE(message.find("input group 'standards' — correlation matrix has the eigenvalue -0.8"), std::string::npos)
+        << message;
+    EXPECT_NE(message.find("caused by quantity 1, quantity 2, quantity 3"), std::string::npos) << message;
+    EXPECT_EQ(code_of<InputError>([&] { (void)propagate(model, 0.95); }), "GC-GUM-0054");
+}
+
+TEST(PropagationInput, TakesSingularMatrices) {
+    const Propagation equal = propagate(difference_of_three(1.0, 0.0, 0.0), 0.95);
+    EXPECT_TRUE(agrees(equal.standard_uncertainty(0), 1.0, 1e-14));  // a and b cancel, c stays
+    const Propagation opposite = propagate(difference_of_three(-1.0, 0.0, 0.0), 0.95);
+    EXPECT_TRUE(agrees(opposite.standard_uncertainty(0), std::sqrt(5.0), 1e-14));
+}
+
+TEST(PropagationInput, JudgesSmallQuantitiesBesideLargeOnes) {
+    // A covariance of 1e-10 between u = 1e-15 and u = 1 is a correlation of 1e5; beside the largest eigenvalue, 1, the
+    // negative one, -1e-20, would look like rounding.
+    Eigen::MatrixXd V(2, 2);
+    V << 1e-30, 1e-10, 1e-10, 1.0;
+    const FunctionModel model =
+        linear_model(Eigen::MatrixXd::Ones(1, 2), {group("mixed sizes", Eigen::Vector2d(0, 0), V)});
+    EXPECT_EQ(code_of<InputError>([&] { (void)propagate(model, 0.95); }), "GC-GUM-0053");
+    V << 1e-30, 0.5e-15, 0.5e-15, 1.0;
+    const Propagation result = propagate(
+        linear_model(Eigen::MatrixXd::Identity(2, 2), {group("mixed sizes", Eigen::Vector2d(0, 0), V)}), 0.95);
+    EXPECT_TRUE(agrees(result.standard_uncertainty(0), 1e-15, 1e-14));
+    EXPECT_TRUE(agrees(correlation_matrix(result.covariance)(0, 1), 0.5, 1e-14));
+}
+
+TEST(PropagationInput, RefusesEveryOtherDefectOfAGroup) {
+    const auto code = [](const Eigen::MatrixXd& V, double nu = k_infinity, double value = 1.0) {
+        const FunctionModel model =
+            linear_model(Eigen::MatrixXd::Ones(1, 2), {group("g", Eigen::Vector2d(value, 2.0), V, nu)});
+        return code_of<InputError>([&] { (void)propagate(model, 0.95); });
+    };
+    Eigen::MatrixXd V(2, 2);
+    V << 1.0, 0.5, 0.4, 1.0;
+    EXPECT_EQ(code(V), "GC-GUM-0052");
+    V << 1.0, 1.1, 1.1, 1.0;
+    EXPECT_EQ(code(V), "GC-GUM-0053");
+    V << 0.0, 0.1, 0.1, 1.0;
+    EXPECT_EQ(code(V), "GC-GUM-0053");
+    V << 1.0, 0.0, 0.0, -1.0;
+    EXPECT_EQ(code(V), "GC-GUM-0051");
+    EXPECT_EQ(code(Eigen::Vector2d(1.0, -1e-12)), "GC-GUM-0051");
+    V << 1.0, std::nan(""), std::nan(""), 1.0;
+    EXPECT_EQ(code(V), "GC-GUM-0050");
+    EXPECT_EQ(code(Eigen::Vector2d(1.0, k_infinity)), "GC-GUM-0050");
+    EXPECT_EQ(code(Eigen::Matrix3d::Identity()), "GC-GUM-0050");
+    EXPECT_EQ(code(Eigen::Vector3d::Ones()), "GC-GUM-0050");
+    EXPECT_EQ(code(Eigen::Matrix2d::Identity(), 0.0), "GC-GUM-0005");
+    EXPECT_EQ(code(Eigen::Matrix2d::Identity(), std::nan("")), "GC-GUM-0005");
+    EXPECT_EQ(code(Eigen::Matrix2d::Identity(), 5.0, std::nan("")), "GC-GUM-0050");
+}
+
+TEST(PropagationInput, ReportsTheProblemsOfAllGroupsTogether) {
+    const FunctionModel model =
+        linear_model(Eigen::MatrixXd::Ones(1, 3),
+                     {single("first", std::nan(""), 1.0), single("second", 1.0, 1.0), single("third", 1.0, 1.0, -3.0)});
+    EXPECT_EQ(message_of<InputError>([&] { (void)propagate(model, 0.95); }),
+              "input group 'first' — estimate of quantity 1 is NaN — estimates must be finite — Correct the estimate.\n"
+              "input group 'third' — degrees of freedom -3 — must be greater than 0 or infinite — "
+              "Correct the value, or leave it out where it is infinite.");
+    EXPECT_EQ(code_of<InputError>(
+                  [] { (void)propagate(linear_model(Eigen::MatrixXd::Ones(1, 1), {single("x", 1, 1)}), 95.0); }),
+              "GC-GUM-0004");
+}
+
+TEST(PropagationInput, SaysSoWhenTheModelHasNoFiniteResult) {
+    FunctionModel model = linear_model(Eigen::MatrixXd::Ones(1, 1), {single("x", 0.0, 1.0)});
+    model.derivative = [](const Eigen::VectorXd&) { return Eigen::MatrixXd::Constant(1, 1, k_infinity); };
+    EXPECT_EQ(code_of<NoResultError>([&] { (void)propagate(model, 0.95); }), "GC-GUM-0056");
+    EXPECT_EQ(message_of<NoResultError>([&] { (void)propagate(model, 0.95); }),
+              "output 'y1' — the sensitivity coefficient for quantity 1 of input group 'x' is inf — the law of "
+              "propagation needs a finite derivative at the estimates — The model cannot be made linear there: use the "
+              "Monte Carlo method.");
+    model.function = [](const Eigen::VectorXd& x) -> Eigen::VectorXd { return x.cwiseInverse(); };
+    EXPECT_EQ(code_of<NoResultError>([&] { (void)propagate(model, 0.95); }), "GC-GUM-0055");
+    const FunctionModel huge = linear_model(Eigen::MatrixXd::Constant(1, 1, 1e200), {single("x", 1.0, 1e100)});
+    EXPECT_EQ(code_of<NoResultError>([&] { (void)propagate(huge, 0.95); }), "GC-GUM-0057");
+    FunctionModel wrong_size = linear_model(Eigen::MatrixXd::Ones(2, 1), {single("x", 1.0, 1.0)});
+    wrong_size.function = [](const Eigen::VectorXd& x) { return x; };
+    EXPECT_THROW((void)propagate(wrong_size, 0.95), std::logic_error);
+}
+
+}  // namespace
+}  // namespace gumcert::gum
