@@ -1,0 +1,545 @@
+#include "engine/adjustment.h"
+
+#include <ceres/ceres.h>
+#include <glog/logging.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::engine {
+
+namespace {
+
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& covariance) {
+    const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+    if (factor.info() != Eigen::Success) {
+        throw gum::NoResultError(
+            gum::Diagnostic{"GC-ADJUST-0001",
+                            "adjustment",
+                            "the covariance matrix of a group of observations is not positive definite",
+                            "weights are the inverse of the covariance",
+                            "state standard uncertainties greater than 0",
+                            {}});
+    }
+    return factor.matrixL();
+}
+
+/// Components of one block as they are: the functional model of a prior.
+class ComponentModel final : public ObservationModel {
+public:
+    ComponentModel(std::vector<int> components, int block_size)
+        : components_(std::move(components)), block_size_(block_size) {}
+
+    void predict(const double* const* parameters, double* predicted, double* const* jacobians) const override {
+        for (std::size_t i = 0; i < components_.size(); ++i) {
+            predicted[i] = parameters[0][components_[i]];
+        }
+        if (jacobians != nullptr && jacobians[0] != nullptr) {
+            Eigen::Map<RowMajorMatrix> jacobian(jacobians[0], static_cast<Eigen::Index>(components_.size()),
+                                                block_size_);
+            jacobian.setZero();
+            for (std::size_t i = 0; i < components_.size(); ++i) {
+                jacobian(static_cast<Eigen::Index>(i), components_[i]) = 1.0;
+            }
+        }
+    }
+
+private:
+    std::vector<int> components_;
+    int block_size_;
+};
+
+}  // namespace
+
+/// Residual L⁻¹ (f(x) - l) of one group for Ceres.
+class Adjustment::WhitenedCost final : public ceres::CostFunction {
+public:
+    WhitenedCost(const Group& group, const std::vector<Block>& blocks) : group_(group) {
+        set_num_residuals(static_cast<int>(group.observed.size()));
+        for (const BlockId block : group.blocks) {
+            mutable_parameter_block_sizes()->push_back(static_cast<int>(blocks[block].value.size()));
+        }
+    }
+
+    bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+        const Eigen::Index n = group_.observed.size();
+        group_.model->predict(parameters, residuals, jacobians);
+        Eigen::Map<Eigen::VectorXd> residual(residuals, n);
+        residual -= group_.observed;
+        const auto lower = group_.cholesky.triangularView<Eigen::Lower>();
+        lower.solveInPlace(residual);
+        if (jacobians != nullptr) {
+            for (std::size_t k = 0; k < parameter_block_sizes().size(); ++k) {
+                if (jacobians[k] != nullptr) {
+                    Eigen::Map<RowMajorMatrix> jacobian(jacobians[k], n, parameter_block_sizes()[k]);
+                    lower.solveInPlace(jacobian);
+                }
+            }
+        }
+        return residual.allFinite();
+    }
+
+private:
+    const Group& group_;
+};
+
+Adjustment::BlockId Adjustment::add_parameters(std::vector<std::string> names, Eigen::VectorXd start, bool eliminated) {
+    std::vector<bool> held(names.size(), false);
+    blocks_.push_back({std::move(names), std::move(start), std::move(held), eliminated});
+    return blocks_.size() - 1;
+}
+
+void Adjustment::hold(BlockId block, int component) {
+    blocks_[block].held[static_cast<std::size_t>(component)] = true;
+}
+
+Adjustment::GroupId Adjustment::add_observations(std::shared_ptr<const ObservationModel> model,
+                                                 std::vector<BlockId> blocks, Eigen::VectorXd observed,
+                                                 const Eigen::MatrixXd& covariance) {
+    groups_.push_back({std::move(model), std::move(blocks), std::move(observed), cholesky_factor(covariance)});
+    return groups_.size() - 1;
+}
+
+Adjustment::GroupId Adjustment::add_prior(BlockId block, std::vector<int> components, Eigen::VectorXd observed,
+                                          const Eigen::MatrixXd& covariance) {
+    const int size = static_cast<int>(blocks_[block].value.size());
+    return add_observations(std::make_shared<ComponentModel>(std::move(components), size), {block}, std::move(observed),
+                            covariance);
+}
+
+void Adjustment::set_covariance(GroupId group, const Eigen::MatrixXd& covariance) {
+    groups_[group].cholesky = cholesky_factor(covariance);
+}
+
+Eigen::VectorXd Adjustment::residual(GroupId id) const {
+    const Group& group = groups_[id];
+    std::vector<const double*> parameters;
+    for (const BlockId block : group.blocks) {
+        parameters.push_back(blocks_[block].value.data());
+    }
+    Eigen::VectorXd predicted(group.observed.size());
+    group.model->predict(parameters.data(), predicted.data(), nullptr);
+    return group.observed - predicted;
+}
+
+Eigen::MatrixXd Adjustment::jacobian(GroupId id, BlockId wanted) const {
+    const Group& group = groups_[id];
+    std::vector<const double*> parameters;
+    std::vector<double*> jacobians(group.blocks.size(), nullptr);
+    RowMajorMatrix result(group.observed.size(), blocks_[wanted].value.size());
+    for (std::size_t k = 0; k < group.blocks.size(); ++k) {
+        parameters.push_back(blocks_[group.blocks[k]].value.data());
+        if (group.blocks[k] == wanted) {
+            jacobians[k] = result.data();
+        }
+    }
+    Eigen::VectorXd predicted(group.observed.size());
+    group.model->predict(parameters.data(), predicted.data(), jacobians.data());
+    return result;
+}
+
+NormalEquations Adjustment::linearise() const {
+    NormalEquations normal;
+    normal.column_of_.resize(blocks_.size());
+    for (const bool eliminated : {false, true}) {
+        for (std::size_t b = 0; b < blocks_.size(); ++b) {
+            const Block& block = blocks_[b];
+            if (block.eliminated != eliminated) {
+                continue;
+            }
+            const auto first = static_cast<Eigen::Index>(normal.parameters_.size());
+            for (std::size_t c = 0; c < block.held.size(); ++c) {
+                if (block.held[c]) {
+                    normal.column_of_[b].push_back(-1);
+                    continue;
+                }
+                normal.column_of_[b].push_back(static_cast<Eigen::Index>(normal.parameters_.size()));
+                normal.parameters_.push_back({b, static_cast<int>(c), block.names[c]});
+            }
+            const auto size = static_cast<Eigen::Index>(normal.parameters_.size()) - first;
+            if (eliminated && size > 0) {
+                normal.eliminated_.emplace_back(first, size);
+            }
+        }
+        if (!eliminated) {
+            normal.border_ = static_cast<Eigen::Index>(normal.parameters_.size());
+        }
+    }
+
+    normal.groups_.resize(groups_.size());
+    std::vector<RowMajorMatrix> raw;
+    std::vector<const double*> parameters;
+    std::vector<double*> jacobians;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+        const Group& group = groups_[g];
+        const Eigen::Index n = group.observed.size();
+        raw.resize(group.blocks.size());
+        parameters.clear();
+        jacobians.clear();
+        Eigen::Index columns = 0;
+        for (std::size_t k = 0; k < group.blocks.size(); ++k) {
+            const Block& block = blocks_[group.blocks[k]];
+            raw[k].resize(n, block.value.size());
+            parameters.push_back(block.value.data());
+            jacobians.push_back(raw[k].data());
+            columns += static_cast<Eigen::Index>(std::count(block.held.begin(), block.held.end(), false));
+        }
+        LinearisedGroup& linear = normal.groups_[g];
+        linear.residual.resize(n);
+        group.model->predict(parameters.data(), linear.residual.data(), jacobians.data());
+        linear.residual = group.observed - linear.residual;
+        linear.jacobian.resize(n, columns);
+        Eigen::Index column = 0;
+        for (std::size_t k = 0; k < group.blocks.size(); ++k) {
+            const std::vector<Eigen::Index>& of = normal.column_of_[group.blocks[k]];
+            for (std::size_t c = 0; c < of.size(); ++c) {
+                if (of[c] >= 0) {
+                    linear.columns.push_back(of[c]);
+                    linear.jacobian.col(column++) = raw[k].col(static_cast<Eigen::Index>(c));
+                }
+            }
+        }
+        linear.cholesky = group.cholesky;
+        const auto lower = linear.cholesky.triangularView<Eigen::Lower>();
+        lower.solveInPlace(linear.residual);
+        lower.solveInPlace(linear.jacobian);
+    }
+    normal.accumulate();
+    return normal;
+}
+
+Eigen::Index NormalEquations::column(std::size_t block, int component) const {
+    return column_of_[block][static_cast<std::size_t>(component)];
+}
+
+void NormalEquations::accumulate() {
+    border_normal_ = Eigen::MatrixXd::Zero(border_, border_);
+    blocks_.resize(eliminated_.size());
+    for (std::size_t e = 0; e < eliminated_.size(); ++e) {
+        blocks_[e].first = eliminated_[e].first;
+        blocks_[e].normal = Eigen::MatrixXd::Zero(eliminated_[e].second, eliminated_[e].second);
+        blocks_[e].border = Eigen::MatrixXd::Zero(eliminated_[e].second, border_);
+    }
+    Eigen::MatrixXd product;
+    for (const LinearisedGroup& group : groups_) {
+        product.noalias() = group.jacobian.transpose() * group.jacobian;
+        const auto size = static_cast<Eigen::Index>(group.columns.size());
+        EliminatedBlock* eliminated = nullptr;
+        for (const Eigen::Index column : group.columns) {
+            if (column >= border_) {
+                const auto after = std::upper_bound(
+                    blocks_.begin(), blocks_.end(), column,
+                    [](Eigen::Index value, const EliminatedBlock& block) { return value < block.first; });
+                eliminated = &*(after - 1);
+                break;
+            }
+        }
+        for (Eigen::Index j = 0; j < size; ++j) {
+            const Eigen::Index cj = group.columns[static_cast<std::size_t>(j)];
+            for (Eigen::Index i = 0; i < size; ++i) {
+                const Eigen::Index ci = group.columns[static_cast<std::size_t>(i)];
+                if (ci < border_ && cj < border_) {
+                    border_normal_(ci, cj) += product(i, j);
+                } else if (ci >= border_ && cj < border_) {
+                    eliminated->border(ci - eliminated->first, cj) += product(i, j);
+                } else if (ci >= border_ && cj >= border_) {
+                    eliminated->normal(ci - eliminated->first, cj - eliminated->first) += product(i, j);
+                }
+            }
+        }
+    }
+}
+
+Eigen::MatrixXd NormalEquations::reduced_normal(std::vector<Eigen::MatrixXd>* elimination) const {
+    Eigen::MatrixXd reduced = border_normal_;
+    if (elimination != nullptr) {
+        elimination->clear();
+    }
+    for (const EliminatedBlock& block : blocks_) {
+        const Eigen::LLT<Eigen::MatrixXd> factor(block.normal);
+        Eigen::MatrixXd half = factor.matrixL().solve(block.border);  // L⁻¹ A_eb
+        reduced.noalias() -= half.transpose() * half;
+        if (elimination != nullptr) {
+            elimination->push_back(factor.matrixU().solve(half));  // A_ee⁻¹ A_eb
+        }
+    }
+    return reduced;
+}
+
+RankReport NormalEquations::rank(double tolerance) const {
+    RankReport report;
+    report.smallest_to_largest = 1.0;
+    const auto add_names = [&](const Eigen::VectorXd& direction, Eigen::Index first) {
+        const double largest = direction.cwiseAbs().maxCoeff();
+        for (Eigen::Index i = 0; i < direction.size(); ++i) {
+            if (std::abs(direction[i]) > 0.05 * largest) {
+                report.parameters.push_back(parameters_[static_cast<std::size_t>(first + i)].name);
+            }
+        }
+        report.deficient = true;
+    };
+    // A pose whose own block is singular cannot be eliminated: name it before looking at the border.
+    for (const EliminatedBlock& block : blocks_) {
+        const Eigen::VectorXd diagonal = block.normal.diagonal();
+        if (!(diagonal.minCoeff() > 0.0)) {
+            add_names((diagonal.array() > 0.0).select(Eigen::VectorXd::Zero(diagonal.size()), 1.0), block.first);
+            continue;
+        }
+        const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * block.normal *
+                                                                   scale.asDiagonal());
+        const double ratio = eigen.eigenvalues()[0] / eigen.eigenvalues()[diagonal.size() - 1];
+        report.smallest_to_largest = std::min(report.smallest_to_largest, ratio);
+        if (!(ratio > tolerance)) {
+            add_names(eigen.eigenvectors().col(0), block.first);
+        }
+    }
+    if (report.deficient || border_ == 0) {
+        return report;
+    }
+    const Eigen::VectorXd diagonal = border_normal_.diagonal();
+    if (!(diagonal.minCoeff() > 0.0)) {
+        add_names((diagonal.array() > 0.0).select(Eigen::VectorXd::Zero(diagonal.size()), 1.0), 0);
+        report.smallest_to_largest = 0.0;
+        return report;
+    }
+    const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * reduced_normal(nullptr) *
+                                                               scale.asDiagonal());
+    const double ratio = eigen.eigenvalues()[0] / std::max(1.0, eigen.eigenvalues()[border_ - 1]);
+    report.smallest_to_largest = std::min(report.smallest_to_largest, ratio);
+    if (!(ratio > tolerance)) {
+        add_names(eigen.eigenvectors().col(0), 0);
+    }
+    return report;
+}
+
+Eigen::MatrixXd NormalEquations::covariance() const {
+    const Eigen::Index p = parameter_count();
+    std::vector<Eigen::MatrixXd> elimination;
+    const Eigen::MatrixXd reduced = reduced_normal(&elimination);
+    Eigen::MatrixXd covariance(p, p);
+    // Scaled to a unit diagonal first: metres, radians and scales differ by many powers of ten.
+    Eigen::MatrixXd border_covariance(border_, border_);
+    if (border_ > 0) {
+        const Eigen::VectorXd scale = reduced.diagonal().cwiseSqrt().cwiseInverse();
+        const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * reduced * scale.asDiagonal());
+        if (factor.info() != Eigen::Success) {
+            throw gum::NoResultError(
+                gum::Diagnostic{"GC-ADJUST-0002",
+                                "adjustment",
+                                "the normal equations are singular",
+                                "a covariance exists only where the observations determine every parameter",
+                                "check the rank report, add stations, reflectors or angles",
+                                {}});
+        }
+        border_covariance = factor.solve(Eigen::MatrixXd::Identity(border_, border_));
+        border_covariance = (scale.asDiagonal() * border_covariance * scale.asDiagonal()).eval();
+        border_covariance = (0.5 * (border_covariance + border_covariance.transpose())).eval();
+    }
+    covariance.topLeftCorner(border_, border_) = border_covariance;
+
+    const Eigen::Index q = p - border_;
+    Eigen::MatrixXd stacked(q, border_);
+    for (std::size_t e = 0; e < blocks_.size(); ++e) {
+        stacked.middleRows(blocks_[e].first - border_, elimination[e].rows()) = elimination[e];
+    }
+    const Eigen::MatrixXd cross = -stacked * border_covariance;
+    covariance.bottomLeftCorner(q, border_) = cross;
+    covariance.topRightCorner(border_, q) = cross.transpose();
+    covariance.bottomRightCorner(q, q).noalias() = -cross * stacked.transpose();
+    for (const EliminatedBlock& block : blocks_) {
+        const Eigen::Index size = block.normal.rows();
+        covariance.block(block.first, block.first, size, size) +=
+            block.normal.llt().solve(Eigen::MatrixXd::Identity(size, size));
+    }
+    return covariance;
+}
+
+Eigen::VectorXd NormalEquations::step() const {
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(parameter_count());
+    for (const LinearisedGroup& group : groups_) {
+        const Eigen::VectorXd part = group.jacobian.transpose() * group.residual;
+        for (std::size_t i = 0; i < group.columns.size(); ++i) {
+            gradient[group.columns[i]] += part[static_cast<Eigen::Index>(i)];
+        }
+    }
+    std::vector<Eigen::MatrixXd> elimination;
+    const Eigen::MatrixXd reduced = reduced_normal(&elimination);
+    Eigen::VectorXd step(parameter_count());
+    Eigen::VectorXd right = gradient.head(border_);
+    for (std::size_t e = 0; e < blocks_.size(); ++e) {
+        right -= elimination[e].transpose() * gradient.segment(blocks_[e].first, elimination[e].rows());
+    }
+    if (border_ > 0) {
+        const Eigen::VectorXd scale = reduced.diagonal().cwiseSqrt().cwiseInverse();
+        const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * reduced * scale.asDiagonal());
+        step.head(border_) = scale.asDiagonal() * factor.solve(scale.asDiagonal() * right);
+    }
+    for (std::size_t e = 0; e < blocks_.size(); ++e) {
+        const Eigen::Index size = elimination[e].rows();
+        step.segment(blocks_[e].first, size) = blocks_[e].normal.llt().solve(gradient.segment(blocks_[e].first, size)) -
+                                               elimination[e] * step.head(border_);
+    }
+    return step;
+}
+
+double NormalEquations::condition_number() const {
+    const Eigen::Index p = parameter_count();
+    Eigen::MatrixXd full = Eigen::MatrixXd::Zero(p, p);
+    full.topLeftCorner(border_, border_) = border_normal_;
+    for (const EliminatedBlock& block : blocks_) {
+        const Eigen::Index size = block.normal.rows();
+        full.block(block.first, block.first, size, size) = block.normal;
+        full.block(block.first, 0, size, border_) = block.border;
+        full.block(0, block.first, border_, size) = block.border.transpose();
+    }
+    const Eigen::VectorXd scale = full.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * full * scale.asDiagonal(),
+                                                               Eigen::EigenvaluesOnly);
+    const double smallest = eigen.eigenvalues()[0];
+    return smallest > 0.0 ? std::sqrt(eigen.eigenvalues()[p - 1] / smallest) : std::numeric_limits<double>::infinity();
+}
+
+double NormalEquations::chi_square() const {
+    double sum = 0.0;
+    for (const LinearisedGroup& group : groups_) {
+        sum += group.residual.squaredNorm();
+    }
+    return sum;
+}
+
+Eigen::Index NormalEquations::observation_count() const {
+    Eigen::Index count = 0;
+    for (const LinearisedGroup& group : groups_) {
+        count += group.residual.size();
+    }
+    return count;
+}
+
+void Adjustment::apply(const NormalEquations& normal, const Eigen::VectorXd& step) {
+    const std::vector<FreeParameter>& parameters = normal.parameters();
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+        blocks_[parameters[i].block].value[parameters[i].component] += step[static_cast<Eigen::Index>(i)];
+    }
+}
+
+SolveSummary Adjustment::refine(const SolverOptions& options) {
+    SolveSummary summary;
+    double last = std::numeric_limits<double>::infinity();
+    for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
+        const NormalEquations normal = linearise();
+        const Eigen::VectorXd step = normal.step();
+        if (!step.allFinite()) {
+            summary.message = "the normal equations are singular";
+            return summary;
+        }
+        // δᵀ N δ bounds every (δ_i / σ_i)², so no covariance is needed to judge convergence.
+        double decrement = 0.0;
+        for (const LinearisedGroup& group : normal.groups()) {
+            Eigen::VectorXd local(static_cast<Eigen::Index>(group.columns.size()));
+            for (std::size_t i = 0; i < group.columns.size(); ++i) {
+                local[static_cast<Eigen::Index>(i)] = step[group.columns[i]];
+            }
+            decrement += (group.jacobian * local).squaredNorm();
+        }
+        apply(normal, step);
+        ++summary.iterations;
+        const double size = std::sqrt(decrement);
+        if (size < options.step_tolerance) {
+            summary.converged = true;
+            break;
+        }
+        if (iteration > 5 && size > last) {
+            summary.message = "Gauss-Newton steps grow";
+            break;
+        }
+        last = size;
+    }
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+        summary.chi_square += groups_[g].cholesky.triangularView<Eigen::Lower>().solve(residual(g)).squaredNorm();
+    }
+    return summary;
+}
+
+SolveSummary Adjustment::solve(const SolverOptions& options) {
+    FLAGS_minloglevel = google::GLOG_FATAL;  // a library does not print: its failures are in the summary
+    ceres::Problem::Options problem_options;
+    problem_options.cost_function_ownership = ceres::TAKE_OWNERSHIP;
+    ceres::Problem problem(problem_options);
+    auto* ordering = new ceres::ParameterBlockOrdering;
+    bool any_eliminated = false;
+    std::vector<bool> used(blocks_.size(), false);
+    for (const Group& group : groups_) {
+        std::vector<double*> pointers;
+        for (const BlockId block : group.blocks) {
+            pointers.push_back(blocks_[block].value.data());
+            used[block] = true;
+        }
+        problem.AddResidualBlock(new WhitenedCost(group, blocks_), nullptr, pointers);
+    }
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+        Block& block = blocks_[b];
+        if (!used[b]) {
+            continue;
+        }
+        std::vector<int> held;
+        for (std::size_t c = 0; c < block.held.size(); ++c) {
+            if (block.held[c]) {
+                held.push_back(static_cast<int>(c));
+            }
+        }
+        const bool constant = held.size() == block.held.size();
+        if (constant) {
+            problem.SetParameterBlockConstant(block.value.data());
+        } else if (!held.empty()) {
+            problem.SetManifold(block.value.data(),
+                                new ceres::SubsetManifold(static_cast<int>(block.held.size()), held));
+        }
+        ordering->AddElementToGroup(block.value.data(), block.eliminated ? 0 : 1);
+        any_eliminated = any_eliminated || (block.eliminated && !constant);
+    }
+
+    // Every tolerance is set: the general solver only brings the parameters into the reach of refine().
+    ceres::Solver::Options solver;
+    solver.linear_solver_ordering.reset(ordering);
+    solver.linear_solver_type = any_eliminated ? ceres::SPARSE_SCHUR : ceres::SPARSE_NORMAL_CHOLESKY;
+    solver.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
+    solver.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
+    solver.initial_trust_region_radius = 1e12;
+    solver.max_trust_region_radius = 1e20;
+    solver.max_num_iterations = options.max_iterations;
+    solver.function_tolerance = 1e-9;
+    solver.gradient_tolerance = 1e-300;
+    solver.parameter_tolerance = 1e-14;
+    solver.num_threads = 1;  // the same bytes for any machine
+    solver.jacobi_scaling = true;
+    solver.logging_type = ceres::SILENT;
+    solver.minimizer_progress_to_stdout = false;
+    ceres::Solver::Summary ceres_summary;
+    ceres::Solve(solver, &problem, &ceres_summary);
+
+    SolveSummary summary;
+    summary.iterations = static_cast<int>(ceres_summary.iterations.size());
+    if (!ceres_summary.IsSolutionUsable()) {
+        summary.message = ceres_summary.message;
+        return summary;
+    }
+    const SolveSummary refined = refine(options);
+    summary.converged = refined.converged;
+    summary.iterations += refined.iterations;
+    summary.chi_square = refined.chi_square;
+    summary.message = refined.message;
+    return summary;
+}
+
+}  // namespace gumcert::engine

@@ -1,0 +1,164 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gumcert::engine {
+
+/// Functional model of one group of observations: predicted values and their derivatives.
+class ObservationModel {
+public:
+    virtual ~ObservationModel() = default;
+
+    /// \param parameters  one pointer a parameter block, in the order in which the group was added
+    /// \param predicted   n predicted observations, written
+    /// \param jacobians   null, or one pointer a block: n×size of the block, row-major, written; a pointer may be null
+    virtual void predict(const double* const* parameters, double* predicted, double* const* jacobians) const = 0;
+};
+
+struct SolverOptions {
+    int max_iterations = 50;
+    /// Converged when the next Gauss-Newton step of every parameter is below this fraction of its standard uncertainty.
+    double step_tolerance = 1e-6;
+    /// Squared ratio of smallest to largest singular value of the column-scaled Jacobian below which the parameters
+    /// count as not determined.
+    double rank_tolerance = 1e-12;
+};
+
+struct SolveSummary {
+    bool converged = false;
+    int iterations = 0;
+    double chi_square = 0.0;  ///< vᵀ V⁻¹ v
+    std::string message;      ///< of the solver, for diagnostics
+};
+
+/// One free parameter of an adjustment.
+struct FreeParameter {
+    std::size_t block = 0;
+    int component = 0;
+    std::string name;
+};
+
+/// A group of observations, linearised and whitened with the Cholesky factor L of its covariance V = L Lᵀ.
+struct LinearisedGroup {
+    std::vector<Eigen::Index> columns;  ///< free parameters that the group depends on
+    Eigen::MatrixXd jacobian;           ///< L⁻¹ J, n×columns
+    Eigen::VectorXd residual;           ///< L⁻¹ (observed - predicted), n
+    Eigen::MatrixXd cholesky;           ///< L, n×n lower triangular
+};
+
+/// What is not determined by the observations.
+struct RankReport {
+    bool deficient = false;
+    double smallest_to_largest = 0.0;     ///< eigenvalue ratio of the column-scaled normal equations
+    std::vector<std::string> parameters;  ///< names of the parameters that take part in the undetermined combination
+};
+
+/// Normal equations of a linearised adjustment, kept in their bordered block-diagonal form.
+///
+/// Parameters are ordered border first, then the eliminated blocks one after the other; no observation group touches
+/// two eliminated blocks. Jᵀ V⁻¹ J is then block-diagonal with a border, and everything below costs a Schur complement
+/// of the size of the border.
+class NormalEquations {
+public:
+    [[nodiscard]] Eigen::Index parameter_count() const { return static_cast<Eigen::Index>(parameters_.size()); }
+    [[nodiscard]] const std::vector<FreeParameter>& parameters() const { return parameters_; }
+    [[nodiscard]] const std::vector<LinearisedGroup>& groups() const { return groups_; }
+    /// Index of a free parameter, or -1 when it is held.
+    [[nodiscard]] Eigen::Index column(std::size_t block, int component) const;
+
+    [[nodiscard]] RankReport rank(double tolerance) const;
+    /// (Jᵀ V⁻¹ J)⁻¹, p×p, order of `parameters()`; requires full rank.
+    [[nodiscard]] Eigen::MatrixXd covariance() const;
+    /// Gauss-Newton step (Jᵀ V⁻¹ J)⁻¹ Jᵀ V⁻¹ (observed - predicted), p.
+    [[nodiscard]] Eigen::VectorXd step() const;
+    /// Ratio of the largest to the smallest singular value of the whitened Jacobian with columns of unit length.
+    [[nodiscard]] double condition_number() const;
+    [[nodiscard]] double chi_square() const;
+    [[nodiscard]] Eigen::Index observation_count() const;
+
+private:
+    friend class Adjustment;
+    struct EliminatedBlock {
+        Eigen::Index first = 0;
+        Eigen::MatrixXd normal;  ///< size×size
+        Eigen::MatrixXd border;  ///< size×border columns
+    };
+    void accumulate();
+    [[nodiscard]] Eigen::MatrixXd reduced_normal(std::vector<Eigen::MatrixXd>* elimination) const;
+
+    std::vector<FreeParameter> parameters_;
+    std::vector<std::vector<Eigen::Index>> column_of_;  ///< per block and component
+    Eigen::Index border_ = 0;
+    std::vector<std::pair<Eigen::Index, Eigen::Index>> eliminated_;  ///< first column and size of each eliminated block
+    std::vector<LinearisedGroup> groups_;
+    Eigen::MatrixXd border_normal_;
+    std::vector<EliminatedBlock> blocks_;
+};
+
+/// Least-squares adjustment with correlated groups of observations and groups of pseudo-observations.
+///
+/// Minimises Σ_g (l_g - f_g(x))ᵀ V_g⁻¹ (l_g - f_g(x)) (generalised least squares; JCGM 102:2011 calls the result a
+/// multivariate, implicitly defined measurement model). Solved by Ceres with the eliminated blocks as the first group
+/// of the Schur complement, on one thread, then finished by Gauss-Newton steps on the exact normal equations until the
+/// next step is negligible against the standard uncertainties: tolerances of a general solver are not evidence.
+class Adjustment {
+public:
+    using BlockId = std::size_t;
+    using GroupId = std::size_t;
+
+    /// \param names       one name a component, as messages say it ("station P1, x")
+    /// \param eliminated  true for many small blocks of which no two meet in one group
+    BlockId add_parameters(std::vector<std::string> names, Eigen::VectorXd start, bool eliminated = false);
+    /// Keep a component at its present value.
+    void hold(BlockId block, int component);
+
+    /// \param observed    n values
+    /// \param covariance  V, n×n, positive definite
+    GroupId add_observations(std::shared_ptr<const ObservationModel> model, std::vector<BlockId> blocks,
+                             Eigen::VectorXd observed, const Eigen::MatrixXd& covariance);
+    /// Pseudo-observations of components of one block: `observed` with covariance V (a prior, e.g. CMM coordinates).
+    GroupId add_prior(BlockId block, std::vector<int> components, Eigen::VectorXd observed,
+                      const Eigen::MatrixXd& covariance);
+    void set_covariance(GroupId group, const Eigen::MatrixXd& covariance);
+    void set_observed(GroupId group, Eigen::VectorXd observed) { groups_[group].observed = std::move(observed); }
+
+    [[nodiscard]] const Eigen::VectorXd& parameters(BlockId block) const { return blocks_[block].value; }
+    void set_parameters(BlockId block, Eigen::VectorXd value) { blocks_[block].value = std::move(value); }
+    /// Observed minus predicted of a group at the present parameters, not whitened.
+    [[nodiscard]] Eigen::VectorXd residual(GroupId group) const;
+    /// Derivatives of the predicted observations of a group with respect to one of its blocks, n×size, not whitened.
+    [[nodiscard]] Eigen::MatrixXd jacobian(GroupId group, BlockId block) const;
+
+    [[nodiscard]] NormalEquations linearise() const;
+    /// Solve from the present parameters.
+    [[nodiscard]] SolveSummary solve(const SolverOptions& options);
+    /// Gauss-Newton steps only, from parameters that are close already (new weights, one observation less).
+    [[nodiscard]] SolveSummary refine(const SolverOptions& options);
+    /// Add `step`, in the order of NormalEquations::parameters(), to the free parameters.
+    void apply(const NormalEquations& normal, const Eigen::VectorXd& step);
+
+private:
+    struct Block {
+        std::vector<std::string> names;
+        Eigen::VectorXd value;
+        std::vector<bool> held;
+        bool eliminated = false;
+    };
+    struct Group {
+        std::shared_ptr<const ObservationModel> model;
+        std::vector<BlockId> blocks;
+        Eigen::VectorXd observed;
+        Eigen::MatrixXd cholesky;
+    };
+    class WhitenedCost;
+
+    std::vector<Block> blocks_;
+    std::vector<Group> groups_;
+};
+
+}  // namespace gumcert::engine
