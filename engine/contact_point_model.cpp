@@ -1,0 +1,51 @@
+#include "engine/contact_point_model.h"
+
+namespace gumcert::engine {
+
+ContactPointModel::ContactPointModel(std::shared_ptr<const gum::MeasurementModel> table,
+                                     const RotaryTableMeasurement& measurement, const DatumSolution& datum,
+                                     const Eigen::Vector3d& contact_point)
+    : table_(std::move(table)), measurement_(measurement), contact_point_(contact_point) {
+    const Eigen::Index angles = datum.errors.cols();
+    const DatumSolution average =
+        transform_to_datum(measurement, datum.errors, rigid_motion(datum.set_up), Datum::axis_average_line);
+    Eigen::Matrix<double, 3, 6> displacement;  // [I, -c×]
+    displacement << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero();
+    const Eigen::Vector3d& c = contact_point_;
+    displacement.rightCols<3>() << 0.0, c[2], -c[1], -c[2], 0.0, c[0], c[1], -c[0], 0.0;
+    map_.resize(3 * angles, 6 * angles);
+    for (Eigen::Index i = 0; i < angles; ++i) {
+        map_.middleRows<3>(3 * i) = displacement * average.error_map.middleRows<6>(6 * i);
+        for (int k = 0; k < 3; ++k) {
+            outputs_.push_back(
+                {std::string("displacement ") + "xyz"[k] + " at angle number " + std::to_string(i + 1), "m"});
+        }
+    }
+}
+
+DatumSolution ContactPointModel::on_average_line(const Eigen::VectorXd& reported) const {
+    const auto angles = static_cast<Eigen::Index>(measurement_.angles.size());
+    const auto across = across_axis(measurement_.axis);
+    Eigen::Matrix<double, 6, 1> set_up = Eigen::Matrix<double, 6, 1>::Zero();
+    for (int c = 0; c < 2; ++c) {
+        set_up[across[static_cast<std::size_t>(c)]] = reported[6 * angles + c];
+        set_up[3 + across[static_cast<std::size_t>(c)]] = reported[6 * angles + 2 + c];
+    }
+    return transform_to_datum(measurement_, reported.head(6 * angles).reshaped(6, angles), rigid_motion(set_up),
+                              Datum::axis_average_line);
+}
+
+Eigen::VectorXd ContactPointModel::evaluate(const Eigen::VectorXd& x) const {
+    const DatumSolution average = on_average_line(table_->evaluate(x));
+    Eigen::VectorXd displacement(3 * average.errors.cols());
+    for (Eigen::Index i = 0; i < average.errors.cols(); ++i) {
+        displacement.segment<3>(3 * i) = rigid_motion(average.errors.col(i)) * contact_point_ - contact_point_;
+    }
+    return displacement;
+}
+
+Eigen::MatrixXd ContactPointModel::jacobian(const Eigen::VectorXd& x) const {
+    return map_ * table_->jacobian(x).topRows(map_.cols());
+}
+
+}  // namespace gumcert::engine
