@@ -1,0 +1,683 @@
+#include "reports/certificate_view.h"
+
+#include "gum/quantity/diagnostic.h"
+#include "reports/certificate_plots.h"
+#include "reports/record/canonical_json.h"
+#include "reports/svg_plot.h"
+#include "reports/wording.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gumcert::reports {
+
+namespace {
+
+using nlohmann::json;
+
+/// A number of the record that has no printed form of its own: shortest text, U+2212 as minus sign.
+std::string plain(double v) {
+    std::array<char, 64> buffer{};
+    char* const last = buffer.data() + buffer.size();
+    const bool ordinary = v == 0.0 || (std::abs(v) >= 1e-7 && std::abs(v) < 1e12);
+    const auto end = (ordinary ? std::to_chars(buffer.data(), last, v, std::chars_format::fixed)
+                               : std::to_chars(buffer.data(), last, v))
+                         .ptr;
+    std::string text(buffer.data(), end);
+    return !text.empty() && text.front() == '-' ? "\u2212" + text.substr(1) : text;
+}
+
+std::string plain(std::int64_t v) {
+    return std::to_string(v);
+}
+
+/// A coverage factor or a redundancy, rounded for display.
+std::string fixed(double v, int decimals) {
+    std::array<char, 512> buffer{};
+    const auto end =
+        std::to_chars(buffer.data(), buffer.data() + buffer.size(), v, std::chars_format::fixed, decimals).ptr;
+    return {buffer.data(), end};
+}
+
+/// Degrees of freedom as documents state them: the next lower whole number (JCGM 100:2008, G.4.1, note 1).
+std::string whole_below(double v) {
+    return fixed(std::floor(v), 0);
+}
+
+struct Column {
+    std::string head;
+    std::string unit;
+    bool number = false;
+};
+
+std::string align_of(const Column& column) {
+    return column.number ? "number" : "left";
+}
+
+/// Position of the decimal sign, or the end; only plain decimal numbers take part in the alignment.
+std::optional<std::size_t> fraction_length(const std::string& text) {
+    if (text.empty() || text.find_first_not_of("0123456789.\u2212-+ ") != std::string::npos) {
+        return std::nullopt;
+    }
+    const std::size_t point = text.find('.');
+    return point == std::string::npos ? 0 : text.size() - point;
+}
+
+/// Collects sections and blocks, and numbers tables and figures.
+class Builder {
+public:
+    explicit Builder(const Wording& wording) : wording_(wording) {}
+    json sections = json::array();
+
+    void section(const std::string& id) {
+        sections.push_back({{"id", id}, {"heading", wording_("heading", id)}, {"blocks", json::array()}});
+    }
+
+    void paragraph(const std::string& text) { block("paragraph", {{"text", printable(text)}}); }
+    void formula(const std::string& text) { block("formula", {{"text", text}}); }
+
+    void definitions(const std::vector<std::pair<std::string, std::string>>& rows) {
+        json all = json::array();
+        for (const auto& [label, value] : rows) {
+            all.push_back({{"label", label}, {"value", printable(value)}});
+        }
+        block("definitions", {{"rows", all}});
+    }
+
+    void figure(const std::string& caption, const Plot& plot) {
+        block("figure", {{"id", plot.id},
+                         {"number", wording_("document", "figure") + " " + std::to_string(++figures_)},
+                         {"caption", printable(caption)},
+                         {"alt", printable(plot.description)},
+                         {"svg", svg(plot)}});
+    }
+
+    void table(const std::string& id, const std::string& caption, const std::vector<Column>& columns,
+               const std::vector<std::vector<std::string>>& rows,
+               const std::vector<std::pair<std::string, std::size_t>>& groups = {}) {
+        std::vector<std::size_t> longest(columns.size(), 0);
+        for (const auto& row : rows) {
+            for (std::size_t c = 0; c < columns.size(); ++c) {
+                longest[c] = std::max(longest[c], fraction_length(row[c]).value_or(0));
+            }
+        }
+        json heads = json::array();
+        for (const Column& column : columns) {
+            heads.push_back({{"head", printable(column.head)},
+                             {"unit", column.unit.empty() ? json::array() : json::array({{{"text", column.unit}}})},
+                             {"align", align_of(column)}});
+        }
+        json lines = json::array();
+        for (const auto& row : rows) {
+            json cells = json::array();
+            for (std::size_t c = 0; c < columns.size(); ++c) {
+                std::string pad;
+                if (const auto length = fraction_length(row[c]); columns[c].number && length && *length < longest[c]) {
+                    pad = (*length == 0 ? "." : "") + std::string(longest[c] - std::max<std::size_t>(*length, 1), '0');
+                }
+                const std::string text = row[c].empty() ? wording_("document", "absent") : printable(row[c]);
+                cells.push_back({{"text", text}, {"pad", pad}, {"align", align_of(columns[c])}});
+            }
+            lines.push_back({{"cells", std::move(cells)}});
+        }
+        json spans = json::array();
+        for (const auto& [text, span] : groups) {
+            spans.push_back({{"text", text}, {"span", std::to_string(span)}});
+        }
+        block("table", {{"id", id},
+                        {"number", wording_("document", "table") + " " + std::to_string(++tables_)},
+                        {"caption", printable(caption)},
+                        {"columns", std::move(heads)},
+                        {"groups", spans.empty() ? json::array() : json::array({{{"cells", std::move(spans)}}})},
+                        {"rows", std::move(lines)}});
+    }
+
+private:
+    const Wording& wording_;
+    int tables_ = 0;
+    int figures_ = 0;
+
+    void block(const char* kind, json content) {
+        json entry = {{"paragraph", json::array()},
+                      {"formula", json::array()},
+                      {"definitions", json::array()},
+                      {"figure", json::array()},
+                      {"table", json::array()}};
+        entry[kind].push_back(std::move(content));
+        sections.back()["blocks"].push_back(std::move(entry));
+    }
+};
+
+std::string coordinate_of(const std::string& axis) {
+    return axis == "A" ? "x" : axis == "B" ? "y" : "z";
+}
+
+/// "µm" or "″" of a unit of the record.
+std::string printed_unit(const std::string& unit) {
+    if (unit == "um") {
+        return "µm";
+    }
+    if (unit == "arcsec") {
+        return "″";
+    }
+    return unit;
+}
+
+void budget_table(Builder& builder, const Wording& words, const std::string& id, const std::string& caption,
+                  const std::vector<BudgetRow>& budget) {
+    std::vector<std::vector<std::string>> rows;
+    for (const BudgetRow& row : budget) {
+        rows.push_back({row.input, row.source, row.type, row.distribution,
+                        row.nu ? whole_below(*row.nu) : words("document", "infinite"), row.printed.u,
+                        printed_unit(row.unit), row.printed.contribution, row.printed.share});
+    }
+    builder.table(id, caption,
+                  {{words("label", "input"), ""},
+                   {words("label", "source"), ""},
+                   {words("label", "type"), ""},
+                   {words("label", "distribution"), ""},
+                   {words("label", "nu"), "", true},
+                   {words("label", "u"), "", true},
+                   {words("label", "unit"), ""},
+                   {words("label", "contribution"), "", true},
+                   {words("label", "share"), "%", true}},
+                  rows);
+}
+
+void identification(Builder& builder, const Wording& words, const EvaluationRecord& record) {
+    builder.section("identification");
+    std::vector<std::pair<std::string, std::string>> rows = {
+        {words("label", "title"), record.title}, {words("label", "kind"), words("value", "kind", record.kind)}};
+    if (record.rotary) {
+        const RotaryTable& r = *record.rotary;
+        rows.emplace_back(words("label", "axis"), r.axis);
+        rows.emplace_back(words("label", "angles"), std::to_string(r.errors.size()));
+        rows.emplace_back(words("label", "home"), plain(r.home_angle_deg) + "°");
+        rows.emplace_back(words("label", "datum"), words("value", "datum", r.datum));
+        rows.emplace_back(words("label", "method"), words("value", "method", r.method));
+    }
+    rows.emplace_back(words("label", "coverage"), record.printed_coverage);
+    rows.emplace_back(words("label", "software"), record.software.name + " " + record.software.version);
+    rows.emplace_back(words("label", "commit"), record.software.commit);
+    builder.definitions(rows);
+}
+
+void conventions(Builder& builder, const Wording& words, const RotaryTable& r) {
+    const std::string coordinate = coordinate_of(r.axis);
+    builder.section("conventions");
+    builder.paragraph(words("sentence", "datum_" + r.datum));
+    builder.paragraph(words.fill("frames", {{"letter", r.axis}, {"coordinate", coordinate}}));
+    builder.formula(words.fill("formula_pose", {{"coordinate", coordinate}}));
+    builder.formula(words("sentence", "formula_errors"));
+    builder.formula(words("sentence", "formula_set_up"));
+    builder.formula(words("sentence", "formula_length"));
+    builder.paragraph(words("sentence", "signs"));
+    static constexpr std::array<const char*, 6> k_symbols = {"d_x", "d_y", "d_z", "e_a", "e_b", "e_c"};
+    static constexpr std::array<const char*, 3> k_coordinates = {"x", "y", "z"};
+    std::vector<std::pair<std::string, std::string>> rows;
+    for (std::size_t i = 0; i < 6; ++i) {
+        const std::string along = k_coordinates[i % 3];
+        const bool axial = along == coordinate;
+        const char* kind =
+            i < 3 ? (axial ? "linear_along" : "linear_across") : (axial ? "angular_about" : "angular_tilt");
+        rows.emplace_back(r.error_names[i],
+                          std::string(k_symbols[i]) + ": " + words.filled("value", kind, {{"coordinate", along}}));
+    }
+    builder.paragraph(words("sentence", "error_names"));
+    builder.definitions(rows);
+}
+
+void set_up(Builder& builder, const Wording& words, const RotaryTable& r) {
+    builder.section("set_up");
+    builder.paragraph(words("sentence", "set_up_signs"));
+    static constexpr std::array<const char*, 3> k_coordinates = {"x", "y", "z"};
+    std::vector<std::vector<std::string>> rows;
+    for (const bool linear : {true, false}) {
+        const auto& fixture = linear ? r.set_up.printed_O : r.set_up.printed_S;
+        const auto& axis = linear ? r.axis_in_fixture.printed_O : r.axis_in_fixture.printed_S;
+        for (std::size_t i = 0; i < 3; ++i) {
+            rows.push_back({std::string(linear ? "O_" : "S_") + k_coordinates[i], fixture[i].value, axis[i].value,
+                            fixture[i].U, fixture[i].unit, fixed(r.set_up.k, 2)});
+        }
+    }
+    builder.table("set-up", words("heading", "set_up") + ".",
+                  {{words("label", "quantity"), ""},
+                   {words("label", "set_up"), "", true},
+                   {words("label", "axis_in_fixture"), "", true},
+                   {words("label", "U"), "", true},
+                   {words("label", "unit"), ""},
+                   {words("label", "k"), "", true}},
+                  rows);
+}
+
+void ranges(Builder& builder, const Wording& words, const RotaryTable& r) {
+    builder.paragraph(words("sentence", "ranges"));
+    builder.paragraph(words("sentence", r.reversal.empty() ? "no_reversal" : "reversal"));
+    std::vector<std::vector<std::string>> rows;
+    for (std::size_t i = 0; i < 6; ++i) {
+        std::vector<std::string> row = {r.error_names[i], "", "", "", "", printed_unit(r.error_units[i])};
+        for (const RangeRow& range : r.ranges) {
+            if (range.name == r.error_names[i]) {
+                row[1] = range.printed.value;
+                row[2] = range.printed.U;
+            }
+        }
+        for (const Reversal& reversal : r.reversal) {
+            if (reversal.name == r.error_names[i]) {
+                row[3] = reversal.value.printed.value;
+                row[4] = reversal.value.printed.U;
+            }
+        }
+        rows.push_back(std::move(row));
+    }
+    builder.table("ranges", words("label", "range") + ", " + words("label", "reversal") + ".",
+                  {{words("label", "quantity"), ""},
+                   {words("label", "range"), "", true},
+                   {words("label", "U"), "", true},
+                   {words("label", "reversal"), "", true},
+                   {words("label", "U"), "", true},
+                   {words("label", "unit"), ""}},
+                  rows);
+}
+
+void error_motions(Builder& builder, const Wording& words, const RotaryTable& r) {
+    builder.section("error_motions");
+    ranges(builder, words, r);
+    builder.figure(words("sentence", "figure_errors"), error_motion_plot(r, words));
+    std::vector<Column> columns = {{words("label", "angle"), "°", true}};
+    std::vector<std::pair<std::string, std::size_t>> groups = {{"", 1}};
+    for (std::size_t i = 0; i < 6; ++i) {
+        const std::string unit = printed_unit(r.error_units[i]);
+        columns.push_back({words("label", "value"), unit, true});
+        columns.push_back({words("label", "U"), unit, true});
+        groups.emplace_back(r.error_names[i], 2);
+    }
+    std::vector<std::vector<std::string>> rows;
+    for (const ErrorsAtAngle& at : r.errors) {
+        std::vector<std::string> row = {at.printed_angle};
+        for (const ErrorValue& e : at.errors) {
+            row.push_back(e.printed.value);
+            row.push_back(e.printed.U);
+        }
+        rows.push_back(std::move(row));
+    }
+    builder.table("errors", words("sentence", "table_errors"), columns, rows, groups);
+}
+
+void results(Builder& builder, const Wording& words, const EvaluationRecord& record) {
+    builder.section("results");
+    std::vector<std::vector<std::string>> rows;
+    for (const Result& r : record.results) {
+        rows.push_back({r.name, r.description, r.printed.value, r.printed.U, r.printed.unit, fixed(r.k, 2),
+                        r.nu_eff ? whole_below(*r.nu_eff) : words("document", "infinite")});
+    }
+    builder.table("results", words("sentence", "results_list"),
+                  {{words("label", "name"), ""},
+                   {words("label", "description"), ""},
+                   {words("label", "value"), "", true},
+                   {words("label", "U"), "", true},
+                   {words("label", "unit"), ""},
+                   {words("label", "k"), "", true},
+                   {words("label", "nu_eff"), "", true}},
+                  rows);
+}
+
+/// Least and greatest coverage factor and effective degrees of freedom of everything that is reported.
+struct Coverage {
+    double k_low = 0.0, k_high = 0.0;
+    std::optional<double> nu_low, nu_high;  ///< none = infinite
+    bool any = false;
+
+    void add(double k, const std::optional<double>& nu) {
+        const auto less = [](const std::optional<double>& a, const std::optional<double>& b) {
+            return a && (!b || *a < *b);
+        };
+        if (!any) {
+            k_low = k_high = k;
+            nu_low = nu_high = nu;
+        }
+        any = true;
+        k_low = std::min(k_low, k);
+        k_high = std::max(k_high, k);
+        nu_low = less(nu, nu_low) ? nu : nu_low;
+        nu_high = less(nu_high, nu) ? nu : nu_high;
+    }
+};
+
+void uncertainty(Builder& builder, const Wording& words, const EvaluationRecord& record) {
+    builder.section("uncertainty");
+    Coverage coverage;
+    if (record.rotary) {
+        for (const ErrorsAtAngle& at : record.rotary->errors) {
+            for (const ErrorValue& e : at.errors) {
+                if (!e.printed.U.empty()) {
+                    coverage.add(e.k, e.nu_eff);
+                }
+            }
+        }
+    }
+    for (const Result& r : record.results) {
+        coverage.add(r.k, r.nu_eff);
+    }
+    if (coverage.any) {
+        const std::string low = fixed(coverage.k_low, 2);
+        const std::string high = fixed(coverage.k_high, 2);
+        const auto nu = [&](const std::optional<double>& v) {
+            return v ? whole_below(*v) : words("document", "infinite");
+        };
+        const std::string nu_low = nu(coverage.nu_low);
+        const std::string nu_high = nu(coverage.nu_high);
+        const std::string k =
+            low == high ? words.fill("k_one", {{"k", low}}) : words.fill("k_between", {{"low", low}, {"high", high}});
+        const std::string nu_eff = nu_low == nu_high ? words.fill("nu_one", {{"nu", nu_low}})
+                                                     : words.fill("nu_between", {{"low", nu_low}, {"high", nu_high}});
+        const std::string reason =
+            coverage.nu_low ? words.fill("student", {{"nu_eff", nu_eff}}) : words("sentence", "normal");
+        builder.paragraph(
+            words.fill("uncertainty", {{"k", k}, {"reason", reason}, {"coverage", record.printed_coverage}}));
+    }
+    builder.paragraph(words("sentence", "validity"));
+    if (record.rotary && !record.rotary->budget_summary.empty()) {
+        const RotaryTable& r = *record.rotary;
+        std::vector<Column> columns = {
+            {words("label", "quantity"), ""}, {words("label", "rms_u"), "", true}, {words("label", "unit"), ""}};
+        for (const std::string& source : r.budget_sources) {
+            columns.push_back({source, "%", true});
+        }
+        std::vector<std::vector<std::string>> rows;
+        for (const BudgetSummaryRow& row : r.budget_summary) {
+            std::vector<std::string> line = {row.quantity, row.printed_rms_u, printed_unit(row.unit)};
+            line.insert(line.end(), row.printed_shares.begin(), row.printed_shares.end());
+            rows.push_back(std::move(line));
+        }
+        builder.table("budget-summary", words("sentence", "budget_summary"), columns, rows);
+    }
+    for (std::size_t i = 0; i < record.results.size(); ++i) {
+        if (!record.results[i].budget.empty()) {
+            budget_table(builder, words, "budget-" + std::to_string(i),
+                         words.fill("budget_result", {{"name", record.results[i].name}}), record.results[i].budget);
+        }
+    }
+    if (record.rotary && record.rotary->covariance_file) {
+        builder.paragraph(words.fill("covariance", {{"file", *record.rotary->covariance_file}}));
+    }
+}
+
+void adjustment(Builder& builder, const Wording& words, const RotaryTable& r) {
+    const AdjustmentSummary& a = r.adjustment;
+    builder.section("adjustment");
+    builder.paragraph(words("sentence", "adjustment"));
+    builder.definitions(
+        {{words("label", "method"), words("value", "method", a.method)},
+         {words("label", "observations"), plain(a.observations)},
+         {words("label", "parameters"), plain(a.parameters)},
+         {words("label", "degrees_of_freedom"), plain(a.degrees_of_freedom)},
+         {words("label", "chi_square"), a.printed.chi_square},
+         {words("label", "p_value"), a.printed.p_value},
+         {words("label", "variance_factor"), a.printed.variance_factor},
+         {words("label", "variance_factor_used"), words("value", "variance_factor", a.variance_factor.used)},
+         {words("label", "condition_number"), a.printed.condition_number},
+         {words("label", "iterations"), plain(a.iterations)}});
+    std::vector<std::vector<std::string>> rows;
+    for (const VarianceComponent& v : r.variance_components) {
+        rows.push_back({v.name, v.printed.value, v.printed.U, v.printed.unit, fixed(v.redundancy, 1),
+                        words("value", v.estimated ? "estimated" : "given")});
+    }
+    if (!rows.empty()) {
+        builder.table("variance-components", words("sentence", "variance_components"),
+                      {{words("label", "component"), ""},
+                       {words("label", "standard_deviation"), "", true},
+                       {words("label", "its_u"), "", true},
+                       {words("label", "unit"), ""},
+                       {words("label", "redundancy"), "", true},
+                       {words("label", "origin"), ""}},
+                      rows);
+    }
+    const std::string alpha = plain(r.outlier_alpha);
+    if (r.flagged.empty()) {
+        if (!r.printed_critical_value.empty()) {
+            builder.paragraph(words.fill("no_flagged", {{"critical", r.printed_critical_value}, {"alpha", alpha}}));
+        }
+        return;
+    }
+    rows.clear();
+    for (const FlaggedDistance& f : r.flagged) {
+        rows.push_back({f.station, f.reflector, f.pass, f.angle, f.residual_um, f.test_value,
+                        words("value", f.removed ? "removed" : "kept")});
+    }
+    builder.table("flagged", words.fill("flagged", {{"critical", r.printed_critical_value}, {"alpha", alpha}}),
+                  {{words("label", "station"), ""},
+                   {words("label", "reflector"), ""},
+                   {words("label", "pass"), ""},
+                   {words("label", "angle"), "°", true},
+                   {words("label", "residual"), "µm", true},
+                   {words("label", "test_value"), "", true},
+                   {words("label", "action"), ""}},
+                  rows);
+}
+
+/// name, then value and U of each coordinate
+std::vector<std::string> coordinates(const std::string& name, const std::vector<std::string>& position,
+                                     const std::vector<std::string>& U) {
+    std::vector<std::string> row = {name};
+    for (std::size_t c = 0; c < 3; ++c) {
+        row.push_back(c < position.size() ? position[c] : "");
+        row.push_back(c < U.size() ? U[c] : "");
+    }
+    return row;
+}
+
+std::vector<Column> coordinate_columns(const Wording& words, const std::string& first) {
+    std::vector<Column> columns = {{first, ""}};
+    for (const char* c : {"x", "y", "z"}) {
+        columns.push_back({c, "mm", true});
+        columns.push_back({words("label", "U"), "mm", true});
+    }
+    return columns;
+}
+
+void geometry(Builder& builder, const Wording& words, const RotaryTable& r) {
+    builder.section("geometry");
+    std::vector<std::vector<std::string>> rows;
+    for (const Station& s : r.stations) {
+        rows.push_back(coordinates(s.name, s.printed_position, s.printed_U));
+        rows.back().push_back(s.printed_scale.value);
+        rows.back().push_back(s.printed_scale.U);
+    }
+    std::vector<Column> columns = coordinate_columns(words, words("label", "station"));
+    columns.push_back({words("label", "scale"), "10⁻⁶", true});
+    columns.push_back({words("label", "U"), "10⁻⁶", true});
+    builder.table("stations", words("sentence", "stations"), columns, rows);
+
+    rows.clear();
+    for (const DeadPath& d : r.dead_paths) {
+        rows.push_back({d.name, d.printed.value, d.printed.U});
+    }
+    builder.table("dead-paths", words("sentence", "dead_paths"),
+                  {{words("label", "dead_path"), ""}, {"l0", "mm", true}, {words("label", "U"), "mm", true}}, rows);
+
+    rows.clear();
+    for (const Reflector& m : r.reflectors) {
+        rows.push_back(coordinates(m.name, m.printed_position, m.printed_U));
+        for (std::size_t c = 0; c < 3; ++c) {
+            rows.back().push_back(c < m.printed_correction.size() ? m.printed_correction[c] : "");
+        }
+    }
+    columns = coordinate_columns(words, words("label", "reflector"));
+    for (const char* c : {"Δx", "Δy", "Δz"}) {
+        columns.push_back({c, "µm", true});
+    }
+    builder.table("reflectors", words("sentence", "reflectors"), columns, rows);
+}
+
+void comparison(Builder& builder, const Wording& words, const Comparison& c) {
+    builder.section("comparison");
+    builder.paragraph(words("sentence", "comparison"));
+    std::vector<std::pair<std::string, std::string>> rows = {{words("label", "reference_method"), c.reference_name}};
+    if (c.contact_point_mm.size() == 3) {
+        rows.emplace_back(words("label", "contact_point"), "(" + plain(c.contact_point_mm[0]) + ", " +
+                                                               plain(c.contact_point_mm[1]) + ", " +
+                                                               plain(c.contact_point_mm[2]) + ") mm");
+    }
+    builder.definitions(rows);
+    std::vector<std::vector<std::string>> lines;
+    for (const ComparisonSummary& s : c.summary) {
+        lines.push_back({s.direction == "all" ? words("label", "all") : s.direction, plain(s.points),
+                         s.printed.mean_abs_En, s.printed.max_abs_En, s.printed.rms_En, plain(s.count_above_1)});
+    }
+    builder.table("comparison-summary", words("sentence", "comparison_summary"),
+                  {{words("label", "direction"), ""},
+                   {words("label", "points"), "", true},
+                   {words("label", "mean_abs_En"), "", true},
+                   {words("label", "max_abs_En"), "", true},
+                   {words("label", "rms_En"), "", true},
+                   {words("label", "count_above_1"), "", true}},
+                  lines);
+    for (const std::string& remark : c.remarks) {
+        builder.paragraph(remark);
+    }
+    if (!c.points.empty()) {
+        builder.figure(words("sentence", "figure_En"), En_plot(c, words));
+        builder.figure(words("sentence", "figure_displacement"), displacement_plot(c, words));
+    }
+    if (!c.reference_budget.empty()) {
+        budget_table(builder, words, "reference-budget", words("sentence", "reference_budget"), c.reference_budget);
+    }
+    lines.clear();
+    for (const ComparisonPoint& p : c.points) {
+        lines.push_back({p.direction, p.printed.angle, p.printed.value, p.printed.U, p.printed.reference_value,
+                         p.printed.reference_U, p.printed.D, p.printed.U_D, p.printed.En});
+    }
+    builder.table("comparison-points", words("sentence", "comparison_points"),
+                  {{words("label", "direction"), ""},
+                   {words("label", "angle"), "°", true},
+                   {words("label", "measured"), "µm", true},
+                   {words("label", "U"), "µm", true},
+                   {words("label", "reference"), "µm", true},
+                   {words("label", "U"), "µm", true},
+                   {words("label", "difference"), "µm", true},
+                   {"U(D)", "µm", true},
+                   {words("label", "En"), "", true}},
+                  lines);
+}
+
+void messages(Builder& builder, const Wording& words, const std::vector<gum::Diagnostic>& diagnostics) {
+    builder.section("messages");
+    builder.paragraph(words("sentence", "messages"));
+    static constexpr std::array<const char*, 3> k_severities = {"note", "warning", "error"};
+    std::vector<std::pair<std::string, std::string>> rows;
+    for (const gum::Diagnostic& d : diagnostics) {
+        rows.emplace_back(
+            words("value", "severity", k_severities.at(static_cast<std::size_t>(d.severity))) + " " + printable(d.code),
+            gum::message(d));
+    }
+    builder.definitions(rows);
+}
+
+void input(Builder& builder, const Wording& words, const EvaluationRecord& record) {
+    builder.section("input");
+    std::vector<std::vector<std::string>> rows;
+    for (const InputFile& file : record.job_files) {
+        rows.push_back({file.name, file.sha256});
+    }
+    builder.table("files", words("sentence", "files"), {{words("label", "file"), ""}, {words("label", "sha256"), ""}},
+                  rows);
+}
+
+}  // namespace
+
+std::string printable(const std::string& text) {
+    static constexpr const char* k_replacement = "\uFFFD";
+    std::string out;
+    std::size_t i = 0;
+    while (i < text.size()) {
+        const auto lead = static_cast<unsigned char>(text[i]);
+        std::size_t length = 1;
+        if (lead >= 0xC2 && lead < 0xE0) {
+            length = 2;
+        } else if (lead >= 0xE0 && lead < 0xF0) {
+            length = 3;
+        } else if (lead >= 0xF0) {
+            length = 4;
+        }
+        const std::string character = text.substr(i, length);
+        if (!is_utf8(character)) {
+            out += k_replacement;
+            ++i;
+            continue;
+        }
+        i += character.size();
+        const auto from_to = [&](const char* low, const char* high) { return character >= low && character <= high; };
+        if (character == "\n" || character == "\t") {
+            out += ' ';
+        } else if (lead < 0x20 || lead == 0x7F || from_to("\u0080", "\u009F") || from_to("\u200E", "\u200F") ||
+                   from_to("\u2028", "\u202E") || from_to("\u2066", "\u2069") || character == "\uFEFF" ||
+                   character == "\u061C" || character == "\uFFFE" || character == "\uFFFF") {
+            out += k_replacement;
+        } else {
+            out += character;
+        }
+    }
+    return out;
+}
+
+std::string shortened(const std::string& text, std::size_t most) {
+    std::size_t characters = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool starts = (static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U;
+        if (starts && characters++ == most) {
+            return text.substr(0, i) + "…";
+        }
+    }
+    return text;
+}
+
+nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::json& wording) {
+    const Wording words(wording);
+    Builder builder(words);
+    identification(builder, words, record);
+    if (record.rotary) {
+        conventions(builder, words, *record.rotary);
+        set_up(builder, words, *record.rotary);
+        error_motions(builder, words, *record.rotary);
+    } else if (!record.results.empty()) {
+        results(builder, words, record);
+    }
+    uncertainty(builder, words, record);
+    if (record.rotary) {
+        adjustment(builder, words, *record.rotary);
+        geometry(builder, words, *record.rotary);
+    }
+    if (record.comparison) {
+        comparison(builder, words, *record.comparison);
+    }
+    if (!record.diagnostics.empty()) {
+        messages(builder, words, record.diagnostics);
+    }
+    input(builder, words, record);
+
+    const std::string title = printable(record.title);
+    return {{"language", words.language()},
+            {"type", words("document", "type")},
+            {"mark", words("document", "mark")},
+            {"mark_reason", words("document", "mark_reason")},
+            {"title", title},
+            {"running_title", shortened(title, 80)},
+            {"page", words("document", "page")},
+            {"of", words("document", "of")},
+            {"end_mark", words("document", "end_mark")},
+            {"only_items", words("document", "only_items")},
+            {"sections", std::move(builder.sections)}};
+}
+
+}  // namespace gumcert::reports

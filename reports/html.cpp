@@ -1,0 +1,58 @@
+#include "gum/quantity/diagnostic.h"
+#include "reports/asset_files.h"
+#include "reports/certificate_view.h"
+#include "reports/render.h"
+
+#if defined(__GNUC__) && !defined(__clang__)
+// The copy constructor of kainjow's data holds pointers of which one is set; g++ 12 sees the others as dereferenced.
+#pragma GCC diagnostic ignored "-Wnull-dereference"
+#endif
+#include <kainjow/mustache.hpp>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <utility>
+
+namespace gumcert::reports {
+
+namespace {
+
+using kainjow::mustache::data;
+
+data to_mustache(const nlohmann::json& value) {
+    if (value.is_object()) {
+        data object{data::type::object};
+        for (const auto& [key, item] : value.items()) {
+            object.set(key, to_mustache(item));
+        }
+        return object;
+    }
+    if (value.is_array()) {
+        data list{data::type::list};
+        for (const nlohmann::json& item : value) {
+            list.push_back(to_mustache(item));
+        }
+        return list;
+    }
+    return data{value.get<std::string>()};
+}
+
+}  // namespace
+
+std::string render_html(const EvaluationRecord& record, const RenderAssets& assets) {
+    nlohmann::json view = certificate_view(record, read_wording(assets));
+    view["style"] = read_asset(assets.templates / "certificate.css");
+    const std::filesystem::path file = assets.templates / "certificate.html.mustache";
+    kainjow::mustache::mustache page{read_asset(file)};
+    std::string html = page.is_valid() ? page.render(to_mustache(view)) : std::string();
+    if (!page.is_valid()) {
+        throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0001",
+                                                .where = file.string(),
+                                                .what = page.error_message(),
+                                                .rule = "the template is Mustache",
+                                                .action = "take the templates of this release"});
+    }
+    return html;
+}
+
+}  // namespace gumcert::reports

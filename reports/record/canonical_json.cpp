@@ -1,0 +1,252 @@
+#include "reports/record/canonical_json.h"
+
+#include "gum/quantity/diagnostic.h"
+
+#include <nlohmann/json.hpp>
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace gumcert::reports {
+
+namespace {
+
+using nlohmann::json;
+
+[[noreturn]] void refuse(std::string code, const std::string& pointer, std::string what, std::string rule) {
+    throw gum::NoResultError(gum::Diagnostic{.code = std::move(code),
+                                             .where = "record#" + pointer,
+                                             .what = std::move(what),
+                                             .rule = std::move(rule),
+                                             .action = "nothing was written; check the input that leads to it"});
+}
+
+class Writer {
+public:
+    std::string text;
+
+    void value(const json& v, const std::string& pointer, std::size_t depth) {
+        if (depth > k_max_json_depth) {
+            refuse("GC-RECORD-0004", pointer, "nested deeper than " + std::to_string(k_max_json_depth) + " levels",
+                   "a record is at most that deep");
+        }
+        switch (v.type()) {
+            case json::value_t::object:
+                object(v, pointer, depth);
+                return;
+            case json::value_t::array:
+                array(v, pointer, depth);
+                return;
+            case json::value_t::string:
+                string(v.get_ref<const std::string&>(), pointer);
+                return;
+            case json::value_t::boolean:
+                text += v.get<bool>() ? "true" : "false";
+                return;
+            case json::value_t::number_integer:
+                number(v.get<std::int64_t>());
+                return;
+            case json::value_t::number_unsigned:
+                number(v.get<std::uint64_t>());
+                return;
+            case json::value_t::number_float:
+                real(v.get<double>(), pointer);
+                return;
+            case json::value_t::null:
+                text += "null";
+                return;
+            case json::value_t::binary:
+            case json::value_t::discarded:
+                break;
+        }
+        refuse("GC-RECORD-0003", pointer, "a value that JSON cannot hold", "a record is JSON");
+    }
+
+private:
+    template <class Number>
+    void number(Number v) {
+        char buffer[32];
+        const auto end = std::to_chars(buffer, buffer + sizeof buffer, v).ptr;
+        text.append(buffer, end);
+    }
+
+    void real(double v, const std::string& pointer) {
+        if (!std::isfinite(v)) {
+            refuse("GC-RECORD-0001", pointer, std::isnan(v) ? "not a number (NaN)" : "infinite",
+                   "every number of a record is finite");
+        }
+        if (v == 0.0 && std::signbit(v)) {
+            text += "-0.0";  // "-0" would be read back as the integer 0 and lose its sign
+            return;
+        }
+        constexpr double k_two_to_53 = 9007199254740992.0;
+        if (std::abs(v) >= k_two_to_53) {
+            // With an exponent, so that a reader never takes it for a whole number with more digits than a double
+            // holds.
+            char buffer[32];
+            const auto end = std::to_chars(buffer, buffer + sizeof buffer, v, std::chars_format::scientific).ptr;
+            text.append(buffer, end);
+            return;
+        }
+        number(v);
+    }
+
+    void string(std::string_view s, const std::string& pointer) {
+        static constexpr char k_hex[] = "0123456789abcdef";
+        if (!is_utf8(s)) {
+            refuse("GC-RECORD-0002", pointer, "text that is not valid UTF-8", "texts of a record are UTF-8");
+        }
+        text += '"';
+        for (const char c : s) {
+            switch (c) {
+                case '"':
+                    text += "\\\"";
+                    break;
+                case '\\':
+                    text += "\\\\";
+                    break;
+                case '\b':
+                    text += "\\b";
+                    break;
+                case '\f':
+                    text += "\\f";
+                    break;
+                case '\n':
+                    text += "\\n";
+                    break;
+                case '\r':
+                    text += "\\r";
+                    break;
+                case '\t':
+                    text += "\\t";
+                    break;
+                default:
+                    if (const auto byte = static_cast<unsigned char>(c); byte < 0x20 || byte == 0x7F) {
+                        text += "\\u00";
+                        text += k_hex[byte >> 4U];
+                        text += k_hex[byte & 0xFU];
+                    } else {
+                        text += c;
+                    }
+            }
+        }
+        text += '"';
+    }
+
+    void new_line(std::size_t depth) {
+        text += '\n';
+        text.append(depth, ' ');
+    }
+
+    void object(const json& v, const std::string& pointer, std::size_t depth) {
+        if (v.empty()) {
+            text += "{}";
+            return;
+        }
+        text += '{';
+        bool first = true;
+        for (const auto& [key, item] : v.items()) {  // a std::map: sorted by bytes, which for UTF-8 is by code point
+            if (!first) {
+                text += ',';
+            }
+            first = false;
+            new_line(depth + 1);
+            string(key, pointer);
+            text += ": ";
+            value(item, pointer + "/" + pointer_token(key), depth + 1);
+        }
+        new_line(depth);
+        text += '}';
+    }
+
+    void array(const json& v, const std::string& pointer, std::size_t depth) {
+        bool plain = true;
+        for (const json& item : v) {
+            plain = plain && !item.is_structured();
+        }
+        text += '[';
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            if (plain) {
+                text += i == 0 ? "" : ", ";
+            } else {
+                text += i == 0 ? "" : ",";
+                new_line(depth + 1);
+            }
+            value(v[i], pointer + "/" + std::to_string(i), depth + 1);
+        }
+        if (!plain) {
+            new_line(depth);
+        }
+        text += ']';
+    }
+};
+
+}  // namespace
+
+bool is_utf8(std::string_view text) {
+    std::size_t i = 0;
+    const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
+    while (i < text.size()) {
+        const unsigned lead = byte(i);
+        std::size_t more = 0;
+        unsigned low = 0x80;  // bounds of the second byte: they exclude overlong forms, surrogates, > U+10FFFF
+        unsigned high = 0xBF;
+        if (lead < 0x80) {
+            ++i;
+            continue;
+        }
+        if (lead >= 0xC2 && lead <= 0xDF) {
+            more = 1;
+        } else if (lead >= 0xE0 && lead <= 0xEF) {
+            more = 2;
+            low = lead == 0xE0 ? 0xA0 : low;
+            high = lead == 0xED ? 0x9F : high;
+        } else if (lead >= 0xF0 && lead <= 0xF4) {
+            more = 3;
+            low = lead == 0xF0 ? 0x90 : low;
+            high = lead == 0xF4 ? 0x8F : high;
+        } else {
+            return false;
+        }
+        if (more >= text.size() - i) {
+            return false;
+        }
+        if (byte(i + 1) < low || byte(i + 1) > high) {
+            return false;
+        }
+        for (std::size_t k = 2; k <= more; ++k) {
+            if ((byte(i + k) & 0xC0U) != 0x80U) {
+                return false;
+            }
+        }
+        i += more + 1;
+    }
+    return true;
+}
+
+std::string pointer_token(std::string_view key) {
+    std::string token;
+    for (const char c : key) {
+        if (c == '~') {
+            token += "~0";
+        } else if (c == '/') {
+            token += "~1";
+        } else {
+            token += c;
+        }
+    }
+    return token;
+}
+
+std::string canonical_json(const nlohmann::json& value) {
+    Writer writer;
+    writer.value(value, "", 0);
+    writer.text += '\n';
+    return std::move(writer.text);
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,1066 @@
+#include "reports/record/evaluation_record.h"
+
+#include "reports/record/canonical_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <initializer_list>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+namespace gumcert::reports {
+
+namespace {
+
+using nlohmann::json;
+
+enum class Range { any, not_negative, positive, probability };
+
+const char* rule_of(Range range) {
+    switch (range) {
+        case Range::not_negative:
+            return "must be 0 or greater";
+        case Range::positive:
+            return "must be greater than 0";
+        case Range::probability:
+            return "must lie between 0 and 1";
+        case Range::any:
+            break;
+    }
+    return "must be finite";
+}
+
+bool inside(double v, Range range) {
+    switch (range) {
+        case Range::not_negative:
+            return v >= 0.0;
+        case Range::positive:
+            return v > 0.0;
+        case Range::probability:
+            return v >= 0.0 && v <= 1.0;
+        case Range::any:
+            break;
+    }
+    return true;
+}
+
+std::string shortest(double v) {
+    std::string text = std::isnan(v) ? "NaN" : std::isinf(v) ? "infinity" : canonical_json(json(v));
+    if (!text.empty() && text.back() == '\n') {
+        text.pop_back();
+    }
+    return text;
+}
+
+template <class Type, class Whole>
+concept Is = std::same_as<std::remove_const_t<Type>, Whole>;
+
+// Each struct of the record is described once, by a function `describe(archive, value)`; the writer and the reader both
+// walk that description. So the two cannot disagree on a key.
+
+template <class Archive, Is<Printed> Struct>
+void describe(Archive& a, Struct& r) {
+    a("value", r.value);
+    a("U", r.U);
+    a("unit", r.unit);
+}
+
+template <class Archive, Is<BudgetRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("input", r.input);
+    a("value", r.value);
+    a("unit", r.unit);
+    a("u", r.u, Range::not_negative);
+    a("nu", r.nu, Range::positive);
+    a("type", r.type, {"A", "B"});
+    a("distribution", r.distribution);
+    a("sensitivity", r.sensitivity);
+    a("contribution", r.contribution, Range::not_negative);
+    a("share", r.share, Range::not_negative);
+    a("source", r.source);
+    a.group("printed", [&](auto& b) {
+        b("u", r.printed.u);
+        b("contribution", r.printed.contribution);
+        b("share", r.printed.share);
+    });
+}
+
+template <class Archive, Is<Result> Struct>
+void describe(Archive& a, Struct& r) {
+    a("description", r.description);
+    a("value", r.value);
+    a("unit", r.unit);
+    a("u", r.u, Range::not_negative);
+    a("nu_eff", r.nu_eff, Range::positive);
+    a("k", r.k, Range::positive);
+    a("coverage_probability", r.coverage_probability, Range::probability);
+    a("U", r.U, Range::not_negative);
+    a("distribution", r.distribution);
+    a("printed", r.printed);
+    a("budget", r.budget);
+}
+
+template <class Archive, Is<ErrorValue> Struct>
+void describe(Archive& a, Struct& r) {
+    a("value", r.value);
+    a("u", r.u, Range::not_negative);
+    a("U", r.U, Range::not_negative);
+    a("k", r.k, Range::positive);
+    a("nu_eff", r.nu_eff, Range::positive);
+    a("printed", r.printed);
+}
+
+template <class Archive, Is<SetUp> Struct>
+void describe(Archive& a, Struct& r) {
+    a("O_um", r.O_um);
+    a("S_arcsec", r.S_arcsec);
+    a("u_O_um", r.u_O_um, Range::not_negative);
+    a("u_S_arcsec", r.u_S_arcsec, Range::not_negative);
+    a("U_O_um", r.U_O_um, Range::not_negative);
+    a("U_S_arcsec", r.U_S_arcsec, Range::not_negative);
+    a("k", r.k, Range::positive);
+    a.group("printed", [&](auto& b) {
+        b("O", r.printed_O);
+        b("S", r.printed_S);
+    });
+}
+
+template <class Archive, Is<Reversal> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    describe(a, r.value);
+}
+
+template <class Archive, Is<Station> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("position_mm", r.position_mm);
+    a("u_mm", r.u_mm, Range::not_negative);
+    a("scale_deviation", r.scale_deviation);
+    a("u_scale", r.u_scale, Range::not_negative);
+    a.group("printed", [&](auto& b) {
+        b("position", r.printed_position);
+        b("U", r.printed_U);
+        b("scale", r.printed_scale);
+    });
+}
+
+template <class Archive, Is<DeadPath> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("value_mm", r.value_mm);
+    a("u_mm", r.u_mm, Range::not_negative);
+    a("printed", r.printed);
+}
+
+template <class Archive, Is<Reflector> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("position_mm", r.position_mm);
+    a("u_mm", r.u_mm, Range::not_negative);
+    a("correction_um", r.correction_um);
+    a.group("printed", [&](auto& b) {
+        b("position", r.printed_position);
+        b("U", r.printed_U);
+        b("correction", r.printed_correction);
+    });
+}
+
+template <class Archive, Is<BudgetSummaryRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("quantity", r.quantity);
+    a("rms_u", r.rms_u, Range::not_negative);
+    a("unit", r.unit);
+    a("shares", r.shares, Range::any);
+    a.group("printed", [&](auto& b) {
+        b("rms_u", r.printed_rms_u);
+        b("shares", r.printed_shares);
+    });
+}
+
+template <class Archive, Is<AdjustmentSummary> Struct>
+void describe(Archive& a, Struct& r) {
+    a("method", r.method, {"joint", "sequential"});
+    a("observations", r.observations);
+    a("parameters", r.parameters);
+    a("degrees_of_freedom", r.degrees_of_freedom);
+    a("iterations", r.iterations);
+    a("chi_square", r.chi_square, Range::not_negative);
+    a("p_value", r.p_value, Range::probability);
+    a("condition_number", r.condition_number, Range::not_negative);
+    a.group("variance_factor", [&](auto& b) {
+        b("a_priori", r.variance_factor.a_priori, Range::not_negative);
+        b("a_posteriori", r.variance_factor.a_posteriori, Range::not_negative);
+        b("used", r.variance_factor.used, {"a_priori", "a_posteriori"});
+    });
+    a.group("printed", [&](auto& b) {
+        b("chi_square", r.printed.chi_square);
+        b("p_value", r.printed.p_value);
+        b("variance_factor", r.printed.variance_factor);
+        b("condition_number", r.printed.condition_number);
+    });
+}
+
+template <class Archive, Is<VarianceComponent> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("value", r.value, Range::not_negative);
+    a("u", r.u, Range::not_negative);
+    a("unit", r.unit);
+    a("redundancy", r.redundancy);
+    a("estimated", r.estimated);
+    a("printed", r.printed);
+}
+
+template <class Archive, Is<ReliabilityRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("station", r.station);
+    a("reflector", r.reflector);
+    a("pass", r.pass);
+    a("angle_deg", r.angle_deg);
+    a("residual_um", r.residual_um);
+    a("redundancy_number", r.redundancy_number);
+    a("test_value", r.test_value);
+    a("minimal_detectable_bias_um", r.minimal_detectable_bias_um);
+    a("flagged", r.flagged);
+    a("removed", r.removed);
+}
+
+template <class Archive, Is<FlaggedDistance> Struct>
+void describe(Archive& a, Struct& r) {
+    a("station", r.station);
+    a("reflector", r.reflector);
+    a("pass", r.pass);
+    a("angle", r.angle);
+    a("residual_um", r.residual_um);
+    a("test_value", r.test_value);
+    a("removed", r.removed);
+}
+
+template <class Archive, Is<RangeRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("value", r.value, Range::not_negative);
+    a("U", r.U, Range::not_negative);
+    a("printed", r.printed);
+}
+
+template <class Archive, Is<ComparisonPoint> Struct>
+void describe(Archive& a, Struct& r) {
+    a("direction", r.direction, {"x", "y", "z"});
+    a("angle_deg", r.angle_deg);
+    a("value", r.value);
+    a("u", r.u, Range::not_negative);
+    a("U", r.U, Range::not_negative);
+    a("reference_value", r.reference_value);
+    a("reference_u", r.reference_u, Range::not_negative);
+    a("reference_U", r.reference_U, Range::not_negative);
+    a("D", r.D);
+    a("u_D", r.u_D, Range::not_negative);
+    a("U_D", r.U_D, Range::not_negative);
+    a("En", r.En);
+    a("zeta", r.zeta);
+    a.group("printed", [&](auto& b) {
+        b("angle", r.printed.angle);
+        b("value", r.printed.value);
+        b("U", r.printed.U);
+        b("reference_value", r.printed.reference_value);
+        b("reference_U", r.printed.reference_U);
+        b("D", r.printed.D);
+        b("U_D", r.printed.U_D);
+        b("En", r.printed.En);
+    });
+}
+
+template <class Archive, Is<ComparisonSummary> Struct>
+void describe(Archive& a, Struct& r) {
+    a("points", r.points);
+    a("count_above_1", r.count_above_1);
+    a("mean_abs_En", r.mean_abs_En, Range::not_negative);
+    a("max_abs_En", r.max_abs_En, Range::not_negative);
+    a("rms_En", r.rms_En, Range::not_negative);
+    a.group("printed", [&](auto& b) {
+        b("mean_abs_En", r.printed.mean_abs_En);
+        b("max_abs_En", r.printed.max_abs_En);
+        b("rms_En", r.printed.rms_En);
+    });
+}
+
+template <class Archive, Is<InputFile> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("sha256", r.sha256);
+}
+
+template <class Archive, Is<Software> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("version", r.version);
+    a("commit", r.commit);
+}
+
+template <class Archive, Is<gum::Diagnostic> Struct>
+void describe(Archive& a, Struct& r) {
+    a("code", r.code);
+    a("where", r.where);
+    a("what", r.what);
+    a("rule", r.rule);
+    a("action", r.action);
+    a.severity("severity", r.severity);
+}
+
+template <class Archive, Is<Comparison> Struct>
+void describe(Archive& a, Struct& r) {
+    a("reference_name", r.reference_name);
+    a("contact_point_mm", r.contact_point_mm, Range::any);
+    a("reference_budget", r.reference_budget);
+    a("points", r.points);
+    a.summary("summary", r.summary);
+    a("remarks", r.remarks);
+}
+
+template <class Archive, Is<RotaryTable> Struct>
+void describe(Archive& a, Struct& r) {
+    a("axis", r.axis, {"A", "B", "C"});
+    a("datum", r.datum, {"axis_average_line", "home"});
+    a("method", r.method, {"joint", "sequential"});
+    a("home_angle_deg", r.home_angle_deg);
+    a("error_names", r.error_names);
+    a("error_units", r.error_units);
+    a("set_up", r.set_up);
+    a("axis_in_fixture", r.axis_in_fixture);
+    a.errors("errors", r.errors, r);
+    a("reversal", r.reversal);
+    a("ranges", r.ranges);
+    a.group("covariance", [&](auto& b) {
+        b("file", r.covariance_file);
+        b("order", r.covariance_order);
+        b("unit", r.covariance_unit);
+    });
+    a("stations", r.stations);
+    a("dead_paths", r.dead_paths);
+    a("reflectors", r.reflectors);
+    a("budget_sources", r.budget_sources);
+    a.quantity_budgets("budget", r.budget, r.budget_sources);
+    a("budget_summary", r.budget_summary);
+    a("adjustment", r.adjustment);
+    a("variance_components", r.variance_components);
+    a("reliability", r.reliability);
+    a("flagged", r.flagged);
+    a.group("outlier_test", [&](auto& b) {
+        b("critical_value", r.outlier_critical_value, Range::not_negative);
+        b("alpha", r.outlier_alpha, Range::probability);
+        b("printed_critical_value", r.printed_critical_value);
+    });
+}
+
+template <class Archive, Is<EvaluationRecord> Struct>
+void describe(Archive& a, Struct& r) {
+    a.constant("schema", EvaluationRecord::k_schema);
+    a("kind", r.kind, {"budget", "rotary_table", "comparison"});
+    a("title", r.title);
+    a("software", r.software);
+    a("coverage_probability", r.coverage_probability, Range::probability);
+    a.group("printed", [&](auto& b) { b("coverage_probability", r.printed_coverage); });
+    a.group("job", [&](auto& b) {
+        b.document("document", r.job_json);
+        b("files", r.job_files);
+    });
+    a.document("options", r.options_json);
+    a.results("results", r.results);
+    a("rotary", r.rotary);
+    a("comparison", r.comparison);
+    a("diagnostics", r.diagnostics);
+    a.null("audit");  // the record of this version holds no audit
+}
+
+/// What must hold between the parts of a rotary table. Calls `report(pointer, what, rule)` for each breach.
+template <class Report>
+void check_rotary(const RotaryTable& r, const Report& report) {
+    static constexpr std::array<const char*, 6> k_stem = {"EX", "EY", "EZ", "EA", "EB", "EC"};
+    for (std::size_t i = 0; i < k_stem.size(); ++i) {
+        if (const std::string expected = k_stem[i] + r.axis; r.error_names[i] != expected) {
+            report(
+                "/error_names/" + std::to_string(i), '"' + r.error_names[i] + '"',
+                "the error motions of axis " + r.axis + " are named and ordered as in ISO 230-7: \"" + expected + '"');
+        }
+    }
+    const auto length = [&](const std::string& at, std::size_t found, std::size_t expected, const char* rule) {
+        if (found != expected) {
+            report(at, std::to_string(found) + " items", "must be " + std::to_string(expected) + ", " + rule);
+        }
+    };
+    if (std::set<std::string>(r.budget_sources.begin(), r.budget_sources.end()).size() != r.budget_sources.size()) {
+        report("/budget_sources", "a source is named twice", "every source has a name of its own");
+    }
+    for (std::size_t i = 0; i < r.budget.size(); ++i) {
+        length("/budget/" + std::to_string(i) + "/shares", r.budget[i].shares.size(), r.budget_sources.size(),
+               "one share a source");
+    }
+    for (std::size_t i = 0; i < r.budget_summary.size(); ++i) {
+        const std::string at = "/budget_summary/" + std::to_string(i);
+        length(at + "/shares", r.budget_summary[i].shares.size(), r.budget_sources.size(), "one share a source");
+        length(at + "/printed/shares", r.budget_summary[i].printed_shares.size(), r.budget_sources.size(),
+               "one share a source");
+    }
+    for (std::size_t i = 0; i < r.stations.size(); ++i) {
+        const std::string at = "/stations/" + std::to_string(i) + "/printed/";
+        length(at + "position", r.stations[i].printed_position.size(), 3, "one a coordinate");
+        length(at + "U", r.stations[i].printed_U.size(), 3, "one a coordinate");
+    }
+    for (std::size_t i = 0; i < r.reflectors.size(); ++i) {
+        const std::string at = "/reflectors/" + std::to_string(i) + "/printed/";
+        length(at + "position", r.reflectors[i].printed_position.size(), 3, "one a coordinate");
+        length(at + "U", r.reflectors[i].printed_U.size(), 3, "one a coordinate");
+        length(at + "correction", r.reflectors[i].printed_correction.size(), 3, "one a coordinate");
+    }
+}
+
+constexpr std::array<const char*, 4> k_summary_order = {"x", "y", "z", "all"};
+constexpr std::array<const char*, 3> k_severities = {"note", "warning", "error"};
+
+class Writer {
+public:
+    explicit Writer(std::string pointer) : pointer_(std::move(pointer)) {}
+    json object = json::object();
+
+    template <class Type>
+    void operator()(const char* key, const Type& v, Range range = Range::any) {
+        object[key] = to_json(v, pointer_ + "/" + key, range);
+    }
+
+    void operator()(const char* key, const std::string& v, std::initializer_list<const char*> allowed) {
+        if (std::find(allowed.begin(), allowed.end(), v) == allowed.end()) {
+            refuse(pointer_ + "/" + key, '"' + v + '"', "is not one of the names that a record may hold here");
+        }
+        object[key] = v;
+    }
+
+    template <class Describe>
+    void group(const char* key, const Describe& describe_group) {
+        Writer inner(pointer_ + "/" + key);
+        describe_group(inner);
+        object[key] = std::move(inner.object);
+    }
+
+    void constant(const char* key, const char* v) { object[key] = v; }
+    void null(const char* key) { object[key] = nullptr; }
+
+    void severity(const char* key, gum::Severity v) { object[key] = k_severities.at(static_cast<std::size_t>(v)); }
+
+    void document(const char* key, const std::string& text) {
+        json value = text.empty() ? json() : json::parse(text, nullptr, false);
+        if (value.is_discarded()) {
+            refuse(pointer_ + "/" + key, "text that is not JSON", "the job and the options are JSON texts");
+        }
+        object[key] = std::move(value);
+    }
+
+    void results(const char* key, const std::vector<Result>& v) {
+        json all = json::object();
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            const std::string at = pointer_ + "/" + key + "/" + pointer_token(v[i].name);
+            json item = structure(v[i], at);
+            item["order"] = i;
+            insert(all, v[i].name, std::move(item), at);
+        }
+        object[key] = std::move(all);
+    }
+
+    void summary(const char* key, const std::vector<ComparisonSummary>& v) {
+        json all = json::object();
+        for (const ComparisonSummary& s : v) {
+            const std::string at = pointer_ + "/" + key + "/" + pointer_token(s.direction);
+            if (std::find(k_summary_order.begin(), k_summary_order.end(), s.direction) == k_summary_order.end()) {
+                refuse(at, '"' + s.direction + '"', "a direction is x, y, z or all");
+            }
+            insert(all, s.direction, structure(s, at), at);
+        }
+        object[key] = std::move(all);
+    }
+
+    void errors(const char* key, const std::vector<ErrorsAtAngle>& v, const RotaryTable& rotary) {
+        json all = json::array();
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            Writer inner(pointer_ + "/" + key + "/" + std::to_string(i));
+            inner("angle_deg", v[i].angle_deg);
+            inner("printed_angle", v[i].printed_angle);
+            for (std::size_t m = 0; m < v[i].errors.size(); ++m) {
+                const std::string& name = rotary.error_names[m];
+                const std::string at = inner.pointer_ + "/" + pointer_token(name);
+                insert(inner.object, name, structure(v[i].errors[m], at), at);
+            }
+            all.push_back(std::move(inner.object));
+        }
+        object[key] = std::move(all);
+    }
+
+    void quantity_budgets(const char* key, const std::vector<QuantityBudget>& v,
+                          const std::vector<std::string>& sources) {
+        json all = json::array();
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            Writer inner(pointer_ + "/" + key + "/" + std::to_string(i));
+            inner("quantity", v[i].quantity);
+            inner("angle_deg", v[i].angle_deg);
+            inner("u", v[i].u, Range::not_negative);
+            inner("unit", v[i].unit);
+            json shares = json::object();
+            for (std::size_t s = 0; s < std::min(sources.size(), v[i].shares.size()); ++s) {
+                shares[sources[s]] = to_json(v[i].shares[s], inner.pointer_ + "/shares", Range::any);
+            }
+            inner.object["shares"] = std::move(shares);
+            all.push_back(std::move(inner.object));
+        }
+        object[key] = std::move(all);
+    }
+
+    [[noreturn]] static void refuse(const std::string& pointer, std::string what, std::string rule) {
+        throw gum::NoResultError(gum::Diagnostic{.code = "GC-RECORD-0003",
+                                                 .where = "record#" + pointer,
+                                                 .what = std::move(what),
+                                                 .rule = std::move(rule),
+                                                 .action = "nothing was written; report this as a defect"});
+    }
+
+private:
+    std::string pointer_;
+
+    static void insert(json& into, const std::string& name, json item, const std::string& at) {
+        if (!into.emplace(name, std::move(item)).second) {
+            refuse(at, "the name \"" + name + "\" is used twice", "names of one list differ");
+        }
+    }
+
+    template <class Struct>
+    static json structure(const Struct& v, const std::string& at) {
+        Writer inner(at);
+        describe(inner, v);
+        return std::move(inner.object);
+    }
+
+    template <class Type>
+    static json to_json(const Type& v, const std::string& at, Range range) {
+        if constexpr (std::same_as<Type, double>) {
+            if (!std::isfinite(v)) {
+                throw gum::NoResultError(
+                    gum::Diagnostic{.code = "GC-RECORD-0001",
+                                    .where = "record#" + at,
+                                    .what = shortest(v),
+                                    .rule = "every number of a record is finite",
+                                    .action = "nothing was written; check the input that leads to it"});
+            }
+            if (!inside(v, range)) {
+                refuse(at, shortest(v), rule_of(range));
+            }
+            return v;
+        } else if constexpr (std::same_as<Type, bool> || std::same_as<Type, std::string> ||
+                             std::same_as<Type, std::int64_t>) {
+            return v;
+        } else if constexpr (requires { v.has_value(); }) {
+            return v.has_value() ? to_json(*v, at, range) : json();
+        } else if constexpr (requires { v.size(); }) {
+            json all = json::array();
+            for (std::size_t i = 0; i < v.size(); ++i) {
+                all.push_back(to_json(v[i], at + "/" + std::to_string(i), range));
+            }
+            return all;
+        } else {
+            return structure(v, at);
+        }
+    }
+};
+
+/// Collects what is wrong with a text; the list has an upper limit, so that a hostile text cannot fill the memory.
+class Problems {
+public:
+    explicit Problems(std::string where) : where_(std::move(where)) {}
+
+    void add(const char* code, const std::string& pointer, std::string what, std::string rule, std::string action) {
+        if (list_.size() < k_limit) {
+            list_.push_back(gum::Diagnostic{.code = code,
+                                            .where = where_ + "#" + pointer,
+                                            .what = std::move(what),
+                                            .rule = std::move(rule),
+                                            .action = std::move(action)});
+        } else {
+            ++left_out_;
+        }
+    }
+
+    void throw_if_any() {
+        if (list_.empty()) {
+            return;
+        }
+        if (left_out_ > 0) {
+            list_.push_back(gum::Diagnostic{.code = "GC-RECORD-0019",
+                                            .where = where_,
+                                            .what = std::to_string(left_out_) + " more problems",
+                                            .rule = "at most " + std::to_string(k_limit) + " are listed",
+                                            .action = "correct those above first"});
+        }
+        throw gum::InputError(std::move(list_));
+    }
+
+private:
+    static constexpr std::size_t k_limit = 200;
+    std::string where_;
+    std::vector<gum::Diagnostic> list_;
+    std::size_t left_out_ = 0;
+};
+
+constexpr const char* k_restore = "take the record as the program wrote it";
+
+class Reader {
+public:
+    Reader(const json& object, std::string pointer, Problems& problems)
+        : object_(object), pointer_(std::move(pointer)), problems_(problems) {}
+
+    template <class Type>
+    void operator()(const char* key, Type& v, Range range = Range::any) {
+        if (const json* item = find(key)) {
+            from_json(*item, v, pointer_ + "/" + pointer_token(key), range);
+        }
+    }
+
+    void operator()(const char* key, std::string& v, std::initializer_list<const char*> allowed) {
+        const json* item = find(key);
+        if (item == nullptr) {
+            return;
+        }
+        const std::string at = pointer_ + "/" + key;
+        from_json(*item, v, at, Range::any);
+        if (item->is_string() && std::find(allowed.begin(), allowed.end(), v) == allowed.end()) {
+            std::string rule = "must be one of";
+            for (const char* name : allowed) {
+                rule += std::string(" \"") + name + '"';
+            }
+            problems_.add("GC-RECORD-0016", at, '"' + v + '"', rule, k_restore);
+        }
+    }
+
+    template <class Describe>
+    void group(const char* key, const Describe& describe_group) {
+        if (const json* item = find(key)) {
+            const std::string at = pointer_ + "/" + key;
+            if (!item->is_object()) {
+                wrong_type(*item, at, "an object");
+                return;
+            }
+            Reader inner(*item, at, problems_);
+            describe_group(inner);
+            inner.finish();
+        }
+    }
+
+    void constant(const char* key, const char*) { static_cast<void>(find(key)); }  // the caller has looked at it
+
+    void null(const char* key) {
+        if (const json* item = find(key); item != nullptr && !item->is_null()) {
+            wrong_type(*item, pointer_ + "/" + key, "null in records of this version");
+        }
+    }
+
+    void severity(const char* key, gum::Severity& v) {
+        std::string name;
+        (*this)(key, name, {k_severities[0], k_severities[1], k_severities[2]});
+        for (std::size_t i = 0; i < k_severities.size(); ++i) {
+            if (name == k_severities[i]) {
+                v = static_cast<gum::Severity>(i);
+            }
+        }
+    }
+
+    void document(const char* key, std::string& text) {
+        if (const json* item = find(key)) {
+            text = canonical_json(*item);
+        }
+    }
+
+    void results(const char* key, std::vector<Result>& v) {
+        const json* all = find_object(key);
+        if (all == nullptr) {
+            return;
+        }
+        std::map<std::int64_t, Result> in_order;
+        for (const auto& [name, item] : all->items()) {
+            const std::string at = pointer_ + "/" + key + "/" + pointer_token(name);
+            if (!item.is_object()) {
+                wrong_type(item, at, "an object");
+                continue;
+            }
+            Result result;
+            result.name = name;
+            std::int64_t order = -1;
+            Reader inner(item, at, problems_);
+            describe(inner, result);
+            inner("order", order);
+            inner.finish();
+            if (order < 0 || static_cast<std::uint64_t>(order) >= all->size() || in_order.contains(order)) {
+                problems_.add("GC-RECORD-0016", at + "/order", std::to_string(order),
+                              "the orders of all results are 0, 1, 2 …, each once", k_restore);
+                continue;
+            }
+            in_order.emplace(order, std::move(result));
+        }
+        for (auto& [order, result] : in_order) {
+            v.push_back(std::move(result));
+        }
+    }
+
+    void summary(const char* key, std::vector<ComparisonSummary>& v) {
+        const json* all = find_object(key);
+        if (all == nullptr) {
+            return;
+        }
+        Reader inner(*all, pointer_ + "/" + key, problems_);
+        for (const char* direction : k_summary_order) {
+            if (all->contains(direction)) {
+                ComparisonSummary s;
+                s.direction = direction;
+                inner(direction, s);
+                v.push_back(std::move(s));
+            }
+        }
+        inner.finish();
+    }
+
+    void errors(const char* key, std::vector<ErrorsAtAngle>& v, const RotaryTable& rotary) {
+        const json* all = find_array(key);
+        if (all == nullptr) {
+            return;
+        }
+        for (std::size_t i = 0; i < all->size(); ++i) {
+            const std::string at = pointer_ + "/" + key + "/" + std::to_string(i);
+            if (!(*all)[i].is_object()) {
+                wrong_type((*all)[i], at, "an object");
+                continue;
+            }
+            ErrorsAtAngle row;
+            Reader inner((*all)[i], at, problems_);
+            inner("angle_deg", row.angle_deg);
+            inner("printed_angle", row.printed_angle);
+            for (std::size_t m = 0; m < row.errors.size(); ++m) {
+                inner(rotary.error_names[m].c_str(), row.errors[m]);
+            }
+            inner.finish();
+            v.push_back(std::move(row));
+        }
+    }
+
+    void quantity_budgets(const char* key, std::vector<QuantityBudget>& v, const std::vector<std::string>& sources) {
+        const json* all = find_array(key);
+        if (all == nullptr) {
+            return;
+        }
+        for (std::size_t i = 0; i < all->size(); ++i) {
+            const std::string at = pointer_ + "/" + key + "/" + std::to_string(i);
+            if (!(*all)[i].is_object()) {
+                wrong_type((*all)[i], at, "an object");
+                continue;
+            }
+            QuantityBudget row;
+            Reader inner((*all)[i], at, problems_);
+            inner("quantity", row.quantity);
+            inner("angle_deg", row.angle_deg);
+            inner("u", row.u, Range::not_negative);
+            inner("unit", row.unit);
+            inner.group("shares", [&](auto& shares) {
+                for (const std::string& source : sources) {
+                    double share = 0.0;
+                    shares(source.c_str(), share);
+                    row.shares.push_back(share);
+                }
+            });
+            inner.finish();
+            v.push_back(std::move(row));
+        }
+    }
+
+    /// To be called when every known key was asked for: what is left in the object is unknown.
+    void finish() {
+        for (const auto& [key, item] : object_.items()) {
+            if (!known_.contains(key)) {
+                problems_.add("GC-RECORD-0014", pointer_ + "/" + pointer_token(key), "unknown key",
+                              "a record holds the keys of schema gumcert/record/1 and no others", k_restore);
+            }
+        }
+    }
+
+private:
+    const json& object_;
+    std::string pointer_;
+    Problems& problems_;
+    std::set<std::string> known_;
+
+    const json* find(const std::string& key) {
+        known_.insert(key);
+        const auto found = object_.find(key);
+        if (found == object_.end()) {
+            problems_.add("GC-RECORD-0013", pointer_ + "/" + pointer_token(key), "missing",
+                          "every key of schema gumcert/record/1 is present", k_restore);
+            return nullptr;
+        }
+        return &*found;
+    }
+
+    const json* find_object(const char* key) {
+        const json* item = find(key);
+        if (item != nullptr && !item->is_object()) {
+            wrong_type(*item, pointer_ + "/" + key, "an object");
+            return nullptr;
+        }
+        return item;
+    }
+
+    const json* find_array(const char* key) {
+        const json* item = find(key);
+        if (item != nullptr && !item->is_array()) {
+            wrong_type(*item, pointer_ + "/" + key, "an array");
+            return nullptr;
+        }
+        return item;
+    }
+
+    void wrong_type(const json& item, const std::string& at, const std::string& expected) {
+        problems_.add("GC-RECORD-0015", at, item.type_name(), "must be " + expected, k_restore);
+    }
+
+    void number(const json& item, double& v, const std::string& at, Range range) {
+        if (!item.is_number()) {
+            wrong_type(item, at, "a number");
+            return;
+        }
+        v = item.get<double>();
+        // Whole numbers above 2^53 that a double cannot hold would lose digits in silence.
+        constexpr double k_two_to_53 = 9007199254740992.0;
+        if (!item.is_number_float() && std::abs(v) > k_two_to_53) {
+            problems_.add("GC-RECORD-0016", at, item.dump(), "must be a number that a double holds exactly", k_restore);
+        } else if (!inside(v, range)) {
+            problems_.add("GC-RECORD-0016", at, shortest(v), rule_of(range), k_restore);
+        }
+    }
+
+    template <class Type>
+    void from_json(const json& item, Type& v, const std::string& at, Range range) {
+        if constexpr (std::same_as<Type, double>) {
+            number(item, v, at, range);
+        } else if constexpr (std::same_as<Type, bool>) {
+            if (item.is_boolean()) {
+                v = item.get<bool>();
+            } else {
+                wrong_type(item, at, "true or false");
+            }
+        } else if constexpr (std::same_as<Type, std::string>) {
+            if (item.is_string()) {
+                v = item.get<std::string>();
+            } else {
+                wrong_type(item, at, "a text");
+            }
+        } else if constexpr (std::same_as<Type, std::int64_t>) {
+            if (item.is_number_integer() && item <= std::numeric_limits<std::int64_t>::max()) {
+                v = item.get<std::int64_t>();
+            } else {
+                wrong_type(item, at, "a whole number");
+            }
+        } else if constexpr (requires { v.has_value(); }) {
+            if (item.is_null()) {
+                v.reset();
+            } else {
+                from_json(item, v.emplace(), at, range);
+            }
+        } else if constexpr (requires { v.size(); }) {
+            list(item, v, at, range);
+        } else {
+            if (!item.is_object()) {
+                wrong_type(item, at, "an object");
+                return;
+            }
+            Reader inner(item, at, problems_);
+            describe(inner, v);
+            inner.finish();
+        }
+    }
+
+    template <class List>
+    void list(const json& item, List& v, const std::string& at, Range range) {
+        if (!item.is_array()) {
+            wrong_type(item, at, "an array");
+            return;
+        }
+        if constexpr (requires { v.resize(item.size()); }) {
+            v.resize(item.size());
+        } else if (item.size() != v.size()) {
+            problems_.add("GC-RECORD-0017", at, std::to_string(item.size()) + " items",
+                          "must be " + std::to_string(v.size()), k_restore);
+            return;
+        }
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            from_json(item[i], v[i], at + "/" + std::to_string(i), range);
+        }
+    }
+};
+
+/// Builds the JSON value while it looks for what nlohmann-json lets pass: duplicate keys and deep nesting.
+class StrictParser final : public nlohmann::json_sax<json> {
+public:
+    explicit StrictParser(Problems& problems) : problems_(problems) {}
+    json root;
+
+    bool null() override { return put(json()); }
+    bool boolean(bool v) override { return put(v); }
+    bool number_integer(number_integer_t v) override { return put(v); }
+    bool number_unsigned(number_unsigned_t v) override { return put(v); }
+    bool number_float(number_float_t v, const string_t&) override { return put(v); }
+    bool string(string_t& v) override { return put(std::move(v)); }
+    bool binary(binary_t&) override { return false; }  // JSON text has none
+    bool start_object(std::size_t) override { return open(json::object()); }
+    bool start_array(std::size_t) override { return open(json::array()); }
+    bool end_object() override { return close(); }
+    bool end_array() override { return close(); }
+
+    bool key(string_t& name) override {
+        key_ = std::move(name);
+        if (stack_.back()->contains(key_)) {
+            problems_.add("GC-RECORD-0012", pointer() + "/" + pointer_token(key_), "the key appears twice",
+                          "a key is used once in an object", k_restore);
+        }
+        return true;
+    }
+
+    bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& e) override {
+        // "[json.exception.parse_error.101] parse error at line 1, column 5: …": the part after the bracket is for
+        // people
+        const std::string text = e.what();
+        const std::size_t bracket = text.find("] ");
+        problems_.add("GC-RECORD-0011", pointer(), bracket == std::string::npos ? text : text.substr(bracket + 2),
+                      "a record is one JSON value in UTF-8, byte " + std::to_string(position) + " breaks it",
+                      k_restore);
+        return false;
+    }
+
+private:
+    Problems& problems_;
+    std::vector<json*> stack_;
+    std::vector<std::string> path_;
+    std::string key_;
+
+    [[nodiscard]] std::string pointer() const {
+        std::string text;
+        for (const std::string& token : path_) {
+            text += "/" + token;
+        }
+        return text;
+    }
+
+    json* place(json v) {
+        if (stack_.empty()) {
+            root = std::move(v);
+            return &root;
+        }
+        json& parent = *stack_.back();
+        if (parent.is_array()) {
+            parent.push_back(std::move(v));
+            return &parent.back();
+        }
+        json& item = parent[key_];
+        item = std::move(v);
+        return &item;
+    }
+
+    bool put(json v) {
+        place(std::move(v));
+        return true;
+    }
+
+    bool open(json v) {
+        if (stack_.size() >= k_max_json_depth) {
+            problems_.add("GC-RECORD-0018", pointer(),
+                          "nested deeper than " + std::to_string(k_max_json_depth) + " levels",
+                          "a record is at most that deep", k_restore);
+            return false;
+        }
+        if (!stack_.empty()) {
+            path_.push_back(stack_.back()->is_array() ? std::to_string(stack_.back()->size()) : pointer_token(key_));
+        }
+        stack_.push_back(place(std::move(v)));
+        return true;
+    }
+
+    bool close() {
+        stack_.pop_back();
+        if (!path_.empty()) {
+            path_.pop_back();
+        }
+        return true;
+    }
+};
+
+}  // namespace
+
+std::string to_canonical_json(const EvaluationRecord& record) {
+    if (record.rotary) {
+        check_rotary(*record.rotary, [](const std::string& at, std::string what, std::string rule) {
+            Writer::refuse("/rotary" + at, std::move(what), std::move(rule));
+        });
+    }
+    Writer writer("");
+    describe(writer, record);
+    std::string text = canonical_json(writer.object);
+    if (text.size() > k_max_record_bytes) {
+        Writer::refuse("", std::to_string(text.size()) + " bytes",
+                       "a record has at most " + std::to_string(k_max_record_bytes) + " bytes");
+    }
+    return text;
+}
+
+EvaluationRecord record_from_json(const std::string& text, const std::string& where) {
+    Problems problems(where);
+    if (text.size() > k_max_record_bytes) {
+        problems.add("GC-RECORD-0010", "", std::to_string(text.size()) + " bytes",
+                     "a record has at most " + std::to_string(k_max_record_bytes) + " bytes", k_restore);
+        problems.throw_if_any();
+    }
+    StrictParser parser(problems);
+    static_cast<void>(json::sax_parse(text, &parser));
+    problems.throw_if_any();
+
+    const json& root = parser.root;
+    if (!root.is_object()) {
+        problems.add("GC-RECORD-0015", "", root.type_name(), "must be an object", k_restore);
+        problems.throw_if_any();
+    }
+    const auto schema = root.find("schema");
+    if (schema == root.end() || *schema != EvaluationRecord::k_schema) {
+        problems.add("GC-RECORD-0020", "/schema",
+                     schema == root.end()  ? "missing"
+                     : schema->is_string() ? '"' + schema->get<std::string>() + '"'
+                                           : schema->type_name(),
+                     std::string("must be \"") + EvaluationRecord::k_schema + '"',
+                     "use a release of the program that knows this schema");
+        problems.throw_if_any();
+    }
+
+    EvaluationRecord record;
+    Reader reader(root, "", problems);
+    describe(reader, record);
+    reader.finish();
+    problems.throw_if_any();
+    if (record.rotary) {
+        check_rotary(*record.rotary, [&](const std::string& at, std::string what, std::string rule) {
+            problems.add("GC-RECORD-0017", "/rotary" + at, std::move(what), std::move(rule), k_restore);
+        });
+        problems.throw_if_any();
+    }
+    return record;
+}
+
+}  // namespace gumcert::reports

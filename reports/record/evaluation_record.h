@@ -1,0 +1,267 @@
+#pragma once
+
+#include "gum/quantity/diagnostic.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gumcert::reports {
+
+/// A value and its expanded uncertainty as a document prints them: rounded once, by gum/rounding, and never again.
+struct Printed {
+    std::string value;
+    std::string U;     ///< "" where a value has no uncertainty by definition (home angle of the home datum)
+    std::string unit;  ///< as printed: "µm", "″", "mm"
+};
+
+/// One row of an uncertainty budget (JCGM 100:2008, 7.2.7; layout of table H.1).
+struct BudgetRow {
+    std::string input;
+    std::optional<double> value;        ///< estimate, in `unit`; none where the row stands for many input quantities
+    std::string unit;
+    double u = 0.0;                     ///< standard uncertainty (of one typical quantity of the row), in `unit`
+    std::optional<double> nu;           ///< degrees of freedom; none = infinite
+    std::string type;                   ///< "A" or "B"
+    std::string distribution;
+    std::optional<double> sensitivity;  ///< none where the row stands for many input quantities
+    double contribution = 0.0;          ///< |c| u, in the unit of the result
+    double share = 0.0;                 ///< contribution² / u²
+    std::string source;
+    struct {
+        std::string u, contribution, share;  ///< share in percent
+    } printed;
+};
+
+/// `results.NAME`
+struct Result {
+    std::string name;
+    std::string description;  ///< "offset of the fixture along y"
+    double value = 0.0;
+    std::string unit;         ///< "um", "arcsec", … as UDUNITS-2 writes it
+    double u = 0.0;
+    std::optional<double> nu_eff;  ///< none = infinite
+    double k = 2.0;
+    double coverage_probability = 0.9545;
+    double U = 0.0;
+    std::string distribution;
+    Printed printed;
+    std::vector<BudgetRow> budget;
+};
+
+/// One of the six error motions at one angle.
+struct ErrorValue {
+    double value = 0.0, u = 0.0, U = 0.0, k = 2.0;  ///< [µm] or [arcsec]
+    std::optional<double> nu_eff;
+    Printed printed;
+};
+
+struct ErrorsAtAngle {
+    double angle_deg = 0.0;
+    std::string printed_angle;
+    std::array<ErrorValue, 6> errors;  ///< in the order of RotaryTable::error_names
+};
+
+struct SetUp {
+    std::array<double, 3> O_um{}, S_arcsec{}, u_O_um{}, u_S_arcsec{}, U_O_um{}, U_S_arcsec{};
+    double k = 2.0;
+    std::array<Printed, 3> printed_O, printed_S;  ///< along the axis: value "0", U ""
+};
+
+/// Mean difference between the two senses of approach, positive minus negative, of one error motion.
+struct Reversal {
+    std::string name;  ///< "EXA" …
+    ErrorValue value;
+};
+
+struct Station {
+    std::string name;
+    std::array<double, 3> position_mm{}, u_mm{};
+    double scale_deviation = 0.0, u_scale = 0.0;  ///< s - 1, [1]
+    std::vector<std::string> printed_position;    ///< three
+    std::vector<std::string> printed_U;           ///< three, expanded, k of the record
+    Printed printed_scale;                        ///< s - 1 and its U, unit "1e-6"; empty texts: not printed
+};
+
+struct DeadPath {
+    std::string name;
+    double value_mm = 0.0, u_mm = 0.0;
+    Printed printed;
+};
+
+struct Reflector {
+    std::string name;
+    std::array<double, 3> position_mm{}, u_mm{};          ///< adjusted, fixture frame, at reference temperature
+    std::array<double, 3> correction_um{};                ///< adjusted minus CMM
+    std::vector<std::string> printed_position, printed_U;  ///< three each
+    std::vector<std::string> printed_correction;           ///< three, [µm]
+};
+
+/// Variance shares of one reported quantity. `shares` is parallel to RotaryTable::budget_sources and sums to 1.
+struct QuantityBudget {
+    std::string quantity;             ///< "EXA" … or "O_y"
+    std::optional<double> angle_deg;  ///< none: not a function of the angle
+    double u = 0.0;
+    std::string unit;
+    std::vector<double> shares;
+};
+
+/// Means over all angles, for people: one row an error motion.
+struct BudgetSummaryRow {
+    std::string quantity;
+    double rms_u = 0.0;
+    std::string unit;
+    std::vector<double> shares;
+    std::string printed_rms_u;
+    std::vector<std::string> printed_shares;  ///< percent
+};
+
+struct VarianceFactor {
+    double a_priori = 1.0, a_posteriori = 1.0;
+    std::string used;  ///< "a_priori" or "a_posteriori"
+};
+
+struct AdjustmentSummary {
+    std::string method;  ///< "joint" or "sequential"
+    std::int64_t observations = 0, parameters = 0, degrees_of_freedom = 0, iterations = 0;
+    double chi_square = 0.0, p_value = 0.0, condition_number = 0.0;
+    VarianceFactor variance_factor;
+    struct {
+        std::string chi_square, p_value, variance_factor, condition_number;
+    } printed;
+};
+
+struct VarianceComponent {
+    std::string name;  ///< "length noise", "table linear", "table angular, axial", "table angular, tilt"
+    double value = 0.0, u = 0.0;  ///< a standard deviation and its standard uncertainty, in `unit`
+    std::string unit;             ///< "um" or "arcsec"
+    double redundancy = 0.0;
+    bool estimated = false;
+    Printed printed;  ///< U holds the standard uncertainty of the component (k = 1)
+};
+
+struct ReliabilityRow {
+    std::string station, reflector, pass;
+    double angle_deg = 0.0;
+    double residual_um = 0.0, redundancy_number = 0.0, test_value = 0.0, minimal_detectable_bias_um = 0.0;
+    bool flagged = false, removed = false;
+};
+
+/// A flagged distance, as a document lists it.
+struct FlaggedDistance {
+    std::string station, reflector, pass, angle, residual_um, test_value;  ///< printed
+    bool removed = false;
+};
+
+/// ISO 230-7 range of one error motion over the angles.
+struct RangeRow {
+    std::string name;
+    double value = 0.0, U = 0.0;
+    Printed printed;
+};
+
+struct RotaryTable {
+    std::string axis;      ///< "A", "B" or "C"
+    std::string datum;     ///< "axis_average_line" or "home"
+    std::string method;
+    double home_angle_deg = 0.0;
+    std::array<std::string, 6> error_names;
+    std::array<std::string, 6> error_units;          ///< "um", "um", "um", "arcsec", "arcsec", "arcsec"
+    SetUp set_up, axis_in_fixture;
+    std::vector<ErrorsAtAngle> errors;
+    std::vector<Reversal> reversal;                  ///< empty when only one sense of approach was measured
+    std::vector<RangeRow> ranges;
+    std::optional<std::string> covariance_file;      ///< name of the CSV beside the record
+    std::vector<std::string> covariance_order;       ///< names of its rows and columns
+    std::string covariance_unit;                     ///< "um and arcsec, products"
+    std::vector<Station> stations;
+    std::vector<DeadPath> dead_paths;
+    std::vector<Reflector> reflectors;
+    std::vector<std::string> budget_sources;
+    std::vector<QuantityBudget> budget;
+    std::vector<BudgetSummaryRow> budget_summary;
+    AdjustmentSummary adjustment;
+    std::vector<VarianceComponent> variance_components;
+    std::vector<ReliabilityRow> reliability;
+    std::vector<FlaggedDistance> flagged;
+    double outlier_critical_value = 0.0, outlier_alpha = 0.0;
+    std::string printed_critical_value;
+};
+
+/// One point of a comparison (ISO 13528: E_n number).
+struct ComparisonPoint {
+    std::string direction;  ///< "x", "y", "z"
+    double angle_deg = 0.0;
+    double value = 0.0, u = 0.0, U = 0.0;                                   ///< from the error motions, [µm]
+    double reference_value = 0.0, reference_u = 0.0, reference_U = 0.0;     ///< [µm]
+    double D = 0.0, u_D = 0.0, U_D = 0.0, En = 0.0, zeta = 0.0;             ///< [µm], [1]
+    struct {
+        std::string angle, value, U, reference_value, reference_U, D, U_D, En;
+    } printed;
+};
+
+struct ComparisonSummary {
+    std::string direction;  ///< "x", "y", "z" or "all"
+    std::int64_t points = 0, count_above_1 = 0;
+    double mean_abs_En = 0.0, max_abs_En = 0.0, rms_En = 0.0;
+    struct {
+        std::string mean_abs_En, max_abs_En, rms_En;
+    } printed;
+};
+
+struct Comparison {
+    std::string reference_name;
+    std::vector<double> contact_point_mm;
+    std::vector<BudgetRow> reference_budget;  ///< of one reference value
+    std::vector<ComparisonPoint> points;
+    std::vector<ComparisonSummary> summary;   ///< one a direction, then "all"
+    std::vector<std::string> remarks;         ///< what the numbers can and cannot tell
+};
+
+struct Software {
+    std::string name = "gumcert";
+    std::string version, commit;
+};
+
+struct InputFile {
+    std::string name;    ///< as the job names it
+    std::string sha256;  ///< hexadecimal, lower case
+};
+
+/// Everything that a document prints and a third party needs to recompute it (contract, section 6).
+///
+/// Documents are made from a record and from nothing else. Numbers are held unrounded beside the text that is printed,
+/// so that every form of a document shows the same digits.
+struct EvaluationRecord {
+    static constexpr const char* k_schema = "gumcert/record/1";
+
+    Software software;
+    std::string kind;              ///< "rotary_table"
+    std::string title;
+    double coverage_probability = 0.9545;
+    std::string printed_coverage;  ///< "95.45 %"
+    std::string job_json;          ///< the job as read, canonical JSON text
+    std::vector<InputFile> job_files;
+    std::string options_json;      ///< every tolerance and option in force, canonical JSON text
+    std::vector<Result> results;   ///< in the order of documents; an object keyed by name in JSON
+    std::optional<RotaryTable> rotary;
+    std::optional<Comparison> comparison;
+    std::vector<gum::Diagnostic> diagnostics;
+};
+
+/// Canonical JSON of a record: keys sorted by code point, shortest numbers that read back the same, LF, UTF-8, no NaN.
+/// \throws gum::NoResultError if a number is not finite: it must never reach a document
+[[nodiscard]] std::string to_canonical_json(const EvaluationRecord& record);
+
+/// \param where  name of the text for messages
+/// \throws gum::InputError  if the text is not a record of schema gumcert/record/1, with every problem found
+[[nodiscard]] EvaluationRecord record_from_json(const std::string& text, const std::string& where);
+
+/// Canonical text of any JSON value (the same rules).
+[[nodiscard]] std::string canonical_json(const nlohmann::json& value);
+
+}  // namespace gumcert::reports

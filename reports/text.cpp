@@ -1,0 +1,286 @@
+#include "reports/asset_files.h"
+#include "reports/certificate_view.h"
+#include "reports/render.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace gumcert::reports {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t k_columns = 100;
+
+struct Glyph {
+    std::string bytes;
+    std::size_t width = 1;  ///< columns of a terminal or a fixed-width font
+};
+
+/// Characters of a valid UTF-8 text; combining marks are joined to the character before them.
+std::vector<Glyph> glyphs(const std::string& text) {
+    std::vector<Glyph> all;
+    std::size_t i = 0;
+    while (i < text.size()) {
+        const auto lead = static_cast<unsigned char>(text[i]);
+        const std::size_t length = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
+        const std::string c = text.substr(i, length);
+        i += length;
+        const bool combining = (c >= "\u0300" && c <= "\u036F") || (c >= "\u200B" && c <= "\u200D");
+        if (combining && !all.empty()) {
+            all.back().bytes += c;
+            continue;
+        }
+        const bool wide = (c >= "\u1100" && c <= "\u115F") || (c >= "\u2E80" && c <= "\uA4CF") ||
+                          (c >= "\uAC00" && c <= "\uD7A3") || (c >= "\uF900" && c <= "\uFAFF") ||
+                          (c >= "\uFF00" && c <= "\uFF60") || (c >= "\U0001F300" && c <= "\U0003FFFD");
+        all.push_back({c, combining ? 0U : wide ? 2U : 1U});
+    }
+    return all;
+}
+
+std::size_t width(const std::string& text) {
+    std::size_t sum = 0;
+    for (const Glyph& g : glyphs(text)) {
+        sum += g.width;
+    }
+    return sum;
+}
+
+/// Lines of at most `most` columns, broken at blanks, and inside a word only where the word alone is longer.
+std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
+    std::vector<std::string> lines(1);
+    std::size_t used = 0;
+    std::string word;
+    std::size_t word_width = 0;
+    const auto put_word = [&] {
+        if (word.empty()) {
+            return;
+        }
+        const std::size_t gap = used > 0 ? 1 : 0;
+        if (used + gap + word_width > most && used > 0) {
+            lines.emplace_back();
+            used = 0;
+        }
+        if (used > 0) {
+            lines.back() += ' ';
+            ++used;
+        }
+        for (const Glyph& g : glyphs(word)) {
+            if (used + g.width > most && used > 0) {
+                lines.emplace_back();
+                used = 0;
+            }
+            lines.back() += g.bytes;
+            used += g.width;
+        }
+        word.clear();
+        word_width = 0;
+    };
+    for (const Glyph& g : glyphs(text)) {
+        if (g.bytes == " ") {
+            put_word();
+        } else {
+            word += g.bytes;
+            word_width += g.width;
+        }
+    }
+    put_word();
+    return lines;
+}
+
+std::string padded(const std::string& text, std::size_t to, bool right) {
+    const std::size_t own = width(text);
+    const std::string blanks(to > own ? to - own : 0, ' ');
+    return right ? blanks + text : text + blanks;
+}
+
+std::string text_of(const json& object, const char* key) {
+    return object.at(key).get<std::string>();
+}
+
+std::string centred(const std::string& text) {
+    std::string out;
+    for (const std::string& line : wrapped(text, k_columns)) {
+        out += std::string((k_columns - width(line)) / 2, ' ') + line + "\n";
+    }
+    return out;
+}
+
+std::string paragraph(const std::string& text, std::size_t indent) {
+    std::string out;
+    for (const std::string& line : wrapped(text, k_columns - indent)) {
+        out += std::string(line.empty() ? 0 : indent, ' ') + line + "\n";
+    }
+    return out;
+}
+
+std::string definitions(const json& block) {
+    std::size_t labels = 0;
+    for (const json& row : block.at("rows")) {
+        labels = std::max(labels, std::min<std::size_t>(40, width(text_of(row, "label"))));
+    }
+    std::string out;
+    for (const json& row : block.at("rows")) {
+        const std::vector<std::string> left = wrapped(text_of(row, "label"), labels);
+        const std::vector<std::string> right = wrapped(text_of(row, "value"), k_columns - labels - 4);
+        for (std::size_t i = 0; i < std::max(left.size(), right.size()); ++i) {
+            const std::string value = i < right.size() ? right[i] : "";
+            const std::string label = "  " + padded(i < left.size() ? left[i] : "", value.empty() ? 0 : labels, false);
+            out += label + (value.empty() ? "" : "  " + value) + "\n";
+        }
+    }
+    return out;
+}
+
+/// One table line of cells that may each have several lines.
+std::string table_line(const std::vector<std::vector<std::string>>& cells, const std::vector<std::size_t>& widths,
+                       const std::vector<bool>& numbers, bool at_bottom) {
+    std::size_t height = 1;
+    for (const auto& cell : cells) {
+        height = std::max(height, cell.size());
+    }
+    std::string out;
+    for (std::size_t i = 0; i < height; ++i) {
+        std::string line;
+        for (std::size_t c = 0; c < cells.size(); ++c) {
+            const std::size_t skip = at_bottom ? height - cells[c].size() : 0;
+            const bool here = i >= skip && i - skip < cells[c].size();
+            line += (c == 0 ? "" : "  ") + padded(here ? cells[c][i - skip] : "", widths[c], numbers[c]);
+        }
+        line.erase(line.find_last_not_of(' ') + 1);
+        out += line + "\n";
+    }
+    return out;
+}
+
+std::string table(const json& block) {
+    const json& columns = block.at("columns");
+    const std::size_t count = columns.size();
+    std::vector<std::size_t> widths(count, 1);
+    std::vector<bool> numbers(count);
+    std::vector<bool> may_shrink(count);
+    std::vector<std::string> heads(count);
+    for (std::size_t c = 0; c < count; ++c) {
+        heads[c] = text_of(columns[c], "head");
+        for (const json& unit : columns[c].at("unit")) {
+            heads[c] += " /" + text_of(unit, "text");
+        }
+        numbers[c] = text_of(columns[c], "align") == "number";
+        may_shrink[c] = !numbers[c];
+        for (std::size_t from = 0; from < heads[c].size();) {  // a head is wrapped, but never inside a word
+            const std::size_t to = std::min(heads[c].find(' ', from), heads[c].size());
+            widths[c] = std::max(widths[c], width(heads[c].substr(from, to - from)));
+            from = to + 1;
+        }
+        std::size_t two_lines = 0;
+        for (const std::string& line : wrapped(heads[c], std::max(widths[c], 1 + width(heads[c]) / 2))) {
+            two_lines = std::max(two_lines, width(line));
+        }
+        widths[c] = std::max(widths[c], two_lines);
+        for (const json& row : block.at("rows")) {
+            const json& cell = row.at("cells").at(c);
+            widths[c] = std::max(widths[c], width(text_of(cell, "text")) + text_of(cell, "pad").size());
+        }
+    }
+    const auto total = [&] {
+        std::size_t sum = 2 * (count - 1);
+        for (const std::size_t w : widths) {
+            sum += w;
+        }
+        return sum;
+    };
+    while (total() > k_columns) {  // the widest column of texts gives way; numbers only when no text is left to wrap
+        std::size_t widest = count;
+        for (const bool texts_only : {true, false}) {
+            for (std::size_t c = 0; c < count; ++c) {
+                const bool candidate = widths[c] > 8 && (may_shrink[c] || !texts_only);
+                if (candidate && (widest == count || widths[c] > widths[widest])) {
+                    widest = c;
+                }
+            }
+            if (widest != count) {
+                break;
+            }
+        }
+        if (widest == count) {
+            break;
+        }
+        --widths[widest];
+    }
+
+    std::string out = paragraph(text_of(block, "number") + ". " + text_of(block, "caption"), 0);
+    const std::string rule(std::min(total(), k_columns), '-');
+    out += rule + "\n";
+    for (const json& group : block.at("groups")) {
+        std::string line;
+        std::size_t c = 0;
+        for (const json& cell : group.at("cells")) {
+            const std::size_t span = std::stoul(text_of(cell, "span"));
+            std::size_t room = 2 * (span - 1);
+            for (std::size_t i = 0; i < span; ++i) {
+                room += widths[c + i];
+            }
+            line += (c == 0 ? "" : "  ") + padded(text_of(cell, "text"), room, true);
+            c += span;
+        }
+        out += line + "\n";
+    }
+    std::vector<std::vector<std::string>> cells;
+    for (std::size_t c = 0; c < count; ++c) {
+        cells.push_back(wrapped(heads[c], widths[c]));
+    }
+    out += table_line(cells, widths, numbers, true) + rule + "\n";
+    for (const json& row : block.at("rows")) {
+        cells.clear();
+        for (std::size_t c = 0; c < count; ++c) {
+            const json& cell = row.at("cells").at(c);
+            std::vector<std::string> lines = wrapped(text_of(cell, "text"), widths[c]);
+            lines.back() += std::string(text_of(cell, "pad").size(), ' ');
+            cells.push_back(std::move(lines));
+        }
+        out += table_line(cells, widths, numbers, false);
+    }
+    return out + rule + "\n";
+}
+
+}  // namespace
+
+std::string render_text(const EvaluationRecord& record, const RenderAssets& assets) {
+    const json view = certificate_view(record, read_wording(assets));
+    const std::string rule(k_columns, '=');
+    std::string out = rule + "\n" + centred(text_of(view, "mark")) + rule + "\n" +
+                      paragraph(text_of(view, "mark_reason"), 0) + "\n" + centred(text_of(view, "type")) +
+                      centred(text_of(view, "title"));
+    for (const json& section : view.at("sections")) {
+        const std::string heading = text_of(section, "heading");
+        out += "\n\n" + heading + "\n" + std::string(width(heading), '=') + "\n";
+        for (const json& block : section.at("blocks")) {
+            std::string text;
+            for (const json& item : block.at("paragraph")) {
+                text = paragraph(text_of(item, "text"), 0);
+            }
+            for (const json& item : block.at("formula")) {
+                text = paragraph(text_of(item, "text"), 4);
+            }
+            for (const json& item : block.at("definitions")) {
+                text = definitions(item);
+            }
+            for (const json& item : block.at("table")) {
+                text = table(item);
+            }
+            if (!text.empty()) {
+                out += "\n" + text;
+            }
+        }
+    }
+    return out + "\n" + std::string(k_columns, '-') + "\n" + paragraph(text_of(view, "only_items"), 0) + "\n" +
+           centred(text_of(view, "end_mark"));
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,312 @@
+#pragma once
+
+#include "reports/record/evaluation_record.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+
+namespace gumcert::test {
+
+/// A number with a fixed count of decimals and U+2212 as minus sign, for samples only.
+inline std::string decimals(double v, int count) {
+    std::array<char, 64> buffer{};
+    const auto end =
+        std::to_chars(buffer.data(), buffer.data() + buffer.size(), std::abs(v), std::chars_format::fixed, count).ptr;
+    const std::string text(buffer.data(), end);
+    const bool zero = text.find_first_not_of("0.") == std::string::npos;
+    return v < 0.0 && !zero ? "\u2212" + text : text;
+}
+
+/// Value and U with two significant digits of U.
+inline reports::Printed printed(double value, double U, const std::string& unit) {
+    int count = 1;
+    for (double top = 0.995; top > U && count < 6; top /= 10.0) {
+        ++count;
+    }
+    return {.value = decimals(value, count), .U = decimals(U, count), .unit = unit};
+}
+
+inline reports::ErrorValue error_value(double value, double u, const std::string& unit) {
+    reports::ErrorValue e;
+    e.value = value;
+    e.u = u;
+    e.nu_eff = 412.7;
+    e.U = e.k * u;
+    e.printed = printed(value, e.U, unit);
+    return e;
+}
+
+/// A whole record of a rotary table with plausible numbers: 36 angles, six stations, six reflectors, dial indicator.
+/// Every number is made up by a formula, so that a test can tell a misplaced one.
+inline reports::EvaluationRecord sample_record() {
+    using namespace gumcert::reports;
+    EvaluationRecord r;
+    r.software = {.name = "gumcert", .version = "0.1.0", .commit = "0123456789abcdef0123456789abcdef01234567"};
+    r.kind = "rotary_table";
+    r.title = "Rotary table, A axis, 36 angles, 6 stations, 6 reflectors";
+    r.printed_coverage = "95.45 %";
+    r.job_json = R"({"schema": "gumcert/job/1", "kind": "rotary_table", "home_angle_deg": 0, "scale_u": 1.5e-07})";
+    r.options_json = R"({"adjustment": {"max_iterations": 20, "step_tolerance": 1e-12}, "audit": "none"})";
+    r.job_files = {{"job.json", std::string(64, 'a')},
+                   {"lengths.csv", "3f786850e387550fdab836ed7e6dc881de23001b0f0a4a5e0a4b0c8d1b2e3f40"},
+                   {"fixture.csv", std::string(64, '7')}};
+
+    RotaryTable t;
+    t.axis = "A";
+    t.datum = "axis_average_line";
+    t.method = "joint";
+    t.error_names = {"EXA", "EYA", "EZA", "EAA", "EBA", "ECA"};
+    t.error_units = {"um", "um", "um", "arcsec", "arcsec", "arcsec"};
+    const std::array<const char*, 6> units = {"µm", "µm", "µm", "″", "″", "″"};
+
+    t.set_up.O_um = {0.0, 59.43, -192.61};
+    t.set_up.S_arcsec = {0.0, 50.782, -108.704};
+    t.set_up.u_O_um = {0.0, 0.147, 0.151};
+    t.set_up.u_S_arcsec = {0.0, 0.122, 0.131};
+    for (std::size_t i = 0; i < 3; ++i) {
+        t.set_up.U_O_um[i] = 2.0 * t.set_up.u_O_um[i];
+        t.set_up.U_S_arcsec[i] = 2.0 * t.set_up.u_S_arcsec[i];
+        t.set_up.printed_O[i] = printed(t.set_up.O_um[i], t.set_up.U_O_um[i], "µm");
+        t.set_up.printed_S[i] = printed(t.set_up.S_arcsec[i], t.set_up.U_S_arcsec[i], "″");
+    }
+    t.set_up.printed_O[0] = {.value = "0", .U = "", .unit = "µm"};
+    t.set_up.printed_S[0] = {.value = "0", .U = "", .unit = "″"};
+    t.axis_in_fixture = t.set_up;
+    for (std::size_t i = 1; i < 3; ++i) {
+        t.axis_in_fixture.O_um[i] = -t.set_up.O_um[i];
+        t.axis_in_fixture.S_arcsec[i] = -t.set_up.S_arcsec[i];
+        t.axis_in_fixture.printed_O[i] = printed(-t.set_up.O_um[i], t.set_up.U_O_um[i], "µm");
+        t.axis_in_fixture.printed_S[i] = printed(-t.set_up.S_arcsec[i], t.set_up.U_S_arcsec[i], "″");
+    }
+
+    const std::array<double, 6> amplitude = {1.3, 4.2, 3.8, 6.1, 2.4, 2.9};
+    const std::array<double, 6> u = {0.21, 0.19, 0.20, 0.33, 0.42, 0.45};
+    for (int i = 0; i < 36; ++i) {
+        ErrorsAtAngle row;
+        row.angle_deg = 10.0 * i;
+        row.printed_angle = decimals(row.angle_deg, 0);
+        const double theta = row.angle_deg * std::numbers::pi / 180.0;
+        for (std::size_t m = 0; m < 6; ++m) {
+            const double phase = 0.7 * static_cast<double>(m);
+            const double value = amplitude[m] * (std::sin(2.0 * theta + phase) + 0.3 * std::cos(5.0 * theta - phase) +
+                                                 0.12 * std::sin(17.0 * theta + 2.0 * phase));
+            row.errors[m] = error_value(value, u[m] * (1.0 + 0.15 * std::cos(theta)), units[m]);
+        }
+        t.errors.push_back(row);
+    }
+    for (std::size_t m = 0; m < 6; ++m) {
+        t.ranges.push_back({.name = t.error_names[m],
+                            .value = 2.3 * amplitude[m],
+                            .U = 2.8 * u[m],
+                            .printed = printed(2.3 * amplitude[m], 2.8 * u[m], units[m])});
+        t.reversal.push_back(
+            {.name = t.error_names[m],
+             .value = error_value(m == 3 ? 0.61 : 0.02 * static_cast<double>(m), 0.3 * u[m], units[m])});
+    }
+    t.covariance_file = "covariance.csv";
+    t.covariance_order = {"EXA(0)", "EYA(0)", "O_y", "S_y"};
+    t.covariance_unit = "um and arcsec, products";
+
+    for (int i = 1; i <= 6; ++i) {
+        const double d = i;
+        Station s;
+        s.name = "P" + std::to_string(i);
+        s.position_mm = {544.0 + 31.0 * d, -817.0 + 190.123 * d, -284.0 + 77.5 * d};
+        s.u_mm = {0.0011, 0.0012, 0.0013};
+        s.scale_deviation = 1.1e-7 * (d - 3.0);
+        s.u_scale = 1.4e-7;
+        for (std::size_t c = 0; c < 3; ++c) {
+            s.printed_position.push_back(decimals(s.position_mm[c], 4));
+            s.printed_U.push_back(decimals(2.0 * s.u_mm[c], 4));
+        }
+        s.printed_scale = {.value = decimals(0.11 * (d - 3.0), 2), .U = "0.28", .unit = "1e-6"};
+        t.stations.push_back(s);
+        t.dead_paths.push_back({.name = s.name,
+                                .value_mm = 190.0 + 10.0 * d,
+                                .u_mm = 0.0008,
+                                .printed = {.value = decimals(190.0 + 10.0 * d, 4), .U = "0.0016", .unit = "mm"}});
+        Reflector m;
+        m.name = "R" + std::to_string(i);
+        m.position_mm = {33.2569 + d, 136.307 - 40.0 * d, 5.26 * d};
+        m.u_mm = {0.0002, 0.0002, 0.0002};
+        m.correction_um = {0.11 * d, -0.07 * d, 0.05};
+        for (std::size_t c = 0; c < 3; ++c) {
+            m.printed_position.push_back(decimals(m.position_mm[c], 4));
+            m.printed_U.push_back("0.0004");
+            m.printed_correction.push_back(decimals(m.correction_um[c], 2));
+        }
+        t.reflectors.push_back(m);
+    }
+
+    t.budget_sources = {"length noise", "scale", "dead path", "fixture CMM", "fixture thermal", "table repeatability"};
+    const std::vector<double> shares = {0.021, 0.034, 0.005, 0.06, 0.0, 0.88};
+    for (std::size_t m = 0; m < 6; ++m) {
+        for (const ErrorsAtAngle& row : t.errors) {
+            t.budget.push_back({.quantity = t.error_names[m],
+                                .angle_deg = row.angle_deg,
+                                .u = row.errors[m].u,
+                                .unit = t.error_units[m],
+                                .shares = shares});
+        }
+        t.budget_summary.push_back({.quantity = t.error_names[m],
+                                    .rms_u = u[m],
+                                    .unit = t.error_units[m],
+                                    .shares = shares,
+                                    .printed_rms_u = decimals(u[m], 2),
+                                    .printed_shares = {"2.1", "3.4", "0.5", "6.0", "0.0", "88.0"}});
+    }
+    t.budget.push_back({.quantity = "O_y", .angle_deg = {}, .u = 0.147, .unit = "um", .shares = shares});
+
+    t.adjustment.method = "joint";
+    t.adjustment.observations = 1314;
+    t.adjustment.parameters = 268;
+    t.adjustment.degrees_of_freedom = 1046;
+    t.adjustment.iterations = 4;
+    t.adjustment.chi_square = 1032.647;
+    t.adjustment.p_value = 0.61;
+    t.adjustment.condition_number = 2960.0;
+    t.adjustment.variance_factor = {.a_priori = 1.0, .a_posteriori = 0.98723, .used = "a_priori"};
+    t.adjustment.printed = {
+        .chi_square = "1032.6", .p_value = "0.61", .variance_factor = "0.987", .condition_number = "3.0e3"};
+    t.variance_components = {{"length noise", 0.0512, 0.0011, "um", 812.0, true, {"0.0512", "0.0011", "µm"}},
+                             {"table linear", 0.148, 0.011, "um", 96.2, true, {"0.148", "0.011", "µm"}},
+                             {"table angular, axial", 0.31, 0.04, "arcsec", 33.0, true, {"0.31", "0.04", "″"}},
+                             {"table angular, tilt", 0.29, 0.02, "arcsec", 68.0, false, {"0.290", "0.020", "″"}}};
+    for (int i = 0; i < 4; ++i) {
+        t.reliability.push_back({.station = "P1",
+                                 .reflector = "R" + std::to_string(i + 1),
+                                 .pass = "P1-1",
+                                 .angle_deg = 10.0 * i,
+                                 .residual_um = 0.01 * i,
+                                 .redundancy_number = 0.8,
+                                 .test_value = i == 2 ? 61.2 : 0.4,
+                                 .minimal_detectable_bias_um = 0.33,
+                                 .flagged = i == 2,
+                                 .removed = i == 2});
+    }
+    t.flagged = {{"P1", "R3", "P1-1", "20", "3.12", "61.2", true},
+                 {"P4", "R6", "P4-1", "310", "\u22120.24", "4.3", false}};
+    t.outlier_critical_value = 3.89;
+    t.outlier_alpha = 0.0001;
+    t.printed_critical_value = "3.89";
+    r.rotary = t;
+
+    Comparison c;
+    c.reference_name = "dial indicator";
+    c.contact_point_mm = {180.0, 60.0, 40.0};
+    c.reference_budget = {{"maximum permissible error",
+                           {},
+                           "um",
+                           0.577,
+                           {},
+                           "B",
+                           "uniform",
+                           1.0,
+                           0.577,
+                           0.83,
+                           "dial indicator",
+                           {"0.577", "0.577", "83"}},
+                          {"repeatability",
+                           {},
+                           "um",
+                           0.25,
+                           10.0,
+                           "A",
+                           "normal",
+                           1.0,
+                           0.25,
+                           0.157,
+                           "dial indicator",
+                           {"0.250", "0.250", "16"}},
+                          {"resolution",
+                           {},
+                           "um",
+                           0.0289,
+                           {},
+                           "B",
+                           "uniform",
+                           1.0,
+                           0.0289,
+                           0.002,
+                           "dial indicator",
+                           {"0.029", "0.029", "0.2"}}};
+    for (const char* direction : {"x", "y", "z"}) {
+        for (int i = 0; i < 36; ++i) {
+            const double theta = 10.0 * i * std::numbers::pi / 180.0;
+            ComparisonPoint p;
+            p.direction = direction;
+            p.angle_deg = 10.0 * i;
+            p.value = 3.1 * std::sin(2.0 * theta + direction[0]);
+            p.u = 0.21;
+            p.U = 0.42;
+            p.reference_value = p.value + 0.9 * std::cos(3.0 * theta + direction[0]) + 0.2 * std::sin(23.0 * theta);
+            p.reference_u = 0.63;
+            p.reference_U = 1.26;
+            p.D = p.value - p.reference_value;
+            p.u_D = std::hypot(p.u, p.reference_u);
+            p.U_D = 2.0 * p.u_D;
+            p.En =
+                p.D / p.U_D * (i == 9 && p.direction == "z" ? 1.9 : 1.0) - (i == 30 && p.direction == "x" ? 0.9 : 0.0);
+            p.zeta = 2.0 * p.En;
+            p.printed = {.angle = decimals(p.angle_deg, 0),
+                         .value = decimals(p.value, 2),
+                         .U = decimals(p.U, 2),
+                         .reference_value = decimals(p.reference_value, 1),
+                         .reference_U = decimals(p.reference_U, 1),
+                         .D = decimals(p.D, 1),
+                         .U_D = decimals(p.U_D, 1),
+                         .En = decimals(p.En, 2)};
+            c.points.push_back(p);
+        }
+    }
+    for (const char* direction : {"x", "y", "z", "all"}) {
+        ComparisonSummary s;
+        s.direction = direction;
+        s.points = s.direction == "all" ? 108 : 36;
+        s.count_above_1 = s.direction == "all" ? 1 : 0;
+        s.mean_abs_En = 0.43;
+        s.max_abs_En = 1.12;
+        s.rms_En = 0.5;
+        s.printed = {.mean_abs_En = "0.43", .max_abs_En = "1.12", .rms_En = "0.50"};
+        c.summary.push_back(s);
+    }
+    c.remarks = {
+        "The uncertainty of the dial indicator is not smaller than that of the laser method: |En| below 1 does "
+        "not prove the stated uncertainty.",
+        "Points of one set-up share systematic errors: 108 scores are not 108 independent proofs."};
+    r.comparison = c;
+
+    Result o;
+    o.name = "O_y";
+    o.description = "offset of the fixture along y";
+    o.value = t.set_up.O_um[1];
+    o.unit = "um";
+    o.u = t.set_up.u_O_um[1];
+    o.nu_eff = 380.25;
+    o.U = 2.0 * o.u;
+    o.distribution = "normal";
+    o.printed = t.set_up.printed_O[1];
+    Result s = o;
+    s.name = "A_first_by_name";  // the order of documents is not the order of names
+    s.description = "tilt of the fixture about y";
+    s.unit = "arcsec";
+    s.value = t.set_up.S_arcsec[1];
+    s.u = t.set_up.u_S_arcsec[1];
+    s.U = 2.0 * s.u;
+    s.nu_eff = {};
+    s.printed = t.set_up.printed_S[1];
+    r.results = {o, s};
+    r.diagnostics = {{.code = "GC-ENGINE-0031",
+                      .where = "lengths.csv:17",
+                      .what = "distance P1 R3 at 20°: test value 61.2",
+                      .rule = "the critical value is 3.89",
+                      .action = "removed; look at the reflector",
+                      .severity = gum::Severity::warning}};
+    return r;
+}
+
+}  // namespace gumcert::test

@@ -1,0 +1,207 @@
+#include "reports/record/evaluation_record.h"
+
+#include "reports/record/canonical_json.h"
+#include "tests/support/sample_record.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace gumcert::reports {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+std::string refusal(const std::string& text) {
+    try {
+        static_cast<void>(record_from_json(text, "record.json"));
+    } catch (const gum::InputError& e) {
+        std::string all;
+        for (const gum::Diagnostic& d : e.diagnostics()) {
+            all += d.code + " " + gum::message(d) + "\n";
+        }
+        return all;
+    }
+    return "accepted";
+}
+
+json sample_json() {
+    return json::parse(to_canonical_json(test::sample_record()));
+}
+
+TEST(EvaluationRecord, ReadsBackToTheSameBytes) {
+    const std::string text = to_canonical_json(test::sample_record());
+    const EvaluationRecord again = record_from_json(text, "record.json");
+    EXPECT_EQ(to_canonical_json(again), text);
+    EXPECT_EQ(again.results.front().name, "O_y");  // order of documents, not of names
+    EXPECT_EQ(again.rotary->errors[7].errors[3].value, test::sample_record().rotary->errors[7].errors[3].value);
+    EXPECT_FALSE(again.results[1].nu_eff.has_value());
+    EXPECT_EQ(again.diagnostics, test::sample_record().diagnostics);
+}
+
+TEST(EvaluationRecord, HoldsTheKeysOfTheContract) {
+    const json r = sample_json();
+    EXPECT_EQ(r["schema"], "gumcert/record/1");
+    EXPECT_TRUE(r["audit"].is_null());
+    EXPECT_EQ(r["job"]["document"]["kind"], "rotary_table");
+    EXPECT_EQ(r["job"]["files"][1]["name"], "lengths.csv");
+    EXPECT_EQ(r["results"]["O_y"]["order"], 0);
+    EXPECT_TRUE(r["results"]["A_first_by_name"]["nu_eff"].is_null());
+    EXPECT_EQ(r["rotary"]["set_up"]["O_um"][1], 59.43);
+    EXPECT_EQ(r["rotary"]["axis_in_fixture"]["O_um"][1], -59.43);
+    EXPECT_EQ(r["rotary"]["errors"].size(), 36U);
+    for (const char* name : {"EXA", "EYA", "EZA", "EAA", "EBA", "ECA"}) {
+        for (const char* key : {"value", "u", "U", "k", "nu_eff"}) {
+            EXPECT_TRUE(r["rotary"]["errors"][35][name].contains(key)) << name << key;
+        }
+    }
+    for (const char* key : {"observations", "parameters", "degrees_of_freedom", "chi_square", "p_value",
+                            "condition_number", "iterations"}) {
+        EXPECT_TRUE(r["rotary"]["adjustment"].contains(key)) << key;
+    }
+    EXPECT_EQ(r["rotary"]["adjustment"]["variance_factor"]["used"], "a_priori");
+    EXPECT_EQ(r["rotary"]["budget"][0]["shares"]["table repeatability"], 0.88);
+    EXPECT_TRUE(r["rotary"]["budget"].back()["angle_deg"].is_null());
+    EXPECT_EQ(r["rotary"]["covariance"]["file"], "covariance.csv");
+    EXPECT_EQ(r["rotary"]["reliability"][2]["flagged"], true);
+    EXPECT_EQ(r["comparison"]["summary"]["all"]["points"], 108);
+    EXPECT_EQ(r["comparison"]["points"][0]["printed"]["En"], test::sample_record().comparison->points[0].printed.En);
+}
+
+TEST(EvaluationRecord, NumbersThatAreNotFiniteNeverReachAText) {
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        EvaluationRecord r = test::sample_record();
+        r.rotary->errors[3].errors[2].U = bad;
+        try {
+            static_cast<void>(to_canonical_json(r));
+            FAIL() << "accepted " << bad;
+        } catch (const gum::NoResultError& e) {
+            EXPECT_EQ(e.diagnostics().front().code, "GC-RECORD-0001");
+            EXPECT_EQ(e.diagnostics().front().where, "record#/rotary/errors/3/EZA/U");
+        }
+    }
+}
+
+TEST(EvaluationRecord, WriterRefusesWhatTheReaderWouldRefuse) {
+    EvaluationRecord r = test::sample_record();
+    r.results[1].name = r.results[0].name;
+    EXPECT_THROW(static_cast<void>(to_canonical_json(r)), gum::NoResultError);
+    r = test::sample_record();
+    r.rotary->error_names[0] = "EXC";
+    EXPECT_THROW(static_cast<void>(to_canonical_json(r)), gum::NoResultError);
+    r = test::sample_record();
+    r.rotary->budget[4].shares.pop_back();
+    EXPECT_THROW(static_cast<void>(to_canonical_json(r)), gum::NoResultError);
+    r = test::sample_record();
+    r.rotary->errors[0].errors[0].u = -1e-9;
+    EXPECT_THROW(static_cast<void>(to_canonical_json(r)), gum::NoResultError);
+    r = test::sample_record();
+    r.title = "bad \xC3( bytes";
+    EXPECT_THROW(static_cast<void>(to_canonical_json(r)), gum::NoResultError);
+    r = test::sample_record();
+    r.job_json = "{\"a\": ";
+    EXPECT_THROW(static_cast<void>(to_canonical_json(r)), gum::NoResultError);
+}
+
+TEST(EvaluationRecord, ReportsEveryProblemWithItsPointer) {
+    json r = sample_json();
+    r["rotary"]["errors"][5].erase("EBA");
+    r["rotary"]["errors"][6]["EXA"]["U"] = "0.4";
+    r["rotary"]["set_up"]["O_um"] = {1, 2};
+    r["rotary"]["adjustment"]["observations"] = 12.5;
+    r["rotary"]["datum"] = "elsewhere";
+    r["rotary"]["a~b/c"] = 1;
+    r["results"]["O_y"]["u"] = -0.1;
+    r["comparison"]["points"][2]["En"] = nullptr;
+    r["audit"] = json::object();
+    const std::string all = refusal(r.dump());
+    EXPECT_THAT(all, HasSubstr("GC-RECORD-0013 record.json#/rotary/errors/5/EBA — missing"));
+    EXPECT_THAT(all, HasSubstr("GC-RECORD-0015 record.json#/rotary/errors/6/EXA/U — string — must be a number"));
+    EXPECT_THAT(all, HasSubstr("GC-RECORD-0017 record.json#/rotary/set_up/O_um — 2 items — must be 3"));
+    EXPECT_THAT(all, HasSubstr("record.json#/rotary/adjustment/observations — number — must be a whole number"));
+    EXPECT_THAT(all, HasSubstr("GC-RECORD-0016 record.json#/rotary/datum — \"elsewhere\""));
+    EXPECT_THAT(all, HasSubstr("GC-RECORD-0014 record.json#/rotary/a~0b~1c — unknown key"));
+    EXPECT_THAT(all, HasSubstr("record.json#/results/O_y/u — -0.1 — must be 0 or greater"));
+    EXPECT_THAT(all, HasSubstr("record.json#/comparison/points/2/En — null — must be a number"));
+    EXPECT_THAT(all, HasSubstr("record.json#/audit — object"));
+}
+
+TEST(EvaluationRecord, RefusesAnotherSchemaBeforeAnythingElse) {
+    EXPECT_THAT(refusal(R"({"schema": "gumcert/record/2", "x": 1})"),
+                HasSubstr("GC-RECORD-0020 record.json#/schema — \"gumcert/record/2\""));
+    EXPECT_THAT(refusal("{}"), HasSubstr("GC-RECORD-0020"));
+    EXPECT_THAT(refusal("[1]"), HasSubstr("GC-RECORD-0015"));
+}
+
+TEST(EvaluationRecord, RefusesTextsThatAreNotStrictJson) {
+    EXPECT_THAT(refusal(""), HasSubstr("GC-RECORD-0011"));
+    EXPECT_THAT(refusal(R"({"schema": )"), HasSubstr("GC-RECORD-0011"));
+    EXPECT_THAT(refusal(R"({"a": 1e999})"), HasSubstr("GC-RECORD-0011"));
+    EXPECT_THAT(refusal(R"({"a": NaN})"), HasSubstr("GC-RECORD-0011"));
+    EXPECT_THAT(refusal(R"({"a": 1} trailing)"), HasSubstr("GC-RECORD-0011"));
+    EXPECT_THAT(refusal("{\"a\": \"\xC3(\"}"), HasSubstr("GC-RECORD-0011"));
+    EXPECT_THAT(refusal(R"({"b": {"a": 1, "a": 2}, "b": 3})"), HasSubstr("GC-RECORD-0012 record.json#/b/a"));
+    EXPECT_THAT(refusal(std::string(100'000, '[')), HasSubstr("GC-RECORD-0018"));
+    EXPECT_THAT(refusal(std::string(k_max_record_bytes + 1, ' ')), HasSubstr("GC-RECORD-0010"));
+}
+
+TEST(EvaluationRecord, ListsAtMostTwoHundredProblems) {
+    json r = sample_json();
+    for (json& row : r["rotary"]["errors"]) {
+        row = {{"unknown", 1}};
+    }
+    const std::string all = refusal(r.dump());
+    EXPECT_THAT(all, HasSubstr("GC-RECORD-0019"));
+    EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 201);
+}
+
+TEST(EvaluationRecord, OptionalPartsMayBeNull) {
+    EvaluationRecord r = test::sample_record();
+    r.rotary.reset();
+    r.comparison.reset();
+    r.kind = "budget";
+    const std::string text = to_canonical_json(r);
+    EXPECT_EQ(to_canonical_json(record_from_json(text, "x")), text);
+}
+
+TEST(CanonicalJson, HasOneFormOnly) {
+    const json value = json::parse(
+        R"({"b": [1, "x", true, null], "a": {"é": 36.0, "z": [[], {}]}, "c": 1e5, "d": 0.1, "e": -0.0, "f": 1e22})");
+    EXPECT_EQ(canonical_json(value),
+              "{\n \"a\": {\n  \"z\": [\n   [],\n   {}\n  ],\n  \"é\": 36\n },\n \"b\": [1, \"x\", true, null],\n"
+              " \"c\": 1e+05,\n \"d\": 0.1,\n \"e\": -0.0,\n \"f\": 1e+22\n}\n");
+    EXPECT_EQ(canonical_json(json::parse(canonical_json(value))), canonical_json(value));
+    EXPECT_EQ(canonical_json(json("a\"\\\n\x01\x7F/")), "\"a\\\"\\\\\\n\\u0001\\u007f/\"\n");
+}
+
+TEST(CanonicalJson, NumbersReadBackTheSame) {
+    for (const double v : {5e-324, 1.7976931348623157e308, 0.1, 1.0 / 3.0, 9007199254740993.0, 1152921504606846976.0,
+                           123456789012345678.0, -2.5e-7, 100000.0, 4503599627370497.5}) {
+        const std::string text = canonical_json(json(v));
+        EXPECT_EQ(json::parse(text).get<double>(), v) << text;
+        EXPECT_EQ(canonical_json(json::parse(text)), text);
+    }
+}
+
+TEST(CanonicalJson, RefusesNestingThatTheReaderWouldRefuse) {
+    json deep = 1;
+    for (int i = 0; i < 70; ++i) {
+        deep = json::array({deep});
+    }
+    EXPECT_THROW(static_cast<void>(canonical_json(deep)), gum::NoResultError);
+}
+
+TEST(Utf8, KnowsTheForbiddenForms) {
+    EXPECT_TRUE(is_utf8("µ″−校😀"));
+    for (const char* bad : {"\x80", "\xC0\xAF", "\xE0\x80\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xF8\x88\x80\x80",
+                            "\xE2\x82", "\xC3("}) {
+        EXPECT_FALSE(is_utf8(bad));
+    }
+}
+
+}  // namespace
+}  // namespace gumcert::reports
