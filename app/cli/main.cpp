@@ -1,0 +1,417 @@
+// The program `gumcert`: reads the command line, calls a use case, turns failures into messages and exit codes.
+#include <fmt/core.h>
+#include <gumcert_build_info.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/evaluate_job.h"
+#include "app/file_digest.h"
+#include "app/output_files.h"
+#include "gum/quantity/diagnostic.h"
+#include "reports/record/evaluation_record.h"
+#include "reports/render.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace gumcert;  // NOLINT(google-build-using-namespace): one program, one file
+
+enum ExitCode : int {
+    done = 0,
+    usage = 2,
+    input_refused = 3,
+    no_result = 4,
+    storage_trouble = 5,
+    defect = 70,
+};
+
+struct CommonOptions {
+    bool quiet = false;
+    bool json_messages = false;
+    int threads = 1;
+};
+
+void print_message(const gum::Diagnostic& diagnostic, const CommonOptions& common) {
+    if (common.json_messages) {
+        const char* const severities[] = {"note", "warning", "error"};
+        const nlohmann::json line{
+            {"code", diagnostic.code},     {"where", diagnostic.where},
+            {"what", diagnostic.what},     {"rule", diagnostic.rule},
+            {"action", diagnostic.action}, {"severity", severities[static_cast<int>(diagnostic.severity)]}};
+        fmt::print(stderr, "{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    } else {
+        const char* const prefix = diagnostic.severity == gum::Severity::error     ? ""
+                                   : diagnostic.severity == gum::Severity::warning ? "warning: "
+                                                                                   : "note: ";
+        fmt::print(stderr, "{}{} [{}]\n", prefix, gum::message(diagnostic), diagnostic.code);
+    }
+}
+
+/// Progress on a terminal, from the first second on.
+class ProgressLine {
+public:
+    explicit ProgressLine(bool wanted) : wanted_(wanted && isatty(STDERR_FILENO) == 1) {}
+    ~ProgressLine() { clear(); }
+    ProgressLine(const ProgressLine&) = delete;
+    ProgressLine& operator=(const ProgressLine&) = delete;
+
+    void operator()(const std::string& text) {
+        const auto elapsed = std::chrono::steady_clock::now() - start_;
+        if (!wanted_ || elapsed < std::chrono::seconds(1)) {
+            return;
+        }
+        fmt::print(stderr, "\r\033[K{}: {}", command_, text);
+        std::fflush(stderr);
+        shown_ = true;
+    }
+
+    void clear() {
+        if (shown_) {
+            fmt::print(stderr, "\r\033[K");
+            shown_ = false;
+        }
+    }
+
+private:
+    bool wanted_;
+    bool shown_ = false;
+    const char* command_ = "gumcert";
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+fs::path executable() {
+    std::error_code error;
+    return fs::read_symlink("/proc/self/exe", error);
+}
+
+/// Folder with templates/: share/gumcert of the installation, or the tree that the program was built in.
+fs::path share_folder(const std::string& given) {
+    if (!given.empty()) {
+        return given;
+    }
+    std::error_code error;
+    fs::path folder = executable().parent_path();
+    for (int level = 0; level < 6 && !folder.empty(); ++level, folder = folder.parent_path()) {
+        for (const fs::path& candidate : {folder / "share" / "gumcert", folder}) {
+            if (fs::exists(candidate / "templates" / "certificate.html.mustache", error)) {
+                return candidate;
+            }
+        }
+        if (folder == folder.root_path()) {
+            break;
+        }
+    }
+    throw gum::StorageError(gum::Diagnostic{"GC-STORE-0010", "templates", "the folder of templates was not found",
+                                            "documents need the templates that come with the program",
+                                            "name it with --share FOLDER", gum::Severity::error});
+}
+
+fs::path program_on_path(const char* name) {
+    const char* const search = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): one thread
+    std::error_code error;
+    for (std::string rest = search == nullptr ? "" : search; !rest.empty();) {
+        const std::size_t end = rest.find(':');
+        const fs::path candidate = fs::path(rest.substr(0, end)) / name;
+        if (access(candidate.c_str(), X_OK) == 0 && fs::is_regular_file(candidate, error)) {
+            return candidate;
+        }
+        rest = end == std::string::npos ? "" : rest.substr(end + 1);
+    }
+    return {};
+}
+
+reports::RenderAssets assets(const std::string& share, const std::string& language) {
+    const fs::path folder = share_folder(share);
+    reports::RenderAssets result;
+    result.templates = folder / "templates";
+    result.node_program = program_on_path("node");
+    result.node_modules = folder / "node_modules";
+    result.temporary_folder = fs::temp_directory_path();
+    result.language = language;
+    return result;
+}
+
+std::string render(const reports::EvaluationRecord& record, const std::string& format,
+                   const reports::RenderAssets& with) {
+    if (format == "html") {
+        return reports::render_html(record, with);
+    }
+    if (format == "pdf") {
+        return reports::render_pdf(record, with);
+    }
+    return reports::render_text(record, with);
+}
+
+/// Headline numbers of a record, for the terminal.
+void print_summary(const reports::EvaluationRecord& record) {
+    if (!record.title.empty()) {
+        fmt::print("{}\n\n", record.title);
+    }
+    if (record.rotary) {
+        const reports::RotaryTable& rotary = *record.rotary;
+        fmt::print("Set-up of the fixture (value ± U, p = {}):\n", record.printed_coverage);
+        for (const reports::Result& result : record.results) {
+            fmt::print("  {:<4} {:>9} ± {} {}   {}\n", result.name, result.printed.value, result.printed.U,
+                       result.printed.unit, result.description);
+        }
+        fmt::print("\nError motions over {} angles, datum {}:\n", rotary.errors.size(),
+                   rotary.datum == "home" ? "home" : "axis average line");
+        for (const reports::RangeRow& range : rotary.ranges) {
+            fmt::print("  {}  range {:>7} ± {} {}\n", range.name, range.printed.value, range.printed.U,
+                       range.printed.unit);
+        }
+        fmt::print("\nAdjustment: {} observations, {} parameters, chi-square {} on {} degrees of freedom, p = {}\n",
+                   rotary.adjustment.observations, rotary.adjustment.parameters, rotary.adjustment.printed.chi_square,
+                   rotary.adjustment.degrees_of_freedom, rotary.adjustment.printed.p_value);
+        std::size_t removed = 0;
+        for (const reports::FlaggedDistance& distance : rotary.flagged) {
+            removed += distance.removed ? 1 : 0;
+        }
+        fmt::print("Outlying distances: {} found, {} left out (listed in the certificate)\n", rotary.flagged.size(),
+                   removed);
+    }
+    if (record.comparison) {
+        fmt::print("\nComparison with {}:\n", record.comparison->reference_name);
+        for (const reports::ComparisonSummary& row : record.comparison->summary) {
+            fmt::print("  {:<3}  mean |En| {}   max |En| {}   above 1: {} of {}\n", row.direction,
+                       row.printed.mean_abs_En, row.printed.max_abs_En, row.count_above_1, row.points);
+        }
+    }
+}
+
+void report_diagnostics(const reports::EvaluationRecord& record, const CommonOptions& common) {
+    for (const gum::Diagnostic& diagnostic : record.diagnostics) {
+        if (!common.quiet || diagnostic.severity != gum::Severity::note) {
+            print_message(diagnostic, common);
+        }
+    }
+}
+
+[[noreturn]] void refuse_usage(const std::string& where, const std::string& what, const std::string& rule,
+                               const std::string& action) {
+    throw gum::UsageError(gum::Diagnostic{"GC-USAGE-0001", where, what, rule, action, gum::Severity::error});
+}
+
+void run_job(const fs::path& job, const std::string& output, const std::string& share, const CommonOptions& common) {
+    const fs::path folder = output.empty() ? job.parent_path() / (job.stem().string() + "-out") : fs::path(output);
+    app::require_writable(folder / "record.json");
+    ProgressLine progress(!common.quiet);
+    const app::Evaluation evaluation =
+        app::evaluate_job(job, "covariance.csv", [&](const std::string& text) { progress(text); });
+    const reports::RenderAssets with = assets(share, "en");
+    progress("documents");
+    const std::vector<app::OutputFile> files{
+        {folder / "record.json", reports::to_canonical_json(evaluation.record)},
+        {folder / "covariance.csv", evaluation.covariance_csv},
+        {folder / "certificate.html", reports::render_html(evaluation.record, with)},
+        {folder / "certificate.pdf", reports::render_pdf(evaluation.record, with)}};
+    app::write_files(files);
+    progress.clear();
+    report_diagnostics(evaluation.record, common);
+    if (!common.quiet) {
+        print_summary(evaluation.record);
+        fmt::print("\nWritten:\n");
+        for (const app::OutputFile& file : files) {
+            fmt::print("  {}\n", file.path.string());
+        }
+    }
+}
+
+void evaluate(const fs::path& job, const std::string& output, const CommonOptions& common) {
+    const bool to_stdout = output == "-";
+    const fs::path record_file =
+        output.empty() ? job.parent_path() / (job.stem().string() + "-record.json") : fs::path(output);
+    // The covariance stands beside the record under the record's own name, so that two records do not share it.
+    const std::string covariance_name = to_stdout ? "" : record_file.stem().string() + "-covariance.csv";
+    if (!to_stdout) {
+        app::require_writable(record_file);
+    }
+    ProgressLine progress(!common.quiet);
+    const app::Evaluation evaluation =
+        app::evaluate_job(job, covariance_name, [&](const std::string& text) { progress(text); });
+    const std::string text = reports::to_canonical_json(evaluation.record);
+    progress.clear();
+    if (to_stdout) {
+        report_diagnostics(evaluation.record, common);
+        if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+            throw gum::StorageError(gum::Diagnostic{"GC-STORE-0003", "standard output", "cannot be written", "",
+                                                    "write to a file with -o RECORD.json", gum::Severity::error});
+        }
+        return;
+    }
+    app::write_files({{record_file, text}, {record_file.parent_path() / covariance_name, evaluation.covariance_csv}});
+    report_diagnostics(evaluation.record, common);
+    if (!common.quiet) {
+        print_summary(evaluation.record);
+        fmt::print("\nWritten:\n  {}\n  {}\nNext: gumcert render {} --format pdf\n", record_file.string(),
+                   (record_file.parent_path() / covariance_name).string(), record_file.string());
+    }
+}
+
+void render_record(const fs::path& record_file, const std::string& format, const std::string& output,
+                   const std::string& language, const std::string& share, const CommonOptions& common) {
+    if (format == "dcc") {
+        refuse_usage("--format dcc", "the digital calibration certificate is not part of this version",
+                     "this version renders html, pdf and text", "choose one of them");
+    }
+    if (language != "en") {
+        refuse_usage("--language " + language, "the wording of this language is not part of this version",
+                     "this version writes English (en)", "leave the option out");
+    }
+    const reports::EvaluationRecord record =
+        reports::record_from_json(app::read_file(record_file), record_file.string());
+    const bool to_stdout = output == "-";
+    const fs::path file =
+        output.empty()
+            ? record_file.parent_path() / (record_file.stem().string() + (format == "text" ? ".txt" : "." + format))
+            : fs::path(output);
+    if (!to_stdout) {
+        app::require_writable(file);
+    }
+    const std::string bytes = render(record, format, assets(share, language));
+    if (to_stdout) {
+        if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0) {
+            throw gum::StorageError(gum::Diagnostic{"GC-STORE-0003", "standard output", "cannot be written", "",
+                                                    "write to a file with -o FILE", gum::Severity::error});
+        }
+        return;
+    }
+    app::write_files({{file, bytes}});
+    if (!common.quiet) {
+        fmt::print("Written: {}\n", file.string());
+    }
+}
+
+std::string version_text() {
+    std::string digest = "unknown";
+    try {
+        digest = app::sha256(app::read_file(executable()));
+    } catch (const gum::DiagnosedError&) {
+        // A system without /proc: the version is still told.
+    }
+    return fmt::format("gumcert {}\ncommit {}\nsha256 {}", k_version, k_commit, digest);
+}
+
+constexpr const char* k_description =
+    "gumcert evaluates measurements with their uncertainty (GUM, ISO/IEC Guide 98-3) and writes the calibration\n"
+    "certificate. A job file (JSON) names the measurement and its data files.";
+
+constexpr const char* k_footer =
+    "Start here:\n"
+    "  gumcert run examples/rotary_table/job.json     evaluate, write record, HTML and PDF into job-out/\n"
+    "\n"
+    "Exit codes: 0 done; 1 done, and the answer is negative; 2 the command line is wrong; 3 an input was refused;\n"
+    "4 no result can be computed; 5 a file or disk trouble; 70 a defect in the program. Nothing is written when the\n"
+    "exit code is 2, 3 or 4. Messages go to stderr: where — what is wrong — the rule — what to do [code].";
+
+int dispatch(int argc, char** argv, CommonOptions& common) {
+    CLI::App program{k_description, "gumcert"};
+    program.footer(k_footer);
+    program.require_subcommand(0, 1);
+    program.set_version_flag("--version", version_text, "Version, commit and SHA-256 of this program");
+    const auto add_common = [&common](CLI::App& command) {
+        command.add_flag("-q,--quiet", common.quiet, "No progress, no summary, no notes");
+        command.add_flag("--json-messages", common.json_messages, "Messages as one JSON object a line");
+        command.add_option("--threads", common.threads, "Threads to use; results are the same bytes for any number")
+            ->check(CLI::Range(1, 1024));
+    };
+    add_common(program);
+
+    std::string job;
+    std::string output;
+    std::string share;
+    std::string format;
+    std::string language = "en";
+    std::string record;
+
+    CLI::App* run = program.add_subcommand("run", "Evaluate a job and write record, covariance and certificates");
+    run->add_option("JOB", job, "Job file (JSON)")->required();
+    run->add_option("-o,--output", output, "Folder for the output; default: the job's name with -out, beside the job");
+    run->add_option("--share", share, "Folder that holds templates/ and node_modules/");
+    run->footer(
+        "Example: gumcert run examples/rotary_table/job.json -o /tmp/certificate\n"
+        "Writes record.json, covariance.csv, certificate.html and certificate.pdf, all or none.");
+
+    CLI::App* evaluate_command = program.add_subcommand("evaluate", "Evaluate a job and write its record only");
+    evaluate_command->add_option("JOB", job, "Job file (JSON)")->required();
+    evaluate_command->add_option("-o,--output", output,
+                                 "Record file, or - for standard output; default: the job's name with -record.json");
+    evaluate_command->footer("Example: gumcert evaluate job.json -o record.json");
+
+    CLI::App* render_command = program.add_subcommand("render", "Make a document from a record, without evaluating");
+    render_command->add_option("RECORD", record, "Record file (JSON)")->required();
+    render_command->add_option("--format", format, "html, pdf, text (dcc: not in this version)")
+        ->required()
+        ->check(CLI::IsMember({"html", "pdf", "text", "dcc"}));
+    render_command->add_option("-o,--output", output, "File, or - for standard output; default: beside the record");
+    render_command->add_option("--language", language, "Language of the document")
+        ->check(CLI::IsMember({"en", "de", "zh-Hant", "es"}));
+    render_command->add_option("--share", share, "Folder that holds templates/ and node_modules/");
+    render_command->footer("Example: gumcert render record.json --format pdf -o certificate.pdf");
+
+    for (CLI::App* command : {run, evaluate_command, render_command}) {
+        add_common(*command);
+    }
+
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::Success& asked) {  // --help, --version
+        return program.exit(asked);
+    } catch (const CLI::ParseError& wrong) {
+        refuse_usage("command line", wrong.what(), "see gumcert --help", "correct the command");
+    }
+    if (run->parsed()) {
+        run_job(job, output, share, common);
+    } else if (evaluate_command->parsed()) {
+        evaluate(job, output, common);
+    } else if (render_command->parsed()) {
+        render_record(record, format, output, language, share, common);
+    } else {
+        fmt::print("{}", program.help());
+    }
+    return done;
+}
+
+template <class Error>
+int explain(const Error& error, const CommonOptions& common, ExitCode code) {
+    for (const gum::Diagnostic& diagnostic : error.diagnostics()) {
+        print_message(diagnostic, common);
+    }
+    return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CommonOptions common;
+    try {
+        return dispatch(argc, argv, common);
+    } catch (const gum::UsageError& error) {
+        return explain(error, common, usage);
+    } catch (const gum::InputError& error) {
+        return explain(error, common, input_refused);
+    } catch (const gum::NoResultError& error) {
+        return explain(error, common, no_result);
+    } catch (const gum::StorageError& error) {
+        return explain(error, common, storage_trouble);
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "gumcert — out of memory — — close other programs, or split the job [GC-STORE-0020]\n");
+        return storage_trouble;
+    } catch (const std::exception& error) {
+        fmt::print(stderr,
+                   "gumcert — {} — this is a defect in the program — please report it with the job [GC-DEFECT]\n",
+                   error.what());
+        return defect;
+    }
+}

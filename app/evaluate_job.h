@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "reports/record/evaluation_record.h"
+
+namespace gumcert::app {
+
+struct Evaluation {
+    reports::EvaluationRecord record;
+    std::string covariance_csv;  ///< contents of the file that the record names
+};
+
+/// Called now and then with a sentence on what is being done.
+using Progress = std::function<void(const std::string&)>;
+
+/// Reads a job with all its files, evaluates it and makes its record. Writes nothing.
+///
+/// \param covariance_file  name that the covariance file will have beside the record; "" when none will be written
+/// \throws gum::InputError, gum::NoResultError, gum::StorageError
+[[nodiscard]] Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string& covariance_file,
+                                      const Progress& progress = {});
+
+}  // namespace gumcert::app

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/job/rotary_table_job.h"
+#include "engine/rotary_table_evaluation.h"
+#include "gum/propagation.h"
+#include "reports/record/evaluation_record.h"
+
+namespace gumcert::app {
+
+/// The record of a rotary-table evaluation: units of documents, rounding, names, nothing computed but the scores.
+///
+/// \param contact_point    displacements of the contact point, angle by angle, x, y, z, [m]; null without comparison
+/// \param covariance_file  name that the covariance file will have beside the record; "" when there is none
+[[nodiscard]] reports::EvaluationRecord rotary_table_record(const engine::RotaryTableJob& job,
+                                                            const engine::EvaluationOptions& options,
+                                                            const engine::RotaryTableSolution& solution,
+                                                            const gum::Propagation& propagation,
+                                                            const gum::Propagation* contact_point,
+                                                            const std::vector<reports::InputFile>& files,
+                                                            const std::string& covariance_file);
+
+/// Names of the rows and columns of the covariance file: "EXA@30" … angle by angle, then set-up errors and reversals.
+[[nodiscard]] std::vector<std::string> covariance_order(const engine::RotaryTableJob& job,
+                                                        const engine::ReportedQuantities& quantities);
+
+/// Covariance of all error motions, set-up errors and reversals as CSV: a head line of names, then one line a row,
+/// [µm], [arcsec] and their products, shortest digits that read back the same.
+[[nodiscard]] std::string covariance_csv(const engine::RotaryTableJob& job,
+                                         const engine::ReportedQuantities& quantities,
+                                         const Eigen::MatrixXd& covariance);
+
+}  // namespace gumcert::app
