@@ -102,6 +102,14 @@ std::vector<double> shares_of(const gum::Propagation& propagation, Eigen::Index 
     return shares;
 }
 
+/// Unit in which a budget shows an input of a coherent SI unit: µm and arcsec, others as they are.
+DocumentUnit budget_unit(const std::string& si_unit) {
+    if (si_unit == "m") {
+        return k_um;
+    }
+    return si_unit == "rad" ? k_arcsec : DocumentUnit{1.0, si_unit.c_str(), si_unit.c_str()};
+}
+
 const char* type_letter(gum::Evaluation evaluation) {
     return evaluation == gum::Evaluation::type_a ? "A" : "B";
 }
@@ -128,8 +136,9 @@ reports::Result result_of(const gum::Propagation& propagation, const gum::Measur
                                                              : Eigen::VectorXd(group.covariance.diagonal());
         reports::BudgetRow row;
         row.input = group.name;
-        row.unit = group.unit;
-        row.u = std::sqrt(variance.mean());  // of one typical quantity of the group
+        const DocumentUnit input_unit = budget_unit(group.unit);
+        row.unit = input_unit.record;
+        row.u = std::sqrt(variance.mean()) / input_unit.si;  // of one typical quantity of the group
         row.nu = finite_or_none(group.degrees_of_freedom);
         row.type = type_letter(group.evaluation);
         row.distribution = group.distribution;
@@ -137,16 +146,14 @@ reports::Result result_of(const gum::Propagation& propagation, const gum::Measur
         row.share = propagation.budget[g].share[output];
         row.source = group.source;
         if (group.size() == 1) {
-            row.value = group.value[0];
-            row.sensitivity = propagation.jacobian(output, [&] {
-                Eigen::Index first = 0;
-                for (std::size_t before = 0; before < g; ++before) {
-                    first += model.inputs()[before].size();
-                }
-                return first;
-            }());
+            Eigen::Index first = 0;
+            for (std::size_t before = 0; before < g; ++before) {
+                first += model.inputs()[before].size();
+            }
+            row.value = group.value[0] / input_unit.si;
+            row.sensitivity = propagation.jacobian(output, first) * input_unit.si / unit.si;
         }
-        row.printed.u = gum::round_significant(row.u, 2) + (group.unit == "1" ? "" : " " + group.unit);
+        row.printed.u = gum::round_significant(row.u, 2);
         row.printed.contribution = gum::round_significant(row.contribution, 2);
         row.printed.share = gum::percent(row.share);
         result.budget.push_back(std::move(row));
@@ -188,7 +195,7 @@ reports::Comparison comparison_of(const RotaryTableJob& job, const gum::Propagat
         row.contribution = row.u;
         row.share = std::pow(u / u_reference(runs), 2);
         row.source = reference.name;
-        row.printed.u = gum::round_significant(row.u, 2) + " µm";
+        row.printed.u = gum::round_significant(row.u, 2);
         row.printed.contribution = gum::round_significant(row.contribution, 2);
         row.printed.share = gum::percent(row.share);
         comparison.reference_budget.push_back(std::move(row));
@@ -285,6 +292,7 @@ nlohmann::json options_json(const RotaryTableJob& job, const engine::EvaluationO
     return {{"solver",
              {{"linear_solver", "Ceres, Schur complement with SuiteSparse, one thread, then Gauss-Newton"},
               {"max_iterations", options.solver.max_iterations},
+              {"max_refinements", options.solver.max_refinements},
               {"step_tolerance", options.solver.step_tolerance},
               {"rank_tolerance", options.solver.rank_tolerance}}},
             {"variance_components",

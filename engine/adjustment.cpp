@@ -22,13 +22,10 @@ using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eig
 Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& covariance) {
     const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
     if (factor.info() != Eigen::Success) {
-        throw gum::NoResultError(
-            gum::Diagnostic{"GC-ADJUST-0001",
-                            "adjustment",
-                            "the covariance matrix of a group of observations is not positive definite",
-                            "weights are the inverse of the covariance",
-                            "state standard uncertainties greater than 0",
-                            {}});
+        throw gum::NoResultError(gum::Diagnostic{
+            "GC-ADJUST-0001", "adjustment", "the covariance matrix of a group of observations is not positive definite",
+            "weights are the inverse of the covariance", "state standard uncertainties greater than 0",
+            gum::Severity::error});
     }
     return factor.matrixL();
 }
@@ -335,12 +332,9 @@ Eigen::MatrixXd NormalEquations::covariance() const {
         const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * reduced * scale.asDiagonal());
         if (factor.info() != Eigen::Success) {
             throw gum::NoResultError(
-                gum::Diagnostic{"GC-ADJUST-0002",
-                                "adjustment",
-                                "the normal equations are singular",
+                gum::Diagnostic{"GC-ADJUST-0002", "adjustment", "the normal equations are singular",
                                 "a covariance exists only where the observations determine every parameter",
-                                "check the rank report, add stations, reflectors or angles",
-                                {}});
+                                "check the rank report, add stations, reflectors or angles", gum::Severity::error});
         }
         border_covariance = factor.solve(Eigen::MatrixXd::Identity(border_, border_));
         border_covariance = (scale.asDiagonal() * border_covariance * scale.asDiagonal()).eval();
@@ -436,7 +430,7 @@ void Adjustment::apply(const NormalEquations& normal, const Eigen::VectorXd& ste
 SolveSummary Adjustment::refine(const SolverOptions& options) {
     SolveSummary summary;
     double last = std::numeric_limits<double>::infinity();
-    for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
+    for (int iteration = 0; iteration < options.max_refinements; ++iteration) {
         const NormalEquations normal = linearise();
         const Eigen::VectorXd step = normal.step();
         if (!step.allFinite()) {
@@ -455,7 +449,11 @@ SolveSummary Adjustment::refine(const SolverOptions& options) {
         apply(normal, step);
         ++summary.iterations;
         const double size = std::sqrt(decrement);
-        if (size < options.step_tolerance) {
+        // Residuals far above their standard deviations (an outlier still in) carry rounding of their own size: the
+        // step is judged against what they would make of the uncertainties. With sound observations the factor is one.
+        const double spread =
+            std::max(1.0, std::sqrt(normal.chi_square() / static_cast<double>(normal.observation_count())));
+        if (size < options.step_tolerance * spread) {
             summary.converged = true;
             break;
         }

@@ -21,7 +21,8 @@ public:
 };
 
 struct SolverOptions {
-    int max_iterations = 50;
+    int max_iterations = 50;    ///< of Ceres
+    int max_refinements = 500;  ///< Gauss-Newton steps after it; outliers that are kept make them slow
     /// Converged when the next Gauss-Newton step of every parameter is below this fraction of its standard uncertainty.
     double step_tolerance = 1e-6;
     /// Squared ratio of smallest to largest singular value of the column-scaled Jacobian below which the parameters

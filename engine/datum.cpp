@@ -104,6 +104,12 @@ DatumSolution transform_to_datum(const RotaryTableMeasurement& measurement, cons
             solution.set_up[3 + across[static_cast<std::size_t>(c)]] += step[8 + c];
         }
     }
+    if (datum == Datum::home) {
+        // Zero by definition, not by rounding: neither a value nor an uncertainty is stated at home.
+        const auto home = static_cast<Eigen::Index>(measurement.home);
+        solution.errors.col(home).setZero();
+        solution.error_map.middleRows<6>(6 * home).setZero();
+    }
     return solution;
 }
 

@@ -86,21 +86,16 @@ NetworkSolution adjust_distance_network(const std::vector<NetworkPoint>& points,
         for (const std::string& name : solution.rank.parameters) {
             names += (names.empty() ? "" : "; ") + name;
         }
-        throw gum::NoResultError(
-            gum::Diagnostic{"GC-ADJUST-0003",
-                            "distance network",
-                            "not determined by the distances: " + names,
-                            "every free point needs distances from directions that are not in one plane or on one cone",
-                            "add distances from other directions, or give the points a covariance",
-                            {}});
+        throw gum::NoResultError(gum::Diagnostic{
+            "GC-ADJUST-0003", "distance network", "not determined by the distances: " + names,
+            "every free point needs distances from directions that are not in one plane or on one cone",
+            "add distances from other directions, or give the points a covariance", gum::Severity::error});
     }
     if (!solution.summary.converged) {
-        throw gum::NoResultError(gum::Diagnostic{"GC-ADJUST-0004",
-                                                 "distance network",
+        throw gum::NoResultError(gum::Diagnostic{"GC-ADJUST-0004", "distance network",
                                                  "the adjustment did not converge (" + solution.summary.message + ")",
                                                  "a result needs the minimum of the weighted squares",
-                                                 "check the start values and the distances",
-                                                 {}});
+                                                 "check the start values and the distances", gum::Severity::error});
     }
 
     const Eigen::MatrixXd covariance = normal.covariance();

@@ -350,7 +350,7 @@ void JointAdjustment::copy_parameters_from(const JointAdjustment& other) {
     }
 }
 
-StartValues find_start_values(const RotaryTableMeasurement& measurement) {
+StartValues find_start_values(const RotaryTableMeasurement& measurement, const std::vector<bool>& active) {
     StartValues start;
     start.stations.resize(measurement.stations.size());
     start.dead_paths = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(measurement.dead_paths.size()));
@@ -360,8 +360,9 @@ StartValues find_start_values(const RotaryTableMeasurement& measurement) {
         std::vector<std::size_t> paths;  // dead paths of this station
         const double stretch =
             1.0 + measurement.expansion * measurement.temperature_difference[static_cast<Eigen::Index>(j)];
-        for (const LengthObservation& length : measurement.lengths) {
-            if (length.station != j) {
+        for (std::size_t i = 0; i < measurement.lengths.size(); ++i) {
+            const LengthObservation& length = measurement.lengths[i];
+            if (length.station != j || (!active.empty() && !active[i])) {
                 continue;
             }
             lengths.push_back(&length);
@@ -394,14 +395,13 @@ StartValues find_start_values(const RotaryTableMeasurement& measurement) {
             const Eigen::VectorXd solution = scale.asDiagonal() * factor.solve(right);
             if (factor.rank() < unknown) {
                 throw gum::NoResultError(gum::Diagnostic{
-                    "GC-RANK-0001",
-                    "station " + measurement.stations[j],
+                    "GC-RANK-0001", "station " + measurement.stations[j],
                     "its position and dead path are not determined: all reflectors are seen on a cone about one line, "
                     "or in too few directions",
                     "a station needs reflectors in directions that do not lie on one cone, else a move along the axis "
                     "of the cone and a longer dead path look the same",
                     "move the station off the rotary axis, or place reflectors at different distances from the axis",
-                    {}});
+                    gum::Severity::error});
             }
             start.stations[j] = solution.head<3>();
         }
@@ -418,6 +418,66 @@ StartValues find_start_values(const RotaryTableMeasurement& measurement) {
         }
     }
     return start;
+}
+
+std::vector<std::size_t> find_gross_errors(const RotaryTableMeasurement& measurement) {
+    // Start values know nothing of set-up errors and error motions: a millimetre or two is no sign of a gross error.
+    constexpr double k_smallest = 0.02;  // [m]
+    constexpr double k_factor = 15.0;    // times the standard deviation that the median absolute deviation stands for
+    std::vector<bool> active(measurement.lengths.size(), true);
+    std::vector<std::size_t> found;
+    const std::size_t most = measurement.lengths.size() / 20;
+    const auto median = [](std::vector<double> values) {
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        return *middle;
+    };
+    while (found.size() <= most) {
+        const StartValues start = find_start_values(measurement, active);
+        std::vector<std::vector<std::size_t>> by_path(measurement.dead_paths.size());
+        std::vector<double> deviation(measurement.lengths.size(), 0.0);
+        for (std::size_t i = 0; i < measurement.lengths.size(); ++i) {
+            const LengthObservation& length = measurement.lengths[i];
+            const double stretch =
+                1.0 +
+                measurement.expansion * measurement.temperature_difference[static_cast<Eigen::Index>(length.station)];
+            const Eigen::Vector3d position =
+                nominal_rotation(measurement, length.angle) *
+                (stretch * measurement.fixture.row(static_cast<Eigen::Index>(length.reflector)).transpose());
+            deviation[i] = (position - start.stations[length.station]).norm() - length.length;
+            if (active[i]) {
+                by_path[length.dead_path].push_back(i);
+            }
+        }
+        std::size_t worst = measurement.lengths.size();
+        double largest = 1.0;  // deviation against its limit
+        for (const std::vector<std::size_t>& members : by_path) {
+            if (members.size() < 5) {
+                continue;
+            }
+            std::vector<double> values;
+            for (const std::size_t i : members) {
+                values.push_back(deviation[i]);
+            }
+            const double centre = median(values);
+            for (double& value : values) {
+                value = std::abs(value - centre);
+            }
+            const double limit = std::max(k_smallest, k_factor * 1.4826 * median(values));
+            for (const std::size_t i : members) {
+                if (const double ratio = std::abs(deviation[i] - centre) / limit; ratio > largest) {
+                    largest = ratio;
+                    worst = i;
+                }
+            }
+        }
+        if (worst == measurement.lengths.size()) {
+            break;
+        }
+        active[worst] = false;
+        found.push_back(worst);
+    }
+    return found;
 }
 
 }  // namespace gumcert::engine

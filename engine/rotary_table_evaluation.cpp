@@ -59,18 +59,35 @@ StochasticModel start_model(const TableRepeatability& table) {
         action = "measure that angle from more stations or to more reflectors";
     }
     throw gum::NoResultError(
-        gum::Diagnostic{"GC-RANK-0001", "adjustment", "not determined: " + names, rule, action, {}});
+        gum::Diagnostic{"GC-RANK-0001", "adjustment", "not determined: " + names, rule, action, gum::Severity::error});
+}
+
+/// Kept in, they would carry the solution away from every other distance.
+[[noreturn]] void refuse_gross_errors(const RotaryTableMeasurement& measurement,
+                                      const std::vector<std::size_t>& gross) {
+    std::vector<gum::Diagnostic> problems;
+    for (const std::size_t i : gross) {
+        const LengthObservation& length = measurement.lengths[i];
+        problems.push_back({"GC-ADJUST-0007",
+                            "lengths, line " + std::to_string(length.line) + " (" +
+                                measurement.stations[length.station] + " to " +
+                                measurement.reflectors[length.reflector] + ")",
+                            "the length disagrees with all others of its station by more than centimetres",
+                            "no adjustment can keep such a distance",
+                            "correct or delete the line, or let the job leave it out with \"outliers\": {\"action\": "
+                            "\"remove\"}",
+                            gum::Severity::error});
+    }
+    throw gum::NoResultError(std::move(problems));
 }
 
 void require_convergence(const SolveSummary& summary) {
     if (!summary.converged) {
         throw gum::NoResultError(gum::Diagnostic{
-            "GC-ADJUST-0005",
-            "adjustment",
-            "did not converge (" + summary.message + ")",
+            "GC-ADJUST-0005", "adjustment", "did not converge (" + summary.message + ")",
             "a result is the minimum of the weighted squares",
             "check that stations, reflectors and angles of the lengths are not interchanged, and the start values",
-            {}});
+            gum::Severity::error});
     }
 }
 
@@ -116,16 +133,16 @@ JointAdjustment with_active(const JointAdjustment& from, const std::vector<bool>
 /// Adjustment, weights and test values that agree with each other.
 class Iteration {
 public:
-    Iteration(const RotaryTableMeasurement& measurement, const EvaluationOptions& options, const Progress& progress)
-        : measurement_(measurement), options_(options), progress_(progress) {
+    Iteration(const RotaryTableMeasurement& measurement, const Progress& progress) : progress_(progress) {
         estimated_.length = measurement.estimate_length_noise;
         estimated_.table = measurement.table_repeatability.mode == RepeatabilityMode::estimate;
     }
 
     /// Weights and parameters in turn until no variance moves by more than `tolerance` of its uncertainty.
-    void settle(JointAdjustment& adjustment, StochasticModel& stochastic, int max_iterations, double tolerance) {
+    void settle(JointAdjustment& adjustment, StochasticModel& stochastic, int max_iterations, double tolerance,
+                const SolverOptions& solver) {
         for (int i = 0; i < max_iterations; ++i) {
-            const SolveSummary summary = adjustment.adjustment().refine(options_.solver);
+            const SolveSummary summary = adjustment.adjustment().refine(solver);
             require_convergence(summary);
             iterations += summary.iterations;
             normal.emplace(adjustment.adjustment().linearise());
@@ -140,7 +157,7 @@ public:
             adjustment.set_weights(stochastic);
             report("variance components, iteration " + std::to_string(++component_iterations));
         }
-        require_convergence(adjustment.adjustment().refine(options_.solver));
+        require_convergence(adjustment.adjustment().refine(solver));
         normal.emplace(adjustment.adjustment().linearise());
         covariance = normal->covariance();
     }
@@ -161,8 +178,6 @@ public:
     bool components_converged = false;
 
 private:
-    const RotaryTableMeasurement& measurement_;
-    const EvaluationOptions& options_;
     const Progress& progress_;
     EstimatedComponents estimated_;
 };
@@ -197,7 +212,7 @@ std::vector<std::size_t> suspects(const RotaryTableMeasurement& measurement,
 
 RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, const EvaluationOptions& options,
                                      const Progress& progress) {
-    Iteration iteration(measurement, options, progress);
+    Iteration iteration(measurement, progress);
     StochasticModel stochastic = start_model(measurement.table_repeatability);
     const OutlierOptions& outliers = measurement.outliers;
     const double critical = options.critical_value;
@@ -205,34 +220,49 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
 
     iteration.report("start values");
     const std::vector<bool> all(measurement.lengths.size(), true);
-    const StartValues start = find_start_values(measurement);
-    JointAdjustment first(measurement, all, RigidMotion{}, start, stochastic);
+    std::vector<bool> active = all;
+    const std::vector<std::size_t> gross = find_gross_errors(measurement);
+    if (!gross.empty() && (outliers.test == OutlierTest::none || outliers.action == OutlierAction::report)) {
+        refuse_gross_errors(measurement, gross);
+    }
+    for (const std::size_t i : gross) {
+        active[i] = false;
+    }
+    const StartValues start = find_start_values(measurement, active);
+    JointAdjustment first(measurement, active, RigidMotion{}, start, stochastic);
+    const RankReport geometry = first.adjustment().linearise().rank(options.solver.rank_tolerance);
+    if (geometry.deficient) {
+        refuse_rank(geometry);
+    }
     iteration.report("joint adjustment");
-    SolveSummary summary = first.adjustment().solve(options.solver);
+    // While an outlier may still be in, the last digits of the solution are not worth their steps.
+    SolverOptions rough = options.solver;
+    rough.step_tolerance = 1e-3;
+    const SolveSummary summary = first.adjustment().solve(rough);
+    require_convergence(summary);
     const RankReport rank = first.adjustment().linearise().rank(options.solver.rank_tolerance);
     if (rank.deficient) {
         refuse_rank(rank);
     }
-    require_convergence(summary);
     iteration.iterations += summary.iterations;
 
     // The linear maps of the datum are exact for a T_s that is already that of the result.
     const DatumSolution preliminary = transform_to_datum(measurement, first.poses(), first.set_up(), measurement.datum);
     JointAdjustment adjustment = with_set_up(first, rigid_motion(preliminary.set_up), stochastic);
 
-    std::vector<bool> active = all;
     std::vector<bool> reinserted(all.size(), false);
     std::vector<DistanceReliability> rows;
     for (int round = 0; round < options.max_outlier_rounds; ++round) {
         // Rough weights are enough to see gross outliers; the last rounds are exact.
-        iteration.settle(adjustment, stochastic, 3, 0.05);
+        iteration.settle(adjustment, stochastic, 3, 0.05, rough);
         rows = distance_reliability(adjustment, *iteration.normal, iteration.covariance, stochastic, non_centrality);
         std::vector<std::size_t> worst;
         if (outliers.test == OutlierTest::data_snooping) {
             worst = suspects(measurement, rows, active, critical);
         }
         if (worst.empty()) {
-            iteration.settle(adjustment, stochastic, options.max_component_iterations, options.component_tolerance);
+            iteration.settle(adjustment, stochastic, options.max_component_iterations, options.component_tolerance,
+                             options.solver);
             rows =
                 distance_reliability(adjustment, *iteration.normal, iteration.covariance, stochastic, non_centrality);
             if (outliers.test == OutlierTest::data_snooping) {
@@ -274,7 +304,8 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
     if (outliers.action == OutlierAction::report && active != all) {
         active = all;
         adjustment = with_active(adjustment, active, stochastic);
-        iteration.settle(adjustment, stochastic, options.max_component_iterations, options.component_tolerance);
+        iteration.settle(adjustment, stochastic, options.max_component_iterations, options.component_tolerance,
+                         options.solver);
         rows = distance_reliability(adjustment, *iteration.normal, iteration.covariance, stochastic, non_centrality);
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {

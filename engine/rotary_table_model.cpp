@@ -248,12 +248,10 @@ JointAdjustment RotaryTableModel::solve_at(const Eigen::VectorXd& x) const {
     }
     const SolveSummary summary = least_squares.refine(SolverOptions{});
     if (!summary.converged) {
-        throw gum::NoResultError(gum::Diagnostic{"GC-ADJUST-0006",
-                                                 "rotary table model",
+        throw gum::NoResultError(gum::Diagnostic{"GC-ADJUST-0006", "rotary table model",
                                                  "the adjustment did not converge (" + summary.message + ")",
                                                  "a value of the model is the minimum of the weighted squares",
-                                                 "keep the inputs within their uncertainties",
-                                                 {}});
+                                                 "keep the inputs within their uncertainties", gum::Severity::error});
     }
     return adjustment;
 }

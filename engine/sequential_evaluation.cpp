@@ -112,7 +112,7 @@ public:
             has_temperature_.push_back(joint.solved().temperature_prior(j) != JointAdjustment::k_none);
         }
         has_expansion_ = joint.solved().expansion_prior() != JointAdjustment::k_none;
-        start_ = find_start_values(measurement_);
+        start_ = find_start_values(measurement_, joint.solved().active());
     }
 
     [[nodiscard]] const std::vector<gum::InputGroup>& inputs() const override { return inputs_; }
