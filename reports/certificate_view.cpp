@@ -50,8 +50,9 @@ std::string fixed(double v, int decimals) {
 }
 
 /// Degrees of freedom as documents state them: the next lower whole number (JCGM 100:2008, G.4.1, note 1).
+/// Degrees of freedom as a whole number below; from 10 000 on their digits say nothing.
 std::string whole_below(double v) {
-    return fixed(std::floor(v), 0);
+    return v < 10000.0 ? fixed(std::floor(v), 0) : ">9999";
 }
 
 struct Column {
@@ -173,8 +174,9 @@ std::string printed_unit(const std::string& unit) {
     return unit;
 }
 
+/// \param unit  of the result, hence of every contribution
 void budget_table(Builder& builder, const Wording& words, const std::string& id, const std::string& caption,
-                  const std::vector<BudgetRow>& budget) {
+                  const std::vector<BudgetRow>& budget, const std::string& unit) {
     std::vector<std::vector<std::string>> rows;
     for (const BudgetRow& row : budget) {
         rows.push_back({row.input, row.source, row.type, row.distribution,
@@ -189,7 +191,7 @@ void budget_table(Builder& builder, const Wording& words, const std::string& id,
                    {words("label", "nu"), "", true},
                    {words("label", "u"), "", true},
                    {words("label", "unit"), ""},
-                   {words("label", "contribution"), "", true},
+                   {words("label", "contribution"), unit, true},
                    {words("label", "share"), "%", true}},
                   rows);
 }
@@ -405,7 +407,7 @@ void uncertainty(Builder& builder, const Wording& words, const EvaluationRecord&
     for (std::size_t i = 0; i < record.results.size(); ++i) {
         if (!record.results[i].budget.empty()) {
             budget_table(builder, words, "budget-" + std::to_string(i),
-                         words.fill("budget_result", {{"name", record.results[i].name}}), record.results[i].budget);
+                         words.fill("budget_result", {{"name", record.results[i].name}}), record.results[i].budget, printed_unit(record.results[i].unit));
         }
     }
     if (record.rotary && record.rotary->covariance_file) {
@@ -551,7 +553,8 @@ void comparison(Builder& builder, const Wording& words, const Comparison& c) {
         builder.figure(words("sentence", "figure_displacement"), displacement_plot(c, words));
     }
     if (!c.reference_budget.empty()) {
-        budget_table(builder, words, "reference-budget", words("sentence", "reference_budget"), c.reference_budget);
+        budget_table(builder, words, "reference-budget", words("sentence", "reference_budget"), c.reference_budget,
+                     "µm");
     }
     lines.clear();
     for (const ComparisonPoint& p : c.points) {

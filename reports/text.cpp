@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -221,7 +222,9 @@ std::string table(const json& block) {
         std::string line;
         std::size_t c = 0;
         for (const json& cell : group.at("cells")) {
-            const std::size_t span = std::stoul(text_of(cell, "span"));
+            const std::string span_text = text_of(cell, "span");
+            std::size_t span = 1;
+            (void)std::from_chars(span_text.data(), span_text.data() + span_text.size(), span);
             std::size_t room = 2 * (span - 1);
             for (std::size_t i = 0; i < span; ++i) {
                 room += widths[c + i];
