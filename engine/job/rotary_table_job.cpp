@@ -1,0 +1,1211 @@
+#include "engine/job/rotary_table_job.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <iterator>
+#include <limits>
+#include <numbers>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+#include "engine/job/csv_table.h"
+#include "engine/job/json_document.h"
+#include "gum/quantity/units.h"
+
+namespace gumcert::engine {
+
+namespace {
+
+using gum::k_arcsecond;
+using gum::k_degree;
+using gum::k_micrometre;
+using gum::k_millimetre;
+using Words = std::span<const std::string_view>;
+
+// ---- keys -----------------------------------------------------------------------------------------------------------
+
+constexpr std::array<std::string_view, 17> k_job_keys{"schema",
+                                                      "kind",
+                                                      "title",
+                                                      "axis",
+                                                      "home_angle_deg",
+                                                      "datum",
+                                                      "method",
+                                                      "coverage_probability",
+                                                      "observations",
+                                                      "length_uncertainty",
+                                                      "fixture",
+                                                      "table_repeatability",
+                                                      "variance_components",
+                                                      "outliers",
+                                                      "reference_method",
+                                                      "certificate",
+                                                      "notes"};
+constexpr std::array<std::string_view, 3> k_observations_keys{"lengths", "stations", "environment"};
+constexpr std::array<std::string_view, 4> k_length_uncertainty_keys{"u_constant_um", "u_proportional_um_per_m",
+                                                                    "scale_u", "scale_model"};
+constexpr std::array<std::string_view, 4> k_fixture_keys{"coordinates", "covariance", "reference_temperature_degC",
+                                                         "thermal_expansion_per_K"};
+constexpr std::array<std::string_view, 2> k_expansion_keys{"value", "u"};
+constexpr std::array<std::string_view, 4> k_repeatability_keys{"mode", "u_linear_um", "u_axial_arcsec",
+                                                               "u_tilt_arcsec"};
+constexpr std::array<std::string_view, 3> k_outliers_keys{"test", "alpha", "action"};
+constexpr std::array<std::string_view, 3> k_reference_keys{"name", "readings", "description"};
+constexpr std::array<std::string_view, 6> k_indicator_keys{"contact_point_mm", "resolution_um",    "mpe_um",
+                                                           "repeatability_um", "temperature_degC", "note"};
+// monte_carlo is a key of every job; it stands apart because this kind refuses it with a reason of its own.
+constexpr auto k_job_keys_and_monte_carlo = [] {
+    std::array<std::string_view, k_job_keys.size() + 1> keys{};
+    std::copy(k_job_keys.begin(), k_job_keys.end(), keys.begin());
+    keys.back() = "monte_carlo";
+    return keys;
+}();
+
+const std::array<JobKeys, 8> k_all_keys{{{"", k_job_keys},
+                                         {"/observations", k_observations_keys},
+                                         {"/length_uncertainty", k_length_uncertainty_keys},
+                                         {"/fixture", k_fixture_keys},
+                                         {"/fixture/thermal_expansion_per_K", k_expansion_keys},
+                                         {"/table_repeatability", k_repeatability_keys},
+                                         {"/outliers", k_outliers_keys},
+                                         {"/reference_method", k_reference_keys}}};
+
+template <typename E>
+using Choice = std::pair<std::string_view, E>;
+
+constexpr std::array<Choice<RotaryAxis>, 3> k_axes{{{"A", RotaryAxis::a}, {"B", RotaryAxis::b}, {"C", RotaryAxis::c}}};
+constexpr std::array<Choice<Datum>, 2> k_datums{
+    {{"axis_average_line", Datum::axis_average_line}, {"home", Datum::home}}};
+constexpr std::array<Choice<AdjustmentMethod>, 2> k_methods{
+    {{"joint", AdjustmentMethod::joint}, {"sequential", AdjustmentMethod::sequential}}};
+constexpr std::array<Choice<ScaleModel>, 3> k_scale_models{
+    {{"fixed", ScaleModel::fixed}, {"prior", ScaleModel::prior}, {"free", ScaleModel::free}}};
+constexpr std::array<Choice<RepeatabilityMode>, 3> k_modes{{{"estimate", RepeatabilityMode::estimate},
+                                                            {"given", RepeatabilityMode::given},
+                                                            {"none", RepeatabilityMode::none}}};
+constexpr std::array<Choice<bool>, 2> k_variance_components{{{"estimate", true}, {"fixed", false}}};
+constexpr std::array<Choice<OutlierTest>, 2> k_tests{
+    {{"data_snooping", OutlierTest::data_snooping}, {"none", OutlierTest::none}}};
+constexpr std::array<Choice<OutlierAction>, 2> k_actions{
+    {{"report", OutlierAction::report}, {"remove", OutlierAction::remove}}};
+
+// ---- limits of what a campaign can be -------------------------------------------------------------------------------
+
+constexpr double k_same_angle_deg = 1e-9;
+constexpr std::size_t k_least_at_angle = 6;     // a pose has six unknowns
+constexpr std::size_t k_least_of_station = 4;   // a station has x, y, z and a dead path
+constexpr std::size_t k_least_reflectors = 3;   // three points fix a rigid body
+constexpr std::size_t k_most_reflectors = 500;  // their covariance is dense
+constexpr NumberRange k_fixture_coordinate{
+    .low = -10'000.0, .high = 10'000.0, .unit = "mm", .hint = "check the unit: coordinates are in millimetres"};
+constexpr NumberRange k_station_coordinate{
+    .low = -100'000.0, .high = 100'000.0, .unit = "mm", .hint = "check the unit: coordinates are in millimetres"};
+// A displayed length is counted from where the beam was made; with its dead path it is a distance. It may be negative.
+constexpr NumberRange k_length{
+    .low = -100'000.0, .high = 100'000.0, .unit = "mm", .hint = "check the unit: lengths are in millimetres"};
+constexpr NumberRange k_angle{
+    .low = -3600.0, .high = 3600.0, .unit = "°", .hint = "check the unit: angles are in degrees"};
+constexpr NumberRange k_temperature{
+    .low = -50.0, .high = 100.0, .unit = "°C", .hint = "check the unit: temperatures are in degrees Celsius"};
+
+constexpr std::string_view k_schema = "gumcert/job/1";
+constexpr std::array<std::string_view, 3> k_kinds{"budget", "rotary_table", "comparison"};
+
+/// `schema` and `kind` of any job; problems go to the list. \return the kind when it is one of the three
+std::optional<std::string> read_kind(const JsonDocument& document, ProblemList& problems) {
+    if (!document.value.is_object()) {
+        (void)JsonObject::root(document, {}, problems);
+        return std::nullopt;
+    }
+    const auto text_of = [&](const char* key, std::string_view expected) -> std::optional<std::string> {
+        const auto found = document.value.find(key);
+        if (found == document.value.end()) {
+            problems.refuse(k_missing_key, document.where(""), "the key " + in_quotes(key) + " is missing",
+                            "the key is required", "add " + in_quotes(key) + ": " + std::string{expected});
+            return std::nullopt;
+        }
+        if (found->is_discarded()) {
+            return std::nullopt;
+        }
+        if (!found->is_string()) {
+            problems.refuse(k_wrong_type, document.where(child_pointer("", key)), described(*found), "must be a string",
+                            "write " + std::string{expected});
+            return std::nullopt;
+        }
+        return found->get<std::string>();
+    };
+    const std::optional<std::string> schema = text_of("schema", "\"gumcert/job/1\"");
+    if (schema && *schema != k_schema) {
+        problems.refuse(k_wrong_schema, document.where("/schema"), in_quotes(*schema), "must be \"gumcert/job/1\"",
+                        "check that the file is a job, and which version of the program it is for");
+    }
+    const std::optional<std::string> kind = text_of("kind", "the kind of the job");
+    if (kind && std::find(k_kinds.begin(), k_kinds.end(), *kind) == k_kinds.end()) {
+        const std::optional<std::string_view> nearest = nearest_word(*kind, k_kinds);
+        problems.refuse(k_wrong_kind, document.where("/kind"), in_quotes(*kind), "must be " + any_of_words(k_kinds),
+                        nearest ? "did you mean \"" + std::string{*nearest} + "\"?" : "choose one of them");
+        return std::nullopt;
+    }
+    return kind;
+}
+
+/// Names in the order in which they first appear.
+class NameList {
+public:
+    /// The index of a name, a new one if it was not there. The text must outlive the list.
+    std::size_t index(std::string_view name) {
+        const auto [entry, is_new] = indices_.try_emplace(name, names_.size());
+        if (is_new) {
+            names_.emplace_back(name);
+        }
+        return entry->second;
+    }
+    [[nodiscard]] std::optional<std::size_t> find(std::string_view name) const {
+        const auto found = indices_.find(name);
+        return found == indices_.end() ? std::nullopt : std::optional{found->second};
+    }
+    [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+    [[nodiscard]] std::size_t size() const { return names_.size(); }
+
+private:
+    std::unordered_map<std::string_view, std::size_t> indices_;
+    std::vector<std::string> names_;
+};
+
+std::string plural(std::size_t count, const std::string& noun) {
+    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+/// Angles that are radians by mistake are no multiples of 0.1 as they stand, and multiples of half a degree once they
+/// are converted. \param angles  ascending, each once, as the file states them
+bool look_like_radians(const std::vector<double>& angles) {
+    const double span = angles.back() - angles.front();
+    const auto off_multiple = [](double value, double step) {
+        return std::abs(value - step * std::round(value / step));
+    };
+    return angles.size() >= 6 && span > 3.1 && span <= 6.2832 &&
+           std::all_of(angles.begin(), angles.end(),
+                       [&](double angle) { return off_multiple(angle / k_degree, 0.5) <= 0.01; }) &&
+           std::any_of(angles.begin(), angles.end(), [&](double angle) { return off_multiple(angle, 0.1) > 1e-6; });
+}
+
+/// Reads one job; every step notes what it finds, and `result` throws or returns at the end.
+class Reader {
+public:
+    Reader(const FileSource& source, const std::string& job_file) : source_(source) {
+        job_.files.push_back(job_file);
+        problems_.emplace_back(job_file);
+    }
+
+    RotaryTableJob result() {
+        read_job();
+        refuse_if_needed();
+        for (const ProblemList& list : problems_) {
+            const std::vector<gum::Diagnostic> warnings = list.warnings();
+            job_.warnings.insert(job_.warnings.end(), warnings.begin(), warnings.end());
+        }
+        return std::move(job_);
+    }
+
+private:
+    /// A row of the lengths file that could be read.
+    struct Row {
+        std::size_t table_row = 0;
+        std::size_t station = 0;
+        std::size_t reflector = 0;  ///< in lengths_reflectors_
+        std::size_t pass = 0;
+        std::size_t dead_path = 0;
+        std::size_t direction = 0;  ///< 0 for +, 1 for -
+        double angle_deg = 0.0;
+        double length_mm = 0.0;
+        std::size_t angle = 0;  ///< in angles_deg_
+    };
+
+    // ---- files ------------------------------------------------------------------------------------------------------
+
+    void refuse_if_needed() {
+        std::vector<gum::Diagnostic> refused = not_readable_;
+        for (const ProblemList& list : problems_) {
+            const std::vector<gum::Diagnostic> of_file = list.refused();
+            refused.insert(refused.end(), of_file.begin(), of_file.end());
+        }
+        if (!not_readable_.empty()) {
+            throw gum::StorageError(std::move(refused));
+        }
+        if (!refused.empty()) {
+            throw gum::InputError(std::move(refused));
+        }
+    }
+
+    /// A file name under a key. \return nothing when it is absent or not acceptable
+    std::optional<std::string> file_name(const JsonObject& object, std::string_view key, bool required) {
+        const std::optional<std::string> name =
+            required ? object.required_name(key, 4096) : object.optional_name(key, 4096);
+        if (!name) {
+            return std::nullopt;
+        }
+        const bool has_drive = name->size() > 1 && (*name)[1] == ':';
+        if (name->front() == '/' || has_drive || name->find('\\') != std::string::npos) {
+            object.refuse(k_file_name, key, "the file name " + in_quotes(*name),
+                          "file names are relative to the job file and have / between folders",
+                          "put the file beside the job and give its name");
+            return std::nullopt;
+        }
+        return name;
+    }
+
+    /// The content of a file that the job names, and the list for its problems.
+    struct File {
+        std::string bytes;
+        ProblemList* problems;
+    };
+    std::optional<File> open(const std::optional<std::string>& name) {
+        if (!name) {
+            return std::nullopt;
+        }
+        if (std::find(job_.files.begin(), job_.files.end(), *name) == job_.files.end()) {
+            job_.files.push_back(*name);
+        }
+        ProblemList& problems = problems_.emplace_back(*name);
+        try {
+            return File{source_.read(*name), &problems};
+        } catch (const gum::StorageError& error) {
+            not_readable_.insert(not_readable_.end(), error.diagnostics().begin(), error.diagnostics().end());
+            return std::nullopt;
+        }
+    }
+
+    // ---- the job file -----------------------------------------------------------------------------------------------
+
+    void read_job() {
+        ProblemList& problems = problems_.front();
+        const std::string bytes = source_.read(problems.file());
+        std::optional<JsonDocument> document = read_json_document(bytes, problems);
+        if (!document) {
+            return;
+        }
+        const std::optional<std::string> kind = read_kind(*document, problems);
+        if (!kind) {
+            return;
+        }
+        if (*kind != "rotary_table") {
+            problems.refuse(k_wrong_kind, document->where("/kind"), "a job of kind " + in_quotes(*kind),
+                            "a job of kind \"rotary_table\" is expected here", "use the command for this kind of job");
+            return;
+        }
+        const std::optional<JsonObject> root = JsonObject::root(*document, k_job_keys_and_monte_carlo, problems);
+        if (!root) {
+            return;
+        }
+        read_common(*root);
+        read_options(*root);
+        const std::optional<JsonObject> observations = root->required_object("observations", k_observations_keys);
+        const std::optional<JsonObject> fixture = root->required_object("fixture", k_fixture_keys);
+        const std::optional<JsonObject> reference = root->optional_object("reference_method", k_reference_keys);
+        const auto name_in = [&](const std::optional<JsonObject>& object, std::string_view key, bool required) {
+            return object ? file_name(*object, key, required) : std::nullopt;
+        };
+        const std::optional<std::string> lengths_name = name_in(observations, "lengths", true);
+        const std::optional<std::string> stations_name = name_in(observations, "stations", false);
+        const std::optional<std::string> environment_name = name_in(observations, "environment", false);
+        const std::optional<std::string> fixture_name = name_in(fixture, "coordinates", true);
+        const std::optional<std::string> covariance_name = name_in(fixture, "covariance", false);
+        if (fixture) {
+            read_fixture_options(*fixture, observations && observations->has("environment"));
+        }
+        if (observations && !observations->has("environment")) {
+            problems.warn(
+                k_warn_no_environment, observations->where(),
+                "no environment file: the fixture is taken to be at its reference temperature, with no uncertainty",
+                "thermal expansion of the fixture is corrected from the temperature at each station",
+                "add \"environment\" if temperatures were measured");
+        }
+        std::optional<std::string> reference_name;
+        if (reference) {
+            reference_name = reference->required_name("name");
+        }
+        const std::optional<std::string> readings_name = name_in(reference, "readings", true);
+        const std::optional<std::string> description_name = name_in(reference, "description", true);
+        const std::optional<std::string> certificate_name = read_certificate_key(*root);
+
+        // The lengths are read after the fixture because they name its reflectors; the lists of names and problems keep
+        // the order of the documentation.
+        std::optional<File> lengths = open(lengths_name);
+        std::optional<File> stations = open(stations_name);
+        std::optional<File> environment = open(environment_name);
+        std::optional<File> coordinates = open(fixture_name);
+        std::optional<File> covariance = open(covariance_name);
+        std::optional<File> readings = open(readings_name);
+        std::optional<File> description = open(description_name);
+        std::optional<File> certificate = open(certificate_name);
+        if (coordinates) {
+            read_fixture(std::move(*coordinates));
+        }
+        if (lengths) {
+            read_lengths(std::move(*lengths), *root);
+        }
+        if (stations) {
+            read_stations(std::move(*stations));
+        }
+        if (environment) {
+            read_environment(std::move(*environment));
+        } else {
+            const auto count = static_cast<Eigen::Index>(stations_.size());
+            job_.measurement.temperature_difference = Eigen::VectorXd::Zero(count);
+            job_.measurement.u_temperature = Eigen::VectorXd::Zero(count);
+        }
+        if (covariance) {
+            read_covariance(*covariance);
+        }
+        if (reference) {
+            ReferenceMethod& method = job_.reference.emplace();
+            method.name = reference_name.value_or("");
+            if (readings) {
+                read_readings(std::move(*readings), method);
+            }
+            if (description) {
+                read_indicator(*description, method);
+            }
+        }
+        if (certificate) {
+            read_certificate(*certificate);
+        }
+        job_.document = std::move(document->value);
+    }
+
+    void read_common(const JsonObject& root) {
+        if (root.has("title")) {
+            job_.title = root.optional_name("title", 1000).value_or("");
+        }
+        const NumberRange probability{.low = 0.0,
+                                      .high = 1.0,
+                                      .low_open = true,
+                                      .high_open = true,
+                                      .hint = "state a probability, not a percentage, such as 0.9545"};
+        job_.coverage_probability = root.optional_number("coverage_probability", probability).value_or(0.9545);
+        (void)root.optional_string("notes");
+        if (root.has("monte_carlo")) {
+            root.refuse(k_no_monte_carlo, "monte_carlo", "Monte Carlo is asked for",
+                        "a rotary_table job is evaluated by the law of propagation in this version; Monte Carlo is not "
+                        "available for it",
+                        "remove \"monte_carlo\"");
+        }
+    }
+
+    void read_options(const JsonObject& root) {
+        RotaryTableMeasurement& measurement = job_.measurement;
+        measurement.axis = root.required_choice<RotaryAxis>("axis", k_axes).value_or(RotaryAxis::a);
+        measurement.datum = root.optional_choice<Datum>("datum", k_datums).value_or(Datum::axis_average_line);
+        measurement.method =
+            root.optional_choice<AdjustmentMethod>("method", k_methods).value_or(AdjustmentMethod::joint);
+        home_angle_deg_ = root.optional_number("home_angle_deg", k_angle);
+        if (!root.has("home_angle_deg")) {
+            home_angle_deg_ = 0.0;
+        }
+        if (const auto object = root.required_object("length_uncertainty", k_length_uncertainty_keys)) {
+            read_length_uncertainty(*object);
+        }
+        if (const auto object = root.optional_object("table_repeatability", k_repeatability_keys)) {
+            read_repeatability(*object);
+        }
+        const bool default_estimate = measurement.table_repeatability.mode == RepeatabilityMode::estimate;
+        measurement.estimate_length_noise =
+            root.optional_choice<bool>("variance_components", k_variance_components).value_or(default_estimate);
+        if (const auto object = root.optional_object("outliers", k_outliers_keys)) {
+            OutlierOptions& outliers = measurement.outliers;
+            outliers.test = object->optional_choice<OutlierTest>("test", k_tests).value_or(outliers.test);
+            const NumberRange alpha{.low = 0.0,
+                                    .high = 0.5,
+                                    .low_open = true,
+                                    .high_open = true,
+                                    .hint = "state the probability of flagging a good distance, such as 0.0001"};
+            outliers.alpha = object->optional_number("alpha", alpha).value_or(outliers.alpha);
+            outliers.action = object->optional_choice<OutlierAction>("action", k_actions).value_or(outliers.action);
+        }
+    }
+
+    void read_length_uncertainty(const JsonObject& object) {
+        LengthUncertainty& uncertainty = job_.measurement.length_uncertainty;
+        const auto constant = object.required_number("u_constant_um", not_negative("µm"));
+        const auto proportional = object.optional_number("u_proportional_um_per_m", not_negative("µm/m"));
+        const bool proportional_is_zero =
+            !object.has("u_proportional_um_per_m") || (proportional && *proportional == 0.0);
+        if (constant && *constant == 0.0 && proportional_is_zero) {
+            object.refuse(k_no_length_uncertainty, "u_constant_um",
+                          "u_constant_um is 0 µm, and u_proportional_um_per_m is 0 µm/m",
+                          "the standard uncertainty of a length must be greater than 0",
+                          "state the standard uncertainty of a length");
+        }
+        uncertainty.u_constant = constant.value_or(0.0) * k_micrometre;
+        uncertainty.u_proportional = proportional.value_or(0.0) * k_micrometre;
+        // A relative uncertainty of 1 % and more is a value in ppm or percent by mistake.
+        const NumberRange relative{
+            .low = 0.0,
+            .high = 0.01,
+            .low_open = true,
+            .hint = "state it as a ratio: 0.15 ppm is 1.5e-7; leave it out if the scale is fixed"};
+        const auto scale = object.optional_number("scale_u", relative);
+        uncertainty.u_scale = scale.value_or(0.0);
+        const ScaleModel default_model = object.has("scale_u") ? ScaleModel::prior : ScaleModel::fixed;
+        uncertainty.scale_model =
+            object.optional_choice<ScaleModel>("scale_model", k_scale_models).value_or(default_model);
+        if (uncertainty.scale_model == ScaleModel::prior && !object.has("scale_u")) {
+            object.refuse(k_scale_without_u, "scale_model", "scale_model is \"prior\" and scale_u is missing",
+                          "a prior on the scale needs its standard uncertainty",
+                          "add \"scale_u\", or choose \"fixed\" or \"free\"");
+        }
+        if (uncertainty.scale_model != ScaleModel::prior && scale) {
+            problems_.front().warn(k_warn_unused_value, object.where("scale_u"),
+                                   "scale_u " + shortest(*scale) + " is not used",
+                                   "it belongs to scale_model \"prior\"", "remove it, or choose \"prior\"");
+        }
+    }
+
+    void read_repeatability(const JsonObject& object) {
+        TableRepeatability& repeatability = job_.measurement.table_repeatability;
+        repeatability.mode =
+            object.optional_choice<RepeatabilityMode>("mode", k_modes).value_or(RepeatabilityMode::estimate);
+        const bool is_given = repeatability.mode == RepeatabilityMode::given;
+        bool any = false;
+        bool all_read = true;
+        const auto read = [&](std::string_view key, std::string_view unit, double factor) {
+            const auto value = is_given ? object.required_number(key, not_negative(unit))
+                                        : object.optional_number(key, not_negative(unit));
+            any = any || value.value_or(0.0) > 0.0;
+            all_read = all_read && (value || !object.has(key)) && (value || !is_given);
+            if (repeatability.mode == RepeatabilityMode::none && value) {
+                problems_.front().warn(
+                    k_warn_unused_value, object.where(key),
+                    std::string{key} + " " + shortest(*value) + " " + std::string{unit} + " is not used",
+                    "with mode \"none\" the table has no uncertainty of repeatability",
+                    "remove it, or choose mode \"given\"");
+            }
+            return value.value_or(0.0) * factor;
+        };
+        repeatability.u_linear = read("u_linear_um", "µm", k_micrometre);
+        repeatability.u_axial = read("u_axial_arcsec", "″", k_arcsecond);
+        repeatability.u_tilt = read("u_tilt_arcsec", "″", k_arcsecond);
+        if (is_given && all_read && !any) {
+            object.refuse(k_no_repeatability, "mode", "mode is \"given\", and every standard uncertainty is 0",
+                          "at least one must be greater than 0", "state the repeatability, or choose mode \"none\"");
+        }
+    }
+
+    void read_fixture_options(const JsonObject& fixture, bool has_environment) {
+        job_.reference_temperature_degC =
+            fixture.optional_number("reference_temperature_degC", k_temperature).value_or(20.0);
+        if (has_environment) {
+            fixture.require("thermal_expansion_per_K");
+        }
+        if (const auto expansion = fixture.optional_object("thermal_expansion_per_K", k_expansion_keys)) {
+            NumberRange coefficient = between(0.0, 1e-3, "1/K");
+            coefficient.hint = "check the unit: steel has about 1.15e-5 1/K";
+            job_.measurement.expansion = expansion->required_number("value", coefficient).value_or(0.0);
+            job_.measurement.u_expansion = expansion->required_number("u", coefficient).value_or(0.0);
+        }
+    }
+
+    /// \return the name of the certificate file; an object in the job itself is taken as it stands
+    std::optional<std::string> read_certificate_key(const JsonObject& root) {
+        const nlohmann::json* certificate = root.find("certificate");
+        if (certificate == nullptr) {
+            return std::nullopt;
+        }
+        if (certificate->is_object()) {
+            job_.certificate = *certificate;
+            return std::nullopt;
+        }
+        if (!certificate->is_string()) {
+            root.refuse(k_wrong_type, "certificate", described(*certificate), "must be an object or the name of a file",
+                        "correct the value");
+            return std::nullopt;
+        }
+        return file_name(root, "certificate", false);
+    }
+
+    void read_certificate(const File& file) {
+        std::optional<JsonDocument> document = read_json_document(file.bytes, *file.problems);
+        if (!document) {
+            return;
+        }
+        if (!document->value.is_object()) {
+            file.problems->refuse(k_wrong_type, document->where(""), "the document is " + described(document->value),
+                                  "must be an object", "write { \"key\": value, … }");
+            return;
+        }
+        job_.certificate = std::move(document->value);
+    }
+
+    // ---- fixture ----------------------------------------------------------------------------------------------------
+
+    void read_fixture(File&& file) {
+        enum : std::size_t { reflector, x, u_x = 4 };
+        static constexpr std::array<std::string_view, 7> k_columns{"reflector", "x_mm",   "y_mm",  "z_mm",
+                                                                   "u_x_um",    "u_y_um", "u_z_um"};
+        fixture_table_ = read_csv_table(std::move(file.bytes), k_columns, {}, *file.problems);
+        if (!fixture_table_) {
+            return;
+        }
+        const CsvTable& table = *fixture_table_;
+        if (table.rows() > k_most_reflectors) {
+            file.problems->refuse(k_too_many_reflectors, table.where(table.cell(k_most_reflectors, reflector)),
+                                  plural(table.rows(), "reflector"),
+                                  "a fixture has at most " + std::to_string(k_most_reflectors) + " reflectors",
+                                  "check that the file is the fixture file");
+            return;
+        }
+        const auto count = static_cast<Eigen::Index>(table.rows());
+        Eigen::MatrixX3d coordinates = Eigen::MatrixX3d::Zero(count, 3);
+        Eigen::VectorXd variances = Eigen::VectorXd::Zero(3 * count);
+        std::vector<std::size_t> lines;
+        for (std::size_t row = 0; row < table.rows(); ++row) {
+            const auto r = static_cast<Eigen::Index>(row);
+            if (const auto name = table.name(row, reflector)) {
+                const std::size_t line = table.cell(row, reflector).line;
+                if (const auto known = reflectors_.find(*name)) {
+                    refuse_repeated_name(table, row, reflector, "reflector", lines[*known], *file.problems);
+                } else {
+                    reflectors_.index(*name);
+                    lines.push_back(line);
+                }
+            }
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto column = static_cast<Eigen::Index>(k);
+                coordinates(r, column) = table.number(row, x + k, k_fixture_coordinate).value_or(0.0);
+                const double u = table.number(row, u_x + k, above_zero("µm")).value_or(0.0) * k_micrometre;
+                variances(3 * r + column) = u * u;
+            }
+        }
+        if (file.problems->refusals() > 0) {
+            return;
+        }
+        if (coordinates.cwiseAbs().maxCoeff() < 1.0) {
+            file.problems->refuse(
+                k_coordinates_in_metres, table.where(table.cell(0, x)),
+                "no coordinate reaches 1 mm; the largest is " + shortest(coordinates.cwiseAbs().maxCoeff()) + " mm",
+                "coordinates are in millimetres", "multiply by 1000 if the values are metres");
+        }
+        job_.measurement.reflectors = reflectors_.names();
+        job_.measurement.fixture = coordinates * k_millimetre;
+        job_.measurement.fixture_covariance = variances.asDiagonal();
+        fixture_is_whole_ = true;
+    }
+
+    static void refuse_repeated_name(const CsvTable& table, std::size_t row, std::size_t column,
+                                     const std::string& what, std::size_t first_line, ProblemList& problems) {
+        const CsvCell& cell = table.cell(row, column);
+        problems.refuse(k_repeated_name, table.where(cell),
+                        "the " + what + " " + in_quotes(cell.text) + " has a second row, the first is line " +
+                            std::to_string(first_line),
+                        "every " + what + " has one row", "remove or rename one of the two");
+    }
+
+    void read_covariance(const File& file) {
+        // Without a fixture the order of the matrix is not known.
+        if (!fixture_is_whole_) {
+            return;
+        }
+        const std::size_t order = 3 * reflectors_.size();
+        const std::optional<Eigen::MatrixXd> matrix = read_csv_matrix(file.bytes, order, "µm²", *file.problems);
+        if (!matrix) {
+            return;
+        }
+        const std::string& name = file.problems->file();
+        const auto element = [&](Eigen::Index i, Eigen::Index j) {
+            return "element (" + std::to_string(i + 1) + ", " + std::to_string(j + 1) + ")";
+        };
+        const std::size_t problems_before = file.problems->refusals();
+        for (Eigen::Index i = 0; i < matrix->rows(); ++i) {
+            if (!((*matrix)(i, i) > 0.0)) {
+                file.problems->refuse(k_covariance_not_positive, where_in_row(name, i),
+                                      element(i, i) + " is " + shortest((*matrix)(i, i)) + " µm²",
+                                      "a variance must be greater than 0", "correct the matrix");
+            }
+            for (Eigen::Index j = 0; j < i; ++j) {
+                const double a = (*matrix)(i, j);
+                const double b = (*matrix)(j, i);
+                // A few last digits may differ in a matrix that another program computed.
+                const double scale = std::sqrt(std::abs((*matrix)(i, i)) * std::abs((*matrix)(j, j)));
+                if (!(std::abs(a - b) <= 1e-9 * std::max({scale, std::abs(a), std::abs(b)}))) {
+                    file.problems->refuse(
+                        k_covariance_not_symmetric, where_in_row(name, i),
+                        element(i, j) + " is " + shortest(a) + " µm², " + element(j, i) + " is " + shortest(b) + " µm²",
+                        "a covariance matrix is symmetric", "correct the matrix");
+                }
+            }
+        }
+        if (file.problems->refusals() != problems_before) {
+            return;
+        }
+        const Eigen::MatrixXd symmetric = 0.5 * (*matrix + matrix->transpose());
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric, Eigen::EigenvaluesOnly);
+        const double smallest = solver.eigenvalues().minCoeff();
+        const double largest = solver.eigenvalues().maxCoeff();
+        const double rounding = 10.0 * static_cast<double>(order) * std::numeric_limits<double>::epsilon() * largest;
+        if (solver.info() != Eigen::Success || !std::isfinite(largest) || !(smallest >= -rounding)) {
+            file.problems->refuse(
+                k_covariance_not_positive, printable(name),
+                "the smallest eigenvalue is " + shortest(smallest) + " µm², the largest " + shortest(largest) + " µm²",
+                "a covariance matrix is positive semi-definite", "correct the matrix, and give it with all its digits");
+            return;
+        }
+        const Eigen::MatrixXd si = symmetric * (k_micrometre * k_micrometre);
+        const Eigen::VectorXd from_columns = job_.measurement.fixture_covariance.diagonal();
+        for (Eigen::Index i = 0; i < si.rows(); ++i) {
+            const double ratio = std::sqrt(si(i, i) / from_columns(i));
+            if (std::abs(ratio - 1.0) > 0.01) {
+                file.problems->warn(k_warn_covariance_differs, where_in_row(name, i),
+                                    "u from the covariance is " + shortest(std::sqrt(symmetric(i, i))) +
+                                        " µm, from the column of the fixture file " +
+                                        shortest(std::sqrt(from_columns(i)) / k_micrometre) + " µm",
+                                    "the covariance is used", "correct whichever is wrong");
+            }
+        }
+        job_.measurement.fixture_covariance = si;
+    }
+
+    static std::string where_in_row(const std::string& file, Eigen::Index row) {
+        return printable(file) + " (row " + std::to_string(row + 1) + ")";
+    }
+
+    // ---- lengths ----------------------------------------------------------------------------------------------------
+
+    enum LengthsColumn : std::size_t { c_station, c_reflector, c_pass, c_direction, c_angle, c_length, c_dead_path };
+
+    void read_lengths(File&& file, const JsonObject& root) {
+        static constexpr std::array<std::string_view, 7> k_columns{"station",   "reflector", "pass",     "direction",
+                                                                   "angle_deg", "length_mm", "dead_path"};
+        static constexpr std::array<std::string_view, 2> k_directions{"+", "-"};
+        lengths_table_ = read_csv_table(std::move(file.bytes), k_columns, {}, *file.problems);
+        if (!lengths_table_) {
+            return;
+        }
+        const CsvTable& table = *lengths_table_;
+        ProblemList& problems = *file.problems;
+        std::vector<Row> rows;
+        rows.reserve(table.rows());
+        for (std::size_t i = 0; i < table.rows(); ++i) {
+            const auto station = table.name(i, c_station);
+            const auto reflector = table.name(i, c_reflector);
+            const auto pass = table.name(i, c_pass);
+            const auto direction = table.choice(i, c_direction, k_directions);
+            const auto angle = table.number(i, c_angle, k_angle);
+            const auto length = table.number(i, c_length, k_length);
+            const auto dead_path = table.name(i, c_dead_path);
+            if (station) {
+                // Also of a row with another problem: else its station would be missing elsewhere, too.
+                stations_.index(*station);
+            }
+            if (station && reflector && pass && direction && angle && length && dead_path) {
+                rows.push_back({i, stations_.index(*station), lengths_reflectors_.index(*reflector),
+                                passes_.index(*pass), dead_paths_.index(*dead_path), *direction, *angle, *length, 0});
+            }
+        }
+        lengths_are_whole_ = problems.refusals() == 0;
+        first_row_of_station_.assign(stations_.size(), 0);
+        for (std::size_t i = table.rows(); i-- > 0;) {
+            if (const auto known = stations_.find(table.cell(i, c_station).text)) {
+                first_row_of_station_[*known] = i;
+            }
+        }
+        find_angles(rows);
+        check_reflectors(rows, problems);
+        check_passes(rows, problems);
+        check_dead_paths(rows, problems);
+        check_repeated(rows, problems);
+        // What follows counts rows or compares all of them: rows that were refused above would be missed twice.
+        if (lengths_are_whole_) {
+            check_counts(rows, problems);
+            check_units_and_span(rows, root, problems);
+        }
+        store_lengths(rows);
+    }
+
+    void find_angles(std::vector<Row>& rows) {
+        std::vector<double> all;
+        all.reserve(rows.size());
+        std::transform(rows.begin(), rows.end(), std::back_inserter(all), [](const Row& row) { return row.angle_deg; });
+        std::sort(all.begin(), all.end());
+        for (const double angle : all) {
+            if (angles_deg_.empty() || angle - angles_deg_.back() > k_same_angle_deg) {
+                angles_deg_.push_back(angle);
+            }
+        }
+        for (Row& row : rows) {
+            const auto above = std::upper_bound(angles_deg_.begin(), angles_deg_.end(), row.angle_deg);
+            row.angle = static_cast<std::size_t>(above - angles_deg_.begin()) - 1;
+        }
+    }
+
+    /// The index of an angle of another file among the measured ones.
+    [[nodiscard]] std::optional<std::size_t> angle_index(double angle_deg) const {
+        const auto found = std::lower_bound(angles_deg_.begin(), angles_deg_.end(), angle_deg - k_same_angle_deg);
+        if (found == angles_deg_.end() || std::abs(*found - angle_deg) > k_same_angle_deg) {
+            return std::nullopt;
+        }
+        return static_cast<std::size_t>(found - angles_deg_.begin());
+    }
+
+    [[nodiscard]] std::string where(const Row& row, LengthsColumn column) const {
+        return lengths_table_->where(lengths_table_->cell(row.table_row, column));
+    }
+    [[nodiscard]] std::string line_of(const Row& row) const {
+        return "line " + std::to_string(lengths_table_->cell(row.table_row, c_station).line);
+    }
+
+    void check_reflectors(const std::vector<Row>& rows, ProblemList& problems) const {
+        if (!fixture_is_whole_) {
+            return;
+        }
+        std::vector<std::size_t> count(lengths_reflectors_.size(), 0);
+        std::vector<const Row*> first(lengths_reflectors_.size(), nullptr);
+        for (const Row& row : rows) {
+            if (count[row.reflector]++ == 0) {
+                first[row.reflector] = &row;
+            }
+        }
+        const std::vector<std::string>& fixture_names = reflectors_.names();
+        const std::vector<std::string_view> known(fixture_names.begin(), fixture_names.end());
+        for (std::size_t i = 0; i < count.size(); ++i) {
+            const std::string& name = lengths_reflectors_.names()[i];
+            if (reflectors_.find(name)) {
+                continue;
+            }
+            const std::optional<std::string_view> nearest = nearest_word(name, known);
+            problems.refuse(
+                k_unknown_reflector, where(*first[i], c_reflector),
+                "the reflector " + in_quotes(name) + " (" + plural(count[i], "row") + ") is not in the fixture file",
+                "every reflector has coordinates in the fixture file",
+                nearest ? "is it " + in_quotes(*nearest) + "? Else add it to the fixture file"
+                        : "add it to the fixture file, or remove its rows");
+        }
+        for (std::size_t i = 0; i < fixture_names.size(); ++i) {
+            if (!lengths_reflectors_.find(fixture_names[i])) {
+                problems.warn(k_warn_unused_reflector, printable(problems.file()),
+                              "the reflector " + in_quotes(fixture_names[i]) + " of the fixture file has no distance",
+                              "reflectors are measured", "check that no rows are missing");
+            }
+        }
+    }
+
+    void check_passes(const std::vector<Row>& rows, ProblemList& problems) const {
+        std::vector<const Row*> first(passes_.size(), nullptr);
+        std::vector<bool> told(passes_.size(), false);
+        static constexpr std::array<const char*, 2> k_signs{"+", "-"};
+        for (const Row& row : rows) {
+            const Row*& other = first[row.pass];
+            if (other == nullptr) {
+                other = &row;
+                continue;
+            }
+            const bool same_station = other->station == row.station;
+            if (told[row.pass] || (same_station && other->direction == row.direction)) {
+                continue;
+            }
+            told[row.pass] = true;
+            const std::string pass = "the pass " + in_quotes(passes_.names()[row.pass]);
+            if (!same_station) {
+                problems.refuse(k_pass_of_two_stations, where(row, c_pass),
+                                pass + " has station " + in_quotes(stations_.names()[row.station]) + " here and " +
+                                    in_quotes(stations_.names()[other->station]) + " in " + line_of(*other),
+                                "a pass belongs to one station", "give every pass a name of its own");
+            } else {
+                problems.refuse(k_pass_of_two_directions, where(row, c_pass),
+                                pass + " has direction " + k_signs[row.direction] + " here and " +
+                                    k_signs[other->direction] + " in " + line_of(*other),
+                                "a pass has one direction of approach", "give every pass a name of its own");
+            }
+        }
+    }
+
+    void check_dead_paths(const std::vector<Row>& rows, ProblemList& problems) const {
+        std::vector<const Row*> first(dead_paths_.size(), nullptr);
+        std::vector<bool> told(dead_paths_.size(), false);
+        for (const Row& row : rows) {
+            const Row*& other = first[row.dead_path];
+            if (other == nullptr) {
+                other = &row;
+            } else if (other->station != row.station && !told[row.dead_path]) {
+                told[row.dead_path] = true;
+                problems.refuse(k_dead_path_of_two_stations, where(row, c_dead_path),
+                                "the dead path " + in_quotes(dead_paths_.names()[row.dead_path]) + " has station " +
+                                    in_quotes(stations_.names()[row.station]) + " here and " +
+                                    in_quotes(stations_.names()[other->station]) + " in " + line_of(*other),
+                                "a dead path belongs to one station", "give every station dead paths of its own");
+            }
+        }
+    }
+
+    void check_repeated(const std::vector<Row>& rows, ProblemList& problems) const {
+        const auto key = [&](const Row* row) {
+            return std::tuple(row->station, row->reflector, row->pass, row->angle);
+        };
+        std::vector<std::pair<decltype(key(nullptr)), const Row*>> sorted;
+        sorted.reserve(rows.size());
+        for (const Row& row : rows) {
+            sorted.emplace_back(key(&row), &row);
+        }
+        std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        std::vector<std::pair<const Row*, const Row*>> repeated;  // second one, first one
+        const Row* first = nullptr;
+        for (std::size_t i = 0; i < sorted.size(); ++i) {
+            if (i > 0 && sorted[i].first == sorted[i - 1].first) {
+                repeated.emplace_back(sorted[i].second, first);
+            } else {
+                first = sorted[i].second;
+            }
+        }
+        std::sort(repeated.begin(), repeated.end(),
+                  [](const auto& a, const auto& b) { return a.first->table_row < b.first->table_row; });
+        for (const auto& [row, earlier] : repeated) {
+            problems.refuse(k_repeated_length, where(*row, c_station),
+                            "the distance of station " + in_quotes(stations_.names()[row->station]) + ", reflector " +
+                                in_quotes(lengths_reflectors_.names()[row->reflector]) + ", pass " +
+                                in_quotes(passes_.names()[row->pass]) + ", " + shortest(row->angle_deg) +
+                                "° occurs a second time, the first is " + line_of(*earlier),
+                            "station, reflector, pass and angle occur together once",
+                            "remove one of the two, or give the repetition a pass of its own");
+        }
+    }
+
+    void check_counts(const std::vector<Row>& rows, ProblemList& problems) const {
+        std::vector<std::size_t> at_angle(angles_deg_.size(), 0);
+        std::vector<const Row*> first_at_angle(angles_deg_.size(), nullptr);
+        std::vector<std::size_t> of_station(stations_.size(), 0);
+        for (const Row& row : rows) {
+            if (at_angle[row.angle]++ == 0) {
+                first_at_angle[row.angle] = &row;
+            }
+            ++of_station[row.station];
+        }
+        for (std::size_t i = 0; i < at_angle.size(); ++i) {
+            if (at_angle[i] < k_least_at_angle) {
+                problems.refuse(k_too_few_at_angle, where(*first_at_angle[i], c_angle),
+                                plural(at_angle[i], "distance") + " at the angle " + shortest(angles_deg_[i]) + "°",
+                                "a pose has six unknowns: every angle needs at least 6 distances",
+                                "add distances, or remove the angle");
+            }
+        }
+        for (std::size_t i = 0; i < of_station.size(); ++i) {
+            if (of_station[i] < k_least_of_station) {
+                problems.refuse(
+                    k_too_few_of_station, where_station_appears(i),
+                    plural(of_station[i], "distance") + " of the station " + in_quotes(stations_.names()[i]),
+                    "a station has four unknowns (x, y, z and a dead path): it needs at least 4 distances",
+                    "add distances, or remove the station");
+            }
+        }
+        if (lengths_reflectors_.size() < k_least_reflectors) {
+            problems.refuse(k_too_few_reflectors, where(rows.front(), c_reflector),
+                            plural(lengths_reflectors_.size(), "reflector"),
+                            "the pose of the table needs at least 3 reflectors", "measure further reflectors");
+        }
+    }
+
+    void check_units_and_span(const std::vector<Row>& rows, const JsonObject& root, ProblemList& problems) const {
+        const auto longest = std::max_element(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
+            return std::abs(a.length_mm) < std::abs(b.length_mm);
+        });
+        if (std::abs(longest->length_mm) < 10.0) {
+            problems.refuse(k_lengths_in_metres, where(*longest, c_length),
+                            "no length reaches 10 mm; the longest is " + shortest(longest->length_mm) + " mm",
+                            "lengths are in millimetres", "multiply by 1000 if the values are metres");
+        }
+        if (look_like_radians(angles_deg_)) {
+            problems.refuse(k_angles_in_radians, where(rows.front(), c_angle),
+                            plural(angles_deg_.size(), "angle") + " from " + shortest(angles_deg_.front()) + " to " +
+                                shortest(angles_deg_.back()) +
+                                " are multiples of half a degree when they are taken as radians",
+                            "angles are in degrees", "convert the angles to degrees");
+            return;
+        }
+        const double span = angles_deg_.back() - angles_deg_.front();
+        if (span < 180.0) {
+            problems.warn(
+                k_warn_angle_span, printable(problems.file()),
+                "the angles span " + shortest(span) + "°, from " + shortest(angles_deg_.front()) + "° to " +
+                    shortest(angles_deg_.back()) + "°",
+                "below half a turn, set-up errors and the first harmonics of the error motions are poorly separated",
+                "measure over a full turn if the table allows it");
+        }
+        if (home_angle_deg_ && !angle_index(*home_angle_deg_)) {
+            root.refuse(k_home_not_measured, "home_angle_deg",
+                        "the home angle " + shortest(*home_angle_deg_) + "°" +
+                            (root.has("home_angle_deg") ? "" : " (the default)") + " has no distance",
+                        "the home angle is one of the measured angles",
+                        "state a home_angle_deg that was measured, from " + shortest(angles_deg_.front()) + "° to " +
+                            shortest(angles_deg_.back()) + "°");
+        }
+    }
+
+    [[nodiscard]] std::string where_station_appears(std::size_t station) const {
+        return lengths_table_->where(lengths_table_->cell(first_row_of_station_[station], c_station));
+    }
+
+    void store_lengths(const std::vector<Row>& rows) {
+        RotaryTableMeasurement& measurement = job_.measurement;
+        measurement.stations = stations_.names();
+        measurement.passes = passes_.names();
+        measurement.dead_paths = dead_paths_.names();
+        measurement.angles_deg = angles_deg_;
+        measurement.station_start.assign(stations_.size(), std::nullopt);
+        for (const double angle : angles_deg_) {
+            measurement.angles.push_back(angle * k_degree);
+        }
+        measurement.home = angle_index(home_angle_deg_.value_or(0.0)).value_or(0);
+        measurement.lengths.reserve(rows.size());
+        for (const Row& row : rows) {
+            LengthObservation observation;
+            observation.station = row.station;
+            observation.reflector = reflectors_.find(lengths_reflectors_.names()[row.reflector]).value_or(0);
+            observation.pass = row.pass;
+            observation.angle = row.angle;
+            observation.dead_path = row.dead_path;
+            observation.approach = row.direction == 0 ? Approach::positive : Approach::negative;
+            observation.length = row.length_mm * k_millimetre;
+            observation.line = lengths_table_->cell(row.table_row, c_station).line;
+            measurement.lengths.push_back(observation);
+        }
+    }
+
+    // ---- stations and environment -----------------------------------------------------------------------------------
+
+    /// Goes through a table with one row a station. \param use  called with row and index of a known station
+    template <typename Use>
+    void for_each_station(const CsvTable& table, ProblemList& problems, const Use& use) {
+        std::unordered_map<std::string_view, std::size_t> lines;
+        for (std::size_t row = 0; row < table.rows(); ++row) {
+            const auto name = table.name(row, 0);
+            std::optional<std::size_t> station;
+            if (name) {
+                const auto [entry, is_new] = lines.try_emplace(*name, table.cell(row, 0).line);
+                if (!is_new) {
+                    refuse_repeated_name(table, row, 0, "station", entry->second, problems);
+                }
+                station = stations_.find(*name);
+                if (is_new && !station && lengths_table_) {
+                    problems.warn(k_warn_unused_station, table.where(table.cell(row, 0)),
+                                  "the station " + in_quotes(*name) + " has no distance",
+                                  "stations appear in the lengths file", "check the name, or remove the row");
+                }
+            }
+            use(row, station);
+        }
+    }
+
+    void read_stations(File&& file) {
+        static constexpr std::array<std::string_view, 4> k_columns{"station", "x_mm", "y_mm", "z_mm"};
+        static constexpr std::array<std::string_view, 1> k_optional{"u_mm"};
+        enum : std::size_t { x = 1, u = 4 };
+        const std::optional<CsvTable> table =
+            read_csv_table(std::move(file.bytes), k_columns, k_optional, *file.problems);
+        if (!table) {
+            return;
+        }
+        for_each_station(*table, *file.problems, [&](std::size_t row, std::optional<std::size_t> station) {
+            Eigen::Vector3d position = Eigen::Vector3d::Zero();
+            for (std::size_t k = 0; k < 3; ++k) {
+                position(static_cast<Eigen::Index>(k)) =
+                    table->number(row, x + k, k_station_coordinate).value_or(0.0) * k_millimetre;
+            }
+            (void)table->number_if_any(row, u, above_zero("mm"));
+            if (station && !job_.measurement.station_start.empty()) {
+                job_.measurement.station_start[*station] = position;
+            }
+        });
+    }
+
+    void read_environment(File&& file) {
+        static constexpr std::array<std::string_view, 3> k_columns{"station", "fixture_temperature_degC",
+                                                                   "u_temperature_K"};
+        static constexpr std::array<std::string_view, 3> k_optional{"air_temperature_degC", "pressure_hPa",
+                                                                    "humidity_percent"};
+        enum : std::size_t { temperature = 1, u_temperature, air_temperature, pressure, humidity };
+        const std::optional<CsvTable> table =
+            read_csv_table(std::move(file.bytes), k_columns, k_optional, *file.problems);
+        if (!table) {
+            return;
+        }
+        const auto count = static_cast<Eigen::Index>(stations_.size());
+        job_.measurement.temperature_difference = Eigen::VectorXd::Zero(count);
+        job_.measurement.u_temperature = Eigen::VectorXd::Zero(count);
+        job_.air.assign(stations_.size(), {});
+        std::vector<bool> found(stations_.size(), false);
+        for_each_station(*table, *file.problems, [&](std::size_t row, std::optional<std::size_t> station) {
+            const auto fixture = table->number(row, temperature, k_temperature);
+            const auto u = table->number(row, u_temperature, not_negative("K"));
+            StationAir air;
+            air.temperature_degC = table->number_if_any(row, air_temperature, k_temperature);
+            air.pressure_hPa = table->number_if_any(row, pressure, between(300.0, 1200.0, "hPa"));
+            air.humidity_percent = table->number_if_any(row, humidity, between(0.0, 100.0, "%"));
+            if (station) {
+                const auto index = static_cast<Eigen::Index>(*station);
+                found[*station] = true;
+                job_.measurement.temperature_difference(index) =
+                    fixture.value_or(0.0) - job_.reference_temperature_degC;
+                job_.measurement.u_temperature(index) = u.value_or(0.0);
+                job_.air[*station] = air;
+            }
+        });
+        // A row that could not be read may be the one that seems to be missing.
+        bool all_rows_read = table->is_complete();
+        for (std::size_t row = 0; row < table->rows(); ++row) {
+            all_rows_read = all_rows_read && !name_objection(table->cell(row, 0).text);
+        }
+        for (std::size_t i = 0; all_rows_read && i < found.size(); ++i) {
+            if (!found[i]) {
+                file.problems->refuse(k_unknown_station, where_station_appears(i),
+                                      "the station " + in_quotes(stations_.names()[i]) + " has no row in " +
+                                          printable(file.problems->file()),
+                                      "every station with distances has a row in the environment file",
+                                      "add the row, or correct the name of the station");
+            }
+        }
+    }
+
+    // ---- reference method -------------------------------------------------------------------------------------------
+
+    void read_readings(File&& file, ReferenceMethod& method) {
+        static constexpr std::array<std::string_view, 4> k_columns{"direction", "angle_deg", "run", "reading_um"};
+        static constexpr std::array<std::string_view, 3> k_directions{"x", "y", "z"};
+        enum : std::size_t { c_axis, c_at, c_run, c_reading };
+        const std::optional<CsvTable> table = read_csv_table(std::move(file.bytes), k_columns, {}, *file.problems);
+        if (!table) {
+            return;
+        }
+        NumberRange displacement = between(-100'000.0, 100'000.0, "µm");
+        displacement.hint = "check the unit: readings are in micrometres";
+        std::vector<std::tuple<std::size_t, std::size_t, std::size_t, std::size_t>> seen;  // direction, angle, run, row
+        for (std::size_t row = 0; row < table->rows(); ++row) {
+            const auto direction = table->choice(row, c_axis, k_directions);
+            const auto angle = table->number(row, c_at, k_angle);
+            const auto run = table->integer(row, c_run, between(0.0, 1e6, ""));
+            const auto reading = table->number(row, c_reading, displacement);
+            std::optional<std::size_t> index;
+            if (angle) {
+                index = angle_index(*angle);
+                if (!index && lengths_are_whole_) {
+                    file.problems->refuse(k_reading_at_unknown_angle, table->where(table->cell(row, c_at)),
+                                          "the angle " + shortest(*angle) + "° has no distance",
+                                          "the reference method is compared at the measured angles",
+                                          "correct the angle, or remove the row");
+                }
+            }
+            if (direction && index && run && reading) {
+                seen.emplace_back(*direction, *index, static_cast<std::size_t>(*run), row);
+                method.readings.push_back(
+                    {*direction, *index, static_cast<std::size_t>(*run), *reading * k_micrometre});
+            }
+        }
+        std::sort(seen.begin(), seen.end());
+        std::vector<std::pair<std::size_t, std::size_t>> repeated;  // row, row of the one before
+        for (std::size_t i = 1; i < seen.size(); ++i) {
+            const auto& [direction, angle, run, row] = seen[i];
+            const auto& [other_direction, other_angle, other_run, other_row] = seen[i - 1];
+            if (direction == other_direction && angle == other_angle && run == other_run) {
+                repeated.emplace_back(row, other_row);
+            }
+        }
+        std::sort(repeated.begin(), repeated.end());
+        for (const auto& [row, earlier] : repeated) {
+            file.problems->refuse(
+                k_repeated_reading, table->where(table->cell(row, c_axis)),
+                "the reading of direction " + std::string{table->cell(row, c_axis).text} + ", " +
+                    std::string{table->cell(row, c_at).text} + "°, run " + std::string{table->cell(row, c_run).text} +
+                    " occurs twice, before in line " + std::to_string(table->cell(earlier, c_axis).line),
+                "direction, angle and run occur together once", "remove one of the two, or number the runs");
+        }
+    }
+
+    void read_indicator(const File& file, ReferenceMethod& method) {
+        const std::optional<JsonDocument> document = read_json_document(file.bytes, *file.problems);
+        if (!document) {
+            return;
+        }
+        const std::optional<JsonObject> object = JsonObject::root(*document, k_indicator_keys, *file.problems);
+        if (!object) {
+            return;
+        }
+        if (const auto point = object->required_numbers("contact_point_mm", 3, k_fixture_coordinate)) {
+            method.contact_point = Eigen::Vector3d((*point)[0], (*point)[1], (*point)[2]) * k_millimetre;
+        }
+        const auto resolution = object->required_number("resolution_um", not_negative("µm"));
+        const auto mpe = object->required_number("mpe_um", not_negative("µm"));
+        const auto repeatability = object->required_number("repeatability_um", not_negative("µm"));
+        (void)object->optional_number("temperature_degC", k_temperature);
+        (void)object->optional_string("note");
+        if (resolution && mpe && repeatability && *resolution == 0.0 && *mpe == 0.0 && *repeatability == 0.0) {
+            file.problems->refuse(k_no_indicator_uncertainty, object->where(),
+                                  "resolution_um, mpe_um and repeatability_um are all 0 µm",
+                                  "at least one must be greater than 0", "state what is known of the dial indicator");
+        }
+        method.resolution = resolution.value_or(0.0) * k_micrometre;
+        method.maximum_permissible_error = mpe.value_or(0.0) * k_micrometre;
+        method.repeatability = repeatability.value_or(0.0) * k_micrometre;
+    }
+
+    const FileSource& source_;
+    RotaryTableJob job_;
+    std::deque<ProblemList> problems_;  ///< job file first; a deque because tables keep addresses of its elements
+    std::vector<gum::Diagnostic> not_readable_;
+
+    std::optional<double> home_angle_deg_;
+    std::optional<CsvTable> fixture_table_;
+    bool fixture_is_whole_ = false;
+    NameList reflectors_;  ///< of the fixture
+    std::optional<CsvTable> lengths_table_;
+    bool lengths_are_whole_ = false;
+    NameList stations_;
+    NameList lengths_reflectors_;
+    NameList passes_;
+    NameList dead_paths_;
+    std::vector<std::size_t> first_row_of_station_;
+    std::vector<double> angles_deg_;
+};
+
+struct DiskJob {
+    DiskFileSource source;
+    std::string name;
+};
+
+DiskJob on_disk(const std::filesystem::path& job_file) {
+    return {DiskFileSource(job_file.parent_path()), job_file.filename().string()};
+}
+
+}  // namespace
+
+std::span<const JobKeys> rotary_table_job_keys() {
+    return k_all_keys;
+}
+
+RotaryTableJob read_rotary_table_job(const FileSource& source, const std::string& job_file) {
+    return Reader(source, job_file).result();
+}
+
+RotaryTableJob read_rotary_table_job(const std::filesystem::path& job_file) {
+    const DiskJob disk = on_disk(job_file);
+    return read_rotary_table_job(disk.source, disk.name);
+}
+
+std::string job_kind(const FileSource& source, const std::string& job_file) {
+    ProblemList problems(job_file);
+    const std::string bytes = source.read(job_file);
+    const std::optional<JsonDocument> document = read_json_document(bytes, problems);
+    const std::optional<std::string> kind = document ? read_kind(*document, problems) : std::nullopt;
+    if (problems.refusals() > 0) {
+        throw gum::InputError(problems.refused());
+    }
+    return kind.value();
+}
+
+std::string job_kind(const std::filesystem::path& job_file) {
+    const DiskJob disk = on_disk(job_file);
+    return job_kind(disk.source, disk.name);
+}
+
+}  // namespace gumcert::engine

@@ -1,0 +1,148 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "engine/job/csv_table.h"
+#include "engine/job/json_document.h"
+#include "engine/job/rotary_table_job.h"
+
+/// What must hold for any bytes, for the fuzz targets and for the test that replays their corpus. Every function ends
+/// in a result or in a refusal; anything else throws std::logic_error or is caught by the sanitizers.
+namespace gumcert::engine::fuzz {
+
+inline void demand(bool holds, const char* what) {
+    if (!holds) {
+        throw std::logic_error(what);
+    }
+}
+
+/// A refusal has a code and is one line of text that cannot deceive a terminal.
+inline void demand_honest(const std::vector<gum::Diagnostic>& diagnostics) {
+    for (const gum::Diagnostic& diagnostic : diagnostics) {
+        demand(diagnostic.code.starts_with("GC-"), "a refusal without a code");
+        const std::string text = gum::message(diagnostic);
+        demand(!text.empty(), "a refusal without a text");
+        for (const char c : text) {
+            demand(static_cast<unsigned char>(c) >= 0x20U && c != '\x7F', "a control character in a message");
+        }
+    }
+}
+
+/// What is accepted as JSON is JSON for nlohmann-json as well, with the same value.
+inline bool json_document(std::string_view bytes) {
+    ProblemList problems("fuzz.json");
+    const std::optional<JsonDocument> document = read_json_document(bytes, problems);
+    demand(document || problems.refusals() > 0, "refused without a reason");
+    demand_honest(problems.refused());
+    if (!document || problems.refusals() > 0) {
+        return false;
+    }
+    const nlohmann::json second = nlohmann::json::parse(bytes, nullptr, false, true);
+    demand(!second.is_discarded() && second == document->value, "nlohmann-json reads it differently");
+    for (const auto& [pointer, place] : document->places) {
+        demand(document->value.contains(nlohmann::json::json_pointer(pointer)), "a place of nothing");
+    }
+    return true;
+}
+
+inline bool csv_table(std::string_view bytes) {
+    static constexpr std::array<std::string_view, 3> k_columns{"name", "x_mm", "run"};
+    static constexpr std::array<std::string_view, 1> k_optional{"u_mm"};
+    static constexpr std::array<std::string_view, 3> k_words{"+", "P1", "P2"};
+    ProblemList problems("fuzz.csv");
+    const std::optional<CsvTable> table =
+        read_csv_table(std::string(bytes), k_columns, k_optional, problems, {.rows = 1000});
+    demand(table || problems.refusals() > 0, "refused without a reason");
+    if (table) {
+        for (std::size_t row = 0; row < table->rows(); ++row) {
+            (void)table->name(row, 0);
+            (void)table->choice(row, 0, k_words);
+            const auto number = table->number(row, 1, {});
+            demand(!number || std::isfinite(*number), "a number that is not finite");
+            (void)table->integer(row, 2, between(0.0, 100.0, ""));
+            (void)table->number_if_any(row, 3, above_zero("mm"));
+        }
+    }
+    ProblemList matrix_problems("fuzz.csv");
+    const auto matrix = read_csv_matrix(std::string(bytes), 3, "µm²", matrix_problems);
+    demand(matrix || matrix_problems.refusals() > 0, "refused without a reason");
+    demand(!matrix || matrix->allFinite(), "a number that is not finite");
+    demand_honest(problems.refused());
+    demand_honest(problems.warnings());
+    demand_honest(matrix_problems.refused());
+    return problems.refusals() == 0;
+}
+
+/// Several files in one text: a line `=== name` begins a file.
+inline std::map<std::string, std::string> files_of_bundle(std::string_view bundle) {
+    std::map<std::string, std::string> files;
+    std::string* current = nullptr;
+    while (!bundle.empty()) {
+        const std::size_t end = bundle.find('\n');
+        const std::string_view line = bundle.substr(0, end == std::string_view::npos ? bundle.size() : end + 1);
+        bundle.remove_prefix(line.size());
+        if (line.starts_with("=== ")) {
+            std::string_view name = line.substr(4);
+            if (name.ends_with('\n')) {
+                name.remove_suffix(1);
+            }
+            current = &files[std::string(name)];
+        } else if (current != nullptr) {
+            current->append(line);
+        }
+    }
+    return files;
+}
+
+inline void demand_consistent(const RotaryTableJob& job) {
+    const RotaryTableMeasurement& m = job.measurement;
+    const auto stations = static_cast<Eigen::Index>(m.stations.size());
+    const auto reflectors = static_cast<Eigen::Index>(m.reflectors.size());
+    demand(job.coverage_probability > 0.0 && job.coverage_probability < 1.0, "coverage probability");
+    demand(m.angles.size() == m.angles_deg.size() && m.home < m.angles.size(), "angles");
+    demand(m.fixture.rows() == reflectors && m.fixture.allFinite(), "fixture");
+    demand(m.fixture_covariance.rows() == 3 * reflectors && m.fixture_covariance.cols() == 3 * reflectors &&
+               m.fixture_covariance.allFinite() && m.fixture_covariance.diagonal().minCoeff() > 0.0,
+           "fixture covariance");
+    demand(m.station_start.size() == m.stations.size() && m.temperature_difference.size() == stations &&
+               m.u_temperature.size() == stations && m.temperature_difference.allFinite() &&
+               m.u_temperature.allFinite(),
+           "stations");
+    demand(!m.lengths.empty(), "lengths");
+    for (const LengthObservation& length : m.lengths) {
+        demand(length.station < m.stations.size() && length.reflector < m.reflectors.size() &&
+                   length.pass < m.passes.size() && length.angle < m.angles.size() &&
+                   length.dead_path < m.dead_paths.size() && std::isfinite(length.length) && length.line > 1,
+               "a length");
+    }
+    if (job.reference) {
+        for (const ReferenceReading& reading : job.reference->readings) {
+            demand(reading.direction < 3 && reading.angle < m.angles.size() && std::isfinite(reading.reading),
+                   "a reading");
+        }
+    }
+    demand_honest(job.warnings);
+}
+
+/// \param bundle  the files of a job; the job itself is `job.json`
+inline bool rotary_table_job(std::string_view bundle) {
+    try {
+        demand_consistent(read_rotary_table_job(MemoryFileSource(files_of_bundle(bundle)), "job.json"));
+        return true;
+    } catch (const gum::InputError& error) {
+        demand(!error.diagnostics().empty(), "refused without a reason");
+        demand_honest(error.diagnostics());
+    } catch (const gum::StorageError& error) {
+        demand(!error.diagnostics().empty(), "refused without a reason");
+        demand_honest(error.diagnostics());
+    }
+    return false;
+}
+
+}  // namespace gumcert::engine::fuzz

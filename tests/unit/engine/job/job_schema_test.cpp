@@ -1,0 +1,217 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+#include <vector>
+
+#include "engine/job/json_document.h"
+#include "engine/job/rotary_table_job.h"
+#include "tests/unit/engine/job/campaign.h"
+
+namespace gumcert::engine {
+namespace {
+
+using nlohmann::json;
+using test::Files;
+using test::refusals;
+using test::replace;
+using test::small_campaign;
+
+std::string content(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+class JobSchemaTest : public testing::Test {
+protected:
+    void SetUp() override {
+        document_ =
+            parse_json_document(content(std::filesystem::path(GUMCERT_SOURCE_DIR) / "schemas/job-1.schema.json"),
+                                "job-1.schema.json")
+                .value;
+        valijson::SchemaParser(valijson::SchemaParser::kDraft7)
+            .populateSchema(valijson::adapters::NlohmannJsonAdapter(document_), schema_);
+    }
+    [[nodiscard]] bool accepts(const json& job) {
+        valijson::Validator validator;
+        return validator.validate(schema_, valijson::adapters::NlohmannJsonAdapter(job), nullptr);
+    }
+    /// The schema of an object inside the job, following references.
+    [[nodiscard]] const json& schema_of(std::string_view pointer) const {
+        const json* node = &document_.at("definitions").at("rotary_table");
+        for (std::string_view rest = pointer; !rest.empty();) {
+            rest.remove_prefix(1);
+            const std::size_t end = std::min(rest.find('/'), rest.size());
+            node = &node->at("properties").at(std::string(rest.substr(0, end)));
+            rest.remove_prefix(end);
+        }
+        return *node;
+    }
+    json document_;
+    valijson::Schema schema_;
+};
+
+json job_of(const Files& files) {
+    return parse_json_document(files.at("job.json"), "job.json").value;
+}
+
+/// A job that uses every key of the schema.
+Files complete_campaign() {
+    Files files = small_campaign();
+    std::string& job = files["job.json"];
+    replace(job, "0.05", R"(0.05, "u_proportional_um_per_m": 0.1, "scale_u": 1.5e-7, "scale_model": "prior")");
+    replace(job, "\"coordinates\"",
+            R"("covariance": "covariance.csv", "reference_temperature_degC": 20, "coordinates")");
+    replace(job, "{", R"({ "home_angle_deg": 0, "datum": "home", "method": "joint", "coverage_probability": 0.95,
+        "certificate": {"customer": {}}, "notes": "n", "variance_components": "estimate",
+        "table_repeatability": {"mode": "given", "u_linear_um": 0.3, "u_axial_arcsec": 0.2, "u_tilt_arcsec": 0.1},
+        "outliers": {"test": "data_snooping", "alpha": 0.001, "action": "remove"},)");
+    for (int i = 0; i < 12; ++i) {
+        for (int j = 0; j < 12; ++j) {
+            files["covariance.csv"] += (j == 0 ? "" : ",") + std::string(i != j ? "0" : i == 1 ? "0.25" : "0.16");
+        }
+        files["covariance.csv"] += "\n";
+    }
+    return files;
+}
+
+TEST_F(JobSchemaTest, AcceptsTheJobsOfTheSharedData) {
+    const std::filesystem::path folder = std::filesystem::path(GUMCERT_SHARED_DIR) / "data/rotary_table";
+    if (!std::filesystem::exists(folder)) {
+        GTEST_SKIP() << "the shared data are not here";
+    }
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        EXPECT_TRUE(accepts(parse_json_document(content(entry.path() / "job.json"), "job.json").value)) << entry.path();
+        ++count;
+    }
+    EXPECT_EQ(count, 4);
+}
+
+TEST_F(JobSchemaTest, AcceptsOtherKindsWithAnyKeys) {
+    EXPECT_TRUE(
+        accepts(json::parse(R"({"schema": "gumcert/job/1", "kind": "budget", "model": ["y = a"], "inputs": {}})")));
+    EXPECT_TRUE(accepts(json::parse(R"({"schema": "gumcert/job/1", "kind": "comparison", "participants": []})")));
+    EXPECT_FALSE(accepts(json::parse(R"({"schema": "gumcert/job/1", "kind": "table"})")));
+    EXPECT_FALSE(accepts(json::parse(R"({"schema": "gumcert/job/2", "kind": "budget"})")));
+    EXPECT_FALSE(accepts(json::parse(R"({"kind": "budget"})")));
+    EXPECT_FALSE(accepts(json::parse("[]")));
+}
+
+TEST_F(JobSchemaTest, HasTheKeysOfTheReader) {
+    for (const JobKeys& object : rotary_table_job_keys()) {
+        std::vector<std::string> of_schema;
+        for (const auto& [key, value] : schema_of(object.pointer).at("properties").items()) {
+            of_schema.push_back(key);
+        }
+        const std::vector<std::string> of_reader(object.keys.begin(), object.keys.end());
+        EXPECT_THAT(of_schema, testing::UnorderedElementsAreArray(of_reader)) << object.pointer;
+        EXPECT_EQ(schema_of(object.pointer).at("additionalProperties"), false) << object.pointer;
+    }
+    // And no object of the schema is missing in the table of the reader.
+    std::size_t objects = 0;
+    const auto count = [&](const auto& self, const json& node) -> void {
+        if (node.contains("properties")) {
+            ++objects;
+            for (const auto& [key, value] : node.at("properties").items()) {
+                self(self, value);
+            }
+        }
+    };
+    count(count, schema_of(""));
+    EXPECT_EQ(objects, rotary_table_job_keys().size());
+}
+
+TEST_F(JobSchemaTest, AgreesWithTheReaderOnEveryKey) {
+    const Files files = complete_campaign();
+    const json complete = job_of(files);
+    ASSERT_EQ(test::texts(refusals(files)), "");
+    ASSERT_TRUE(accepts(complete));
+    const auto with_job = [&](const json& job) {
+        Files changed = files;
+        changed["job.json"] = job.dump();
+        return changed;
+    };
+    for (const JobKeys& object : rotary_table_job_keys()) {
+        for (const std::string_view key : object.keys) {
+            const std::string pointer = std::string(object.pointer) + "/" + std::string(key);
+            // Every key is used above, so every key is read: a value of the wrong type is refused at its place.
+            json wrong = complete;
+            ASSERT_TRUE(wrong.contains(json::json_pointer(pointer))) << pointer;
+            wrong[json::json_pointer(pointer)] = json::array({true});
+            EXPECT_FALSE(accepts(wrong)) << pointer;
+            const auto found = refusals(with_job(wrong));
+            EXPECT_TRUE(
+                std::any_of(found.begin(), found.end(),
+                            [&](const auto& d) { return d.where.find("#" + pointer + " (") != std::string::npos; }))
+                << pointer << "\n"
+                << test::texts(found);
+            // Both demand the same keys. A demand that depends on other keys is beyond this schema.
+            if (pointer.starts_with("/table_repeatability/u_") || pointer == "/fixture/thermal_expansion_per_K" ||
+                pointer == "/length_uncertainty/scale_u") {
+                continue;
+            }
+            json without = complete;
+            without.at(json::json_pointer(std::string(object.pointer))).erase(std::string(key));
+            EXPECT_EQ(accepts(without), refusals(with_job(without)).empty()) << pointer;
+        }
+        json unknown = complete;
+        unknown[json::json_pointer(std::string(object.pointer) + "/unheard_of")] = 1;
+        EXPECT_FALSE(accepts(unknown)) << object.pointer;
+        EXPECT_FALSE(refusals(with_job(unknown)).empty()) << object.pointer;
+    }
+}
+
+TEST_F(JobSchemaTest, AgreesWithTheReaderOnValues) {
+    const Files files = complete_campaign();
+    const json complete = job_of(files);
+    const std::vector<std::pair<std::string, std::vector<std::string>>> values{
+        {"/axis", {"\"A\"", "\"C\"", "\"a\"", "\"D\""}},
+        {"/schema", {"\"gumcert/job/1\"", "\"gumcert/job/2\""}},
+        {"/title", {"\"t\"", "\"\""}},
+        {"/coverage_probability", {"0.5", "0", "1", "95", "-0.1"}},
+        {"/home_angle_deg", {"90", "3601"}},
+        {"/datum", {"\"home\"", "\"axis_average_line\"", "\"axis\""}},
+        {"/method", {"\"joint\"", "\"sequential\"", "\"two\""}},
+        {"/observations/lengths", {"\"lengths.csv\"", "\"/lengths.csv\"", "\"\"", "\"a\\\\b\"", "\"C:x.csv\""}},
+        {"/length_uncertainty/u_constant_um", {"1", "0", "-1"}},
+        {"/length_uncertainty/u_proportional_um_per_m", {"0", "1", "-1"}},
+        {"/length_uncertainty/scale_u", {"1e-6", "0.01", "0.011", "0", "-1"}},
+        {"/length_uncertainty/scale_model", {"\"fixed\"", "\"prior\"", "\"free\"", "\"none\""}},
+        {"/fixture/reference_temperature_degC", {"-50", "100", "-50.5", "100.5"}},
+        {"/fixture/thermal_expansion_per_K/value", {"0", "0.001", "-1e-9", "0.0011"}},
+        {"/fixture/thermal_expansion_per_K/u", {"0", "0.001", "-1e-9", "0.0011"}},
+        {"/table_repeatability/mode", {"\"estimate\"", "\"given\"", "\"none\"", "\"off\""}},
+        {"/table_repeatability/u_linear_um", {"0", "1", "-1"}},
+        {"/variance_components", {"\"estimate\"", "\"fixed\"", "\"given\""}},
+        {"/outliers/test", {"\"data_snooping\"", "\"none\"", "\"grubbs\""}},
+        {"/outliers/alpha", {"0.49", "0.5", "0"}},
+        {"/outliers/action", {"\"report\"", "\"remove\"", "\"keep\""}},
+        {"/reference_method/name", {"\"n\"", "\"\""}},
+        {"/certificate", {"{}", "1", "\"\"", "\"/certificate.json\""}}};
+    for (const auto& [pointer, texts] : values) {
+        bool any_refused = false;
+        for (const std::string& text : texts) {
+            json job = complete;
+            job[json::json_pointer(pointer)] = json::parse(text);
+            Files changed = files;
+            changed["job.json"] = job.dump();
+            const auto found = refusals(changed);
+            EXPECT_EQ(accepts(job), found.empty()) << pointer << " = " << text << "\n" << test::texts(found);
+            any_refused = any_refused || !found.empty();
+        }
+        EXPECT_TRUE(any_refused) << pointer;
+    }
+}
+
+}  // namespace
+}  // namespace gumcert::engine
