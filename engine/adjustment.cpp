@@ -30,6 +30,20 @@ Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& covariance) {
     return factor.matrixL();
 }
 
+/// L⁻¹ times the rows of `matrix`, in place, by forward substitution. Groups are small and most factors are diagonal:
+/// the general triangular solve of Eigen spends its time on packing.
+template <typename Rows>
+void whiten(const Eigen::MatrixXd& lower, Rows&& matrix) {
+    for (Eigen::Index i = 0; i < lower.rows(); ++i) {
+        for (Eigen::Index k = 0; k < i; ++k) {
+            if (lower(i, k) != 0.0) {
+                matrix.row(i) -= lower(i, k) * matrix.row(k);
+            }
+        }
+        matrix.row(i) /= lower(i, i);
+    }
+}
+
 /// Components of one block as they are: the functional model of a prior.
 class ComponentModel final : public ObservationModel {
 public:
@@ -72,13 +86,11 @@ public:
         group_.model->predict(parameters, residuals, jacobians);
         Eigen::Map<Eigen::VectorXd> residual(residuals, n);
         residual -= group_.observed;
-        const auto lower = group_.cholesky.triangularView<Eigen::Lower>();
-        lower.solveInPlace(residual);
+        whiten(group_.cholesky, residual);
         if (jacobians != nullptr) {
             for (std::size_t k = 0; k < parameter_block_sizes().size(); ++k) {
                 if (jacobians[k] != nullptr) {
-                    Eigen::Map<RowMajorMatrix> jacobian(jacobians[k], n, parameter_block_sizes()[k]);
-                    lower.solveInPlace(jacobian);
+                    whiten(group_.cholesky, Eigen::Map<RowMajorMatrix>(jacobians[k], n, parameter_block_sizes()[k]));
                 }
             }
         }
@@ -132,7 +144,7 @@ Eigen::MatrixXd Adjustment::jacobian(GroupId id, BlockId wanted) const {
     const Group& group = groups_[id];
     std::vector<const double*> parameters;
     std::vector<double*> jacobians(group.blocks.size(), nullptr);
-    RowMajorMatrix result(group.observed.size(), blocks_[wanted].value.size());
+    RowMajorMatrix result = RowMajorMatrix::Zero(group.observed.size(), blocks_[wanted].value.size());
     for (std::size_t k = 0; k < group.blocks.size(); ++k) {
         parameters.push_back(blocks_[group.blocks[k]].value.data());
         if (group.blocks[k] == wanted) {
@@ -174,6 +186,7 @@ NormalEquations Adjustment::linearise() const {
 
     normal.groups_.resize(groups_.size());
     std::vector<RowMajorMatrix> raw;
+    RowMajorMatrix whitened;
     std::vector<const double*> parameters;
     std::vector<double*> jacobians;
     for (std::size_t g = 0; g < groups_.size(); ++g) {
@@ -194,21 +207,21 @@ NormalEquations Adjustment::linearise() const {
         linear.residual.resize(n);
         group.model->predict(parameters.data(), linear.residual.data(), jacobians.data());
         linear.residual = group.observed - linear.residual;
-        linear.jacobian.resize(n, columns);
+        whitened.resize(n, columns);
         Eigen::Index column = 0;
         for (std::size_t k = 0; k < group.blocks.size(); ++k) {
             const std::vector<Eigen::Index>& of = normal.column_of_[group.blocks[k]];
             for (std::size_t c = 0; c < of.size(); ++c) {
                 if (of[c] >= 0) {
                     linear.columns.push_back(of[c]);
-                    linear.jacobian.col(column++) = raw[k].col(static_cast<Eigen::Index>(c));
+                    whitened.col(column++) = raw[k].col(static_cast<Eigen::Index>(c));
                 }
             }
         }
         linear.cholesky = group.cholesky;
-        const auto lower = linear.cholesky.triangularView<Eigen::Lower>();
-        lower.solveInPlace(linear.residual);
-        lower.solveInPlace(linear.jacobian);
+        whiten(linear.cholesky, whitened);
+        whiten(linear.cholesky, linear.residual);
+        linear.jacobian = whitened;
     }
     normal.accumulate();
     return normal;
@@ -228,7 +241,6 @@ void NormalEquations::accumulate() {
     }
     Eigen::MatrixXd product;
     for (const LinearisedGroup& group : groups_) {
-        product.noalias() = group.jacobian.transpose() * group.jacobian;
         const auto size = static_cast<Eigen::Index>(group.columns.size());
         EliminatedBlock* eliminated = nullptr;
         for (const Eigen::Index column : group.columns) {
@@ -240,19 +252,30 @@ void NormalEquations::accumulate() {
                 break;
             }
         }
+        product.resize(size, size);
+        product.triangularView<Eigen::Lower>() = group.jacobian.transpose() * group.jacobian;
         for (Eigen::Index j = 0; j < size; ++j) {
             const Eigen::Index cj = group.columns[static_cast<std::size_t>(j)];
-            for (Eigen::Index i = 0; i < size; ++i) {
+            for (Eigen::Index i = j; i < size; ++i) {
                 const Eigen::Index ci = group.columns[static_cast<std::size_t>(i)];
-                if (ci < border_ && cj < border_) {
-                    border_normal_(ci, cj) += product(i, j);
-                } else if (ci >= border_ && cj < border_) {
-                    eliminated->border(ci - eliminated->first, cj) += product(i, j);
-                } else if (ci >= border_ && cj >= border_) {
-                    eliminated->normal(ci - eliminated->first, cj - eliminated->first) += product(i, j);
+                const auto [left, right] = std::minmax(ci, cj);
+                if (right < border_) {
+                    border_normal_(right, left) += product(i, j);
+                } else if (left < border_) {
+                    eliminated->border(right - eliminated->first, left) += product(i, j);
+                } else {
+                    eliminated->normal(right - eliminated->first, left - eliminated->first) += product(i, j);
                 }
             }
         }
+    }
+    // Only the lower triangles were added up.
+    const auto mirror = [](Eigen::MatrixXd& matrix) {
+        matrix.triangularView<Eigen::StrictlyUpper>() = matrix.transpose();
+    };
+    mirror(border_normal_);
+    for (EliminatedBlock& block : blocks_) {
+        mirror(block.normal);
     }
 }
 
@@ -429,6 +452,7 @@ void Adjustment::apply(const NormalEquations& normal, const Eigen::VectorXd& ste
 
 SolveSummary Adjustment::refine(const SolverOptions& options) {
     SolveSummary summary;
+    summary.message = "the steps allowed were used up";
     double last = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < options.max_refinements; ++iteration) {
         const NormalEquations normal = linearise();
@@ -455,6 +479,7 @@ SolveSummary Adjustment::refine(const SolverOptions& options) {
             std::max(1.0, std::sqrt(normal.chi_square() / static_cast<double>(normal.observation_count())));
         if (size < options.step_tolerance * spread) {
             summary.converged = true;
+            summary.message.clear();
             break;
         }
         if (iteration > 5 && size > last) {
@@ -476,17 +501,31 @@ SolveSummary Adjustment::solve(const SolverOptions& options) {
     ceres::Problem problem(problem_options);
     auto* ordering = new ceres::ParameterBlockOrdering;
     bool any_eliminated = false;
+    // Ceres orders blocks by their addresses. One array in the order of the blocks keeps that order, and with it every
+    // rounding, independent of where the heap happens to lie.
+    std::vector<std::size_t> first(blocks_.size());
+    std::size_t size = 0;
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+        first[b] = size;
+        size += static_cast<std::size_t>(blocks_[b].value.size());
+    }
+    std::vector<double> values(size);
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+        std::copy(blocks_[b].value.begin(), blocks_[b].value.end(),
+                  values.begin() + static_cast<std::ptrdiff_t>(first[b]));
+    }
     std::vector<bool> used(blocks_.size(), false);
     for (const Group& group : groups_) {
         std::vector<double*> pointers;
         for (const BlockId block : group.blocks) {
-            pointers.push_back(blocks_[block].value.data());
+            pointers.push_back(values.data() + first[block]);
             used[block] = true;
         }
         problem.AddResidualBlock(new WhitenedCost(group, blocks_), nullptr, pointers);
     }
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
-        Block& block = blocks_[b];
+        const Block& block = blocks_[b];
+        double* const pointer = values.data() + first[b];
         if (!used[b]) {
             continue;
         }
@@ -498,25 +537,26 @@ SolveSummary Adjustment::solve(const SolverOptions& options) {
         }
         const bool constant = held.size() == block.held.size();
         if (constant) {
-            problem.SetParameterBlockConstant(block.value.data());
+            problem.SetParameterBlockConstant(pointer);
         } else if (!held.empty()) {
-            problem.SetManifold(block.value.data(),
-                                new ceres::SubsetManifold(static_cast<int>(block.held.size()), held));
+            problem.SetManifold(pointer, new ceres::SubsetManifold(static_cast<int>(block.held.size()), held));
         }
-        ordering->AddElementToGroup(block.value.data(), block.eliminated ? 0 : 1);
+        ordering->AddElementToGroup(pointer, block.eliminated ? 0 : 1);
         any_eliminated = any_eliminated || (block.eliminated && !constant);
     }
 
     // Every tolerance is set: the general solver only brings the parameters into the reach of refine().
     ceres::Solver::Options solver;
     solver.linear_solver_ordering.reset(ordering);
-    solver.linear_solver_type = any_eliminated ? ceres::SPARSE_SCHUR : ceres::SPARSE_NORMAL_CHOLESKY;
+    // The border is dense and small. Eigen, unlike a BLAS that is chosen at run time, rounds the same on every machine.
+    solver.linear_solver_type = any_eliminated ? ceres::DENSE_SCHUR : ceres::SPARSE_NORMAL_CHOLESKY;
+    solver.dense_linear_algebra_library_type = ceres::EIGEN;
     solver.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
     solver.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
     solver.initial_trust_region_radius = 1e12;
     solver.max_trust_region_radius = 1e20;
     solver.max_num_iterations = options.max_iterations;
-    solver.function_tolerance = 1e-9;
+    solver.function_tolerance = 1e-6;
     solver.gradient_tolerance = 1e-300;
     solver.parameter_tolerance = 1e-14;
     solver.num_threads = 1;  // the same bytes for any machine
@@ -531,6 +571,10 @@ SolveSummary Adjustment::solve(const SolverOptions& options) {
     if (!ceres_summary.IsSolutionUsable()) {
         summary.message = ceres_summary.message;
         return summary;
+    }
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+        std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(first[b]), blocks_[b].value.size(),
+                    blocks_[b].value.begin());
     }
     const SolveSummary refined = refine(options);
     summary.converged = refined.converged;
