@@ -396,11 +396,12 @@ StartValues find_start_values(const RotaryTableMeasurement& measurement, const s
             if (factor.rank() < unknown) {
                 throw gum::NoResultError(gum::Diagnostic{
                     "GC-RANK-0001", "station " + measurement.stations[j],
-                    "its position and dead path are not determined: all reflectors are seen on a cone about one line, "
-                    "or in too few directions",
-                    "a station needs reflectors in directions that do not lie on one cone, else a move along the axis "
-                    "of the cone and a longer dead path look the same",
-                    "move the station off the rotary axis, or place reflectors at different distances from the axis",
+                    "its position and dead path cannot be found from the distances alone: all reflectors are seen on a "
+                    "cone about one line, lie in one plane across the axis, or have a dead path each",
+                    "on a cone a move along its axis and a longer dead path look the same; from a plane the mirror "
+                    "image of the station fits as well",
+                    "state the position of the station in the stations file; on a cone, move the station off the "
+                    "rotary axis, or place reflectors at different distances from the axis",
                     gum::Severity::error});
             }
             start.stations[j] = solution.head<3>();

@@ -168,6 +168,16 @@ public:
         }
     }
 
+    /// Weights from derivatives at the very solution, so that whoever makes them again finds the same.
+    void finish(JointAdjustment& adjustment, const StochasticModel& stochastic, const SolverOptions& solver) {
+        adjustment.set_weights(stochastic);
+        const SolveSummary summary = adjustment.adjustment().refine(solver);
+        require_convergence(summary);
+        iterations += summary.iterations;
+        normal.emplace(adjustment.adjustment().linearise());
+        covariance = normal->covariance();
+    }
+
     [[nodiscard]] const EstimatedComponents& estimated() const { return estimated_; }
 
     std::optional<NormalEquations> normal;
@@ -308,6 +318,8 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
                          options.solver);
         rows = distance_reliability(adjustment, *iteration.normal, iteration.covariance, stochastic, non_centrality);
     }
+    iteration.finish(adjustment, stochastic, options.solver);
+    rows = distance_reliability(adjustment, *iteration.normal, iteration.covariance, stochastic, non_centrality);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         rows[i].flagged = flagged[i];
         rows[i].removed = !active[i];

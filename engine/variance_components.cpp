@@ -3,9 +3,11 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace gumcert::engine {
 
@@ -16,20 +18,65 @@ constexpr std::size_t k_components = 4;
 constexpr double k_linear_scale = 1e-14;
 constexpr double k_angular_scale = 2.350443e-13;
 
-/// Derivatives of the covariance of a visit with respect to the four components, in their scales.
-std::array<Eigen::MatrixXd, k_components> covariance_derivatives(const JointAdjustment& adjustment, std::size_t visit) {
+/// Roots B_k of the derivatives V_k = B_k B_kᵀ of the covariance of a visit, in the scales of the components, side by
+/// side: n×(n + 6).
+Eigen::MatrixXd covariance_roots(const JointAdjustment& adjustment, std::size_t visit) {
     const Eigen::MatrixXd pose = adjustment.pose_jacobian(visit);
     const int axial = 3 + axial_coordinate(adjustment.measurement().axis);
-    Eigen::MatrixXd tilt(pose.rows(), 2);
-    for (int c = 3, k = 0; c < 6; ++c) {
+    const Eigen::Index n = pose.rows();
+    Eigen::MatrixXd roots(n, n + 6);
+    roots.leftCols(n) = adjustment.stated_variance(visit).cwiseSqrt().asDiagonal();
+    roots.middleCols<3>(n) = std::sqrt(k_linear_scale) * pose.leftCols<3>();
+    roots.col(n + 3) = std::sqrt(k_angular_scale) * pose.col(axial);
+    for (int c = 3, k = 4; c < 6; ++c) {
         if (c != axial) {
-            tilt.col(k++) = pose.col(c);
+            roots.col(n + k++) = std::sqrt(k_angular_scale) * pose.col(c);
         }
     }
-    return {Eigen::MatrixXd(adjustment.stated_variance(visit).asDiagonal()),
-            k_linear_scale * pose.leftCols<3>() * pose.leftCols<3>().transpose(),
-            k_angular_scale * pose.col(axial) * pose.col(axial).transpose(), k_angular_scale * tilt * tilt.transpose()};
+    return roots;
 }
+
+/// First column of each component in `covariance_roots`, and the end.
+std::array<Eigen::Index, k_components + 1> root_columns(Eigen::Index n) {
+    return {0, n, n + 3, n + 4, n + 6};
+}
+
+/// C A for a symmetric A that has the form of the normal equations: a border, and a block for each eliminated pose.
+class BorderedProduct {
+public:
+    BorderedProduct(const JointAdjustment& adjustment, const NormalEquations& normal)
+        : border_(normal.parameter_count()) {
+        for (std::size_t i = 0; i < adjustment.measurement().angles.size(); ++i) {
+            std::pair<Eigen::Index, Eigen::Index> pose{0, 0};
+            for (int c = 5; c >= 0; --c) {
+                if (const Eigen::Index column = normal.column(adjustment.pose_block(i), c); column >= 0) {
+                    pose = {column, pose.second + 1};
+                }
+            }
+            if (pose.second > 0) {
+                poses_.push_back(pose);
+                border_ = std::min(border_, pose.first);
+            }
+        }
+    }
+
+    [[nodiscard]] Eigen::MatrixXd operator()(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& bordered) const {
+        const Eigen::Index p = covariance.rows();
+        Eigen::MatrixXd product(p, p);
+        product.leftCols(border_).noalias() = covariance * bordered.leftCols(border_);
+        product.rightCols(p - border_).noalias() =
+            covariance.leftCols(border_) * bordered.topRightCorner(border_, p - border_);
+        for (const auto& [first, size] : poses_) {
+            product.middleCols(first, size).noalias() +=
+                covariance.middleCols(first, size) * bordered.block(first, first, size, size);
+        }
+        return product;
+    }
+
+private:
+    Eigen::Index border_;
+    std::vector<std::pair<Eigen::Index, Eigen::Index>> poses_;  ///< first column of each that is not held, and size
+};
 
 }  // namespace
 
@@ -37,8 +84,13 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
                                                    const Eigen::MatrixXd& covariance, const StochasticModel& present,
                                                    const EstimatedComponents& estimated) {
     const Eigen::Index p = normal.parameter_count();
-    std::array<Eigen::MatrixXd, k_components> inner;  // J̃ᵀ Ũ_k J̃
-    inner.fill(Eigen::MatrixXd::Zero(p, p));
+    const std::array<bool, k_components> needed{estimated.length, estimated.table, estimated.table, estimated.table};
+    std::array<Eigen::MatrixXd, k_components> inner;  // J̃ᵀ Ũ_k J̃ of the estimated components
+    for (std::size_t k = 0; k < k_components; ++k) {
+        if (needed[k]) {
+            inner[k] = Eigen::MatrixXd::Zero(p, p);
+        }
+    }
     Eigen::Vector4d quadratic = Eigen::Vector4d::Zero();  // ṽᵀ Ũ_k ṽ
     Eigen::Vector4d trace = Eigen::Vector4d::Zero();      // tr(R V_k)
     Eigen::Matrix4d fisher = Eigen::Matrix4d::Zero();     // tr(R V_k R V_l)
@@ -47,49 +99,57 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
     for (std::size_t v = 0; v < adjustment.visits().size(); ++v) {
         const LinearisedGroup& group = normal.groups()[v];
         any_shared_visit = any_shared_visit || group.residual.size() > 1;
-        const auto derivatives = covariance_derivatives(adjustment, v);
-        const auto lower = group.cholesky.triangularView<Eigen::Lower>();
-        std::array<Eigen::MatrixXd, k_components> whitened;  // L⁻¹ V_k L⁻ᵀ
-        std::array<Eigen::MatrixXd, k_components> product;   // Ũ_k J̃
+        // Ũ_k = L⁻¹ V_k L⁻ᵀ = B̃_k B̃_kᵀ: everything of a visit follows from the whitened roots.
+        Eigen::MatrixXd roots = covariance_roots(adjustment, v);
+        group.cholesky.triangularView<Eigen::Lower>().solveInPlace(roots);
+        const auto first = root_columns(group.residual.size());
+        const Eigen::MatrixXd predicted =
+            group.jacobian * covariance(group.columns, group.columns) * group.jacobian.transpose();
+        const Eigen::VectorXd root_residual = roots.transpose() * group.residual;
+        const Eigen::MatrixXd root_jacobian = roots.transpose() * group.jacobian;
+        const Eigen::MatrixXd root_square = roots.transpose() * roots;
+        const Eigen::MatrixXd root_predicted = roots.transpose() * predicted * roots;
         for (std::size_t k = 0; k < k_components; ++k) {
-            const Eigen::MatrixXd half = lower.solve(derivatives[k]);
-            whitened[k] = lower.solve(half.transpose());
-            product[k].noalias() = whitened[k] * group.jacobian;
             const auto at = static_cast<Eigen::Index>(k);
-            quadratic[at] += group.residual.dot(whitened[k] * group.residual);
-            trace[at] += whitened[k].trace();
-            const Eigen::MatrixXd local = group.jacobian.transpose() * product[k];
-            for (std::size_t i = 0; i < group.columns.size(); ++i) {
-                for (std::size_t j = 0; j < group.columns.size(); ++j) {
+            const Eigen::Index rank = first[k + 1] - first[k];
+            quadratic[at] += root_residual.segment(first[k], rank).squaredNorm();
+            trace[at] += root_square.diagonal().segment(first[k], rank).sum() -
+                         root_predicted.diagonal().segment(first[k], rank).sum();
+            for (std::size_t l = 0; l < k_components; ++l) {
+                const auto square = root_square.block(first[k], first[l], rank, first[l + 1] - first[l]);
+                const auto spread = root_predicted.block(first[k], first[l], rank, first[l + 1] - first[l]);
+                fisher(at, static_cast<Eigen::Index>(l)) += square.cwiseProduct(square - 2.0 * spread).sum();
+            }
+            if (!needed[k]) {
+                continue;
+            }
+            const auto rows = root_jacobian.middleRows(first[k], rank);
+            const Eigen::MatrixXd local = rows.transpose() * rows;
+            for (std::size_t j = 0; j < group.columns.size(); ++j) {
+                for (std::size_t i = 0; i < group.columns.size(); ++i) {
                     inner[k](group.columns[i], group.columns[j]) +=
                         local(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
                 }
             }
         }
-        Eigen::MatrixXd local_covariance(group.columns.size(), group.columns.size());
-        for (std::size_t i = 0; i < group.columns.size(); ++i) {
-            for (std::size_t j = 0; j < group.columns.size(); ++j) {
-                local_covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-                    covariance(group.columns[i], group.columns[j]);
-            }
-        }
-        for (std::size_t k = 0; k < k_components; ++k) {
-            const Eigen::MatrixXd spread = product[k] * local_covariance;
-            for (std::size_t l = 0; l < k_components; ++l) {
-                fisher(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l)) +=
-                    whitened[k].cwiseProduct(whitened[l]).sum() - 2.0 * spread.cwiseProduct(product[l]).sum();
-            }
-        }
     }
+    const BorderedProduct times(adjustment, normal);
     std::array<Eigen::MatrixXd, k_components> outer;  // C J̃ᵀ Ũ_k J̃
     for (std::size_t k = 0; k < k_components; ++k) {
-        outer[k].noalias() = covariance * inner[k];
-        trace[static_cast<Eigen::Index>(k)] -= outer[k].trace();
-    }
-    for (std::size_t k = 0; k < k_components; ++k) {
-        for (std::size_t l = 0; l < k_components; ++l) {
-            fisher(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l)) +=
-                outer[k].cwiseProduct(outer[l].transpose()).sum();
+        if (!needed[k]) {
+            continue;
+        }
+        outer[k] = times(covariance, inner[k]);
+        for (std::size_t l = 0; l <= k; ++l) {
+            if (needed[l]) {
+                const double sum = outer[k].cwiseProduct(outer[l].transpose()).sum();
+                const auto row = static_cast<Eigen::Index>(k);
+                const auto column = static_cast<Eigen::Index>(l);
+                fisher(row, column) += sum;
+                if (row != column) {
+                    fisher(column, row) += sum;
+                }
+            }
         }
     }
 
