@@ -73,7 +73,7 @@ struct CampaignPlan {
     bool both_senses = false;           ///< every run up and down, else up only
     bool one_reflector_a_pass = false;  ///< the table is driven once a reflector: one distance a visit
     DeadPaths dead_paths = DeadPaths::per_station;
-    bool start_values = false;           ///< stations given to about a centimetre, else none
+    bool start_values = false;                                  ///< stations given to about a centimetre, else none
     Eigen::Vector2d offset{59.4 * k_um, 192.6 * k_um};          ///< O across the axis, [m]
     Eigen::Vector2d tilt{50.78 * k_arcsec, 108.70 * k_arcsec};  ///< S across the axis, [rad]
     double error_factor = 1.0;                                  ///< on the error motions of the table

@@ -1,0 +1,233 @@
+// The adjustment as a measurement model: values, sensitivity coefficients, and what it hands to the law of propagation.
+#include "engine/rotary_table_model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "engine/rotary_table_evaluation.h"
+#include "tests/support/synthetic_campaign.h"
+
+namespace gumcert::engine {
+namespace {
+
+using synthetic::Campaign;
+using synthetic::CampaignPlan;
+using synthetic::Noise;
+
+/// Everything that can be an input is one: both senses, scale prior, temperatures, expansion, repeatability.
+CampaignPlan full_plan(RotaryAxis axis, Datum datum) {
+    CampaignPlan plan;
+    plan.axis = axis;
+    plan.datum = datum;
+    plan.angles_deg = synthetic::full_turn(8);
+    plan.both_senses = true;
+    plan.reversal << 1e-6, -2e-6, 1.5e-6, 4e-6, -3e-6, 2e-6;
+    plan.dead_paths = synthetic::DeadPaths::per_station_and_reflector;
+    plan.start_values = true;
+    plan.scale_model = ScaleModel::prior;
+    plan.u_scale = 1e-7;
+    plan.temperature_difference = 1.2;
+    plan.u_temperature = 0.05;
+    plan.expansion = 11.5e-6;
+    plan.u_expansion = 1e-6;
+    plan.table_linear = 0.3e-6;
+    plan.table_axial = 5e-6;
+    plan.table_tilt = 1.7e-6;
+    return plan;
+}
+
+class ModelOfTheTable : public testing::TestWithParam<std::tuple<RotaryAxis, Datum>> {
+protected:
+    void SetUp() override {
+        campaign_ = simulate(full_plan(std::get<0>(GetParam()), std::get<1>(GetParam())));
+        solution_ = evaluate_jointly(campaign_.measurement, EvaluationOptions{});
+    }
+
+    Campaign campaign_;
+    RotaryTableSolution solution_;
+};
+
+TEST_P(ModelOfTheTable, NominalInputsGiveTheSolution) {
+    const Eigen::VectorXd x = gum::input_estimates(*solution_.model);
+    const Eigen::VectorXd y = solution_.model->evaluate(x);
+    ASSERT_EQ(y.size(), solution_.values.size());
+    EXPECT_LT((y - solution_.values).cwiseAbs().maxCoeff(), 1e-12);
+    ASSERT_EQ(solution_.model->outputs().size(), static_cast<std::size_t>(y.size()));
+    for (std::size_t i = 0; i < solution_.model->outputs().size(); ++i) {
+        EXPECT_EQ(solution_.model->outputs()[i].name, solution_.quantities.outputs[i].name);
+        EXPECT_EQ(solution_.model->outputs()[i].unit, solution_.quantities.outputs[i].unit);
+    }
+}
+
+/// Columns of the Jacobian against central differences, a few inputs of every group; deviations in parts of the largest
+/// element of the column. Rows of different units are compared in parts of their standard uncertainty.
+void expect_central_differences(const RotaryTableSolution& solution, double limit) {
+    const gum::MeasurementModel& model = *solution.model;
+    const Eigen::VectorXd x = gum::input_estimates(model);
+    const Eigen::MatrixXd jacobian = model.jacobian(x);
+    EXPECT_EQ(jacobian.cols(), x.size());
+    EXPECT_EQ(jacobian.rows(), solution.values.size());
+    const Eigen::VectorXd u = solution.covariance.diagonal().cwiseSqrt();
+    Eigen::VectorXd weight(u.size());
+    for (Eigen::Index i = 0; i < u.size(); ++i) {
+        weight[i] = u[i] > 1e-15 ? 1.0 / u[i] : 1.0 / 1e-7;  // zero at home in the home datum, and must stay so
+    }
+    Noise noise(17);
+    Eigen::Index first = 0;
+    for (const gum::InputGroup& group : model.inputs()) {
+        std::set<Eigen::Index> chosen;
+        while (chosen.size() < std::min<std::size_t>(5, static_cast<std::size_t>(group.size()))) {
+            chosen.insert(static_cast<Eigen::Index>(noise.uniform() * static_cast<double>(group.size())));
+        }
+        for (const Eigen::Index k : chosen) {
+            // Dead paths are known together far better than one by one: a step of their own u is out of all proportion.
+            const double step =
+                group.source == "dead path"
+                    ? 0.2e-6
+                    : std::sqrt(group.covariance.cols() == 1 ? group.covariance(k, 0) : group.covariance(k, k));
+            EXPECT_GT(step, 0.0) << group.name;
+            const auto central = [&](double h) -> Eigen::VectorXd {
+                Eigen::VectorXd changed = x;
+                changed[first + k] = x[first + k] + h;
+                const Eigen::VectorXd above = model.evaluate(changed);
+                changed[first + k] = x[first + k] - h;
+                return (above - model.evaluate(changed)) / (2.0 * h);
+            };
+            // Richardson: free of the third derivative (expansion times temperature is not linear over their u).
+            const Eigen::VectorXd numeric = (4.0 * central(0.5 * step) - central(step)) / 3.0;
+            const Eigen::VectorXd column = jacobian.col(first + k);
+            const double scale = column.cwiseProduct(weight).cwiseAbs().maxCoeff();
+            const double deviation = (numeric - column).cwiseProduct(weight).cwiseAbs().maxCoeff() / scale;
+            EXPECT_GT(scale, 0.0) << group.name;
+            EXPECT_LT(deviation, limit) << group.name << ", input " << k;
+        }
+        first += group.size();
+    }
+}
+
+TEST_P(ModelOfTheTable, SensitivitiesAreCentralDifferences) {
+    CampaignPlan plan = full_plan(std::get<0>(GetParam()), std::get<1>(GetParam()));
+    plan.noise = 0.0;
+    expect_central_differences(evaluate_jointly(simulate(plan).measurement, EvaluationOptions{}), 1e-4);
+    // With noise the coefficients leave out residual times curvature, as every adjustment does; it must stay small.
+    expect_central_differences(solution_, 0.02);
+}
+
+TEST_P(ModelOfTheTable, ContributionsAddToTheCovarianceOfTheAdjustment) {
+    // C V_x Cᵀ over the groups, written out: the dead paths as inputs split the covariance without changing it.
+    const gum::MeasurementModel& model = *solution_.model;
+    const Eigen::MatrixXd jacobian = model.jacobian(gum::input_estimates(model));
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(jacobian.rows(), jacobian.rows());
+    Eigen::Index first = 0;
+    for (const gum::InputGroup& group : model.inputs()) {
+        const Eigen::MatrixXd part = jacobian.middleCols(first, group.size());
+        if (group.is_diagonal()) {
+            covariance += part * group.covariance.col(0).asDiagonal() * part.transpose();
+        } else {
+            covariance += part * group.covariance * part.transpose();
+        }
+        first += group.size();
+    }
+    const Eigen::VectorXd u = solution_.covariance.diagonal().cwiseSqrt();
+    for (Eigen::Index i = 0; i < u.size(); ++i) {
+        for (Eigen::Index k = 0; k <= i; ++k) {
+            EXPECT_NEAR(covariance(i, k), solution_.covariance(i, k), 1e-7 * u[i] * u[k] + 1e-30)
+                << solution_.quantities.outputs[static_cast<std::size_t>(i)].name << " and "
+                << solution_.quantities.outputs[static_cast<std::size_t>(k)].name;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(AxesAndData, ModelOfTheTable,
+                         testing::Values(std::tuple{RotaryAxis::a, Datum::axis_average_line},
+                                         std::tuple{RotaryAxis::b, Datum::home},
+                                         std::tuple{RotaryAxis::c, Datum::axis_average_line}),
+                         [](const auto& tested) {
+                             return std::string(1, "ABC"[axial_coordinate(std::get<0>(tested.param))]) +
+                                    (std::get<1>(tested.param) == Datum::home ? "Home" : "AxisAverageLine");
+                         });
+
+TEST(RotaryTableModel, EveryGroupNamesItsSource) {
+    const Campaign campaign = simulate(full_plan(RotaryAxis::a, Datum::home));
+    const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+    const std::set<std::string> known{"length noise", "scale",           "dead path",
+                                      "fixture CMM",  "fixture thermal", "table repeatability"};
+    std::set<std::string> seen;
+    for (const gum::InputGroup& group : solution.model->inputs()) {
+        EXPECT_FALSE(group.name.empty());
+        EXPECT_EQ(known.count(group.source), 1U) << group.source;
+        EXPECT_EQ(group.covariance.rows(), group.size()) << group.name;
+        EXPECT_TRUE(group.covariance.cols() == 1 || group.covariance.cols() == group.size()) << group.name;
+        seen.insert(group.source);
+    }
+    EXPECT_EQ(seen, known);
+}
+
+TEST(RotaryTableModel, OnlyWhatIsUncertainIsAnInput) {
+    CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(8);
+    const Campaign campaign = simulate(plan);
+    const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+    for (const gum::InputGroup& group : solution.model->inputs()) {
+        EXPECT_NE(group.source, "scale");
+        EXPECT_NE(group.source, "fixture thermal");
+        if (group.source == "table repeatability") {
+            EXPECT_EQ(group.covariance.cwiseAbs().maxCoeff(), 0.0);
+        }
+    }
+    EXPECT_EQ(solution.quantities.outputs.size(), 6U * 8U + 4U);
+}
+
+TEST(RotaryTableModel, SmallMonteCarloReproducesTheStandardUncertainties) {
+    CampaignPlan plan = full_plan(RotaryAxis::a, Datum::axis_average_line);
+    plan.angles_deg = synthetic::full_turn(6);
+    const Campaign campaign = simulate(plan);
+    const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+    const gum::MeasurementModel& model = *solution.model;
+    const Eigen::VectorXd x = gum::input_estimates(model);
+    std::vector<Eigen::MatrixXd> factors;
+    for (const gum::InputGroup& group : model.inputs()) {
+        factors.emplace_back(group.is_diagonal() ? Eigen::MatrixXd(group.covariance.cwiseSqrt())
+                                                 : Eigen::MatrixXd(group.covariance.llt().matrixL()));
+    }
+    Noise noise(2024);
+    constexpr int k_trials = 200;
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(solution.values.size());
+    Eigen::VectorXd squares = sum;
+    for (int trial = 0; trial < k_trials; ++trial) {
+        Eigen::VectorXd drawn = x;
+        Eigen::Index first = 0;
+        for (std::size_t g = 0; g < model.inputs().size(); ++g) {
+            const Eigen::Index n = model.inputs()[g].size();
+            Eigen::VectorXd normal(n);
+            for (double& value : normal) {
+                value = noise.normal();
+            }
+            if (model.inputs()[g].is_diagonal()) {
+                drawn.segment(first, n) += factors[g].col(0).cwiseProduct(normal);
+            } else {
+                drawn.segment(first, n) += factors[g] * normal;
+            }
+            first += n;
+        }
+        const Eigen::VectorXd difference = model.evaluate(drawn) - solution.values;
+        sum += difference;
+        squares += difference.cwiseAbs2();
+    }
+    // u from 200 trials has a relative standard deviation of 5 %.
+    const Eigen::VectorXd mean = sum / k_trials;
+    const Eigen::VectorXd spread = ((squares - k_trials * mean.cwiseAbs2()) / (k_trials - 1)).cwiseSqrt();
+    const Eigen::VectorXd u = solution.covariance.diagonal().cwiseSqrt();
+    const Eigen::ArrayXd ratio = spread.array() / u.array();
+    EXPECT_GT(ratio.minCoeff(), 0.8);
+    EXPECT_LT(ratio.maxCoeff(), 1.2);
+    EXPECT_NEAR(ratio.mean(), 1.0, 0.05);
+    EXPECT_LT((mean.array() / u.array()).abs().maxCoeff(), 4.0 / std::sqrt(static_cast<double>(k_trials)));
+}
+
+}  // namespace
+}  // namespace gumcert::engine
