@@ -1,0 +1,229 @@
+// The command line itself: help, version, refused usage, the form of messages.
+#include <regex>
+
+#include "tests/cli/job_files.h"
+#include "tests/cli/program.h"
+
+namespace gumcert::cli {
+namespace {
+
+class CommandLine : public ProgramTest {};
+
+TEST_F(CommandLine, WithoutArgumentsPrintsHelp) {
+    const Ended ended = gumcert({});
+    EXPECT_EQ(ended.code, 0);
+    EXPECT_EQ(ended.err, "");
+    for (const char* const word : {"run", "evaluate", "render", "--version", "Exit codes"}) {
+        EXPECT_NE(ended.out.find(word), std::string::npos) << word;
+    }
+}
+
+TEST_F(CommandLine, HelpOfTheProgramAndOfEachCommand) {
+    const Ended whole = gumcert({"--help"});
+    EXPECT_EQ(whole.code, 0);
+    EXPECT_EQ(whole.err, "");
+    EXPECT_EQ(whole.out, gumcert({}).out);
+    const std::map<std::string, std::vector<std::string>> options{
+        {"run", {"JOB", "--output", "--quiet", "--threads", "--json-messages"}},
+        {"evaluate", {"JOB", "--output", "--quiet", "--threads", "--json-messages"}},
+        {"render", {"RECORD", "--format", "--output", "--language", "--quiet", "--threads", "--json-messages"}}};
+    for (const auto& [command, words] : options) {
+        const Ended help = gumcert({command, "--help"});
+        EXPECT_EQ(help.code, 0) << command;
+        EXPECT_EQ(help.err, "") << command;
+        for (const std::string& word : words) {
+            EXPECT_NE(help.out.find(word), std::string::npos) << command << ": " << word;
+        }
+    }
+}
+
+TEST_F(CommandLine, VersionNamesCommitAndDigestOfTheProgram) {
+    const Ended ended = gumcert({"--version"});
+    EXPECT_EQ(ended.code, 0);
+    EXPECT_EQ(ended.err, "");
+    std::smatch parts;
+    ASSERT_TRUE(std::regex_match(ended.out, parts,
+                                 std::regex("gumcert ([0-9]+\\.[0-9]+\\.[0-9]+)\n"
+                                            "commit ([0-9a-f]{12}(-modified)?|unknown)\n"
+                                            "sha256 ([0-9a-f]{64})\n")))
+        << ended.out;
+    const fs::path other = on_search_path("sha256sum");
+    if (other.empty()) {
+        GTEST_SKIP() << "sha256sum is not installed: the digest was not compared";
+    }
+    const Ended second = run_process(other, {GUMCERT_PROGRAM}, {}, folder());
+    EXPECT_EQ(second.out.substr(0, 64), parts[4].str());
+}
+
+class WrongCommandLine : public ProgramTest {
+protected:
+    void SetUp() override {
+        job_ = copy_of_example(folder() / "job");
+        write_bytes(folder() / "record.json", "{}");
+    }
+    fs::path job_;
+};
+
+TEST_F(WrongCommandLine, IsRefusedAndNothingIsWritten) {
+    const std::string job = job_.string();
+    const std::string record = (folder() / "record.json").string();
+    const std::vector<std::vector<std::string>> wrong{
+        {"frobnicate"},
+        {"frobnicate", job},
+        {"--frobnicate"},
+        {"run"},
+        {"run", "--frobnicate", job},
+        {"run", job, "another.json"},
+        {"run", job, "-o"},
+        {"run", job, "--threads", "0"},
+        {"run", job, "--threads", "-1"},
+        {"run", job, "--threads", "two"},
+        {"run", job, "--threads"},
+        {"run", job, "--quiet=maybe"},
+        {"evaluate"},
+        {"evaluate", job, "another.json"},
+        {"render"},
+        {"render", record},
+        {"render", "--format", "html"},
+        {"render", record, "--format", "docx"},
+        {"render", record, "--format", "html", "--language", "fr"},
+    };
+    const auto before = contents_of(folder());
+    for (const std::vector<std::string>& arguments : wrong) {
+        std::string command = "gumcert";
+        for (const std::string& argument : arguments) {
+            command += " " + argument;
+        }
+        SCOPED_TRACE(command);
+        const Ended ended = gumcert(arguments, {.working_folder = folder()});
+        EXPECT_EQ(ended.code, 2);
+        EXPECT_EQ(ended.out, "");
+        const std::vector<std::string> lines = lines_of(ended.err);
+        ASSERT_EQ(lines.size(), 1U) << ended.err;
+        EXPECT_TRUE(is_message_line(lines[0])) << lines[0];
+        EXPECT_TRUE(lines[0].ends_with("[GC-USAGE-0001]")) << lines[0];
+        EXPECT_EQ(contents_of(folder()), before);
+    }
+}
+
+TEST_F(WrongCommandLine, NamesWhatIsWrong) {
+    const std::string job = job_.string();
+    const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{
+        {{"frobnicate"}, "frobnicate"},
+        {{"run", job, "--frobnicate"}, "--frobnicate"},
+        {{"run"}, "JOB"},
+        {{"render", "record.json"}, "--format"},
+        {{"render", "record.json", "--format", "docx"}, "docx"},
+        {{"run", job, "--threads", "two"}, "two"},
+    };
+    for (const auto& [arguments, word] : wrong) {
+        EXPECT_NE(gumcert(arguments).err.find(word), std::string::npos) << gumcert(arguments).err;
+    }
+}
+
+TEST_F(WrongCommandLine, WhatThisVersionCannotRenderIsSaid) {
+    const std::string record = (folder() / "record.json").string();
+    const auto before = contents_of(folder());
+    const Ended dcc = gumcert({"render", record, "--format", "dcc"});
+    EXPECT_EQ(dcc.code, 2);
+    EXPECT_EQ(dcc.out, "");
+    EXPECT_TRUE(dcc.err.starts_with("--format dcc — the digital calibration certificate is not part of this version"))
+        << dcc.err;
+    EXPECT_TRUE(dcc.err.ends_with("[GC-USAGE-0001]\n")) << dcc.err;
+    for (const char* const language : {"de", "zh-Hant", "es"}) {
+        const Ended ended = gumcert({"render", record, "--format", "html", "--language", language});
+        EXPECT_EQ(ended.code, 2);
+        EXPECT_EQ(ended.out, "");
+        EXPECT_TRUE(ended.err.starts_with(std::string("--language ") + language + " — ")) << ended.err;
+        EXPECT_NE(ended.err.find("English"), std::string::npos) << ended.err;
+        EXPECT_TRUE(is_message_line(lines_of(ended.err).at(0))) << ended.err;
+    }
+    EXPECT_EQ(contents_of(folder()), before);
+}
+
+TEST_F(WrongCommandLine, IsToldAsJsonWhenAsked) {
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"--json-messages", "frobnicate"},
+                                               {"--json-messages", "run", "--frobnicate"},
+                                               {"--json-messages", "render", "record.json", "--format", "dcc"},
+                                               {"render", "record.json", "--format", "dcc", "--json-messages"}}) {
+        const Ended ended = gumcert(arguments);
+        EXPECT_EQ(ended.code, 2);
+        const std::vector<Message> messages = json_messages(ended);
+        ASSERT_EQ(messages.size(), 1U) << ended.err;
+        EXPECT_EQ(messages[0].code, "GC-USAGE-0001");
+        EXPECT_EQ(messages[0].severity, "error");
+        EXPECT_FALSE(messages[0].rule.empty());
+    }
+}
+
+class Messages : public ProgramTest {
+protected:
+    void SetUp() override { job_ = ExactCampaign{}.write(folder() / "job"); }
+    fs::path job_;
+};
+
+TEST_F(Messages, JsonAndTextSayTheSame) {
+    replace_in(job_.parent_path() / "lengths.csv", ",R2,", ",R9,");
+    change_json(job_, [](nlohmann::json& job) { job["axsis"] = "A"; });
+    const Ended text = gumcert({"run", job_.string(), "-o", (folder() / "out").string()});
+    const Ended json = gumcert({"run", job_.string(), "-o", (folder() / "out").string(), "--json-messages"});
+    EXPECT_EQ(text.code, 3);
+    EXPECT_EQ(json.code, 3);
+    EXPECT_EQ(text.out, "");
+    EXPECT_EQ(json.out, "");
+    const std::vector<Message> messages = json_messages(json);
+    const std::vector<std::string> lines = lines_of(text.err);
+    ASSERT_EQ(messages.size(), 2U) << json.err;
+    ASSERT_EQ(lines.size(), 2U) << text.err;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const Message& m = messages[i];
+        EXPECT_EQ(m.severity, "error");
+        EXPECT_EQ(lines[i], m.where + " — " + m.what + " — " + m.rule + " — " + m.action + " [" + m.code + "]");
+    }
+}
+
+TEST_F(Messages, WarningsAreToldAndStandInTheRecord) {
+    // A column that the program does not use.
+    const fs::path fixture = job_.parent_path() / "fixture.csv";
+    std::string text;
+    for (const std::string& line : lines_of(bytes_of(fixture))) {
+        text += line + (text.empty() ? ",remark\n" : ",ok\n");
+    }
+    write_bytes(fixture, text);
+    const std::string record = (folder() / "record.json").string();
+    const Ended ended = gumcert({"evaluate", job_.string(), "-o", record, "--json-messages", "--quiet"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(ended.out, "") << "--quiet";
+    const std::vector<Message> messages = json_messages(ended);
+    const nlohmann::json document = nlohmann::json::parse(bytes_of(record));
+    const auto is_remark = [](const Message& m) {
+        return m.code == "GC-WARN-0001" && m.severity == "warning" && m.where.starts_with("fixture.csv:1:") &&
+               m.what.find("remark") != std::string::npos;
+    };
+    EXPECT_EQ(std::count_if(messages.begin(), messages.end(), is_remark), 1) << ended.err;
+    EXPECT_EQ(std::count_if(
+                  document["diagnostics"].begin(), document["diagnostics"].end(),
+                  [](const nlohmann::json& d) { return d["code"] == "GC-WARN-0001" && d["severity"] == "warning"; }),
+              1);
+    const Ended in_text = gumcert({"evaluate", job_.string(), "-o", record});
+    EXPECT_NE(in_text.err.find("warning: fixture.csv:1:"), std::string::npos) << in_text.err;
+    EXPECT_NE(in_text.out.find(record), std::string::npos) << in_text.out;
+}
+
+TEST_F(Messages, QuietSaysNothingWhenThereIsNothingToSay) {
+    const fs::path job = copy_of_example(folder() / "example");
+    const Ended ended = gumcert({"--quiet", "evaluate", job.string(), "-o", (folder() / "record.json").string()});
+    EXPECT_EQ(ended.code, 0);
+    EXPECT_EQ(ended.out, "");
+    for (const std::string& line : lines_of(ended.err)) {
+        EXPECT_TRUE(line.starts_with("warning: ")) << line;
+    }
+    // An error is told all the same.
+    const Ended refused = gumcert({"--quiet", "run", (folder() / "missing.json").string()});
+    EXPECT_EQ(refused.code, 5);
+    EXPECT_NE(refused.err, "");
+}
+
+}  // namespace
+}  // namespace gumcert::cli

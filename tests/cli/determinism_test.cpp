@@ -1,0 +1,60 @@
+// The same job gives the same bytes, whatever the threads, the locale, the time zone and the folder of work.
+#include "tests/cli/job_files.h"
+#include "tests/cli/program.h"
+
+namespace gumcert::cli {
+namespace {
+
+class Determinism : public ProgramTest {
+protected:
+    void SetUp() override { (void)copy_of_example(folder() / "job"); }
+
+    /// Runs the example. \return every document with its name
+    std::map<std::string, std::string> documents(const std::vector<std::string>& options,
+                                                 std::map<std::string, std::string> environment) const {
+        const bool all = why_no_pdf().empty();
+        std::vector<std::string> arguments =
+            all ? std::vector<std::string>{"run", "job.json", "-o", "out", "--share", GUMCERT_SOURCE_DIR}
+                : std::vector<std::string>{"evaluate", "job.json", "-o", "out/record.json"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const Ended ended =
+            gumcert(arguments, {.working_folder = folder() / "job", .environment = std::move(environment), .out = {}});
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        std::map<std::string, std::string> result = contents_of(folder() / "job" / "out");
+        result["(messages)"] = ended.err;
+        result["(summary)"] = ended.out;
+        EXPECT_EQ(result.size(), all ? 6U : 4U);
+        fs::remove_all(folder() / "job" / "out");
+        return result;
+    }
+};
+
+TEST_F(Determinism, ThreadsLocaleAndTimeZoneChangeNoByte) {
+    const auto first = documents({"--threads", "1"}, {});
+    const std::map<std::string, std::map<std::string, std::string>> others{
+        {"1", {}},
+        {"2",
+         {{"LC_ALL", "de_DE.UTF-8"},
+          {"LANG", "de_DE.UTF-8"},
+          {"TZ", "Pacific/Chatham"},
+          {"OMP_NUM_THREADS", "2"},
+          {"HOME", folder().string()}}},
+        {"4", {{"LC_ALL", "C"}, {"TZ", "America/St_Johns"}, {"OMP_NUM_THREADS", "1"}, {"OPENBLAS_NUM_THREADS", "1"}}}};
+    for (const auto& [threads, environment] : others) {
+        const auto other = documents({"--threads", threads}, environment);
+        for (const auto& [name, bytes] : first) {
+            EXPECT_TRUE(other.contains(name) && other.at(name) == bytes) << name << " with --threads " << threads;
+        }
+    }
+}
+
+TEST_F(Determinism, FolderOfWorkChangesNoByte) {
+    const auto first = documents({}, {});
+    fs::create_directory(folder() / "another");
+    fs::rename(folder() / "job", folder() / "another" / "job");
+    fs::create_directory_symlink(folder() / "another" / "job", folder() / "job");
+    EXPECT_TRUE(documents({}, {}) == first);
+}
+
+}  // namespace
+}  // namespace gumcert::cli

@@ -1,0 +1,153 @@
+// Where output goes, and that it appears whole or not at all.
+#include "tests/cli/job_files.h"
+#include "tests/cli/program.h"
+
+namespace gumcert::cli {
+namespace {
+
+class Output : public ProgramTest {
+protected:
+    void SetUp() override { job_ = ExactCampaign{}.write(folder() / "job"); }
+
+    /// A command that cannot write ends with 5, one message with the code, and leaves everything as it was.
+    Message trouble(std::vector<std::string> arguments, const Surroundings& where = {}) const {
+        arguments.emplace_back("--json-messages");
+        const auto before = contents_of(folder());
+        const Ended ended = gumcert(arguments, where);
+        EXPECT_EQ(ended.code, 5) << ended.err;
+        EXPECT_EQ(ended.out, "");
+        EXPECT_EQ(contents_of(folder()), before);
+        const std::vector<Message> messages = json_messages(ended);
+        EXPECT_EQ(messages.size(), 1U) << ended.err;
+        return messages.empty() ? Message{} : messages[0];
+    }
+    void need_pdf() const {
+        if (!why_no_pdf().empty()) {
+            GTEST_SKIP() << why_no_pdf();
+        }
+    }
+
+    fs::path job_;
+};
+
+TEST_F(Output, PlaceThatCannotBeWrittenIsToldBeforeAnythingIsComputed) {
+    // The job is refused, too: that the place is told shows that it was looked at first.
+    write_bytes(folder() / "job" / "lengths.csv", "");
+    write_bytes(folder() / "a file", "kept");
+    const std::string below = (folder() / "a file" / "out").string();
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"run", job_.string(), "-o", below},
+                                               {"run", job_.string(), "-o", (folder() / "a file").string()},
+                                               {"run", job_.string(), "-o", below + "/deeper"},
+                                               {"evaluate", job_.string(), "-o", below},
+                                               {"evaluate", job_.string(), "-o", (folder() / "job").string()}}) {
+        const Message message = trouble(arguments);
+        EXPECT_EQ(message.code, "GC-STORE-0002");
+        EXPECT_EQ(message.severity, "error");
+        EXPECT_NE(message.what.find("folder"), std::string::npos) << message.what;
+        EXPECT_NE(message.action.find("-o"), std::string::npos) << message.action;
+    }
+}
+
+TEST_F(Output, MissingJobIsAFileTrouble) {
+    for (const char* const command : {"run", "evaluate"}) {
+        const Message message =
+            trouble({command, (folder() / "missing.json").string(), "-o", (folder() / "out").string()});
+        EXPECT_EQ(message.code, "GC-STORAGE-0001");
+        EXPECT_NE(message.where.find("missing.json"), std::string::npos);
+        EXPECT_EQ(trouble({command, folder().string(), "-o", (folder() / "out").string()}).code, "GC-STORAGE-0001");
+    }
+}
+
+TEST_F(Output, ReadOnlyFolderIsTold) {
+    const fs::path closed = folder() / "closed";
+    fs::create_directory(closed);
+    fs::permissions(closed, fs::perms::owner_read | fs::perms::owner_exec);
+    if (access(closed.c_str(), W_OK) == 0) {
+        GTEST_SKIP() << "this user may write into read-only folders";
+    }
+    EXPECT_EQ(trouble({"run", job_.string(), "-o", (closed / "out").string()}).code, "GC-STORE-0002");
+}
+
+TEST_F(Output, WithoutTheTypstPackageTheSetUpIsNamed) {
+    fs::create_directory(folder() / "share");
+    fs::copy(fs::path(GUMCERT_SOURCE_DIR) / "templates", folder() / "share" / "templates", fs::copy_options::recursive);
+    const Message message =
+        trouble({"run", job_.string(), "-o", (folder() / "out").string(), "--share", (folder() / "share").string()});
+    EXPECT_TRUE(message.code.starts_with("GC-REPORT-")) << message.code;
+    EXPECT_NE(message.action.find("scripts/setup"), std::string::npos) << message.action;
+    EXPECT_EQ(message.severity, "error");
+}
+
+TEST_F(Output, WithoutNodeTheSetUpIsNamed) {
+    const Message message =
+        trouble({"run", job_.string(), "-o", (folder() / "out").string(), "--share", GUMCERT_SOURCE_DIR},
+                {.environment = {{"PATH", folder().string()}}});
+    EXPECT_TRUE(message.code.starts_with("GC-REPORT-")) << message.code;
+    EXPECT_NE(message.action.find("scripts/setup"), std::string::npos) << message.action;
+    // What needs no PDF works without it.
+    EXPECT_EQ(gumcert({"evaluate", job_.string(), "-o", (folder() / "record.json").string()},
+                      {.environment = {{"PATH", folder().string()}}})
+                  .code,
+              0);
+}
+
+TEST_F(Output, WithoutTemplatesTheOptionIsNamed) {
+    // A program that was taken out of its installation.
+    const fs::path lonely = folder() / "a" / "b" / "c" / "d" / "e" / "f" / "g" / "gumcert";
+    fs::create_directories(lonely.parent_path());
+    fs::copy_file(GUMCERT_PROGRAM, lonely);
+    const auto before = contents_of(folder());
+    const fs::path scratch = folder().parent_path();
+    const Ended ended = run_process(lonely, {"run", job_.string(), "-o", (folder() / "out").string()}, {}, scratch);
+    EXPECT_EQ(ended.code, 5);
+    EXPECT_NE(ended.err.find("--share"), std::string::npos) << ended.err;
+    EXPECT_EQ(contents_of(folder()), before);
+}
+
+TEST_F(Output, InstalledProgramFindsItsTemplates) {
+    const fs::path installed = folder() / "installed";
+    fs::create_directories(installed / "bin");
+    fs::create_directories(installed / "share" / "gumcert");
+    fs::copy_file(GUMCERT_PROGRAM, installed / "bin" / "gumcert");
+    fs::create_directory_symlink(fs::path(GUMCERT_SOURCE_DIR) / "templates",
+                                 installed / "share" / "gumcert" / "templates");
+    const fs::path record = folder() / "record.json";
+    ASSERT_EQ(gumcert({"evaluate", job_.string(), "-o", record.string()}).code, 0);
+    const Ended ended = run_process(installed / "bin" / "gumcert", {"render", record.string(), "--format", "html"}, {},
+                                    folder().parent_path());
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_TRUE(fs::exists(folder() / "record.html"));
+}
+
+TEST_F(Output, DefaultFolderStandsBesideTheJob) {
+    need_pdf();
+    const Ended ended = gumcert({"run", "job/job.json", "--share", GUMCERT_SOURCE_DIR}, {.working_folder = folder()});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(contents_of(folder() / "job" / "job-out").size(), 4U);
+}
+
+TEST_F(Output, SecondRunReplacesItsOwnFilesOnly) {
+    need_pdf();
+    write_bytes(folder() / "out" / "record.json", "old");
+    write_bytes(folder() / "out" / "notes.txt", "mine");
+    ASSERT_EQ(run(job_, folder() / "out").code, 0);
+    const auto first = contents_of(folder() / "out");
+    ASSERT_EQ(run(job_, folder() / "out").code, 0);
+    EXPECT_EQ(contents_of(folder() / "out"), first);
+    EXPECT_EQ(first.size(), 5U);
+    EXPECT_EQ(first.at("notes.txt"), "mine");
+    EXPECT_NE(first.at("record.json"), "old");
+}
+
+TEST_F(Output, RefusedJobLeavesTheOldFilesAsTheyWere) {
+    need_pdf();
+    ASSERT_EQ(run(job_, folder() / "out").code, 0);
+    const auto first = contents_of(folder() / "out");
+    replace_in(folder() / "job" / "lengths.csv", ",R2,", ",R9,");
+    EXPECT_EQ(run(job_, folder() / "out").code, 3);
+    EXPECT_EQ(contents_of(folder() / "out"), first);
+}
+
+}  // namespace
+}  // namespace gumcert::cli
