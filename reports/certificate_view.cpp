@@ -407,7 +407,8 @@ void uncertainty(Builder& builder, const Wording& words, const EvaluationRecord&
     for (std::size_t i = 0; i < record.results.size(); ++i) {
         if (!record.results[i].budget.empty()) {
             budget_table(builder, words, "budget-" + std::to_string(i),
-                         words.fill("budget_result", {{"name", record.results[i].name}}), record.results[i].budget, printed_unit(record.results[i].unit));
+                         words.fill("budget_result", {{"name", record.results[i].name}}), record.results[i].budget,
+                         printed_unit(record.results[i].unit));
         }
     }
     if (record.rotary && record.rotary->covariance_file) {

@@ -15,13 +15,13 @@ enum class Evaluation { type_a, type_b };  ///< how a standard uncertainty was o
 /// Quantities of different groups are uncorrelated; inside a group the covariance says everything. A budget has one row
 /// a group, or one row a `source` when several groups name the same one.
 struct InputGroup {
-    std::string name;             ///< what the budget row is called, e.g. "table repeatability, linear"
-    std::string source;           ///< the source that it belongs to, e.g. "table repeatability"
-    std::string unit;             ///< coherent SI unit of the values, e.g. "m"; "mixed" is not allowed
+    std::string name;    ///< what the budget row is called, e.g. "table repeatability, linear"
+    std::string source;  ///< the source that it belongs to, e.g. "table repeatability"
+    std::string unit;    ///< coherent SI unit of the values, e.g. "m"; "mixed" is not allowed
     Evaluation evaluation = Evaluation::type_b;
     std::string distribution = "normal";
-    Eigen::VectorXd value;        ///< n estimates, [unit]
-    Eigen::MatrixXd covariance;   ///< n×n, [unit²]; or n×1: the diagonal of a diagonal matrix
+    Eigen::VectorXd value;       ///< n estimates, [unit]
+    Eigen::MatrixXd covariance;  ///< n×n, [unit²]; or n×1: the diagonal of a diagonal matrix
     double degrees_of_freedom = std::numeric_limits<double>::infinity();
 
     [[nodiscard]] Eigen::Index size() const { return value.size(); }

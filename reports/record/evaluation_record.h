@@ -22,11 +22,11 @@ struct Printed {
 /// One row of an uncertainty budget (JCGM 100:2008, 7.2.7; layout of table H.1).
 struct BudgetRow {
     std::string input;
-    std::optional<double> value;        ///< estimate, in `unit`; none where the row stands for many input quantities
+    std::optional<double> value;  ///< estimate, in `unit`; none where the row stands for many input quantities
     std::string unit;
-    double u = 0.0;                     ///< standard uncertainty (of one typical quantity of the row), in `unit`
-    std::optional<double> nu;           ///< degrees of freedom; none = infinite
-    std::string type;                   ///< "A" or "B"
+    double u = 0.0;            ///< standard uncertainty (of one typical quantity of the row), in `unit`
+    std::optional<double> nu;  ///< degrees of freedom; none = infinite
+    std::string type;          ///< "A" or "B"
     std::string distribution;
     std::optional<double> sensitivity;  ///< none where the row stands for many input quantities
     double contribution = 0.0;          ///< |c| u, in the unit of the result
@@ -42,7 +42,7 @@ struct Result {
     std::string name;
     std::string description;  ///< "offset of the fixture along y"
     double value = 0.0;
-    std::string unit;         ///< "um", "arcsec", … as UDUNITS-2 writes it
+    std::string unit;  ///< "um", "arcsec", … as UDUNITS-2 writes it
     double u = 0.0;
     std::optional<double> nu_eff;  ///< none = infinite
     double k = 2.0;
@@ -95,8 +95,8 @@ struct DeadPath {
 
 struct Reflector {
     std::string name;
-    std::array<double, 3> position_mm{}, u_mm{};          ///< adjusted, fixture frame, at reference temperature
-    std::array<double, 3> correction_um{};                ///< adjusted minus CMM
+    std::array<double, 3> position_mm{}, u_mm{};           ///< adjusted, fixture frame, at reference temperature
+    std::array<double, 3> correction_um{};                 ///< adjusted minus CMM
     std::vector<std::string> printed_position, printed_U;  ///< three each
     std::vector<std::string> printed_correction;           ///< three, [µm]
 };
@@ -136,7 +136,7 @@ struct AdjustmentSummary {
 };
 
 struct VarianceComponent {
-    std::string name;  ///< "length noise", "table linear", "table angular, axial", "table angular, tilt"
+    std::string name;             ///< "length noise", "table linear", "table angular, axial", "table angular, tilt"
     double value = 0.0, u = 0.0;  ///< a standard deviation and its standard uncertainty, in `unit`
     std::string unit;             ///< "um" or "arcsec"
     double redundancy = 0.0;
@@ -165,19 +165,19 @@ struct RangeRow {
 };
 
 struct RotaryTable {
-    std::string axis;      ///< "A", "B" or "C"
-    std::string datum;     ///< "axis_average_line" or "home"
+    std::string axis;   ///< "A", "B" or "C"
+    std::string datum;  ///< "axis_average_line" or "home"
     std::string method;
     double home_angle_deg = 0.0;
     std::array<std::string, 6> error_names;
-    std::array<std::string, 6> error_units;          ///< "um", "um", "um", "arcsec", "arcsec", "arcsec"
+    std::array<std::string, 6> error_units;  ///< "um", "um", "um", "arcsec", "arcsec", "arcsec"
     SetUp set_up, axis_in_fixture;
     std::vector<ErrorsAtAngle> errors;
-    std::vector<Reversal> reversal;                  ///< empty when only one sense of approach was measured
+    std::vector<Reversal> reversal;  ///< empty when only one sense of approach was measured
     std::vector<RangeRow> ranges;
-    std::optional<std::string> covariance_file;      ///< name of the CSV beside the record
-    std::vector<std::string> covariance_order;       ///< names of its rows and columns
-    std::string covariance_unit;                     ///< "um and arcsec, products"
+    std::optional<std::string> covariance_file;  ///< name of the CSV beside the record
+    std::vector<std::string> covariance_order;   ///< names of its rows and columns
+    std::string covariance_unit;                 ///< "um and arcsec, products"
     std::vector<Station> stations;
     std::vector<DeadPath> dead_paths;
     std::vector<Reflector> reflectors;
@@ -196,9 +196,9 @@ struct RotaryTable {
 struct ComparisonPoint {
     std::string direction;  ///< "x", "y", "z"
     double angle_deg = 0.0;
-    double value = 0.0, u = 0.0, U = 0.0;                                   ///< from the error motions, [µm]
-    double reference_value = 0.0, reference_u = 0.0, reference_U = 0.0;     ///< [µm]
-    double D = 0.0, u_D = 0.0, U_D = 0.0, En = 0.0, zeta = 0.0;             ///< [µm], [1]
+    double value = 0.0, u = 0.0, U = 0.0;                                ///< from the error motions, [µm]
+    double reference_value = 0.0, reference_u = 0.0, reference_U = 0.0;  ///< [µm]
+    double D = 0.0, u_D = 0.0, U_D = 0.0, En = 0.0, zeta = 0.0;          ///< [µm], [1]
     struct {
         std::string angle, value, U, reference_value, reference_U, D, U_D, En;
     } printed;
@@ -218,8 +218,8 @@ struct Comparison {
     std::vector<double> contact_point_mm;
     std::vector<BudgetRow> reference_budget;  ///< of one reference value
     std::vector<ComparisonPoint> points;
-    std::vector<ComparisonSummary> summary;   ///< one a direction, then "all"
-    std::vector<std::string> remarks;         ///< what the numbers can and cannot tell
+    std::vector<ComparisonSummary> summary;  ///< one a direction, then "all"
+    std::vector<std::string> remarks;        ///< what the numbers can and cannot tell
 };
 
 struct Software {
@@ -240,14 +240,14 @@ struct EvaluationRecord {
     static constexpr const char* k_schema = "gumcert/record/1";
 
     Software software;
-    std::string kind;              ///< "rotary_table"
+    std::string kind;  ///< "rotary_table"
     std::string title;
     double coverage_probability = 0.9545;
     std::string printed_coverage;  ///< "95.45 %"
     std::string job_json;          ///< the job as read, canonical JSON text
     std::vector<InputFile> job_files;
-    std::string options_json;      ///< every tolerance and option in force, canonical JSON text
-    std::vector<Result> results;   ///< in the order of documents; an object keyed by name in JSON
+    std::string options_json;     ///< every tolerance and option in force, canonical JSON text
+    std::vector<Result> results;  ///< in the order of documents; an object keyed by name in JSON
     std::optional<RotaryTable> rotary;
     std::optional<Comparison> comparison;
     std::vector<gum::Diagnostic> diagnostics;
