@@ -290,7 +290,7 @@ nlohmann::json options_json(const RotaryTableJob& job, const engine::EvaluationO
     const char* const scale_models[] = {"fixed", "prior", "free"};
     const char* const modes[] = {"estimate", "given", "none"};
     return {{"solver",
-             {{"linear_solver", "Ceres, Schur complement with SuiteSparse, one thread, then Gauss-Newton"},
+             {{"linear_solver", "Ceres, Levenberg-Marquardt with Schur complement, one thread, then Gauss-Newton"},
               {"max_iterations", options.solver.max_iterations},
               {"max_refinements", options.solver.max_refinements},
               {"step_tolerance", options.solver.step_tolerance},
