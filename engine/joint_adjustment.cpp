@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "gum/quantity/diagnostic.h"
 
@@ -373,9 +374,32 @@ StartValues find_start_values(const RotaryTableMeasurement& measurement, const s
                 paths.push_back(length.dead_path);
             }
         }
-        if (measurement.station_start[j]) {
-            start.stations[j] = *measurement.station_start[j];
-        } else {
+        // Deviations of the distances from one dead path each: what a position of the station leaves unexplained.
+        const auto dead_path_of = [&](const Eigen::Vector3d& station, std::size_t path) {
+            double sum = 0.0;
+            double count = 0.0;
+            for (std::size_t i = 0; i < lengths.size(); ++i) {
+                if (lengths[i]->dead_path == path) {
+                    sum += (positions[i] - station).norm() - lengths[i]->length;
+                    count += 1.0;
+                }
+            }
+            return sum / count;
+        };
+        const auto misfit = [&](const Eigen::Vector3d& station) {
+            double squares = 0.0;
+            for (const std::size_t path : paths) {
+                const double dead_path = dead_path_of(station, path);
+                for (std::size_t i = 0; i < lengths.size(); ++i) {
+                    if (lengths[i]->dead_path == path) {
+                        squares += std::pow((positions[i] - station).norm() - lengths[i]->length - dead_path, 2);
+                    }
+                }
+            }
+            return squares;
+        };
+        std::optional<Eigen::Vector3d> best = measurement.station_start[j];
+        {
             // |P|² - 2 P·q + |q|² = l² + 2 l l0 + l0²: linear in q, l0 and κ = |q|² - l0², one l0 and κ a dead path.
             const auto rows = static_cast<Eigen::Index>(lengths.size());
             const auto unknown = 3 + 2 * static_cast<Eigen::Index>(paths.size());
@@ -393,7 +417,12 @@ StartValues find_start_values(const RotaryTableMeasurement& measurement, const s
             Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(design * scale.asDiagonal());
             factor.setThreshold(1e-9);
             const Eigen::VectorXd solution = scale.asDiagonal() * factor.solve(right);
-            if (factor.rank() < unknown) {
+            if (factor.rank() == unknown && solution.allFinite()) {
+                // A stated position can belong to another home angle or frame; the one that explains more is taken.
+                if (!best || misfit(solution.head<3>()) < misfit(*best)) {
+                    best = solution.head<3>();
+                }
+            } else if (!best) {
                 throw gum::NoResultError(gum::Diagnostic{
                     "GC-RANK-0001", "station " + measurement.stations[j],
                     "its position and dead path cannot be found from the distances alone: all reflectors are seen on a "
@@ -404,18 +433,10 @@ StartValues find_start_values(const RotaryTableMeasurement& measurement, const s
                     "rotary axis, or place reflectors at different distances from the axis",
                     gum::Severity::error});
             }
-            start.stations[j] = solution.head<3>();
         }
+        start.stations[j] = *best;
         for (const std::size_t path : paths) {
-            double sum = 0.0;
-            double count = 0.0;
-            for (std::size_t i = 0; i < lengths.size(); ++i) {
-                if (lengths[i]->dead_path == path) {
-                    sum += (positions[i] - start.stations[j]).norm() - lengths[i]->length;
-                    count += 1.0;
-                }
-            }
-            start.dead_paths[static_cast<Eigen::Index>(path)] = sum / count;
+            start.dead_paths[static_cast<Eigen::Index>(path)] = dead_path_of(start.stations[j], path);
         }
     }
     return start;

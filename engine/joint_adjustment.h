@@ -109,7 +109,7 @@ private:
 [[nodiscard]] Eigen::Matrix3d nominal_rotation(const RotaryTableMeasurement& measurement, std::size_t angle);
 
 /// Start values of stations and dead paths without an operator: linear in (q, l0, |q|² - l0²) with the ideal positions
-/// of the reflectors at all angles. Given start values of stations are used where there are any.
+/// of the reflectors at all angles. A given start value of a station is used where it explains the distances better.
 ///
 /// \param active  one flag a length: false = left out; empty: all are used
 /// \throws gum::NoResultError if the reflectors of a station are seen on a cone or in too few directions
