@@ -109,10 +109,7 @@ TEST_F(CampaignRun, RaisedReflectorsCureTheCone) {
 
 TEST_F(CampaignRun, HomeDatumHasNoErrorAtTheHomeAngle) {
     const fs::path job = copy_of_example(folder() / "job");
-    change_json(job, [](json& document) {
-        document["datum"] = "home";
-        document["home_angle_deg"] = 90;
-    });
+    change_json(job, [](json& document) { document["datum"] = "home"; });
     const std::string output = (folder() / "out").string();
     const bool with_documents = why_no_pdf().empty();
     const Ended ended =
@@ -120,11 +117,11 @@ TEST_F(CampaignRun, HomeDatumHasNoErrorAtTheHomeAngle) {
     ASSERT_EQ(ended.code, 0) << ended.err;
     const json record = json::parse(bytes_of(folder() / "out" / "record.json"));
     EXPECT_EQ(record["rotary"]["datum"], "home");
-    EXPECT_EQ(record["rotary"]["home_angle_deg"], 90);
+    EXPECT_EQ(record["rotary"]["home_angle_deg"], 0);
     for (const json& row : record["rotary"]["errors"]) {
         for (const std::string& name : k_motions) {
             const json& motion = row[name];
-            if (row["angle_deg"] == 90) {
+            if (row["angle_deg"] == 0) {
                 EXPECT_EQ(motion["value"].get<double>(), 0.0) << name;
                 EXPECT_EQ(motion["u"].get<double>(), 0.0) << name;
                 EXPECT_EQ(motion["U"].get<double>(), 0.0) << name;

@@ -197,10 +197,12 @@ inline std::vector<Message> json_messages(const Ended& ended) {
     return messages;
 }
 
-/// True when a line has the form for persons: where — what — rule — what to do [code].
+/// True when a line has the form for persons: where — what is wrong — the rule — what to do [code]. A note may have
+/// nothing to do.
 inline bool is_message_line(const std::string& line) {
-    static const std::regex form("(warning: |note: )?.+ — .+ — .+ \\[GC-[A-Z]+-[0-9]{4}\\]");
-    return std::regex_match(line, form);
+    static const std::regex problem("(warning: )?.+ — .+ — .+ — .+ \\[GC-[A-Z]+-[0-9]{4}\\]");
+    static const std::regex note("note: .+ — .+ — .+ \\[GC-[A-Z]+-[0-9]{4}\\]");
+    return std::regex_match(line, line.starts_with("note: ") ? note : problem);
 }
 
 /// A test with a folder of its own. Whatever it does, the program leaves no half-written file and no temporary folder.
