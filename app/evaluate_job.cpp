@@ -51,9 +51,24 @@ Evaluation evaluate_rotary_table(const std::filesystem::path& job_file, const st
 
 }  // namespace
 
+std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_file,
+                                               const reports::EvaluationRecord& record) {
+    std::vector<std::filesystem::path> files;
+    for (const reports::InputFile& file : record.job_files) {
+        files.push_back(job_file.parent_path() / file.name);
+    }
+    return files;
+}
+
 Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string& covariance_file,
                         const Progress& progress) {
-    const std::string kind = engine::job_kind(job_file);
+    std::string kind;
+    try {
+        kind = engine::job_kind(job_file);
+    } catch (const gum::InputError&) {
+        (void)engine::read_rotary_table_job(job_file);  // tells the other problems of the job together with this one
+        throw;
+    }
     if (kind != "rotary_table") {
         throw gum::InputError(gum::Diagnostic{"GC-INPUT-0900", job_file.string() + "#/kind",
                                               "\"" + kind + "\" cannot be evaluated by this version",

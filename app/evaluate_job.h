@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "reports/record/evaluation_record.h"
 
@@ -12,6 +13,10 @@ struct Evaluation {
     reports::EvaluationRecord record;
     std::string covariance_csv;  ///< contents of the file that the record names
 };
+
+/// The files that a record names as read, as paths beside the job.
+[[nodiscard]] std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_file,
+                                                             const reports::EvaluationRecord& record);
 
 /// Called now and then with a sentence on what is being done.
 using Progress = std::function<void(const std::string&)>;

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include "gum/quantity/diagnostic.h"
@@ -28,10 +27,21 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::string read_file(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (!stream.good() && !stream.eof()) {
-        throw gum::StorageError(gum::Diagnostic{"GC-STORE-0001", file.string(), "the file cannot be read", "",
+    std::error_code error;
+    std::ifstream stream;
+    if (!std::filesystem::is_directory(file, error)) {
+        stream.open(file, std::ios::binary);
+    }
+    std::string bytes;
+    if (stream.is_open()) {
+        std::array<char, 65536> buffer{};
+        while (stream.read(buffer.data(), buffer.size()) || stream.gcount() > 0) {
+            bytes.append(buffer.data(), static_cast<std::size_t>(stream.gcount()));
+        }
+    }
+    if (!stream.is_open() || stream.bad()) {
+        throw gum::StorageError(gum::Diagnostic{"GC-STORE-0001", file.string(), "cannot be read",
+                                                "a file is needed that exists and may be read",
                                                 "check the name and the access rights", gum::Severity::error});
     }
     return bytes;

@@ -78,7 +78,21 @@ void require_writable(const std::filesystem::path& file) {
     }
 }
 
+void require_not_an_input(const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs) {
+    std::error_code error;
+    for (const std::filesystem::path& input : inputs) {
+        if (std::filesystem::equivalent(output, input, error)) {
+            throw gum::StorageError(gum::Diagnostic{
+                "GC-STORE-0004", output.string(), "is an input of this command and would be overwritten",
+                "inputs are never changed", "choose another name with -o", gum::Severity::error});
+        }
+    }
+}
+
 void write_files(const std::vector<OutputFile>& files) {
+    for (const OutputFile& file : files) {
+        require_writable(file.path);  // before the first is in place
+    }
     std::vector<std::filesystem::path> temporary;
     try {
         for (const OutputFile& file : files) {

@@ -542,7 +542,7 @@ std::string covariance_csv(const RotaryTableJob& job, const engine::ReportedQuan
         for (Eigen::Index j = 0; j < covariance.cols(); ++j) {
             const double column_unit = unit_of(quantities.outputs[static_cast<std::size_t>(j)]).si;
             // Symmetric to the last bit, as a reader may check.
-            const double value = 0.5 * (covariance(i, j) + covariance(j, i)) / row_unit / column_unit;
+            const double value = 0.5 * (covariance(i, j) + covariance(j, i)) / (row_unit * column_unit);
             text += (j == 0 ? "" : ",") + shortest(value);
         }
         text += '\n';

@@ -42,6 +42,13 @@ struct CommonOptions {
     int threads = 1;
 };
 
+/// A terminal that is gone or full must not change the exit code.
+template <class... Arguments>
+void print_to_stderr(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    const std::string text = fmt::format(format, std::forward<Arguments>(arguments)...);
+    (void)std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
 void print_message(const gum::Diagnostic& diagnostic, const CommonOptions& common) {
     if (common.json_messages) {
         const char* const severities[] = {"note", "warning", "error"};
@@ -49,12 +56,17 @@ void print_message(const gum::Diagnostic& diagnostic, const CommonOptions& commo
             {"code", diagnostic.code},     {"where", diagnostic.where},
             {"what", diagnostic.what},     {"rule", diagnostic.rule},
             {"action", diagnostic.action}, {"severity", severities[static_cast<int>(diagnostic.severity)]}};
-        fmt::print(stderr, "{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+        print_to_stderr("{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     } else {
         const char* const prefix = diagnostic.severity == gum::Severity::error     ? ""
                                    : diagnostic.severity == gum::Severity::warning ? "warning: "
                                                                                    : "note: ";
-        fmt::print(stderr, "{}{} [{}]\n", prefix, gum::message(diagnostic), diagnostic.code);
+        std::string text = gum::message(diagnostic);
+        for (char& character : text) {
+            // A name from the command line may hold a line feed; a message is one line.
+            character = static_cast<unsigned char>(character) < 0x20 ? ' ' : character;
+        }
+        print_to_stderr("{}{} [{}]\n", prefix, text, diagnostic.code);
     }
 }
 
@@ -71,14 +83,14 @@ public:
         if (!wanted_ || elapsed < std::chrono::seconds(1)) {
             return;
         }
-        fmt::print(stderr, "\r\033[K{}: {}", command_, text);
+        print_to_stderr("\r\033[K{}: {}", command_, text);
         std::fflush(stderr);
         shown_ = true;
     }
 
     void clear() {
         if (shown_) {
-            fmt::print(stderr, "\r\033[K");
+            print_to_stderr("\r\033[K");
             shown_ = false;
         }
     }
@@ -97,10 +109,16 @@ fs::path executable() {
 
 /// Folder with templates/: share/gumcert of the installation, or the tree that the program was built in.
 fs::path share_folder(const std::string& given) {
+    std::error_code error;
     if (!given.empty()) {
+        if (!fs::exists(fs::path(given) / "templates" / "certificate.html.mustache", error)) {
+            throw gum::StorageError(gum::Diagnostic{"GC-STORE-0010", given,
+                                                    "has no folder templates with the documents",
+                                                    "--share names the folder that holds templates/ and node_modules/",
+                                                    "correct the folder, or leave --share out", gum::Severity::error});
+        }
         return given;
     }
-    std::error_code error;
     fs::path folder = executable().parent_path();
     for (int level = 0; level < 6 && !folder.empty(); ++level, folder = folder.parent_path()) {
         for (const fs::path& candidate : {folder / "share" / "gumcert", folder}) {
@@ -137,7 +155,9 @@ reports::RenderAssets assets(const std::string& share, const std::string& langua
     result.templates = folder / "templates";
     result.node_program = program_on_path("node");
     result.node_modules = folder / "node_modules";
-    result.temporary_folder = fs::temp_directory_path();
+    std::error_code error;
+    const fs::path temporary = fs::temp_directory_path(error);  // only the PDF needs it, and says so when it is missing
+    result.temporary_folder = error ? fs::path("/tmp") : temporary;
     result.language = language;
     return result;
 }
@@ -216,6 +236,9 @@ void run_job(const fs::path& job, const std::string& output, const std::string& 
         {folder / "covariance.csv", evaluation.covariance_csv},
         {folder / "certificate.html", reports::render_html(evaluation.record, with)},
         {folder / "certificate.pdf", reports::render_pdf(evaluation.record, with)}};
+    for (const app::OutputFile& file : files) {
+        app::require_not_an_input(file.path, app::input_files(job, evaluation.record));
+    }
     app::write_files(files);
     progress.clear();
     report_diagnostics(evaluation.record, common);
@@ -245,12 +268,17 @@ void evaluate(const fs::path& job, const std::string& output, const CommonOption
     if (to_stdout) {
         report_diagnostics(evaluation.record, common);
         if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-            throw gum::StorageError(gum::Diagnostic{"GC-STORE-0003", "standard output", "cannot be written", "",
+            throw gum::StorageError(gum::Diagnostic{"GC-STORE-0003", "standard output", "cannot be written",
+                                                    "all of the output must arrive",
                                                     "write to a file with -o RECORD.json", gum::Severity::error});
         }
         return;
     }
-    app::write_files({{record_file, text}, {record_file.parent_path() / covariance_name, evaluation.covariance_csv}});
+    const fs::path covariance_file = record_file.parent_path() / covariance_name;
+    for (const fs::path& file : {record_file, covariance_file}) {
+        app::require_not_an_input(file, app::input_files(job, evaluation.record));
+    }
+    app::write_files({{record_file, text}, {covariance_file, evaluation.covariance_csv}});
     report_diagnostics(evaluation.record, common);
     if (!common.quiet) {
         print_summary(evaluation.record);
@@ -278,12 +306,14 @@ void render_record(const fs::path& record_file, const std::string& format, const
             : fs::path(output);
     if (!to_stdout) {
         app::require_writable(file);
+        app::require_not_an_input(file, {record_file});
     }
     const std::string bytes = render(record, format, assets(share, language));
     if (to_stdout) {
         if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0) {
-            throw gum::StorageError(gum::Diagnostic{"GC-STORE-0003", "standard output", "cannot be written", "",
-                                                    "write to a file with -o FILE", gum::Severity::error});
+            throw gum::StorageError(gum::Diagnostic{"GC-STORE-0003", "standard output", "cannot be written",
+                                                    "all of the output must arrive", "write to a file with -o FILE",
+                                                    gum::Severity::error});
         }
         return;
     }
@@ -406,11 +436,13 @@ int main(int argc, char** argv) {
     } catch (const gum::StorageError& error) {
         return explain(error, common, storage_trouble);
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "gumcert — out of memory — — close other programs, or split the job [GC-STORE-0020]\n");
+        print_to_stderr(
+            "gumcert — out of memory — an evaluation needs its memory whole — close other programs, or split the job "
+            "[GC-STORE-0020]\n");
         return storage_trouble;
     } catch (const std::exception& error) {
         fmt::print(stderr,
-                   "gumcert — {} — this is a defect in the program — please report it with the job [GC-DEFECT]\n",
+                   "gumcert — {} — this is a defect in the program — please report it with the job [GC-DEFECT-0001]\n",
                    error.what());
         return defect;
     }
