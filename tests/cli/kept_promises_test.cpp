@@ -1,5 +1,5 @@
-// Promises that were once broken: exit codes in odd surroundings, inputs that an output would have overwritten, messages
-// that hid others.
+// Promises that were once broken: exit codes in odd surroundings, inputs that an output would have overwritten,
+// messages that hid others.
 #include "tests/cli/job_files.h"
 #include "tests/cli/program.h"
 
