@@ -98,7 +98,7 @@ std::string pdf_text(const std::string& pdf) {
     if (reader.empty()) {
         return "";
     }
-    const fs::path file = fs::path(::testing::TempDir()) / "gumcert-render-test.pdf";
+    const fs::path file = fs::path(::testing::TempDir()) / ("gumcert-render-test-" + std::to_string(getpid()) + ".pdf");
     std::ofstream(file, std::ios::binary) << pdf;
     const std::string command = reader.string() + " -layout '" + file.string() + "' -";
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), pclose);
