@@ -6,8 +6,10 @@ find_package(nlohmann_json 3.11 REQUIRED)
 find_package(fmt 9 REQUIRED)
 find_package(OpenSSL 3 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)
+find_package(Threads REQUIRED)
+include(${CMAKE_CURRENT_LIST_DIR}/gumcert_udunits2.cmake)
 
-# Two packages of headers bring no package file of their own that Debian installs.
+# Some packages of headers bring no package file of their own that Debian installs.
 function(gumcert_header_package name header debian_package)
     find_path(${name}_INCLUDE_DIR NAMES ${header} DOC "Folder of ${header}")
     if(NOT ${name}_INCLUDE_DIR)
@@ -18,3 +20,4 @@ function(gumcert_header_package name header debian_package)
 endfunction()
 gumcert_header_package(mustache kainjow/mustache.hpp libkainjow-mustache-dev)
 gumcert_header_package(valijson valijson/validator.hpp libvalijson-dev)
+gumcert_header_package(random123 Random123/philox.h librandom123-dev)

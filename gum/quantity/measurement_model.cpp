@@ -2,6 +2,17 @@
 
 namespace gumcert::gum {
 
+std::vector<Eigen::MatrixXd> MeasurementModel::hessians(const Eigen::VectorXd& /*x*/) const {
+    return {};
+}
+
+void MeasurementModel::evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& x,
+                                       Eigen::Ref<Eigen::MatrixXd> y) const {
+    for (Eigen::Index trial = 0; trial < x.rows(); ++trial) {
+        y.row(trial) = evaluate(x.row(trial).transpose()).transpose();
+    }
+}
+
 Eigen::VectorXd input_estimates(const MeasurementModel& model) {
     Eigen::Index size = 0;
     for (const InputGroup& group : model.inputs()) {

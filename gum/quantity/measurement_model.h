@@ -6,9 +6,19 @@
 #include <string>
 #include <vector>
 
+#include "gum/quantity/distribution.h"
+
 namespace gumcert::gum {
 
 enum class Evaluation { type_a, type_b };  ///< how a standard uncertainty was obtained (JCGM 100:2008, 2.3.2 and 2.3.3)
+
+/// How the quantities of a correlated group are drawn together. It has no meaning where the covariance is diagonal.
+enum class Dependence {
+    normal,            ///< multivariate normal (JCGM 101:2008, 6.4.8); all marginals are normal
+    student_t,         ///< multivariate t (JCGM 102:2011, 5.3.2); all marginals are t with the same ν
+    gaussian_copula,   ///< any marginals, correlation of the underlying normal deviates; a choice, and recorded as one
+    same_probability,  ///< all take the quantile of one probability: r = 1 for marginals of one shape
+};
 
 /// Input quantities that share one source of uncertainty and one covariance block.
 ///
@@ -22,7 +32,15 @@ struct InputGroup {
     std::string distribution = "normal";
     Eigen::VectorXd value;       ///< n estimates, [unit]
     Eigen::MatrixXd covariance;  ///< n×n, [unit²]; or n×1: the diagonal of a diagonal matrix
+    /// Of the whole group as one contribution. NaN: none can be stated, because Welch-Satterthwaite does not hold for
+    /// correlated quantities with different degrees of freedom (JCGM 100:2008, G.4.1); the reason is beside it.
     double degrees_of_freedom = std::numeric_limits<double>::infinity();
+    std::string no_degrees_of_freedom_because = {};  ///< a sentence for people; empty where there are some
+
+    /// What Monte Carlo draws, one a quantity: empty means the normal distribution with `value` and `covariance`. Where
+    /// the quantities are correlated, `dependence` says how they are tied together.
+    std::vector<Distribution> marginals = {};
+    Dependence dependence = Dependence::normal;
 
     [[nodiscard]] Eigen::Index size() const { return value.size(); }
     [[nodiscard]] bool is_diagonal() const { return covariance.cols() == 1 && value.size() != 1; }
@@ -51,6 +69,16 @@ public:
 
     /// \return sensitivity coefficients c = ∂y/∂x at x, m×n, [unit of y / unit of x] (JCGM 100:2008, 5.1.3)
     [[nodiscard]] virtual Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const = 0;
+
+    /// Second derivatives ∂²y_k/∂x_i∂x_j at x for the second-order terms of JCGM 100:2008, 5.1.2 note.
+    /// \return m symmetric matrices n×n; nothing when the model does not offer them
+    [[nodiscard]] virtual std::vector<Eigen::MatrixXd> hessians(const Eigen::VectorXd& x) const;
+
+    /// Evaluates many trials at once, for Monte Carlo. Called from several threads at a time.
+    /// \param x  trials×n: column i holds the drawn values of input i, coherent SI
+    /// \param y  trials×m, receives the outputs. A trial without a finite value gets one that is not finite: it is
+    ///           counted and stops the run there, not here.
+    virtual void evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::Ref<Eigen::MatrixXd> y) const;
 };
 
 /// The estimates of all groups, one after the other: n values, coherent SI.

@@ -1,0 +1,177 @@
+#include "gum/quantity/unit.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::gum {
+namespace {
+
+std::string code_of(const std::string& text) {
+    try {
+        (void)Unit::parse(text);
+    } catch (const InputError& error) {
+        return error.diagnostics().front().code;
+    }
+    return "";
+}
+
+TEST(Unit, ConvertsToCoherentSi) {
+    struct Case {
+        const char* text;
+        double value;
+        double si;
+        const char* dimension;
+    };
+    const std::vector<Case> cases{
+        {"um", 25.0, 25e-6, "m"},
+        {"nm", 50000623.0, 0.050000623, "m"},
+        {"mm", 1.5, 0.0015, "m"},
+        {"nm/K", 2.0, 2e-9, "m K-1"},
+        {"arcsec", 3600.0, std::numbers::pi / 180.0, "rad"},
+        {"deg", 180.0, std::numbers::pi, "rad"},
+        {"gon", 200.0, std::numbers::pi, "rad"},
+        {"1/K", 1e-6, 1e-6, "K-1"},
+        {"1/degC", 1e-6, 1e-6, "K-1"},
+        {"uohm", 129.0, 129e-6, "m2 kg s-3 A-2"},
+        {"kohm", 1.0, 1000.0, "m2 kg s-3 A-2"},
+        {"percent", 1.0, 0.01, "1"},
+        {"ppm", 1.0, 1e-6, "1"},
+        {"kg/m3", 1.2, 1.2, "m-3 kg"},
+        {"kg m-3", 1.2, 1.2, "m-3 kg"},
+        {"J/(kg K)", 287.0, 287.0, "m2 s-2 K-1"},
+        {"mL", 1.0, 1e-6, "m3"},
+        {"g", 1.0, 1e-3, "kg"},
+        {"ug", 240.0, 240e-9, "kg"},
+        {"h", 1.0, 3600.0, "s"},
+        {"min", 1.0, 60.0, "s"},
+        {"hPa", 1013.25, 101325.0, "m-1 kg s-2"},
+        {"dB", 30.0, 30.0, "dB"},
+        {"dB/m", 2.0, 2.0, "m-1 dB"},
+        {"delta_degC", 0.5, 0.5, "K"},
+        {"m rad", 1.0, 1.0, "m rad"},
+        {"1", 7.0, 7.0, "1"},
+        {"", 7.0, 7.0, "1"},
+        {"µm", 1.0, 1e-6, "m"},
+    };
+    for (const Case& c : cases) {
+        SCOPED_TRACE(c.text);
+        const Unit unit = Unit::parse(c.text);
+        EXPECT_DOUBLE_EQ(unit.to_si(c.value), c.si);
+        EXPECT_DOUBLE_EQ(unit.from_si(c.si), c.value);
+        EXPECT_EQ(unit.dimension().text(), c.dimension);
+    }
+}
+
+TEST(Unit, DecimalNumbersKeepTheirDigits) {
+    const Unit nanometre = Unit::parse("nm");
+    EXPECT_EQ(nanometre.from_si(nanometre.to_si(50000623.0)), 50000623.0);
+    const Unit micrometre = Unit::parse("um");
+    for (int i = 1; i < 2000; ++i) {
+        const double value = 0.1 * i;
+        EXPECT_EQ(micrometre.to_si(value), value / 1e6);
+    }
+}
+
+TEST(Unit, CelsiusTemperatureIsHeldFromTheIcePoint) {
+    const Unit celsius = Unit::parse("degC");
+    EXPECT_TRUE(celsius.is_celsius_temperature());
+    EXPECT_EQ(celsius.to_si(20.0), 20.0);
+    EXPECT_EQ(celsius.from_si(20.0), 20.0);
+    const Unit fahrenheit = Unit::parse("degF");
+    EXPECT_TRUE(fahrenheit.is_celsius_temperature());
+    EXPECT_NEAR(fahrenheit.to_si(212.0), 100.0, 1e-12);
+    EXPECT_NEAR(fahrenheit.to_si(32.0), 0.0, 1e-12);
+    EXPECT_NEAR(fahrenheit.difference_to_si(9.0), 5.0, 1e-14);
+    EXPECT_FALSE(Unit::parse("K").is_celsius_temperature());
+    EXPECT_FALSE(Unit::parse("delta_degC").is_celsius_temperature());
+    EXPECT_EQ(unit_of_difference("degC"), "K");
+    EXPECT_EQ(unit_of_difference("um"), "um");
+}
+
+TEST(Unit, AngleIsADimensionOfItsOwn) {
+    EXPECT_FALSE(Unit::parse("rad").dimension().is_one());
+    EXPECT_EQ(Unit::parse("arcsec").dimension(), Dimension::angle());
+    EXPECT_TRUE(Unit::parse("rad/rad").dimension().is_one());
+    EXPECT_TRUE(Unit::parse("m/m").dimension().is_one());
+}
+
+TEST(Unit, RefusesWhatIsNotAUnit) {
+    EXPECT_EQ(code_of("furlongs_per_moon"), "GC-UNIT-0001");
+    EXPECT_EQ(code_of("mm +"), "GC-UNIT-0001");
+    EXPECT_EQ(code_of(" mm"), "GC-UNIT-0001");
+    EXPECT_EQ(code_of(std::string("m\0m", 3)), "GC-UNIT-0001");
+    EXPECT_EQ(code_of(std::string(300, 'm')), "GC-UNIT-0001");
+    EXPECT_EQ(code_of("lg(re 1 mW)"), "GC-UNIT-0002");
+    EXPECT_EQ(code_of("seconds since 1970-01-01"), "GC-UNIT-0003");
+    EXPECT_EQ(code_of("m @ 3"), "GC-UNIT-0004");
+    EXPECT_EQ(code_of("-1 m"), "GC-UNIT-0001");
+    EXPECT_EQ(code_of("0 m"), "GC-UNIT-0001");
+    EXPECT_EQ(code_of(std::string(100, '(') + "m" + std::string(100, ')')), "");
+}
+
+TEST(Unit, CoherentUnitReadsBack) {
+    for (const char* text : {"J/(kg K)", "um", "dB", "1", "ohm", "m rad"}) {
+        const Unit unit = Unit::parse(text);
+        const Unit coherent = Unit::coherent(unit.dimension());
+        EXPECT_EQ(Unit::parse(coherent.text()).dimension(), unit.dimension()) << text;
+        EXPECT_EQ(coherent.to_si(3.0), 3.0);
+    }
+    EXPECT_EQ(Unit::coherent(Dimension::temperature(), true).text(), "degC");
+}
+
+TEST(Unit, ArithmeticOfDimensions) {
+    const Dimension length = Unit::parse("m").dimension();
+    EXPECT_EQ(length * length, Unit::parse("m2").dimension());
+    EXPECT_EQ((length * length).power(0.5), length);
+    EXPECT_EQ(length.power(0.5).text(), "m^0.5");
+    EXPECT_TRUE((length / length).is_one());
+    EXPECT_FALSE(length.power(1.0 / 3.0) == length);
+    EXPECT_EQ(length.power(1.0 / 3.0) * length.power(2.0 / 3.0), length);
+}
+
+TEST(Unit, PrintsForPeopleAndForDocuments) {
+    EXPECT_EQ(unit_for_people("um"), "µm");
+    EXPECT_EQ(unit_for_people("nm/K"), "nm/K");
+    EXPECT_EQ(unit_for_people("nm K-1"), "nm·K⁻¹");
+    EXPECT_EQ(unit_for_people("degC"), "°C");
+    EXPECT_EQ(unit_for_people("uohm"), "µΩ");
+    EXPECT_EQ(unit_for_people("1/K"), "1/K");
+    EXPECT_EQ(unit_for_people("1"), "");
+    EXPECT_EQ(unit_for_people("percent"), "%");
+    EXPECT_EQ(unit_for_people("arcsec"), "″");
+    EXPECT_EQ(unit_for_people("J/(kg K)"), "J/(kg·K)");
+    EXPECT_EQ(unit_for_people("m2"), "m²");
+    EXPECT_EQ(unit_for_people("m^2/s^2"), "m²/s²");
+    EXPECT_EQ(unit_for_people("furlong"), "furlong");
+    EXPECT_EQ(unit_in_d_si("um"), "\\micro\\metre");
+    EXPECT_EQ(unit_in_d_si("nm/K"), "\\nano\\metre\\kelvin\\tothe{-1}");
+    EXPECT_EQ(unit_in_d_si("kg/m3"), "\\kilo\\gram\\metre\\tothe{-3}");
+    EXPECT_EQ(unit_in_d_si("degC"), "\\degreecelsius");
+    EXPECT_EQ(unit_in_d_si("1"), "\\one");
+    EXPECT_EQ(unit_in_d_si("furlong"), std::nullopt);
+}
+
+TEST(Unit, CanBeReadFromSeveralThreads) {
+    std::vector<std::thread> threads;
+    std::vector<int> good(4, 0);
+    for (std::size_t t = 0; t < 4; ++t) {
+        threads.emplace_back([&good, t] {
+            for (int i = 0; i < 200; ++i) {
+                good[t] += Unit::parse("nm/K").dimension().text() == "m K-1" ? 1 : 0;
+            }
+        });
+    }
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+    EXPECT_EQ(good, std::vector<int>(4, 200));
+}
+
+}  // namespace
+}  // namespace gumcert::gum
