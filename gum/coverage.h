@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <span>
 
@@ -17,6 +18,15 @@ namespace gumcert::gum {
 /// table; the quantile exists for every real ν, so cutting would add nothing but a little uncertainty.
 /// Accuracy: relative error below 1e-12.
 [[nodiscard]] double coverage_factor(double coverage_probability, double degrees_of_freedom);
+
+/// Factor k_p of the hyper-ellipsoid (η − y)ᵀ V⁻¹ (η − y) = k_p² that has the coverage probability p for m outputs.
+///
+/// k_p² = quantile of χ² with m degrees of freedom                               (JCGM 102:2011, 6.5.2.3)
+/// k_p² = m ν/(ν + 1 − m) F_p(m, ν + 1 − m) where V has ν degrees of freedom      (Willink and Hall 2002, Hotelling's
+/// T²) \param outputs             m ≥ 1 \param degrees_of_freedom  ν of the covariance matrix, infinite allowed \throws
+/// InputError     GC-GUM-0004 or -0005 for an argument out of range \throws NoResultError  GC-GUM-0011 where ν ≤ m − 1
+[[nodiscard]] double ellipsoid_coverage_factor(double coverage_probability, std::size_t outputs,
+                                               double degrees_of_freedom);
 
 /// Uncertainty contribution |c_i| u(x_i) with its degrees of freedom ν_i.
 struct UncertaintyContribution {

@@ -19,6 +19,8 @@ namespace gumcert::gum {
 namespace {
 
 constexpr double k_epsilon = std::numeric_limits<double>::epsilon();
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double k_symmetry_tolerance = 1e-12;  // relative to u_i u_j: what computing a product A B Aᵀ may leave
 
 /// Rounding that an n×n correlation matrix may carry, relative to its largest eigenvalue.
@@ -67,7 +69,8 @@ GroupFactor factor_group(const InputGroup& group, std::vector<Diagnostic>& probl
     const Eigen::Index n = group.size();
     GroupFactor factor;
 
-    if (!(group.degrees_of_freedom > 0.0)) {
+    if (!(group.degrees_of_freedom > 0.0) &&
+        !(std::isnan(group.degrees_of_freedom) && !group.no_degrees_of_freedom_because.empty())) {
         report("GC-GUM-0005", "degrees of freedom " + number_text(group.degrees_of_freedom),
                "must be greater than 0 or infinite", "Correct the value, or leave it out where it is infinite.");
     }
@@ -301,12 +304,18 @@ Propagation propagate(const MeasurementModel& model, double coverage_probability
     result.coverage_factor.resize(m);
     std::vector<UncertaintyContribution> contributions(groups.size());
     for (Eigen::Index i = 0; i < m; ++i) {
+        bool stated = true;
         for (std::size_t g = 0; g < groups.size(); ++g) {
             contributions[g] = {.uncertainty = std::sqrt(result.budget[g].variance(i)),
                                 .degrees_of_freedom = groups[g].degrees_of_freedom};
+            if (std::isnan(groups[g].degrees_of_freedom)) {
+                stated = stated && result.budget[g].variance(i) == 0.0;
+                contributions[g].degrees_of_freedom = k_infinity;
+            }
         }
-        result.effective_degrees_of_freedom(i) = effective_degrees_of_freedom(contributions);
-        result.coverage_factor(i) = coverage_factor(coverage_probability, result.effective_degrees_of_freedom(i));
+        result.effective_degrees_of_freedom(i) = stated ? effective_degrees_of_freedom(contributions) : k_nan;
+        result.coverage_factor(i) =
+            stated ? coverage_factor(coverage_probability, result.effective_degrees_of_freedom(i)) : k_nan;
     }
     result.expanded_uncertainty = result.coverage_factor.cwiseProduct(result.standard_uncertainty);
 
@@ -314,6 +323,104 @@ Propagation propagate(const MeasurementModel& model, double coverage_probability
         divide_into_shares(contribution, total);
     }
     result.shares_by_source = add_up_by_source(groups, result.budget, total);
+    return result;
+}
+
+namespace {
+
+/// The covariance matrix of all inputs, n×n. \pre the groups are those of a propagation, hence checked
+Eigen::MatrixXd input_covariance(const MeasurementModel& model, Eigen::Index n) {
+    Eigen::MatrixXd V = Eigen::MatrixXd::Zero(n, n);
+    Eigen::Index first = 0;
+    for (const InputGroup& group : model.inputs()) {
+        const Eigen::Index size = group.size();
+        if (group.is_diagonal()) {
+            V.diagonal().segment(first, size) = group.covariance.col(0);
+        } else {
+            V.block(first, first, size, size) = group.covariance;
+        }
+        first += size;
+    }
+    return V;
+}
+
+/// Total variance of the distinct elements of a covariance matrix that is known with one degree of freedom.
+double total_variance(const Eigen::MatrixXd& V) {
+    double sum = 0.0;
+    for (Eigen::Index j = 0; j < V.cols(); ++j) {
+        for (Eigen::Index i = 0; i <= j; ++i) {
+            sum += V(i, i) * V(j, j) + V(i, j) * V(i, j);
+        }
+    }
+    return sum;
+}
+
+}  // namespace
+
+double joint_effective_degrees_of_freedom(const MeasurementModel& model, const Propagation& propagation) {
+    // In units of the standard uncertainties, because fourth powers leave the range of double, and so that an output in
+    // nanometres does not drown beside one in radians.
+    const Eigen::VectorXd u = propagation.standard_uncertainty;
+    const Eigen::VectorXd weight = u.unaryExpr([](double value) { return value > 0.0 ? 1.0 / value : 0.0; });
+    const Eigen::MatrixXd C = weight.asDiagonal() * propagation.jacobian;
+    double denominator = 0.0;
+    Eigen::Index first = 0;
+    for (const InputGroup& group : model.inputs()) {
+        const Eigen::Index size = group.size();
+        const auto c = C.middleCols(first, size);
+        first += size;
+        if (std::isinf(group.degrees_of_freedom)) {
+            continue;
+        }
+        const Eigen::MatrixXd V = group.is_diagonal()
+                                      ? Eigen::MatrixXd(c * group.covariance.col(0).asDiagonal() * c.transpose())
+                                      : Eigen::MatrixXd(c * group.covariance * c.transpose());
+        const double variance = total_variance(V);
+        if (variance == 0.0) {
+            continue;
+        }
+        denominator += variance / group.degrees_of_freedom;  // NaN where none can be stated
+    }
+    const double numerator = total_variance(weight.asDiagonal() * propagation.covariance * weight.asDiagonal());
+    return denominator == 0.0 ? k_infinity : numerator / denominator;
+}
+
+std::optional<SecondOrderPropagation> propagate_to_second_order(const MeasurementModel& model,
+                                                                const Propagation& first_order) {
+    const Eigen::VectorXd x = input_estimates(model);
+    const std::vector<Eigen::MatrixXd> H = model.hessians(x);
+    if (H.empty()) {
+        return std::nullopt;
+    }
+    const Eigen::MatrixXd V = input_covariance(model, x.size());
+    const Eigen::VectorXd u = V.diagonal().cwiseSqrt();
+    const Eigen::Index m = first_order.value.size();
+    SecondOrderPropagation result{.standard_uncertainty = Eigen::VectorXd::Zero(m), .shift = Eigen::VectorXd::Zero(m)};
+    for (Eigen::Index k = 0; k < m; ++k) {
+        const Eigen::MatrixXd& Hk = H[static_cast<std::size_t>(k)];
+        const Eigen::MatrixXd HV = Hk * V;
+        const double u1 = first_order.standard_uncertainty(k);
+        double variance = u1 * u1 + 0.5 * (HV * HV).trace();
+        result.shift(k) = 0.5 * HV.trace();
+        // Derivative of tr(H V) along V cᵀ, whose length is a standard deviation of the inputs times u(y): a step of a
+        // fraction of that, not of the inputs themselves, which may be 0.
+        const Eigen::VectorXd direction = V * first_order.jacobian.row(k).transpose();
+        if (u1 > 0.0 && direction.allFinite() && !direction.isZero(0.0)) {
+            constexpr double k_step = 1e-3;
+            const auto trace_at = [&](double step) {
+                const std::vector<Eigen::MatrixXd> there = model.hessians(x + (step / u1) * direction);
+                return (there[static_cast<std::size_t>(k)].cwiseProduct(V)).sum();
+            };
+            // Error of the fourth order in the step: differences at one and two steps.
+            const double one = (trace_at(k_step) - trace_at(-k_step)) / (2.0 * k_step);
+            const double two = (trace_at(2.0 * k_step) - trace_at(-2.0 * k_step)) / (4.0 * k_step);
+            variance += u1 * (4.0 * one - two) / 3.0;
+        }
+        if (!std::isfinite(variance)) {
+            return std::nullopt;
+        }
+        result.standard_uncertainty(k) = std::sqrt(std::max(0.0, variance));
+    }
     return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,11 +19,13 @@ struct BudgetContribution {
 /// Result of the law of propagation for m outputs and n inputs. All vectors are in the order of the model's outputs.
 struct Propagation {
     double coverage_probability = 0.0;
-    Eigen::VectorXd value;                             ///< m, y = f(x)
-    Eigen::MatrixXd jacobian;                          ///< m×n, sensitivity coefficients ∂y/∂x
-    Eigen::MatrixXd covariance;                        ///< m×m, symmetric, of the outputs, given the input covariances
-    Eigen::VectorXd standard_uncertainty;              ///< m, u(y)
-    Eigen::VectorXd effective_degrees_of_freedom;      ///< m, ν_eff; infinite where no contribution has finite ones
+    Eigen::VectorXd value;                 ///< m, y = f(x)
+    Eigen::MatrixXd jacobian;              ///< m×n, sensitivity coefficients ∂y/∂x
+    Eigen::MatrixXd covariance;            ///< m×m, symmetric, of the outputs, given the input covariances
+    Eigen::VectorXd standard_uncertainty;  ///< m, u(y)
+    /// m, ν_eff; infinite where no contribution has finite ones; NaN, as k and U then are, where none can be stated
+    /// because a group that contributes has none (InputGroup::no_degrees_of_freedom_because)
+    Eigen::VectorXd effective_degrees_of_freedom;
     Eigen::VectorXd coverage_factor;                   ///< m, k = t_p(ν_eff)
     Eigen::VectorXd expanded_uncertainty;              ///< m, U = k u(y)
     std::vector<BudgetContribution> budget;            ///< one a group, in the order of the model's groups
@@ -45,6 +48,30 @@ struct Propagation {
 /// and taken as 0. A source that is empty counts as a source of the group's name. Valid when the model is near-linear
 /// over the uncertainties. Accuracy: contributions sum to u² within 1e-12 relative.
 [[nodiscard]] Propagation propagate(const MeasurementModel& model, double coverage_probability);
+
+/// Effective degrees of freedom of the joint covariance matrix of several outputs.
+///
+/// ν_eff = T(V) / Σ_g T(V_g)/ν_g with T(V) = Σ_{i≤j} (v_ii v_jj + v_ij²), where V_g = c_g V_x,g c_gᵀ is what group g
+/// contributes: the total variance of the elements of V, as Welch–Satterthwaite does it for one output
+///                                                         (Willink and Hall 2002, Metrologia 39, 361-369)
+/// \return ν_eff; infinite where no contribution has finite ones; NaN where none can be stated
+[[nodiscard]] double joint_effective_degrees_of_freedom(const MeasurementModel& model, const Propagation& propagation);
+
+/// Second-order terms of the law of propagation, for m outputs.
+struct SecondOrderPropagation {
+    Eigen::VectorXd standard_uncertainty;  ///< m, with first- and second-order terms
+    Eigen::VectorXd shift;                 ///< m, expectation of y minus f(x)
+};
+
+/// First- and second-order terms together, for inputs that are normally distributed.
+///
+/// u² = c V cᵀ + ½ tr(H V H V) + Σ_jk V_jk ∂H_jk/∂s, s along V cᵀ;  shift = ½ tr(H V)
+/// For uncorrelated inputs: Σ c_i² u_i² + ΣΣ [½ (∂²f/∂x_i∂x_j)² + ∂f/∂x_i ∂³f/∂x_i∂x_j²] u_i² u_j²
+///                                                                            (JCGM 100:2008, 5.1.2 note)
+/// The third derivatives are taken by central differences of the exact second ones.
+/// \return nothing when the model offers no second derivatives, or they are not finite
+[[nodiscard]] std::optional<SecondOrderPropagation> propagate_to_second_order(const MeasurementModel& model,
+                                                                              const Propagation& first_order);
 
 /// Correlation matrix of a covariance matrix.
 /// \param covariance  m×m, symmetric, diagonal ≥ 0

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "gum/quantity/diagnostic.h"
@@ -265,6 +266,26 @@ TEST(StandardNormal, QuantilesAndCriticalValues) {
     }
     EXPECT_EQ(code_of<InputError>([] { (void)standard_normal_quantile(1.0); }), "GC-GUM-0004");
     EXPECT_EQ(code_of<InputError>([] { (void)two_sided_normal_critical_value(0.0); }), "GC-GUM-0004");
+}
+
+TEST(EllipsoidCoverageFactor, KnownCovariance) {
+    // JCGM 102:2011, 6.5.2: factors for p = 0.95.
+    const std::vector<std::pair<std::size_t, const char*>> cases{{1, "1.96"}, {2, "2.45"},  {3, "2.80"}, {4, "3.08"},
+                                                                 {5, "3.33"}, {10, "4.28"}, {20, "5.60"}};
+    for (const auto& [outputs, k] : cases) {
+        EXPECT_TRUE(prints_as(ellipsoid_coverage_factor(0.95, outputs, k_infinity), k)) << outputs;
+    }
+}
+
+TEST(EllipsoidCoverageFactor, FiniteDegreesOfFreedom) {
+    // One output: Student's t. Two: F(2, ν − 1) has a closed form, P(F > f) = (1 + 2 f/(ν − 1))^(−(ν − 1)/2).
+    EXPECT_TRUE(agrees(ellipsoid_coverage_factor(0.95, 1, 9.0), coverage_factor(0.95, 9.0), 1e-12));
+    const double nu = 6.5;
+    const double f = (std::pow(0.05, -2.0 / (nu - 1.0)) - 1.0) * (nu - 1.0) / 2.0;
+    EXPECT_TRUE(agrees(ellipsoid_coverage_factor(0.95, 2, nu), std::sqrt(2.0 * nu / (nu - 1.0) * f), 1e-12));
+    EXPECT_TRUE(agrees(ellipsoid_coverage_factor(0.95, 2, 1e9), ellipsoid_coverage_factor(0.95, 2, k_infinity), 1e-8));
+    EXPECT_EQ(code_of<NoResultError>([] { (void)ellipsoid_coverage_factor(0.95, 3, 2.0); }), "GC-GUM-0011");
+    EXPECT_EQ(code_of<InputError>([] { (void)ellipsoid_coverage_factor(1.0, 2, 5.0); }), "GC-GUM-0004");
 }
 
 }  // namespace

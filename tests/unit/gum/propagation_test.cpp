@@ -26,6 +26,7 @@ constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
 class FunctionModel : public MeasurementModel {
 public:
+    std::function<std::vector<Eigen::MatrixXd>(const Eigen::VectorXd&)> second_derivative;
     std::vector<InputGroup> groups;
     std::vector<OutputQuantity> quantities;
     std::function<Eigen::VectorXd(const Eigen::VectorXd&)> function;
@@ -35,6 +36,9 @@ public:
     [[nodiscard]] const std::vector<OutputQuantity>& outputs() const override { return quantities; }
     [[nodiscard]] Eigen::VectorXd evaluate(const Eigen::VectorXd& x) const override { return function(x); }
     [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const override { return derivative(x); }
+    [[nodiscard]] std::vector<Eigen::MatrixXd> hessians(const Eigen::VectorXd& x) const override {
+        return second_derivative ? second_derivative(x) : std::vector<Eigen::MatrixXd>{};
+    }
 };
 
 /// y = A x
@@ -502,6 +506,81 @@ TEST(PropagationInput, SaysSoWhenTheModelHasNoFiniteResult) {
     FunctionModel wrong_size = linear_model(Eigen::MatrixXd::Ones(2, 1), {single("x", 1.0, 1.0)});
     wrong_size.function = [](const Eigen::VectorXd& x) { return x; };
     EXPECT_THROW((void)propagate(wrong_size, 0.95), std::logic_error);
+}
+
+/// y = x_1² + x_2²
+FunctionModel sum_of_squares(double x1, double u, double r) {
+    Eigen::Matrix2d V;
+    V << u * u, r * u * u, r * u * u, u * u;
+    FunctionModel model = linear_model(Eigen::MatrixXd::Ones(1, 2), {group("x", Eigen::Vector2d(x1, 0.0), V)});
+    model.function = [](const Eigen::VectorXd& x) { return Eigen::VectorXd::Constant(1, x.squaredNorm()); };
+    model.derivative = [](const Eigen::VectorXd& x) -> Eigen::MatrixXd { return 2.0 * x.transpose(); };
+    model.second_derivative = [](const Eigen::VectorXd&) {
+        return std::vector<Eigen::MatrixXd>{2.0 * Eigen::Matrix2d::Identity()};
+    };
+    return model;
+}
+
+TEST(SecondOrder, SeesWhatTheFirstOrderDoesNot) {
+    // JCGM 101:2008, 9.4: u = 0.005; first order 0 at x_1 = 0, where the analytical values are mean 50e-6, u 50e-6.
+    const FunctionModel at_zero = sum_of_squares(0.0, 0.005, 0.0);
+    const Propagation first = propagate(at_zero, 0.95);
+    EXPECT_EQ(first.standard_uncertainty(0), 0.0);
+    const auto second = propagate_to_second_order(at_zero, first);
+    ASSERT_TRUE(second);
+    EXPECT_TRUE(agrees(second->standard_uncertainty(0), 50e-6, 1e-12));
+    EXPECT_TRUE(agrees(second->shift(0), 50e-6, 1e-12));
+    // With r = 0.9 at x_1 = 0.010: mean 150e-6, u = √(4·1e-4·25e-6 + 4·25e-6²(1 + r²)/1 …) = 121e-6 as printed there.
+    const FunctionModel correlated = sum_of_squares(0.010, 0.005, 0.9);
+    const auto result = propagate_to_second_order(correlated, propagate(correlated, 0.95));
+    ASSERT_TRUE(result);
+    EXPECT_TRUE(prints_as(1e6 * result->standard_uncertainty(0), "121"));
+    EXPECT_TRUE(agrees(correlated.function(Eigen::Vector2d(0.010, 0.0))(0) + result->shift(0), 150e-6, 1e-12));
+}
+
+TEST(SecondOrder, TakesThirdDerivativesIntoAccount) {
+    // y = exp(x) at 0: to this order u² = u_x² + ½ u_x⁴ + u_x⁴.
+    FunctionModel model = linear_model(Eigen::MatrixXd::Ones(1, 1), {single("x", 0.0, 0.1)});
+    const auto exponential = [](const Eigen::VectorXd& x) { return Eigen::VectorXd::Constant(1, std::exp(x(0))); };
+    model.function = exponential;
+    model.derivative = [=](const Eigen::VectorXd& x) -> Eigen::MatrixXd { return exponential(x); };
+    model.second_derivative = [=](const Eigen::VectorXd& x) { return std::vector<Eigen::MatrixXd>{exponential(x)}; };
+    const auto result = propagate_to_second_order(model, propagate(model, 0.95));
+    ASSERT_TRUE(result);
+    EXPECT_TRUE(agrees(result->standard_uncertainty(0), std::sqrt(0.01 + 1.5e-4), 1e-11));
+    EXPECT_TRUE(agrees(result->shift(0), 0.005, 1e-12));
+    EXPECT_FALSE(propagate_to_second_order(linear_model(Eigen::MatrixXd::Ones(1, 1), {single("x", 0.0, 0.1)}),
+                                           propagate(model, 0.95)));
+}
+
+TEST(DegreesOfFreedom, CannotBeStatedWhereAGroupHasNone) {
+    Eigen::Matrix2d V;
+    V << 0.01, 0.005, 0.005, 0.01;
+    InputGroup correlated = group("a, b", Eigen::Vector2d(1.0, 2.0), V, std::nan(""));
+    correlated.no_degrees_of_freedom_because = "a has 5 and b has 8 degrees of freedom";
+    Eigen::MatrixXd A(2, 3);
+    A << 1.0, 1.0, 1.0, 0.0, 0.0, 1.0;
+    const Propagation result = propagate(linear_model(A, {correlated, single("c", 3.0, 0.1, 4.0)}), 0.95);
+    EXPECT_TRUE(agrees(result.standard_uncertainty(0), std::sqrt(0.04), 1e-14));
+    EXPECT_TRUE(std::isnan(result.effective_degrees_of_freedom(0)));
+    EXPECT_TRUE(std::isnan(result.coverage_factor(0)));
+    EXPECT_TRUE(std::isnan(result.expanded_uncertainty(0)));
+    EXPECT_TRUE(agrees(result.effective_degrees_of_freedom(1), 4.0, 1e-14));
+}
+
+TEST(DegreesOfFreedom, OfSeveralOutputsTogether) {
+    Eigen::Matrix2d V;
+    V << 4.0, 1.0, 1.0, 9.0;
+    const FunctionModel one = linear_model(Eigen::Matrix2d::Identity(), {group("x", Eigen::Vector2d::Zero(), V, 7.0)});
+    EXPECT_TRUE(agrees(joint_effective_degrees_of_freedom(one, propagate(one, 0.95)), 7.0, 1e-13));
+    // Two groups that contribute alike with ν each: the matrix has 2 ν, as for one output.
+    Eigen::MatrixXd sum(2, 4);
+    sum << Eigen::Matrix2d::Identity(), Eigen::Matrix2d::Identity();
+    const FunctionModel two =
+        linear_model(sum, {group("x", Eigen::Vector2d::Zero(), V, 7.0), group("z", Eigen::Vector2d::Zero(), V, 7.0)});
+    EXPECT_TRUE(agrees(joint_effective_degrees_of_freedom(two, propagate(two, 0.95)), 14.0, 1e-13));
+    const FunctionModel known = linear_model(Eigen::Matrix2d::Identity(), {group("x", Eigen::Vector2d::Zero(), V)});
+    EXPECT_EQ(joint_effective_degrees_of_freedom(known, propagate(known, 0.95)), k_infinity);
 }
 
 }  // namespace
