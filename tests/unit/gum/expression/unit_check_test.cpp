@@ -1,0 +1,160 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "equations.h"
+
+namespace gumcert::gum {
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<InputSymbol> quantities() {
+    return {input("x", "mm"),
+            input("l", "m"),
+            input("T", "K"),
+            input("t", "degC"),
+            input("t2", "degC"),
+            input("phi", "rad"),
+            input("n"),
+            input("two", "1", 2.0),
+            input("alpha", "1/K"),
+            input("R", "ohm"),
+            input("A", "1/K"),
+            input("third", "1", 1.0 / 3.0),
+            input("deg", "arcsec"),
+            input("A_m", "m2"),
+            input("dT", "delta_degC")};
+}
+
+std::string code(const std::string& equation, const std::vector<OutputSymbol>& outputs = {}) {
+    return codes(problems_of({equation}, quantities(), {}, outputs));
+}
+
+TEST(UnitCheck, SumsBalance) {
+    EXPECT_EQ(code("y = x + l"), "");
+    EXPECT_EQ(code("y = x + T"), "0030 m/0, column 7");
+    EXPECT_EQ(code("y = x*l - l"), "0030 m/0, column 9");
+    EXPECT_EQ(code("y = l*(1 + alpha*T)"), "");
+    EXPECT_EQ(code("y = l*(1 + alpha*l)"), "0030 m/0, column 10");
+    EXPECT_EQ(code("y = min(x, T)"), "0030 m/0, column 5");
+    EXPECT_EQ(code("y = hypot(x, l) + sqrt(A_m) + abs(x)"), "");
+    EXPECT_EQ(code("y = x + 1"), "0030 m/0, column 7");
+    EXPECT_EQ(code("y = x + 0 - max(x, 0) + min(0, l, -0)"), "");
+    const std::string text = messages(problems_of({"y = 2*x + T"}, quantities()));
+    EXPECT_THAT(text, HasSubstr("m + K"));
+    EXPECT_THAT(text, HasSubstr("\"2*x\" is in m"));
+    EXPECT_THAT(text, HasSubstr("\"T\" is in K"));
+    EXPECT_THAT(messages(problems_of({"y = x + T"}, quantities())), HasSubstr("mm + K"));
+}
+
+TEST(UnitCheck, GoesThroughIntermediateQuantitiesAndImplicitEquations) {
+    EXPECT_EQ(codes(problems_of({"y = z + x", "z = l*T"}, quantities())), "0030 m/0, column 7");
+    EXPECT_EQ(codes(problems_of({"0 = R*(1 + A*q) - l"}, quantities(), {unknown("q", 20, "degC")})),
+              "0030 m/0, column 17");
+    EXPECT_EQ(codes(problems_of({"0 = R*(1 + A*q) - R"}, quantities(), {unknown("q", 20, "degC")})), "");
+    // One problem, not one for every equation that follows from it.
+    EXPECT_EQ(codes(problems_of({"y = z + x", "z = l + T", "w = z*2"}, quantities())), "0030 m/1, column 7");
+}
+
+TEST(UnitCheck, ArgumentsOfFunctions) {
+    EXPECT_EQ(code("y = ln(x)"), "0031 m/0, column 5");
+    EXPECT_EQ(code("y = ln(x/l) + exp(n) + tanh(alpha*T) + ln(2)"), "");
+    EXPECT_EQ(code("y = exp(phi)"), "0031 m/0, column 5");
+    EXPECT_EQ(code("y = sin(phi) + cos(deg) + tan(asin(n)) + sin(0)"), "");
+    EXPECT_EQ(code("y = sin(n)"), "0032 m/0, column 5");
+    EXPECT_EQ(code("y = sin(x)"), "0032 m/0, column 5");
+    EXPECT_THAT(messages(problems_of({"y = sin(n)"}, quantities())), HasSubstr("*rad"));
+    EXPECT_EQ(code("y = asin(n) + acos(n) + atan(x/l) + atan2(x, l) - phi"), "");
+    EXPECT_EQ(code("y = atan2(x, T)"), "0030 m/0, column 5");
+}
+
+TEST(UnitCheck, TheRadianIsNotOne) {
+    EXPECT_EQ(code("y = l*phi", {output("y", "m")}), "0035 output y");
+    EXPECT_EQ(code("y = l*phi/rad", {output("y", "m")}), "");
+    EXPECT_THAT(messages(problems_of({"y = l*phi"}, quantities(), {}, {output("y", "m")})), HasSubstr("/rad"));
+    EXPECT_THAT(messages(problems_of({"y = l*phi + x"}, quantities())), HasSubstr("(\"/rad\")"));
+    EXPECT_EQ(code("y = n*rad + phi"), "");
+}
+
+TEST(UnitCheck, Exponents) {
+    EXPECT_EQ(code("y = x^2", {output("y", "m2")}), "");
+    EXPECT_EQ(code("y = x^two", {output("y", "m2")}), "");
+    EXPECT_EQ(code("y = A_m^(1/2)", {output("y", "m")}), "");
+    EXPECT_EQ(code("y = x^-3", {output("y", "m-3")}), "");
+    EXPECT_EQ(code("y = (x^3)^third", {output("y", "m")}), "");
+    EXPECT_EQ(code("y = x^n"), "0034 m/0, column 6");
+    EXPECT_EQ(code("y = n^n"), "");
+    EXPECT_EQ(code("y = n^x"), "0033 m/0, column 6");
+    EXPECT_EQ(code("y = x^0.5"), "0039 m/0, column 1");
+    EXPECT_EQ(code("y = sqrt(x)*sqrt(l)", {output("y", "m")}), "");
+}
+
+TEST(UnitCheck, UnitsOfOutputs) {
+    EXPECT_EQ(code("y = x", {output("y", "nm")}), "");
+    EXPECT_EQ(code("y = x", {output("y", "K")}), "0035 output y");
+    EXPECT_EQ(system_of({"y = x*l"}, quantities()).output_unit(0).dimension().text(), "m2");
+    EXPECT_EQ(system_of({"y = x*l"}, quantities(), {}, {output("y", "mm2")}).output_unit(0).text(), "mm2");
+    EXPECT_EQ(code("y = 0", {output("y", "m")}), "");
+}
+
+TEST(TemperatureKind, Table) {
+    const std::vector<std::tuple<std::string, std::string, std::string>> table{
+        // equation, declared unit ("" = none), codes
+        {"y = t - t2", "K", ""},
+        {"y = t - t2", "degC", "0036 output y"},
+        {"y = t - t2", "delta_degC", ""},
+        {"y = t + dT", "degC", ""},
+        {"y = t + T", "degC", ""},
+        {"y = t + T", "K", "0036 output y"},
+        {"y = (t + t2)/2", "degC", ""},
+        {"y = (t + t2)/2", "K", "0036 output y"},
+        {"y = t + t2", "degC", "0036 output y"},
+        {"y = t + t2", "", "0038 m/0, column 1"},
+        {"y = 0.5*t + 0.5*t2", "degC", ""},
+        {"y = third*t + 2*third*t2", "degC", ""},
+        {"y = t", "K", "0036 output y"},
+        {"y = kelvin(t)", "K", ""},
+        {"y = kelvin(t)", "degC", "0036 output y"},
+        {"y = T", "degC", "0036 output y"},
+        {"y = celsius(T)", "degC", ""},
+        {"y = celsius(T)", "degF", ""},
+        {"y = celsius(t)", "", "0037 m/0, column 5"},
+        {"y = kelvin(T)", "", "0037 m/0, column 5"},
+        {"y = celsius(x)", "", "0037 m/0, column 5"},
+        {"y = -t", "", "0038 m/0, column 1"},
+        {"y = t2 - -t + -t", "degC", ""},
+        {"y = n*t", "K", ""},
+        {"y = alpha*t", "1", ""},
+        {"y = alpha*t*T", "K", ""},
+        {"y = 2*t - t2", "degC", ""},
+        {"y = min(t, t2)", "degC", ""},
+        {"y = max(t, T)", "", "0037 m/0, column 5"},
+        {"y = max(t, 0)", "degC", ""},
+        {"y = abs(t)", "", "0037 m/0, column 5"},
+        {"y = abs(t - t2)", "K", ""},
+        {"y = hypot(t, t2)", "", "0037 m/0, column 5"},
+        {"y = atan2(t, t2)", "", "0037 m/0, column 5"},
+        {"y = t^1", "degC", ""},
+        {"y = A*t^2", "K", ""},
+        {"y = t + 0", "degC", ""},
+        {"y = t + 20", "", "0030 m/0, column 7"},
+    };
+    for (const auto& [equation, unit, expected] : table) {
+        const std::vector<OutputSymbol> outputs =
+            unit.empty() ? std::vector<OutputSymbol>{} : std::vector<OutputSymbol>{output("y", unit)};
+        EXPECT_EQ(code(equation, outputs), expected) << equation << " in " << unit;
+    }
+}
+
+TEST(TemperatureKind, IsInferredAndCured) {
+    EXPECT_TRUE(system_of({"y = (t + t2)/2"}, quantities()).output_unit(0).is_celsius_temperature());
+    EXPECT_FALSE(system_of({"y = t - t2"}, quantities()).output_unit(0).is_celsius_temperature());
+    EXPECT_THAT(messages(problems_of({"y = T"}, quantities(), {}, {output("y", "degC")})), HasSubstr("celsius(T)"));
+    EXPECT_THAT(messages(problems_of({"y = t"}, quantities(), {}, {output("y", "K")})), HasSubstr("kelvin(t)"));
+    EXPECT_EQ(codes(problems_of({"0 = q - T"}, quantities(), {unknown("q", 20, "degC")})), "0036 m/0, column 1");
+    EXPECT_EQ(codes(problems_of({"0 = q - celsius(T)"}, quantities(), {unknown("q", 20, "degC")})), "");
+    EXPECT_EQ(system_of({"y = celsius(T)"}, {input("T", "K")}).evaluate(vector({293.15}))(0), 293.15 - 273.15);
+}
+
+}  // namespace
+}  // namespace gumcert::gum
