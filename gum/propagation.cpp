@@ -358,10 +358,20 @@ double total_variance(const Eigen::MatrixXd& V) {
 }  // namespace
 
 double joint_effective_degrees_of_freedom(const MeasurementModel& model, const Propagation& propagation) {
-    // In units of the standard uncertainties, because fourth powers leave the range of double, and so that an output in
-    // nanometres does not drown beside one in radians.
-    const Eigen::VectorXd u = propagation.standard_uncertainty;
-    const Eigen::VectorXd weight = u.unaryExpr([](double value) { return value > 0.0 ? 1.0 / value : 0.0; });
+    // Relative to the largest uncertainty among the outputs of the same unit: fourth powers leave the range of double,
+    // and an output in nanometres must not drown beside one in radians. Outputs of one unit keep their proportions,
+    // because the total variance of Willink and Hall depends on them.
+    std::unordered_map<std::string, double> largest;
+    const auto m = static_cast<std::size_t>(propagation.value.size());
+    for (std::size_t i = 0; i < m; ++i) {
+        double& most = largest[model.outputs()[i].unit];
+        most = std::max(most, propagation.standard_uncertainty(static_cast<Eigen::Index>(i)));
+    }
+    Eigen::VectorXd weight(static_cast<Eigen::Index>(m));
+    for (std::size_t i = 0; i < m; ++i) {
+        const double most = largest[model.outputs()[i].unit];
+        weight(static_cast<Eigen::Index>(i)) = most > 0.0 ? 1.0 / most : 0.0;
+    }
     const Eigen::MatrixXd C = weight.asDiagonal() * propagation.jacobian;
     double denominator = 0.0;
     Eigen::Index first = 0;

@@ -54,6 +54,7 @@ struct Propagation {
 /// ν_eff = T(V) / Σ_g T(V_g)/ν_g with T(V) = Σ_{i≤j} (v_ii v_jj + v_ij²), where V_g = c_g V_x,g c_gᵀ is what group g
 /// contributes: the total variance of the elements of V, as Welch–Satterthwaite does it for one output
 ///                                                         (Willink and Hall 2002, Metrologia 39, 361-369)
+/// Outputs of different units are weighted by the largest standard uncertainty among those of the same unit.
 /// \return ν_eff; infinite where no contribution has finite ones; NaN where none can be stated
 [[nodiscard]] double joint_effective_degrees_of_freedom(const MeasurementModel& model, const Propagation& propagation);
 

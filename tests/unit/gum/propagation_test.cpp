@@ -568,6 +568,20 @@ TEST(DegreesOfFreedom, CannotBeStatedWhereAGroupHasNone) {
     EXPECT_TRUE(agrees(result.effective_degrees_of_freedom(1), 4.0, 1e-14));
 }
 
+TEST(DegreesOfFreedom, OfAComplexQuantity) {
+    // Willink and Hall 2002, example 1: covariance matrices of the means of S11 and of G', four degrees of freedom
+    // each; the difference has 6.85.
+    Eigen::Matrix2d S;
+    S << 0.1530e-3, -0.0797e-3, -0.0797e-3, 2.0947e-3;
+    Eigen::Matrix2d G;
+    G << 1.3175e-3 - 0.1530e-3, -0.7256e-3 + 0.0797e-3, -0.7256e-3 + 0.0797e-3, 2.9425e-3 - 2.0947e-3;
+    Eigen::MatrixXd difference(2, 4);
+    difference << Eigen::Matrix2d::Identity(), -Eigen::Matrix2d::Identity();
+    const FunctionModel model = linear_model(
+        difference, {group("G'", Eigen::Vector2d::Zero(), G, 4.0), group("S11", Eigen::Vector2d::Zero(), S, 4.0)});
+    EXPECT_TRUE(prints_as(joint_effective_degrees_of_freedom(model, propagate(model, 0.95)), "6.85"));
+}
+
 TEST(DegreesOfFreedom, OfSeveralOutputsTogether) {
     Eigen::Matrix2d V;
     V << 4.0, 1.0, 1.0, 9.0;
