@@ -93,6 +93,48 @@ inline constexpr InputCode k_repeated_reading{"GC-INPUT-0221", "a dial indicator
 inline constexpr InputCode k_no_indicator_uncertainty{"GC-INPUT-0222", "nothing is known of the dial indicator"};
 inline constexpr InputCode k_too_many_reflectors{"GC-INPUT-0223", "more than 500 reflectors"};
 
+// Budget jobs.
+inline constexpr InputCode k_no_statement{"GC-INPUT-0300", "an input without a statement of what is known of it"};
+inline constexpr InputCode k_two_statements{"GC-INPUT-0301", "keys that do not belong to one statement"};
+inline constexpr InputCode k_incomplete_statement{"GC-INPUT-0302", "a statement that lacks a key"};
+inline constexpr InputCode k_quantity_name{"GC-INPUT-0303", "a name that cannot stand in an equation"};
+inline constexpr InputCode k_name_of_two{"GC-INPUT-0304", "one name for two quantities"};
+inline constexpr InputCode k_no_uncertainty{"GC-INPUT-0305", "an uncertainty of 0 that nobody stated on purpose"};
+inline constexpr InputCode k_not_representable{"GC-INPUT-0306",
+                                               "a quantity beyond what the program computes with, in SI"};
+inline constexpr InputCode k_too_few_values{"GC-INPUT-0307", "too few observations, samples or groups"};
+inline constexpr InputCode k_unknown_quantity{"GC-INPUT-0308", "a name that is none of the inputs"};
+inline constexpr InputCode k_correlation_with_itself{"GC-INPUT-0309", "a correlation of an input with itself"};
+inline constexpr InputCode k_repeated_correlation{"GC-INPUT-0310", "two correlations of one pair"};
+inline constexpr InputCode k_correlation_of_constant{"GC-INPUT-0311", "a correlation of a constant"};
+inline constexpr InputCode k_correlation_not_positive{"GC-INPUT-0312", "correlations that cannot hold together"};
+inline constexpr InputCode k_covariance_diagonal{"GC-INPUT-0313",
+                                                 "a variance that differs from the square of the stated uncertainty"};
+inline constexpr InputCode k_matrix_not_symmetric{"GC-INPUT-0314", "a covariance matrix that is not symmetric"};
+inline constexpr InputCode k_not_simultaneous{"GC-INPUT-0315", "inputs that cannot have been observed together"};
+inline constexpr InputCode k_distribution_does_not_fit{"GC-INPUT-0316",
+                                                       "a distribution that does not belong to its statement"};
+inline constexpr InputCode k_empty_interval{"GC-INPUT-0317", "two limits without a distance between them"};
+inline constexpr InputCode k_unit_does_not_fit{"GC-INPUT-0318", "a unit of another kind than needed"};
+inline constexpr InputCode k_too_few_trials{"GC-INPUT-0319",
+                                            "fewer Monte Carlo trials than the coverage interval needs"};
+inline constexpr InputCode k_trials_and_adaptive{"GC-INPUT-0320", "Monte Carlo options that exclude each other"};
+inline constexpr InputCode k_nothing_to_evaluate{"GC-INPUT-0321", "a job without a quantity to evaluate"};
+inline constexpr InputCode k_point_of_fit{"GC-INPUT-0322", "a point of the table that states a parameter of a fit"};
+inline constexpr InputCode k_repeated_point{"GC-INPUT-0323", "two points of one name"};
+inline constexpr InputCode k_too_many_quantities{"GC-INPUT-0324", "more inputs, points or correlations than allowed"};
+inline constexpr InputCode k_fit_name{"GC-INPUT-0325",
+                                      "a name in the equation of a fit that is no parameter and no column"};
+inline constexpr InputCode k_fit_data{"GC-INPUT-0326", "data of a fit that are too few or differ in length"};
+inline constexpr InputCode k_fit_start{"GC-INPUT-0327", "a parameter of a fit without the start value that it needs"};
+inline constexpr InputCode k_fit_uncertainty{"GC-INPUT-0328", "uncertainties of a fit that cannot be used together"};
+inline constexpr InputCode k_no_relative_uncertainty{"GC-INPUT-0329",
+                                                     "a relative uncertainty where the scale has an origin of its own"};
+inline constexpr InputCode k_covariance_not_definite{"GC-INPUT-0330",
+                                                     "a covariance of data that is not positive definite"};
+inline constexpr InputCode k_output_unknown{"GC-INPUT-0331", "an output that neither the model nor the inputs have"};
+inline constexpr InputCode k_equation_text{"GC-INPUT-0332", "an equation that is not one line of text"};
+
 // Files, disks and stores.
 inline constexpr InputCode k_file_not_readable{"GC-STORAGE-0001", "a file cannot be opened or read"};
 
@@ -105,6 +147,10 @@ inline constexpr InputCode k_warn_no_environment{
     "GC-WARN-0005", "no environment file: the fixture is taken to be at its reference temperature"};
 inline constexpr InputCode k_warn_unused_value{"GC-WARN-0006", "a value that the chosen option does not use"};
 inline constexpr InputCode k_warn_covariance_differs{"GC-WARN-0007", "covariance and u columns of the fixture differ"};
+inline constexpr InputCode k_warn_unused_input{"GC-WARN-0008", "an input that no result depends on"};
+inline constexpr InputCode k_warn_same_but_case{"GC-WARN-0009", "names that differ by capital letters only"};
+inline constexpr InputCode k_warn_few_trials{"GC-WARN-0010", "fewer Monte Carlo trials than recommended"};
+inline constexpr InputCode k_warn_equal_observations{"GC-WARN-0011", "observations that are all equal"};
 
 /// The whole table, in the order of the codes.
 inline constexpr std::array k_input_codes{k_file_too_large,
@@ -176,6 +222,39 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_repeated_reading,
                                           k_no_indicator_uncertainty,
                                           k_too_many_reflectors,
+                                          k_no_statement,
+                                          k_two_statements,
+                                          k_incomplete_statement,
+                                          k_quantity_name,
+                                          k_name_of_two,
+                                          k_no_uncertainty,
+                                          k_not_representable,
+                                          k_too_few_values,
+                                          k_unknown_quantity,
+                                          k_correlation_with_itself,
+                                          k_repeated_correlation,
+                                          k_correlation_of_constant,
+                                          k_correlation_not_positive,
+                                          k_covariance_diagonal,
+                                          k_matrix_not_symmetric,
+                                          k_not_simultaneous,
+                                          k_distribution_does_not_fit,
+                                          k_empty_interval,
+                                          k_unit_does_not_fit,
+                                          k_too_few_trials,
+                                          k_trials_and_adaptive,
+                                          k_nothing_to_evaluate,
+                                          k_point_of_fit,
+                                          k_repeated_point,
+                                          k_too_many_quantities,
+                                          k_fit_name,
+                                          k_fit_data,
+                                          k_fit_start,
+                                          k_fit_uncertainty,
+                                          k_no_relative_uncertainty,
+                                          k_covariance_not_definite,
+                                          k_output_unknown,
+                                          k_equation_text,
                                           k_file_not_readable,
                                           k_warn_extra_column,
                                           k_warn_unused_station,
@@ -183,6 +262,10 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_warn_angle_span,
                                           k_warn_no_environment,
                                           k_warn_unused_value,
-                                          k_warn_covariance_differs};
+                                          k_warn_covariance_differs,
+                                          k_warn_unused_input,
+                                          k_warn_same_but_case,
+                                          k_warn_few_trials,
+                                          k_warn_equal_observations};
 
 }  // namespace gumcert::engine

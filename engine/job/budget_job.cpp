@@ -1,0 +1,459 @@
+#include "engine/job/budget_job.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "engine/job/budget_correlation.h"
+#include "engine/job/budget_fit_statement.h"
+#include "engine/job/budget_inputs.h"
+#include "engine/job/budget_statement.h"
+#include "engine/job/job_files.h"
+#include "engine/job/json_document.h"
+
+namespace gumcert::engine {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<std::string_view, 17> k_job_keys{
+    "schema", "kind",   "title",        "coverage_probability", "certificate",  "monte_carlo", "notes",
+    "model",  "inputs", "correlations", "covariance",           "simultaneous", "solve_for",   "outputs",
+    "points", "fits",   "reporting"};
+constexpr std::array<std::string_view, 2> k_reporting_keys{"degrees_of_freedom", "rounding"};
+constexpr std::array<std::string_view, 3> k_unknown_keys{"start", "unit", "description"};
+constexpr std::array<std::string_view, 3> k_output_keys{"unit", "coverage_probability", "description"};
+constexpr std::array<std::string_view, 5> k_monte_carlo_keys{"trials", "adaptive", "seed", "validate", "digits"};
+constexpr std::array<std::string_view, 2> k_adaptive_keys{"digits", "max_trials"};
+
+constexpr double k_most_trials = 1e10;
+constexpr double k_largest_seed = 9007199254740992.0;  // 2^53: up to it every integer has a double
+constexpr NumberRange k_probability{.low = 0.0,
+                                    .high = 1.0,
+                                    .low_open = true,
+                                    .high_open = true,
+                                    .hint = "state a probability, not a percentage, such as 0.9545"};
+
+/// Reads one job; every step notes what it finds, and `result` throws or returns at the end.
+class Reader {
+public:
+    Reader(const FileSource& source, const std::string& job_file) : files_(source, job_file) {}
+
+    BudgetJob result() {
+        const JobFiles::File file = files_.job();
+        problems_ = file.problems;
+        document_ = read_json_document(file.bytes, *problems_);
+        if (document_) {
+            read_job();
+        }
+        files_.refuse_if_needed();
+        job_.document = std::move(document_->value);
+        job_.files = files_.names();
+        job_.warnings = files_.warnings();
+        return std::move(job_);
+    }
+
+private:
+    void read_job() {
+        if (!is_budget()) {
+            return;
+        }
+        const std::optional<JsonObject> root = JsonObject::root(*document_, k_job_keys, *problems_);
+        if (!root) {
+            return;
+        }
+        read_common(*root);
+        read_model(*root);
+        read_unknowns(*root);
+        const std::optional<StatedCovariance> covariance = read_covariance(*root, *document_, files_, *problems_);
+        BudgetInputs inputs(*document_, covariance, files_, *problems_);
+        inputs.read(*root);
+        std::map<std::string, std::size_t> positions;
+        job_.inputs = inputs.inputs(positions);
+        const std::size_t problems_before = problems_->refusals();
+        job_.fits = read_fits(*root, *document_, inputs.names(), files_, *problems_);
+        model_is_whole_ = model_is_whole_ && problems_->refusals() == problems_before;
+        read_correlations(*root, *document_, covariance, positions, inputs.names(), job_, *problems_);
+        read_outputs(*root);
+        inputs.read_points(*root, job_);
+        read_monte_carlo(*root);
+        check_model(*root, inputs);
+        job_.certificate = files_.certificate(*root);
+    }
+
+    bool is_budget() {
+        if (document_->value.is_discarded()) {
+            return false;
+        }
+        if (!document_->value.is_object()) {
+            problems_->refuse(k_wrong_type, document_->where(""), "the document is " + described(document_->value),
+                              "must be an object", "write { \"key\": value, … }");
+            return false;
+        }
+        const auto text_of = [&](const char* key, const std::string& expected) -> std::optional<std::string> {
+            const auto found = document_->value.find(key);
+            if (found == document_->value.end()) {
+                problems_->refuse(k_missing_key, document_->where(""), "the key " + in_quotes(key) + " is missing",
+                                  "the key is required", "add " + in_quotes(key) + ": " + in_quotes(expected));
+            } else if (!found->is_string() && !found->is_discarded()) {
+                problems_->refuse(k_wrong_type, document_->where(child_pointer("", key)), described(*found),
+                                  "must be a string", "write " + in_quotes(expected));
+            } else if (found->is_string()) {
+                return found->get<std::string>();
+            }
+            return std::nullopt;
+        };
+        const auto schema = text_of("schema", "gumcert/job/1");
+        if (schema && *schema != "gumcert/job/1") {
+            problems_->refuse(k_wrong_schema, document_->where("/schema"), in_quotes(*schema),
+                              "must be \"gumcert/job/1\"",
+                              "check that the file is a job, and which version of the program it is for");
+        }
+        const auto kind = text_of("kind", "budget");
+        if (kind && *kind != "budget") {
+            problems_->refuse(k_wrong_kind, document_->where("/kind"), "a job of kind " + in_quotes(*kind),
+                              "a job of kind \"budget\" is expected here", "use the command for this kind of job");
+        }
+        return kind && *kind == "budget";
+    }
+
+    void read_common(const JsonObject& root) {
+        if (root.has("title")) {
+            job_.title = root.optional_name("title", 1000).value_or("");
+        }
+        job_.coverage_probability = root.optional_number("coverage_probability", k_probability).value_or(0.9545);
+        (void)root.optional_string("notes");
+        if (const auto reporting = root.optional_object("reporting", k_reporting_keys)) {
+            constexpr std::array<std::pair<std::string_view, bool>, 2> k_degrees{
+                {{"exact", false}, {"truncated", true}}};
+            constexpr std::array<std::pair<std::string_view, gum::RoundingMode>, 2> k_rounding{
+                {{"half_even", gum::RoundingMode::half_even}, {"up", gum::RoundingMode::up}}};
+            job_.truncate_degrees_of_freedom =
+                reporting->optional_choice("degrees_of_freedom", k_degrees).value_or(false);
+            job_.rounding = reporting->optional_choice("rounding", k_rounding).value_or(gum::RoundingMode::half_even);
+        }
+    }
+
+    void read_model(const JsonObject& root) {
+        const json* model = root.find("model");
+        if (model == nullptr) {
+            return;
+        }
+        const auto add = [&](const json& text, const std::string& where) {
+            if (auto equation = equation_text_of(text, where, *problems_)) {
+                job_.model.push_back(std::move(*equation));
+            } else {
+                model_is_whole_ = false;
+            }
+        };
+        if (model->is_string()) {
+            add(*model, root.where("model"));
+        } else if (!model->is_array()) {
+            root.refuse(k_wrong_type, "model", described(*model), "must be an array of equations",
+                        "write [\"name = expression\"]");
+            model_is_whole_ = false;
+        } else {
+            for (std::size_t i = 0; i < model->size(); ++i) {
+                add((*model)[i], document_->where(child_pointer(root.pointer("model"), i)));
+            }
+        }
+    }
+
+    /// Members of an object, in the order of the file, each an object with some keys.
+    template <typename Use>
+    void for_each_member(const JsonObject& root, std::string_view key, std::span<const std::string_view> keys,
+                         const Use& use) {
+        const json* object = root.find(key);
+        if (object == nullptr) {
+            return;
+        }
+        if (!object->is_object()) {
+            root.refuse(k_wrong_type, key, described(*object), "must be an object", "name each of them");
+            model_is_whole_ = false;
+            return;
+        }
+        for (const std::string& name : keys_in_order(*document_, root.pointer(key))) {
+            const std::string pointer = child_pointer(root.pointer(key), name);
+            if (!object->at(name).is_object()) {
+                problems_->refuse(k_wrong_type, document_->where(pointer), described(object->at(name)),
+                                  "must be an object", "write " + in_quotes(name) + ": {\"unit\": …}");
+                model_is_whole_ = false;
+                continue;
+            }
+            use(name, JsonObject(*document_, pointer, keys, *problems_));
+        }
+    }
+
+    void read_unknowns(const JsonObject& root) {
+        for_each_member(root, "solve_for", k_unknown_keys, [&](const std::string& name, const JsonObject& object) {
+            const bool is_name = is_quantity_name(name, object.where(), *problems_);
+            const auto unit = read_unit(object, "unit", *problems_);
+            const auto start = object.required_number("start");
+            (void)object.optional_string("description");
+            model_is_whole_ = model_is_whole_ && is_name && unit;
+            if (unit) {
+                job_.unknowns.push_back({name, unit->to_si(start.value_or(0.0)), *unit});
+            }
+        });
+    }
+
+    void read_outputs(const JsonObject& root) {
+        for_each_member(root, "outputs", k_output_keys, [&](const std::string& name, const JsonObject& object) {
+            BudgetOutput output;
+            output.name = name;
+            output.where = object.where();
+            output.description = object.optional_string("description").value_or("");
+            output.coverage_probability = object.optional_number("coverage_probability", k_probability);
+            if (object.has("unit")) {
+                output.unit = read_unit(object, "unit", *problems_);
+                model_is_whole_ = model_is_whole_ && output.unit;
+            }
+            job_.outputs.push_back(std::move(output));
+        });
+    }
+
+    // ---- Monte Carlo ------------------------------------------------------------------------------------------------
+
+    void read_monte_carlo(const JsonObject& root) {
+        const auto object = root.optional_object("monte_carlo", k_monte_carlo_keys);
+        if (!object) {
+            return;
+        }
+        BudgetMonteCarlo& options = job_.monte_carlo.emplace();
+        options.where = object->where();
+        double p = job_.coverage_probability;
+        for (const BudgetOutput& output : job_.outputs) {
+            p = std::max(p, output.coverage_probability.value_or(p));
+        }
+        const NumberRange trials{
+            .low = 1.0, .high = k_most_trials, .hint = "a job has at most 10000000000 trials; 1000000 is usual"};
+        const auto digits = object->optional_integer("digits", between(1.0, 2.0, ""));
+        options.digits = static_cast<int>(digits.value_or(2));
+        options.seed =
+            static_cast<std::uint64_t>(object->optional_integer("seed", between(0.0, k_largest_seed, "")).value_or(1));
+        options.validate = object->optional_boolean("validate").value_or(false);
+        if (object->has("trials") && object->has("adaptive")) {
+            object->refuse(k_trials_and_adaptive, "adaptive", "\"trials\" and \"adaptive\" are given together",
+                           "the number of trials is fixed or adaptive", "keep one of them");
+        }
+        if (const auto count = object->optional_integer("trials", trials)) {
+            options.trials = static_cast<std::uint64_t>(*count);
+            check_trials(*object, static_cast<double>(*count), p);
+        }
+        if (const auto adaptive = object->optional_object("adaptive", k_adaptive_keys)) {
+            const auto own = adaptive->optional_integer("digits", between(1.0, 2.0, ""));
+            if (own && digits && *own != *digits) {
+                adaptive->refuse(
+                    k_trials_and_adaptive, "digits",
+                    "digits is " + std::to_string(*own) + " here and " + std::to_string(*digits) + " in monte_carlo",
+                    "one number of significant digits holds for both", "keep one of them");
+            }
+            options.digits = static_cast<int>(own.value_or(options.digits));
+            if (const auto most = adaptive->optional_integer("max_trials", trials)) {
+                options.most_trials = static_cast<std::uint64_t>(*most);
+                // One block of the adaptive procedure is the least that there is.
+                const double least = std::max(1e4, 100.0 / (1.0 - p));
+                if (static_cast<double>(*most) < least) {
+                    adaptive->refuse(k_too_few_trials, "max_trials", shortest(static_cast<double>(*most)) + " trials",
+                                     "the adaptive procedure takes at least " + shortest(std::ceil(least)) +
+                                         " trials at p = " + shortest(p),
+                                     "state a larger number, such as 1000000000");
+                }
+            }
+        }
+    }
+
+    void check_trials(const JsonObject& object, double count, double p) {
+        const double least = 100.0 / (1.0 - p);
+        const double recommended = 1e4 / (1.0 - p);
+        // Nobody meant a fraction of a trial: 10⁴/(1 − 0.99) is a million, whatever the rounding of 1 − 0.99.
+        constexpr double k_rounding = 1.0 - 1e-9;
+        if (count < least * k_rounding) {
+            object.refuse(
+                k_too_few_trials, "trials", shortest(count) + " trials",
+                "a coverage interval for p = " + shortest(p) +
+                    " needs at least 100/(1 - p) = " + shortest(std::ceil(least * k_rounding)) + " trials",
+                "state at least 10000/(1 - p) = " + shortest(std::ceil(recommended * k_rounding)) + " trials");
+        } else if (count < recommended * k_rounding) {
+            problems_->warn(k_warn_few_trials, object.where("trials"), shortest(count) + " trials",
+                            "at p = " + shortest(p) + ", at least 10000/(1 - p) = " +
+                                shortest(std::ceil(recommended * k_rounding)) + " trials are recommended",
+                            "state more trials");
+        }
+    }
+
+    // ---- the model as a whole ---------------------------------------------------------------------------------------
+
+    void check_model(const JsonObject& root, const BudgetInputs& inputs) {
+        if (job_.model.empty()) {
+            if (model_is_whole_) {
+                check_without_model(root, inputs);
+            }
+            return;
+        }
+        if (!model_is_whole_ || !inputs.symbols_are_whole()) {
+            // Names and units are not known: what can be said is whether the equations are equations.
+            for (const gum::EquationText& equation : job_.model) {
+                try {
+                    (void)gum::equation_names(equation);
+                } catch (const gum::DiagnosedError& error) {
+                    refuse_as(error, "", *problems_);
+                }
+            }
+            return;
+        }
+        const bool is_accepted = problems_->refusals() == 0;
+        std::vector<gum::InputSymbol> symbols = model_inputs(job_);
+        if (!is_accepted) {
+            // The inputs that were refused for what they state have a name and a unit all the same.
+            symbols = inputs.symbols();
+            std::map<std::string, std::optional<double>> constants;
+            for (const gum::InputSymbol& known : model_inputs(job_)) {
+                constants.emplace(known.name, known.constant);
+            }
+            for (gum::InputSymbol& symbol : symbols) {
+                const auto known = constants.find(symbol.name);
+                symbol.constant = known == constants.end() ? std::nullopt : known->second;
+            }
+            for (const BudgetFit& fit : job_.fits) {
+                for (const BudgetFit::Parameter& parameter : fit.parameters) {
+                    symbols.push_back({parameter.name, parameter.unit, std::nullopt});
+                }
+            }
+        }
+        try {
+            const gum::EquationSystem system =
+                gum::EquationSystem::compile(job_.model, symbols, job_.unknowns, model_outputs(job_));
+            for (const std::size_t unused : system.unused_inputs()) {
+                if (is_accepted && unused < job_.inputs.size() &&
+                    !inputs.is_read_by_specification(job_.inputs[unused].name)) {
+                    problems_->warn(k_warn_unused_input, job_.inputs[unused].where,
+                                    "no result depends on the input " + in_quotes(job_.inputs[unused].name),
+                                    "an input that is not used has no part in any uncertainty",
+                                    "remove it, or complete the model");
+                }
+            }
+        } catch (const gum::DiagnosedError& error) {
+            refuse_as(error, "", *problems_);
+        }
+    }
+
+    void check_without_model(const JsonObject& root, const BudgetInputs& inputs) {
+        if (!job_.unknowns.empty()) {
+            root.refuse(k_nothing_to_evaluate, "solve_for", "unknowns without equations",
+                        "an unknown is solved for from equations \"0 = expression\"", "add the model");
+        }
+        if (inputs.names().empty() && job_.fits.empty()) {
+            if (inputs.symbols_are_whole()) {
+                root.refuse(k_nothing_to_evaluate, "inputs", "a job without model, inputs and fits",
+                            "there must be a quantity to evaluate", "add \"model\" and \"inputs\"");
+            }
+            return;
+        }
+        std::map<std::string, gum::Unit> known;
+        for (const gum::InputSymbol& symbol : inputs.symbols()) {
+            known.emplace(symbol.name, symbol.unit);
+        }
+        for (const BudgetFit& fit : job_.fits) {
+            for (const BudgetFit::Parameter& parameter : fit.parameters) {
+                known.emplace(parameter.name, parameter.unit);
+            }
+        }
+        for (const BudgetOutput& output : job_.outputs) {
+            const auto found = known.find(output.name);
+            if (found == known.end()) {
+                if (inputs.symbols_are_whole() && problems_->refusals() == 0) {
+                    problems_->refuse(k_output_unknown, output.where,
+                                      in_quotes(output.name) + " is no input and no parameter",
+                                      "without a model the inputs and the parameters of fits are the results",
+                                      "correct the name, or add the model");
+                }
+            } else if (output.unit &&
+                       (!(output.unit->dimension() == found->second.dimension()) ||
+                        output.unit->is_celsius_temperature() != found->second.is_celsius_temperature())) {
+                problems_->refuse(k_unit_does_not_fit, output.where,
+                                  in_quotes(output.name) + " is asked for in " + printable(output.unit->text()) +
+                                      ", and is stated in " + printable(found->second.text()),
+                                  "both must be units of one kind of quantity", "correct the unit");
+            }
+        }
+    }
+
+    JobFiles files_;
+    ProblemList* problems_ = nullptr;
+    std::optional<JsonDocument> document_;
+    BudgetJob job_;
+    bool model_is_whole_ = true;  ///< equations, unknowns and outputs could be read
+};
+
+const std::vector<JobKeys>& all_keys() {
+    static const std::vector<JobKeys> k_all = [] {
+        std::vector<JobKeys> all{{"", k_job_keys},
+                                 {"/covariance", budget_covariance_keys()},
+                                 {"/solve_for/*", k_unknown_keys},
+                                 {"/outputs/*", k_output_keys},
+                                 {"/monte_carlo", k_monte_carlo_keys},
+                                 {"/monte_carlo/adaptive", k_adaptive_keys},
+                                 {"/reporting", k_reporting_keys}};
+        for (const std::span<const JobKeys> part : {budget_statement_keys(), budget_fit_keys()}) {
+            all.insert(all.end(), part.begin(), part.end());
+        }
+        return all;
+    }();
+    return k_all;
+}
+
+}  // namespace
+
+std::span<const JobKeys> budget_job_keys() {
+    return all_keys();
+}
+
+std::vector<gum::InputSymbol> model_inputs(const BudgetJob& job) {
+    std::set<std::size_t> stated_by_points;
+    for (const BudgetPoint& point : job.points) {
+        for (const auto& [index, input] : point.inputs) {
+            stated_by_points.insert(index);
+        }
+    }
+    std::vector<gum::InputSymbol> symbols;
+    for (std::size_t i = 0; i < job.inputs.size(); ++i) {
+        const BudgetInput& input = job.inputs[i];
+        gum::InputSymbol& symbol = symbols.emplace_back(gum::InputSymbol{input.name, input.unit, std::nullopt});
+        if (input.constant && !stated_by_points.contains(i)) {
+            double value = 0.0;
+            for (const StatedQuantity& component : input.components) {
+                value += component.value;
+            }
+            symbol.constant = value;
+        }
+    }
+    for (const BudgetFit& fit : job.fits) {
+        for (const BudgetFit::Parameter& parameter : fit.parameters) {
+            symbols.push_back({parameter.name, parameter.unit, std::nullopt});
+        }
+    }
+    return symbols;
+}
+
+std::vector<gum::OutputSymbol> model_outputs(const BudgetJob& job) {
+    std::vector<gum::OutputSymbol> symbols;
+    for (const BudgetOutput& output : job.outputs) {
+        symbols.push_back({output.name, output.unit, output.where});
+    }
+    return symbols;
+}
+
+BudgetJob read_budget_job(const FileSource& source, const std::string& job_file) {
+    return Reader(source, job_file).result();
+}
+
+BudgetJob read_budget_job(const std::filesystem::path& job_file) {
+    return read_budget_job(DiskFileSource(job_file.parent_path()), job_file.filename().string());
+}
+
+}  // namespace gumcert::engine

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <deque>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/job/file_source.h"
+#include "engine/job/json_document.h"
+#include "engine/job/problem_list.h"
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::engine {
+
+/// The files of one job while it is read: their content, and for each the list of its problems.
+class JobFiles {
+public:
+    JobFiles(const FileSource& source, const std::string& job_file);
+
+    struct File {
+        std::string bytes;
+        ProblemList* problems = nullptr;  ///< lives as long as the JobFiles
+    };
+    /// The job itself. \throws StorageError  if it cannot be read
+    [[nodiscard]] File job();
+    /// A file that the job names; nothing when it cannot be read, which is noted.
+    [[nodiscard]] std::optional<File> open(const std::string& name);
+
+    /// A file name under a key: relative to the job, with / between folders.
+    /// \return nothing when it is absent or was refused
+    [[nodiscard]] static std::optional<std::string> file_name(const JsonObject& object, std::string_view key,
+                                                              bool required);
+    /// Why a text is not acceptable as such a file name; nothing when it is.
+    [[nodiscard]] static std::optional<std::string> file_name_objection(std::string_view name);
+
+    /// The key `certificate`: an object, or the name of a file with one; null without.
+    [[nodiscard]] nlohmann::json certificate(const JsonObject& root);
+
+    /// \throws StorageError  if a file could not be read; with the problems of the other files after it
+    /// \throws InputError    with every problem of every file, those of the job first
+    void refuse_if_needed() const;
+    [[nodiscard]] std::vector<gum::Diagnostic> warnings() const;
+    /// Names as the job gives them, each once, the job first.
+    [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+
+private:
+    const FileSource& source_;
+    std::vector<std::string> names_;
+    std::deque<ProblemList> problems_;  ///< a deque because readers keep addresses of its elements
+    std::vector<gum::Diagnostic> not_readable_;
+};
+
+/// One field of the header of a table.
+struct CsvHeaderField {
+    std::string name;
+    TextPlace place;
+};
+
+/// The names in the first line of a table that is not blank, for readers whose columns are not known beforehand.
+///
+/// It does not check the text: read_csv_table does. A field in double quotes is taken without them.
+[[nodiscard]] std::vector<CsvHeaderField> csv_header(std::string_view bytes);
+
+/// The keys of an object of a document in the order in which they stand in the file, which nlohmann-json forgets.
+[[nodiscard]] std::vector<std::string> keys_in_order(const JsonDocument& document, const std::string& pointer);
+
+}  // namespace gumcert::engine
