@@ -1,6 +1,9 @@
 #include "reports/certificate_view.h"
 
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/unit.h"
+#include "reports/certificate_budget_sections.h"
+#include "reports/certificate_builder.h"
 #include "reports/certificate_plots.h"
 #include "reports/record/canonical_json.h"
 #include "reports/svg_plot.h"
@@ -25,163 +28,22 @@ namespace {
 
 using nlohmann::json;
 
-/// A number of the record that has no printed form of its own: shortest text, U+2212 as minus sign.
-std::string plain(double v) {
-    std::array<char, 64> buffer{};
-    char* const last = buffer.data() + buffer.size();
-    const bool ordinary = v == 0.0 || (std::abs(v) >= 1e-7 && std::abs(v) < 1e12);
-    const auto end = (ordinary ? std::to_chars(buffer.data(), last, v, std::chars_format::fixed)
-                               : std::to_chars(buffer.data(), last, v))
-                         .ptr;
-    std::string text(buffer.data(), end);
-    return !text.empty() && text.front() == '-' ? "\u2212" + text.substr(1) : text;
-}
-
-std::string plain(std::int64_t v) {
-    return std::to_string(v);
-}
-
-/// A coverage factor or a redundancy, rounded for display.
-std::string fixed(double v, int decimals) {
-    std::array<char, 512> buffer{};
-    const auto end =
-        std::to_chars(buffer.data(), buffer.data() + buffer.size(), v, std::chars_format::fixed, decimals).ptr;
-    return {buffer.data(), end};
-}
-
-/// Degrees of freedom as documents state them: the next lower whole number (JCGM 100:2008, G.4.1, note 1).
-/// Degrees of freedom as a whole number below; from 10 000 on their digits say nothing.
-std::string whole_below(double v) {
-    return v < 10000.0 ? fixed(std::floor(v), 0) : ">9999";
-}
-
-struct Column {
-    std::string head;
-    std::string unit;
-    bool number = false;
-};
-
-std::string align_of(const Column& column) {
-    return column.number ? "number" : "left";
-}
-
-/// Position of the decimal sign, or the end; only plain decimal numbers take part in the alignment.
-std::optional<std::size_t> fraction_length(const std::string& text) {
-    if (text.empty() || text.find_first_not_of("0123456789.\u2212-+ ") != std::string::npos) {
-        return std::nullopt;
-    }
-    const std::size_t point = text.find('.');
-    return point == std::string::npos ? 0 : text.size() - point;
-}
-
-/// Collects sections and blocks, and numbers tables and figures.
-class Builder {
-public:
-    explicit Builder(const Wording& wording) : wording_(wording) {}
-    json sections = json::array();
-
-    void section(const std::string& id) {
-        sections.push_back({{"id", id}, {"heading", wording_("heading", id)}, {"blocks", json::array()}});
-    }
-
-    void paragraph(const std::string& text) { block("paragraph", {{"text", printable(text)}}); }
-    void formula(const std::string& text) { block("formula", {{"text", text}}); }
-
-    void definitions(const std::vector<std::pair<std::string, std::string>>& rows) {
-        json all = json::array();
-        for (const auto& [label, value] : rows) {
-            all.push_back({{"label", label}, {"value", printable(value)}});
-        }
-        block("definitions", {{"rows", all}});
-    }
-
-    void figure(const std::string& caption, const Plot& plot) {
-        block("figure", {{"id", plot.id},
-                         {"number", wording_("document", "figure") + " " + std::to_string(++figures_)},
-                         {"caption", printable(caption)},
-                         {"alt", printable(plot.description)},
-                         {"svg", svg(plot)}});
-    }
-
-    void table(const std::string& id, const std::string& caption, const std::vector<Column>& columns,
-               const std::vector<std::vector<std::string>>& rows,
-               const std::vector<std::pair<std::string, std::size_t>>& groups = {}) {
-        std::vector<std::size_t> longest(columns.size(), 0);
-        for (const auto& row : rows) {
-            for (std::size_t c = 0; c < columns.size(); ++c) {
-                longest[c] = std::max(longest[c], fraction_length(row[c]).value_or(0));
-            }
-        }
-        json heads = json::array();
-        for (const Column& column : columns) {
-            heads.push_back({{"head", printable(column.head)},
-                             {"unit", column.unit.empty() ? json::array() : json::array({{{"text", column.unit}}})},
-                             {"align", align_of(column)}});
-        }
-        json lines = json::array();
-        for (const auto& row : rows) {
-            json cells = json::array();
-            for (std::size_t c = 0; c < columns.size(); ++c) {
-                std::string pad;
-                if (const auto length = fraction_length(row[c]); columns[c].number && length && *length < longest[c]) {
-                    pad = (*length == 0 ? "." : "") + std::string(longest[c] - std::max<std::size_t>(*length, 1), '0');
-                }
-                const std::string text = row[c].empty() ? wording_("document", "absent") : printable(row[c]);
-                cells.push_back({{"text", text}, {"pad", pad}, {"align", align_of(columns[c])}});
-            }
-            lines.push_back({{"cells", std::move(cells)}});
-        }
-        json spans = json::array();
-        for (const auto& [text, span] : groups) {
-            spans.push_back({{"text", text}, {"span", std::to_string(span)}});
-        }
-        block("table", {{"id", id},
-                        {"number", wording_("document", "table") + " " + std::to_string(++tables_)},
-                        {"caption", printable(caption)},
-                        {"columns", std::move(heads)},
-                        {"groups", spans.empty() ? json::array() : json::array({{{"cells", std::move(spans)}}})},
-                        {"rows", std::move(lines)}});
-    }
-
-private:
-    const Wording& wording_;
-    int tables_ = 0;
-    int figures_ = 0;
-
-    void block(const char* kind, json content) {
-        json entry = {{"paragraph", json::array()},
-                      {"formula", json::array()},
-                      {"definitions", json::array()},
-                      {"figure", json::array()},
-                      {"table", json::array()}};
-        entry[kind].push_back(std::move(content));
-        sections.back()["blocks"].push_back(std::move(entry));
-    }
-};
-
 std::string coordinate_of(const std::string& axis) {
     return axis == "A" ? "x" : axis == "B" ? "y" : "z";
 }
 
-/// "µm" or "″" of a unit of the record.
-std::string printed_unit(const std::string& unit) {
-    if (unit == "um") {
-        return "µm";
-    }
-    if (unit == "arcsec") {
-        return "″";
-    }
-    return unit;
+void figure(CertificateBuilder& builder, const std::string& caption, const Plot& plot) {
+    builder.figure(plot.id, caption, plot.description, svg(plot));
 }
 
 /// \param unit  of the result, hence of every contribution
-void budget_table(Builder& builder, const Wording& words, const std::string& id, const std::string& caption,
+void budget_table(CertificateBuilder& builder, const Wording& words, const std::string& id, const std::string& caption,
                   const std::vector<BudgetRow>& budget, const std::string& unit) {
     std::vector<std::vector<std::string>> rows;
     for (const BudgetRow& row : budget) {
         rows.push_back({row.input, row.source, row.type, row.distribution,
                         row.nu ? whole_below(*row.nu) : words("document", "infinite"), row.printed.u,
-                        printed_unit(row.unit), row.printed.contribution, row.printed.share});
+                        gum::unit_for_people(row.unit), row.printed.contribution, row.printed.share});
     }
     builder.table(id, caption,
                   {{words("label", "input"), ""},
@@ -196,7 +58,7 @@ void budget_table(Builder& builder, const Wording& words, const std::string& id,
                   rows);
 }
 
-void identification(Builder& builder, const Wording& words, const EvaluationRecord& record) {
+void identification(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     builder.section("identification");
     std::vector<std::pair<std::string, std::string>> rows = {
         {words("label", "title"), record.title}, {words("label", "kind"), words("value", "kind", record.kind)}};
@@ -214,7 +76,7 @@ void identification(Builder& builder, const Wording& words, const EvaluationReco
     builder.definitions(rows);
 }
 
-void conventions(Builder& builder, const Wording& words, const RotaryTable& r) {
+void conventions(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
     const std::string coordinate = coordinate_of(r.axis);
     builder.section("conventions");
     builder.paragraph(words("sentence", "datum_" + r.datum));
@@ -239,7 +101,7 @@ void conventions(Builder& builder, const Wording& words, const RotaryTable& r) {
     builder.definitions(rows);
 }
 
-void set_up(Builder& builder, const Wording& words, const RotaryTable& r) {
+void set_up(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
     builder.section("set_up");
     builder.paragraph(words("sentence", "set_up_signs"));
     static constexpr std::array<const char*, 3> k_coordinates = {"x", "y", "z"};
@@ -262,12 +124,12 @@ void set_up(Builder& builder, const Wording& words, const RotaryTable& r) {
                   rows);
 }
 
-void ranges(Builder& builder, const Wording& words, const RotaryTable& r) {
+void ranges(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
     builder.paragraph(words("sentence", "ranges"));
     builder.paragraph(words("sentence", r.reversal.empty() ? "no_reversal" : "reversal"));
     std::vector<std::vector<std::string>> rows;
     for (std::size_t i = 0; i < 6; ++i) {
-        std::vector<std::string> row = {r.error_names[i], "", "", "", "", printed_unit(r.error_units[i])};
+        std::vector<std::string> row = {r.error_names[i], "", "", "", "", gum::unit_for_people(r.error_units[i])};
         for (const RangeRow& range : r.ranges) {
             if (range.name == r.error_names[i]) {
                 row[1] = range.printed.value;
@@ -292,14 +154,14 @@ void ranges(Builder& builder, const Wording& words, const RotaryTable& r) {
                   rows);
 }
 
-void error_motions(Builder& builder, const Wording& words, const RotaryTable& r) {
+void error_motions(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
     builder.section("error_motions");
     ranges(builder, words, r);
-    builder.figure(words("sentence", "figure_errors"), error_motion_plot(r, words));
+    figure(builder, words("sentence", "figure_errors"), error_motion_plot(r, words));
     std::vector<Column> columns = {{words("label", "angle"), "°", true}};
     std::vector<std::pair<std::string, std::size_t>> groups = {{"", 1}};
     for (std::size_t i = 0; i < 6; ++i) {
-        const std::string unit = printed_unit(r.error_units[i]);
+        const std::string unit = gum::unit_for_people(r.error_units[i]);
         columns.push_back({words("label", "value"), unit, true});
         columns.push_back({words("label", "U"), unit, true});
         groups.emplace_back(r.error_names[i], 2);
@@ -314,24 +176,6 @@ void error_motions(Builder& builder, const Wording& words, const RotaryTable& r)
         rows.push_back(std::move(row));
     }
     builder.table("errors", words("sentence", "table_errors"), columns, rows, groups);
-}
-
-void results(Builder& builder, const Wording& words, const EvaluationRecord& record) {
-    builder.section("results");
-    std::vector<std::vector<std::string>> rows;
-    for (const Result& r : record.results) {
-        rows.push_back({r.name, r.description, r.printed.value, r.printed.U, r.printed.unit, fixed(r.k, 2),
-                        r.nu_eff ? whole_below(*r.nu_eff) : words("document", "infinite")});
-    }
-    builder.table("results", words("sentence", "results_list"),
-                  {{words("label", "name"), ""},
-                   {words("label", "description"), ""},
-                   {words("label", "value"), "", true},
-                   {words("label", "U"), "", true},
-                   {words("label", "unit"), ""},
-                   {words("label", "k"), "", true},
-                   {words("label", "nu_eff"), "", true}},
-                  rows);
 }
 
 /// Least and greatest coverage factor and effective degrees of freedom of everything that is reported.
@@ -356,7 +200,7 @@ struct Coverage {
     }
 };
 
-void uncertainty(Builder& builder, const Wording& words, const EvaluationRecord& record) {
+void uncertainty(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     builder.section("uncertainty");
     Coverage coverage;
     if (record.rotary) {
@@ -369,7 +213,9 @@ void uncertainty(Builder& builder, const Wording& words, const EvaluationRecord&
         }
     }
     for (const Result& r : record.results) {
-        coverage.add(r.k, r.nu_eff);
+        if (r.k) {
+            coverage.add(*r.k, r.nu_eff);
+        }
     }
     if (coverage.any) {
         const std::string low = fixed(coverage.k_low, 2);
@@ -398,7 +244,7 @@ void uncertainty(Builder& builder, const Wording& words, const EvaluationRecord&
         }
         std::vector<std::vector<std::string>> rows;
         for (const BudgetSummaryRow& row : r.budget_summary) {
-            std::vector<std::string> line = {row.quantity, row.printed_rms_u, printed_unit(row.unit)};
+            std::vector<std::string> line = {row.quantity, row.printed_rms_u, gum::unit_for_people(row.unit)};
             line.insert(line.end(), row.printed_shares.begin(), row.printed_shares.end());
             rows.push_back(std::move(line));
         }
@@ -408,7 +254,7 @@ void uncertainty(Builder& builder, const Wording& words, const EvaluationRecord&
         if (!record.results[i].budget.empty()) {
             budget_table(builder, words, "budget-" + std::to_string(i),
                          words.fill("budget_result", {{"name", record.results[i].name}}), record.results[i].budget,
-                         printed_unit(record.results[i].unit));
+                         gum::unit_for_people(record.results[i].unit));
         }
     }
     if (record.rotary && record.rotary->covariance_file) {
@@ -416,7 +262,7 @@ void uncertainty(Builder& builder, const Wording& words, const EvaluationRecord&
     }
 }
 
-void adjustment(Builder& builder, const Wording& words, const RotaryTable& r) {
+void adjustment(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
     const AdjustmentSummary& a = r.adjustment;
     builder.section("adjustment");
     builder.paragraph(words("sentence", "adjustment"));
@@ -489,7 +335,7 @@ std::vector<Column> coordinate_columns(const Wording& words, const std::string& 
     return columns;
 }
 
-void geometry(Builder& builder, const Wording& words, const RotaryTable& r) {
+void geometry(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
     builder.section("geometry");
     std::vector<std::vector<std::string>> rows;
     for (const Station& s : r.stations) {
@@ -523,7 +369,7 @@ void geometry(Builder& builder, const Wording& words, const RotaryTable& r) {
     builder.table("reflectors", words("sentence", "reflectors"), columns, rows);
 }
 
-void comparison(Builder& builder, const Wording& words, const Comparison& c) {
+void comparison(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
     builder.section("comparison");
     builder.paragraph(words("sentence", "comparison"));
     std::vector<std::pair<std::string, std::string>> rows = {{words("label", "reference_method"), c.reference_name}};
@@ -550,8 +396,8 @@ void comparison(Builder& builder, const Wording& words, const Comparison& c) {
         builder.paragraph(remark);
     }
     if (!c.points.empty()) {
-        builder.figure(words("sentence", "figure_En"), En_plot(c, words));
-        builder.figure(words("sentence", "figure_displacement"), displacement_plot(c, words));
+        figure(builder, words("sentence", "figure_En"), En_plot(c, words));
+        figure(builder, words("sentence", "figure_displacement"), displacement_plot(c, words));
     }
     if (!c.reference_budget.empty()) {
         budget_table(builder, words, "reference-budget", words("sentence", "reference_budget"), c.reference_budget,
@@ -575,7 +421,7 @@ void comparison(Builder& builder, const Wording& words, const Comparison& c) {
                   lines);
 }
 
-void messages(Builder& builder, const Wording& words, const std::vector<gum::Diagnostic>& diagnostics) {
+void messages(CertificateBuilder& builder, const Wording& words, const std::vector<gum::Diagnostic>& diagnostics) {
     builder.section("messages");
     builder.paragraph(words("sentence", "messages"));
     static constexpr std::array<const char*, 3> k_severities = {"note", "warning", "error"};
@@ -588,7 +434,7 @@ void messages(Builder& builder, const Wording& words, const std::vector<gum::Dia
     builder.definitions(rows);
 }
 
-void input(Builder& builder, const Wording& words, const EvaluationRecord& record) {
+void input(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     builder.section("input");
     std::vector<std::vector<std::string>> rows;
     for (const InputFile& file : record.job_files) {
@@ -648,16 +494,18 @@ std::string shortened(const std::string& text, std::size_t most) {
 
 nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::json& wording) {
     const Wording words(wording);
-    Builder builder(words);
+    CertificateBuilder builder(words);
     identification(builder, words, record);
     if (record.rotary) {
         conventions(builder, words, *record.rotary);
         set_up(builder, words, *record.rotary);
         error_motions(builder, words, *record.rotary);
-    } else if (!record.results.empty()) {
-        results(builder, words, record);
     }
-    uncertainty(builder, words, record);
+    if (!record.rotary && !record.results.empty()) {
+        budget_sections(builder, words, record);
+    } else {
+        uncertainty(builder, words, record);
+    }
     if (record.rotary) {
         adjustment(builder, words, *record.rotary);
         geometry(builder, words, *record.rotary);
@@ -681,7 +529,7 @@ nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::
             {"of", words("document", "of")},
             {"end_mark", words("document", "end_mark")},
             {"only_items", words("document", "only_items")},
-            {"sections", std::move(builder.sections)}};
+            {"sections", builder.take()}};
 }
 
 }  // namespace gumcert::reports

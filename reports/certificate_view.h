@@ -18,13 +18,14 @@ namespace gumcert::reports {
 ///     blocks[]    one of  paragraph[] {text} · formula[] {text} · definitions[] {rows[] {label, value}}
 ///                 · figure[] {id, number, caption, svg, alt} · table[] {…}
 ///     table[]     id, number, caption, columns[] {head, unit[] {text}, align}, groups[] {text, span}, rows[]
-///     {cells[]} cells[]     text, pad, align: "left" | "number"; `pad` is drawn invisibly behind the text so that the
-///     decimal
+///     rows[]      kind: "plain" | "part" (of the row above) | "closing", cells[]
+///     cells[]     text, pad, align: "left" | "number"; `pad` is drawn invisibly behind the text so that the decimal
 ///                 signs of a column stand below each other
 ///
-/// Numbers are the texts of `printed` in the record, untouched. Control and direction characters of texts become
-/// U+FFFD. \param wording  labels and sentences, templates/wording/<language>.json \throws gum::StorageError if the
-/// wording lacks a text
+/// Numbers are the texts of `printed` in the record, untouched; what has no such text is rounded here, once for all
+/// forms. Control and direction characters of texts become U+FFFD.
+/// \param wording  labels and sentences, templates/wording/<language>.json
+/// \throws gum::StorageError if the wording lacks a text
 [[nodiscard]] nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::json& wording);
 
 /// A text as it may stand in a document: tab and line feed become blanks; other control characters, characters that

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <limits>
 #include <utility>
 
@@ -243,21 +244,38 @@ void draw_panel(Drawing& drawing, const PlotPanel& panel, const Frame& frame, bo
     drawing.upright_text(frame.x - 38.0, frame.y + 0.5 * frame.height, panel.y_label, 11.0);
 }
 
+/// \throws gum::NoResultError  for a number whose tick label could not be read
+void require_ordinary(const std::string& where, std::initializer_list<double> numbers) {
+    constexpr double k_most = 1e12;
+    for (const double v : numbers) {
+        if (!(std::abs(v) < k_most)) {
+            throw gum::NoResultError(gum::Diagnostic{.code = "GC-REPORT-0003",
+                                                     .where = "plot " + where,
+                                                     .what = "a number that is not finite, or above 1e12",
+                                                     .rule = "a plot shows finite numbers of ordinary size",
+                                                     .action = "look for it in the record"});
+        }
+    }
+}
+
 void require_finite(const Plot& plot) {
     for (const PlotPanel& panel : plot.panels) {
         for (const PlotSeries& series : panel.series) {
             for (const PlotPoint& p : series.points) {
-                constexpr double k_most = 1e12;  // beyond it no tick label would be readable
-                if (!(std::abs(p.x) < k_most && std::abs(p.y) < k_most && std::abs(p.U) < k_most)) {
-                    throw gum::NoResultError(gum::Diagnostic{.code = "GC-REPORT-0003",
-                                                             .where = "plot " + plot.id + ", " + panel.heading,
-                                                             .what = "a number that is not finite, or above 1e12",
-                                                             .rule = "a plot shows finite numbers of ordinary size",
-                                                             .action = "look for it in the record"});
-                }
+                require_ordinary(plot.id + ", " + panel.heading, {p.x, p.y, p.U});
             }
         }
     }
+}
+
+/// The drawing inside its document, with the texts for screen readers.
+std::string document(const std::string& id, const std::string& title, const std::string& description, double height,
+                     const Drawing& drawing) {
+    const std::string size = number(k_width) + " " + number(height);
+    return "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" viewBox=\"0 0 " + size +
+           "\" role=\"img\" aria-labelledby=\"" + id + "-title " + id + "-desc\">\n<title id=\"" + id + "-title\">" +
+           escape_markup(title) + "</title>\n<desc id=\"" + id + "-desc\">" + escape_markup(description) + "</desc>\n" +
+           drawing.body + "</svg>\n";
 }
 
 }  // namespace
@@ -307,7 +325,10 @@ std::string svg(const Plot& plot) {
             }
         }
     }
-    const Ticks across = x_low <= x_high ? angle_ticks(x_low, x_high) : Ticks{};
+    Ticks across;
+    if (x_low <= x_high) {
+        across = plot.x_is_angle ? angle_ticks(x_low, x_high) : nice_ticks(x_low, x_high, 8);
+    }
 
     Drawing drawing;
     const int count = static_cast<int>(plot.panels.size());
@@ -355,11 +376,129 @@ std::string svg(const Plot& plot) {
         }
     }
 
-    const std::string size = number(k_width) + " " + number(height);
-    return "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" viewBox=\"0 0 " + size +
-           "\" role=\"img\" aria-labelledby=\"" + plot.id + "-title " + plot.id + "-desc\">\n<title id=\"" + plot.id +
-           "-title\">" + escape_markup(plot.title) + "</title>\n<desc id=\"" + plot.id + "-desc\">" +
-           escape_markup(plot.description) + "</desc>\n" + drawing.body + "</svg>\n";
+    return document(plot.id, plot.title, plot.description, height, drawing);
+}
+
+std::string svg(const BarPlot& plot) {
+    constexpr double k_texts = 46.0;  // room for the text at the end of a bar
+    constexpr double k_pitch = 17.0;
+    constexpr double k_bar = 11.0;
+    double low = 0.0;
+    double high = 0.0;
+    double labels = 60.0;  // room for the names
+    for (const ShareBar& bar : plot.bars) {
+        require_ordinary(plot.id + ", " + bar.label, {bar.share});
+        labels = std::max(labels, std::min(200.0, 16.0 + 6.0 * static_cast<double>(bar.label.size())));
+        low = std::min(low, bar.share);
+        high = std::max(high, bar.share);
+    }
+    const Ticks ticks = nice_ticks(low, high, 10);
+    const double top = 4.0;
+    const double bottom = top + k_pitch * static_cast<double>(plot.bars.size()) + 3.0;
+    const double height = bottom + k_axis;
+    const double width = k_width - labels - k_texts;
+    const auto px = [&](double v) { return labels + (v - ticks.low) / (ticks.high - ticks.low) * width; };
+
+    Drawing drawing;
+    drawing.rectangle(0.0, 0.0, k_width, height, "fill=\"#ffffff\" stroke=\"none\"");
+    for (int i = 0; i < ticks.count(); ++i) {
+        const double x = px(ticks.at(i));
+        drawing.line(x, top, x, bottom, "stroke=\"#e2e2e2\" stroke-width=\"0.6\"");
+        drawing.line(x, bottom, x, bottom + 4.0, "stroke=\"#000000\" stroke-width=\"0.8\"");
+        drawing.text(x, bottom + 15.0, tick_text(ticks.at(i), ticks.decimals), "middle", 10.0);
+    }
+    for (std::size_t i = 0; i < plot.bars.size(); ++i) {
+        const ShareBar& bar = plot.bars[i];
+        const double y = top + k_pitch * (static_cast<double>(i) + 0.5);
+        const double from = px(std::min(0.0, bar.share));
+        const double to = px(std::max(0.0, bar.share));
+        drawing.rectangle(from, y - 0.5 * k_bar, to - from, k_bar,
+                          "fill=\"#b5b5b5\" stroke=\"#000000\" stroke-width=\"0.8\"");
+        drawing.text(labels - 8.0, y + 3.6, bar.label, "end", 10.5);
+        drawing.text(to + 5.0, y + 3.6, bar.text, "start", 10.5);
+    }
+    drawing.line(px(0.0), top, px(0.0), bottom, "stroke=\"#000000\" stroke-width=\"0.9\"");
+    drawing.line(labels, bottom, labels + width, bottom, "stroke=\"#000000\" stroke-width=\"0.9\"");
+    drawing.text(labels + 0.5 * width, bottom + 31.0, plot.x_label, "middle", 11.0);
+    return document(plot.id, plot.title, plot.description, height, drawing);
+}
+
+std::string svg(const DensityPlot& plot) {
+    constexpr double k_strip = 19.0;  // room for one interval above the curve
+    constexpr double k_curve = 190.0;
+    constexpr double k_side = 26.0;
+    double low = plot.low;
+    double high = plot.high;
+    double most = 0.0;
+    require_ordinary(plot.id, {plot.low, plot.high, plot.first_edge, plot.cell_width});
+    for (const double cell : plot.cells) {
+        require_ordinary(plot.id, {cell});
+        most = std::max(most, cell);
+    }
+    for (const PlotPoint& p : plot.curve) {
+        require_ordinary(plot.id, {p.x, p.y});
+        most = std::max(most, p.y);
+    }
+    for (const DensityInterval& interval : plot.intervals) {
+        require_ordinary(plot.id + ", " + interval.label, {interval.low, interval.high});
+        low = std::min(low, interval.low);
+        high = std::max(high, interval.high);
+    }
+    const double strips = k_strip * static_cast<double>(plot.intervals.size());
+    const Frame frame{.x = k_side,
+                      .y = k_key + 2.0,
+                      .width = k_width - k_side - k_right,
+                      .height = strips + k_curve,
+                      .across = nice_ticks(low, high, 10),
+                      .up = {.low = 0.0, .high = most > 0.0 ? most * (strips + k_curve) / (0.96 * k_curve) : 1.0}};
+    const double bottom = frame.y + frame.height;
+    const double height = bottom + k_axis;
+
+    Drawing drawing;
+    drawing.rectangle(0.0, 0.0, k_width, height, "fill=\"#ffffff\" stroke=\"none\"");
+    drawing.rectangle(frame.x, 5.0, 16.0, 9.0, "fill=\"#cfcfcf\" stroke=\"#777777\" stroke-width=\"0.6\"");
+    drawing.text(frame.x + 21.0, 13.5, plot.cells_label, "start", 10.5);
+    const double second = frame.x + 0.42 * frame.width;
+    drawing.line(second, 9.5, second + 22.0, 9.5, "stroke=\"#000000\" stroke-width=\"1.3\"");
+    drawing.text(second + 27.0, 13.5, plot.curve_label, "start", 10.5);
+
+    if (!plot.cells.empty()) {
+        std::vector<std::pair<double, double>> outline = {{frame.px(plot.first_edge), bottom}};
+        for (std::size_t i = 0; i < plot.cells.size(); ++i) {
+            const double left = plot.first_edge + static_cast<double>(i) * plot.cell_width;
+            outline.emplace_back(frame.px(left), frame.py(plot.cells[i]));
+            outline.emplace_back(frame.px(left + plot.cell_width), frame.py(plot.cells[i]));
+        }
+        outline.emplace_back(outline.back().first, bottom);
+        drawing.points("polygon", outline, "fill=\"#cfcfcf\" stroke=\"#777777\" stroke-width=\"0.6\"");
+    }
+    std::vector<std::pair<double, double>> curve;
+    for (const PlotPoint& p : plot.curve) {
+        curve.emplace_back(frame.px(p.x), frame.py(p.y));
+    }
+    drawing.points("polyline", curve, "fill=\"none\" stroke=\"#000000\" stroke-width=\"1.3\"");
+    for (std::size_t i = 0; i < plot.intervals.size(); ++i) {
+        const DensityInterval& interval = plot.intervals[i];
+        const double y = frame.y + k_strip * (static_cast<double>(i) + 0.8);
+        const double from = frame.px(interval.low);
+        const double to = frame.px(interval.high);
+        for (const double x : {from, to}) {
+            drawing.line(x, y, x, bottom, "stroke=\"#555555\" stroke-width=\"0.6\" stroke-dasharray=\"2 3\"");
+            drawing.line(x, y - 4.0, x, y + 4.0, "stroke=\"#000000\" stroke-width=\"1.2\"");
+        }
+        drawing.line(from, y, to, y, "stroke=\"#000000\" stroke-width=\"1.2\"");
+        drawing.text(0.5 * (from + to), y - 4.0, interval.label, "middle", 10.0);
+    }
+    drawing.rectangle(frame.x, frame.y, frame.width, frame.height,
+                      "fill=\"none\" stroke=\"#000000\" stroke-width=\"0.9\"");
+    for (int i = 0; i < frame.across.count(); ++i) {
+        const double x = frame.px(frame.across.at(i));
+        drawing.line(x, bottom, x, bottom + 4.0, "stroke=\"#000000\" stroke-width=\"0.8\"");
+        drawing.text(x, bottom + 15.0, tick_text(frame.across.at(i), frame.across.decimals), "middle", 10.0);
+    }
+    drawing.text(frame.x + 0.5 * frame.width, bottom + 31.0, plot.x_label, "middle", 11.0);
+    drawing.upright_text(frame.x - 10.0, frame.y + 0.5 * frame.height, plot.y_label, 11.0);
+    return document(plot.id, plot.title, plot.description, height, drawing);
 }
 
 }  // namespace gumcert::reports

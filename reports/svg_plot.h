@@ -43,6 +43,39 @@ struct Plot {
     std::vector<PlotPanel> panels;
     int columns = 1;
     double panel_height = 150.0;  ///< drawing units; a plot is 680 wide
+    bool x_is_angle = true;       ///< ticks divide a circle of 360
+};
+
+/// One horizontal bar of a bar plot, with the text that stands at its end.
+struct ShareBar {
+    std::string label;
+    double share = 0.0;  ///< [%]
+    std::string text;
+};
+
+/// Horizontal bars, from the top down.
+struct BarPlot {
+    std::string id, title, description;
+    std::string x_label;
+    std::vector<ShareBar> bars;
+};
+
+struct DensityInterval {
+    std::string label;
+    double low = 0.0, high = 0.0;
+};
+
+/// A histogram, the curve of a probability density over it, and intervals as brackets above both.
+struct DensityPlot {
+    std::string id, title, description;
+    std::string x_label, y_label;
+    double low = 0.0, high = 0.0;  ///< ends of the horizontal axis at least
+    double first_edge = 0.0, cell_width = 1.0;
+    std::vector<double> cells;  ///< heights, side by side from `first_edge` on
+    std::string cells_label;
+    std::vector<PlotPoint> curve;  ///< in ascending order of x; U is not drawn
+    std::string curve_label;
+    std::vector<DensityInterval> intervals;
 };
 
 /// A plot as a whole SVG 1.1 document: lines, rectangles, polygons, circles and plain text elements only.
@@ -50,6 +83,8 @@ struct Plot {
 /// Series differ by marker and filling, not by colour; numbers are fixed texts, so the same plot has the same bytes.
 /// \throws gum::NoResultError if a number is not finite
 [[nodiscard]] std::string svg(const Plot& plot);
+[[nodiscard]] std::string svg(const BarPlot& plot);
+[[nodiscard]] std::string svg(const DensityPlot& plot);
 
 /// The five characters that mean something to XML and HTML, escaped.
 [[nodiscard]] std::string escape_markup(const std::string& text);

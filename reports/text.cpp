@@ -17,6 +17,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t k_columns = 100;
+constexpr std::size_t k_part_indent = 2;
 
 struct Glyph {
     std::string bytes;
@@ -141,7 +142,7 @@ std::string definitions(const json& block) {
 
 /// One table line of cells that may each have several lines.
 std::string table_line(const std::vector<std::vector<std::string>>& cells, const std::vector<std::size_t>& widths,
-                       const std::vector<bool>& numbers, bool at_bottom) {
+                       const std::vector<bool>& numbers, std::size_t gap, bool at_bottom) {
     std::size_t height = 1;
     for (const auto& cell : cells) {
         height = std::max(height, cell.size());
@@ -152,7 +153,7 @@ std::string table_line(const std::vector<std::vector<std::string>>& cells, const
         for (std::size_t c = 0; c < cells.size(); ++c) {
             const std::size_t skip = at_bottom ? height - cells[c].size() : 0;
             const bool here = i >= skip && i - skip < cells[c].size();
-            line += (c == 0 ? "" : "  ") + padded(here ? cells[c][i - skip] : "", widths[c], numbers[c]);
+            line += std::string(c == 0 ? 0 : gap, ' ') + padded(here ? cells[c][i - skip] : "", widths[c], numbers[c]);
         }
         line.erase(line.find_last_not_of(' ') + 1);
         out += line + "\n";
@@ -186,16 +187,21 @@ std::string table(const json& block) {
         widths[c] = std::max(widths[c], two_lines);
         for (const json& row : block.at("rows")) {
             const json& cell = row.at("cells").at(c);
-            widths[c] = std::max(widths[c], width(text_of(cell, "text")) + text_of(cell, "pad").size());
+            const std::size_t indent = c == 0 && text_of(row, "kind") == "part" ? k_part_indent : 0;
+            widths[c] = std::max(widths[c], indent + width(text_of(cell, "text")) + text_of(cell, "pad").size());
         }
     }
+    std::size_t gap = 2;
     const auto total = [&] {
-        std::size_t sum = 2 * (count - 1);
+        std::size_t sum = gap * (count - 1);
         for (const std::size_t w : widths) {
             sum += w;
         }
         return sum;
     };
+    if (total() > k_columns) {
+        gap = 1;
+    }
     while (total() > k_columns) {  // the widest column of texts gives way; numbers only when no text is left to wrap
         std::size_t widest = count;
         for (const bool texts_only : {true, false}) {
@@ -225,11 +231,11 @@ std::string table(const json& block) {
             const std::string span_text = text_of(cell, "span");
             std::size_t span = 1;
             (void)std::from_chars(span_text.data(), span_text.data() + span_text.size(), span);
-            std::size_t room = 2 * (span - 1);
+            std::size_t room = gap * (span - 1);
             for (std::size_t i = 0; i < span; ++i) {
                 room += widths[c + i];
             }
-            line += (c == 0 ? "" : "  ") + padded(text_of(cell, "text"), room, true);
+            line += std::string(c == 0 ? 0 : gap, ' ') + padded(text_of(cell, "text"), room, true);
             c += span;
         }
         out += line + "\n";
@@ -238,16 +244,24 @@ std::string table(const json& block) {
     for (std::size_t c = 0; c < count; ++c) {
         cells.push_back(wrapped(heads[c], widths[c]));
     }
-    out += table_line(cells, widths, numbers, true) + rule + "\n";
+    out += table_line(cells, widths, numbers, gap, true) + rule + "\n";
     for (const json& row : block.at("rows")) {
         cells.clear();
+        const std::string kind = text_of(row, "kind");
+        if (kind == "closing") {
+            out += rule + "\n";
+        }
         for (std::size_t c = 0; c < count; ++c) {
             const json& cell = row.at("cells").at(c);
-            std::vector<std::string> lines = wrapped(text_of(cell, "text"), widths[c]);
+            const std::size_t indent = c == 0 && kind == "part" ? k_part_indent : 0;
+            std::vector<std::string> lines = wrapped(text_of(cell, "text"), widths[c] - indent);
+            for (std::string& line : lines) {
+                line.insert(0, indent, ' ');
+            }
             lines.back() += std::string(text_of(cell, "pad").size(), ' ');
             cells.push_back(std::move(lines));
         }
-        out += table_line(cells, widths, numbers, false);
+        out += table_line(cells, widths, numbers, gap, false);
     }
     return out + rule + "\n";
 }

@@ -87,10 +87,81 @@ void describe(Archive& a, Struct& r) {
     a("contribution", r.contribution, Range::not_negative);
     a("share", r.share, Range::not_negative);
     a("source", r.source);
+    a.added("components", r.components);
     a.group("printed", [&](auto& b) {
+        b.added("value", r.printed.value);
         b("u", r.printed.u);
+        b.added("nu", r.printed.nu);
+        b.added("sensitivity", r.printed.sensitivity);
         b("contribution", r.printed.contribution);
         b("share", r.printed.share);
+    });
+}
+
+template <class Archive, Is<CorrelationRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("variance", r.variance);
+    a("share", r.share);
+    a.group("printed", [&](auto& b) {
+        b("contribution", r.printed.contribution);
+        b("share", r.printed.share);
+    });
+}
+
+template <class Archive, Is<SecondOrder> Struct>
+void describe(Archive& a, Struct& r) {
+    a("u", r.u, Range::not_negative);
+    a("shift", r.shift);
+    a.group("printed", [&](auto& b) {
+        b("u", r.printed.u);
+        b("shift", r.printed.shift);
+    });
+}
+
+template <class Archive, Is<GufValidation> Struct>
+void describe(Archive& a, Struct& r) {
+    a("delta", r.delta, Range::not_negative);
+    a("d_low", r.d_low, Range::not_negative);
+    a("d_high", r.d_high, Range::not_negative);
+    a("validated", r.validated);
+    a("precise_enough", r.precise_enough);
+    a("interval", r.interval, {"symmetric", "shortest"});
+    a("digits", r.digits, Range::positive);
+    a.group("printed", [&](auto& b) {
+        b("delta", r.printed.delta);
+        b("d_low", r.printed.d_low);
+        b("d_high", r.printed.d_high);
+    });
+}
+
+template <class Archive, Is<MonteCarloSummary> Struct>
+void describe(Archive& a, Struct& r) {
+    a("trials", r.trials, Range::positive);
+    a("seed", r.seed);
+    a("mean", r.mean);
+    a("u", r.u, Range::not_negative);
+    a("symmetric", r.symmetric);
+    a("shortest", r.shortest);
+    a.group("numerical_error", [&](auto& b) {
+        b("mean", r.numerical_error.mean, Range::not_negative);
+        b("u", r.numerical_error.u, Range::not_negative);
+        b("symmetric", r.numerical_error.symmetric, Range::not_negative);
+        b("shortest", r.numerical_error.shortest, Range::not_negative);
+    });
+    a("adaptive", r.adaptive);
+    a("stabilised", r.stabilised);
+    a("validation", r.validation);
+    a.group("histogram", [&](auto& b) {
+        b("low", r.histogram_low);
+        b("high", r.histogram_high);
+        b("counts", r.histogram, Range::not_negative);
+    });
+    a.group("printed", [&](auto& b) {
+        b("trials", r.printed.trials);
+        b("mean", r.printed.mean);
+        b("u", r.printed.u);
+        b("symmetric", r.printed.symmetric);
+        b("shortest", r.printed.shortest);
     });
 }
 
@@ -105,8 +176,160 @@ void describe(Archive& a, Struct& r) {
     a("coverage_probability", r.coverage_probability, Range::probability);
     a("U", r.U, Range::not_negative);
     a("distribution", r.distribution);
+    a.added("coverage", r.coverage, {"student_t", "normal", "convolution", "monte_carlo", "none"});
+    a.added("coverage_note", r.coverage_note);
     a("printed", r.printed);
     a("budget", r.budget);
+    a.added("correlation", r.correlation);
+    a.added("quantity", r.quantity);
+    a.added("point", r.point);
+    a.added("second_order", r.second_order);
+    a.added("monte_carlo", r.monte_carlo);
+}
+
+template <class Archive, Is<ModelSummary> Struct>
+void describe(Archive& a, Struct& r) {
+    a("equations", r.equations);
+    a("unknowns", r.unknowns);
+}
+
+template <class Archive, Is<ResultCovariance> Struct>
+void describe(Archive& a, Struct& r) {
+    a("names", r.names);
+    a("units", r.units);
+    a("matrix", r.matrix);
+    a("correlation", r.correlation);
+    a("file", r.file);
+    a.group("printed", [&](auto& b) { b("correlation", r.printed_correlation); });
+}
+
+template <class Archive, Is<CoverageRegion::SmallestRegion> Struct>
+void describe(Archive& a, Struct& r) {
+    a("volume", r.volume, Range::not_negative);
+    a("probability", r.probability, Range::probability);
+    a("cells", r.cells, Range::positive);
+    a("cells_per_axis", r.cells_per_axis, Range::positive);
+}
+
+template <class Archive, Is<CoverageRegion> Struct>
+void describe(Archive& a, Struct& r) {
+    a("coverage_probability", r.coverage_probability, Range::probability);
+    a("from", r.from, {"law of propagation", "Monte Carlo"});
+    a("nu", r.degrees_of_freedom, Range::positive);
+    a.group("ellipsoid", [&](auto& b) {
+        b("k_p", r.k_p, Range::positive);
+        b("printed_k_p", r.printed.k_p);
+    });
+    a.group("parallelepiped", [&](auto& b) {
+        b("k_q", r.k_q, Range::positive);
+        b("printed_k_q", r.printed.k_q);
+    });
+    a("smallest_region", r.smallest_region);
+}
+
+template <class Archive, Is<FitSummary::Parameter> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("unit", r.unit);
+    a("value", r.value);
+    a("u", r.u, Range::not_negative);
+    a.group("printed", [&](auto& b) {
+        b("value", r.printed.value);
+        b("u", r.printed.u);
+        b("unit", r.printed.unit);
+    });
+}
+
+template <class Archive, Is<FitSummary> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("equation", r.equation);
+    a("method", r.method, {"ordinary", "weighted", "generalised", "errors in both variables"});
+    a("parameters", r.parameters);
+    a("covariance", r.covariance);
+    a("correlation", r.correlation);
+    a("degrees_of_freedom", r.degrees_of_freedom, Range::not_negative);
+    a("sum_of_squares", r.sum_of_squares, Range::not_negative);
+    a("residual_standard_deviation", r.residual_standard_deviation, Range::not_negative);
+    a("r_squared", r.r_squared);
+    a("condition_number", r.condition_number, Range::not_negative);
+    a("p_value", r.p_value, Range::probability);
+    a("iterations", r.iterations, Range::not_negative);
+    a("covariance_scaled", r.covariance_scaled);
+    a.group("data", [&](auto& b) {
+        b("x_name", r.x_name);
+        b("x_unit", r.x_unit);
+        b("y_name", r.y_name);
+        b("y_unit", r.y_unit);
+        b("x", r.x);
+        b("y", r.y);
+        b("fitted", r.fitted);
+        b("residual", r.residual);
+    });
+    a.group("printed", [&](auto& b) {
+        b("residual_standard_deviation", r.printed.residual_standard_deviation);
+        b("sum_of_squares", r.printed.sum_of_squares);
+        b("p_value", r.printed.p_value);
+        b("r_squared", r.printed.r_squared);
+    });
+}
+
+template <class Archive, Is<ReadingsSummary> Struct>
+void describe(Archive& a, Struct& r) {
+    a("input", r.input);
+    a("component", r.component);
+    a("unit", r.unit);
+    a("n", r.n, Range::positive);
+    a("mean", r.mean);
+    a("standard_deviation", r.standard_deviation, Range::not_negative);
+    a("standard_deviation_of_mean", r.standard_deviation_of_mean, Range::not_negative);
+    a("pooled_standard_deviation", r.pooled_standard_deviation, Range::not_negative);
+    a("autocorrelation", r.autocorrelation);
+    a("autocorrelation_limit", r.autocorrelation_limit, Range::not_negative);
+    a("dependent", r.dependent);
+    a.group("printed", [&](auto& b) {
+        b("mean", r.printed.mean);
+        b("standard_deviation", r.printed.standard_deviation);
+        b("standard_deviation_of_mean", r.printed.standard_deviation_of_mean);
+        b("r1", r.printed.r1);
+        b("limit", r.printed.limit);
+    });
+}
+
+template <class Archive, Is<VarianceAnalysis> Struct>
+void describe(Archive& a, Struct& r) {
+    a("input", r.input);
+    a("component", r.component);
+    a("unit", r.unit);
+    a("groups", r.groups, Range::positive);
+    a("readings", r.readings, Range::positive);
+    a("mean", r.mean);
+    a("sum_of_squares_between", r.sum_of_squares_between, Range::not_negative);
+    a("sum_of_squares_within", r.sum_of_squares_within, Range::not_negative);
+    a("degrees_of_freedom_between", r.degrees_of_freedom_between, Range::positive);
+    a("degrees_of_freedom_within", r.degrees_of_freedom_within, Range::positive);
+    a("mean_square_between", r.mean_square_between, Range::not_negative);
+    a("mean_square_within", r.mean_square_within, Range::not_negative);
+    a("F", r.F, Range::not_negative);
+    a("p_value", r.p_value, Range::probability);
+    a("F_critical", r.F_critical, Range::not_negative);
+    a("r_squared", r.r_squared);
+    a("standard_deviation_within", r.standard_deviation_within, Range::not_negative);
+    a("standard_deviation_of_group_means", r.standard_deviation_of_group_means, Range::not_negative);
+    a("standard_deviation_between", r.standard_deviation_between, Range::not_negative);
+    a("u_with_between_effect", r.u_with_between_effect, Range::not_negative);
+    a("u_without_between_effect", r.u_without_between_effect, Range::not_negative);
+    a("conclusion", r.conclusion, {"significant", "not significant"});
+    a.group("printed", [&](auto& b) {
+        b("mean", r.printed.mean);
+        b("F", r.printed.F);
+        b("F_critical", r.printed.F_critical);
+        b("p_value", r.printed.p_value);
+        b("within", r.printed.within);
+        b("between", r.printed.between);
+        b("group_means", r.printed.group_means);
+        b("mean_square", r.printed.mean_square);
+    });
 }
 
 template <class Archive, Is<ErrorValue> Struct>
@@ -377,6 +600,12 @@ void describe(Archive& a, Struct& r) {
     });
     a.document("options", r.options_json);
     a.results("results", r.results);
+    a.added("model", r.model);
+    a.added("covariance", r.covariance);
+    a.added("region", r.region);
+    a.added("fits", r.fits);
+    a.added("readings", r.readings);
+    a.added("variance_analyses", r.variance_analyses);
     a("rotary", r.rotary);
     a("comparison", r.comparison);
     a("diagnostics", r.diagnostics);
@@ -425,6 +654,105 @@ void check_rotary(const RotaryTable& r, const Report& report) {
     }
 }
 
+/// What must hold between the results of a record and what is said of them together. Calls
+/// `report(pointer, what, rule)` for each breach.
+template <class Report>
+void check_results(const EvaluationRecord& r, const Report& report) {
+    const auto length = [&](const std::string& at, std::size_t found, std::size_t expected, const char* rule) {
+        if (found != expected) {
+            report(at, std::to_string(found) + " items", "must be " + std::to_string(expected) + ", " + rule);
+        }
+        return found == expected;
+    };
+    const auto square = [&](const std::string& at, const auto& matrix, std::size_t size, const char* rule) {
+        bool sound = length(at, matrix.size(), size, rule);
+        for (std::size_t i = 0; i < matrix.size(); ++i) {
+            sound = length(at + "/" + std::to_string(i), matrix[i].size(), size, rule) && sound;
+        }
+        return sound;
+    };
+    const auto symmetric = [&](const std::string& at, const std::vector<std::vector<double>>& matrix) {
+        for (std::size_t i = 0; i < matrix.size(); ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                const double noise = 1e-9 * std::sqrt(std::abs(matrix[i][i]) * std::abs(matrix[j][j]));
+                if (!(std::abs(matrix[i][j] - matrix[j][i]) <= noise)) {
+                    report(at + "/" + std::to_string(i) + "/" + std::to_string(j), shortest(matrix[i][j]),
+                           "a covariance or correlation matrix is symmetric; the other half says " +
+                               shortest(matrix[j][i]));
+                    return;
+                }
+            }
+        }
+    };
+    std::set<std::string> names;
+    for (const Result& result : r.results) {
+        const std::string at = "/results/" + pointer_token(result.name);
+        names.insert(result.name);
+        if (result.U.has_value() != (result.coverage != "none") || (result.k && !result.U)) {
+            report(at + "/U", result.U ? "stated" : "not stated",
+                   "an expanded uncertainty is stated unless `coverage` is \"none\", and k only beside it; `coverage` "
+                   "is \"" +
+                       result.coverage + '"');
+        }
+        if (!result.monte_carlo) {
+            continue;
+        }
+        const MonteCarloSummary& m = *result.monte_carlo;
+        for (const auto& [name, ends] : {std::pair("symmetric", m.symmetric), std::pair("shortest", m.shortest)}) {
+            if (ends[0] > ends[1]) {
+                report(at + "/monte_carlo/" + name, shortest(ends[0]) + " to " + shortest(ends[1]),
+                       "the lower end of an interval is not above the upper end");
+            }
+        }
+        std::int64_t left = m.trials;
+        for (const std::int64_t count : m.histogram) {
+            left = count > left ? -1 : left - count;
+            if (left < 0) {
+                report(at + "/monte_carlo/histogram/counts", "more than the trials",
+                       "the cells hold at most all " + std::to_string(m.trials) + " trials");
+                break;
+            }
+        }
+        if (!m.histogram.empty() && !(m.histogram_low < m.histogram_high)) {
+            report(at + "/monte_carlo/histogram/high", shortest(m.histogram_high), "must be above the low end");
+        }
+    }
+    if (r.covariance) {
+        const ResultCovariance& c = *r.covariance;
+        const std::string at = "/covariance";
+        for (std::size_t i = 0; i < c.names.size(); ++i) {
+            if (!names.contains(c.names[i])) {
+                report(at + "/names/" + std::to_string(i), '"' + c.names[i] + '"', "must be the name of a result");
+            }
+        }
+        length(at + "/units", c.units.size(), c.names.size(), "one a name");
+        const std::size_t size = c.file.empty() ? c.names.size() : 0;
+        const char* rule = c.file.empty() ? "one a name" : "because the matrix is in a file";
+        if (square(at + "/matrix", c.matrix, size, rule)) {
+            symmetric(at + "/matrix", c.matrix);
+        }
+        if (square(at + "/correlation", c.correlation, size, rule)) {
+            symmetric(at + "/correlation", c.correlation);
+        }
+        square(at + "/printed/correlation", c.printed_correlation, size, rule);
+    }
+    for (std::size_t i = 0; i < r.fits.size(); ++i) {
+        const FitSummary& f = r.fits[i];
+        const std::string at = "/fits/" + std::to_string(i);
+        if (square(at + "/covariance", f.covariance, f.parameters.size(), "one a parameter")) {
+            symmetric(at + "/covariance", f.covariance);
+        }
+        if (square(at + "/correlation", f.correlation, f.parameters.size(), "one a parameter")) {
+            symmetric(at + "/correlation", f.correlation);
+        }
+        if (!f.x_name.empty() || !f.x.empty()) {
+            length(at + "/data/x", f.x.size(), f.y.size(), "one a value of y");
+        }
+        length(at + "/data/fitted", f.fitted.size(), f.y.size(), "one a value of y");
+        length(at + "/data/residual", f.residual.size(), f.y.size(), "one a value of y");
+    }
+}
+
 constexpr std::array<const char*, 4> k_summary_order = {"x", "y", "z", "all"};
 constexpr std::array<const char*, 3> k_severities = {"note", "warning", "error"};
 
@@ -443,6 +771,15 @@ public:
             refuse(pointer_ + "/" + key, '"' + v + '"', "is not one of the names that a record may hold here");
         }
         object[key] = v;
+    }
+
+    /// A key that a later release added to the schema: always written, may be missing where it is read.
+    template <class Type, class... Rule>
+    void added(const char* key, const Type& v, const Rule&... rule) {
+        (*this)(key, v, rule...);
+    }
+    void added(const char* key, const std::string& v, std::initializer_list<const char*> allowed) {
+        (*this)(key, v, allowed);
     }
 
     template <class Describe>
@@ -562,8 +899,12 @@ private:
                 refuse(at, shortest(v), rule_of(range));
             }
             return v;
-        } else if constexpr (std::same_as<Type, bool> || std::same_as<Type, std::string> ||
-                             std::same_as<Type, std::int64_t>) {
+        } else if constexpr (std::same_as<Type, std::int64_t>) {
+            if (!inside(static_cast<double>(v), range)) {
+                refuse(at, std::to_string(v), rule_of(range));
+            }
+            return v;
+        } else if constexpr (std::same_as<Type, bool> || std::same_as<Type, std::string>) {
             return v;
         } else if constexpr (requires { v.has_value(); }) {
             return v.has_value() ? to_json(*v, at, range) : json();
@@ -644,6 +985,21 @@ public:
                 rule += std::string(" \"") + name + '"';
             }
             problems_.add("GC-RECORD-0016", at, '"' + v + '"', rule, k_restore);
+        }
+    }
+
+    /// A key that a later release added to the schema: where it is missing, the value stays as it is.
+    template <class Type>
+    void added(const char* key, Type& v, Range range = Range::any) {
+        known_.insert(key);
+        if (object_.contains(key)) {
+            (*this)(key, v, range);
+        }
+    }
+    void added(const char* key, std::string& v, std::initializer_list<const char*> allowed) {
+        known_.insert(key);
+        if (object_.contains(key)) {
+            (*this)(key, v, allowed);
         }
     }
 
@@ -868,6 +1224,9 @@ private:
         } else if constexpr (std::same_as<Type, std::int64_t>) {
             if (item.is_number_integer() && item <= std::numeric_limits<std::int64_t>::max()) {
                 v = item.get<std::int64_t>();
+                if (!inside(static_cast<double>(v), range)) {
+                    problems_.add("GC-RECORD-0016", at, std::to_string(v), rule_of(range), k_restore);
+                }
             } else {
                 wrong_type(item, at, "a whole number");
             }
@@ -1012,6 +1371,9 @@ std::string to_canonical_json(const EvaluationRecord& record) {
             Writer::refuse("/rotary" + at, std::move(what), std::move(rule));
         });
     }
+    check_results(record, [](const std::string& at, std::string what, std::string rule) {
+        Writer::refuse(at, std::move(what), std::move(rule));
+    });
     Writer writer("");
     describe(writer, record);
     std::string text = canonical_json(writer.object);
@@ -1054,12 +1416,16 @@ EvaluationRecord record_from_json(const std::string& text, const std::string& wh
     describe(reader, record);
     reader.finish();
     problems.throw_if_any();
+    const auto report = [&](const std::string& at, std::string what, std::string rule) {
+        problems.add("GC-RECORD-0017", at, std::move(what), std::move(rule), k_restore);
+    };
     if (record.rotary) {
         check_rotary(*record.rotary, [&](const std::string& at, std::string what, std::string rule) {
-            problems.add("GC-RECORD-0017", "/rotary" + at, std::move(what), std::move(rule), k_restore);
+            report("/rotary" + at, std::move(what), std::move(rule));
         });
-        problems.throw_if_any();
     }
+    check_results(record, report);
+    problems.throw_if_any();
     return record;
 }
 

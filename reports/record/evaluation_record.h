@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gum/quantity/diagnostic.h"
+#include "reports/record/budget_evaluation.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -32,8 +33,19 @@ struct BudgetRow {
     double contribution = 0.0;          ///< |c| u, in the unit of the result
     double share = 0.0;                 ///< contribution² / u²
     std::string source;
+    std::vector<BudgetRow> components;  ///< the parts of an input that is a sum, as table H.1 of the GUM shows them
     struct {
-        std::string u, contribution, share;  ///< share in percent
+        std::string value, u, nu, sensitivity, contribution, share;  ///< share in percent; value without its unit
+    } printed;
+};
+
+/// What the correlations of the inputs add to the variance of a result: 2 Σ c_i c_j u_i u_j r_ij, often negative.
+struct CorrelationRow {
+    double variance = 0.0;  ///< in the square of the unit of the result
+    double share = 0.0;     ///< variance / u²
+    struct {
+        std::string contribution;  ///< root of |variance| with its sign
+        std::string share;         ///< percent
     } printed;
 };
 
@@ -44,13 +56,22 @@ struct Result {
     double value = 0.0;
     std::string unit;  ///< "um", "arcsec", … as UDUNITS-2 writes it
     double u = 0.0;
-    std::optional<double> nu_eff;  ///< none = infinite
-    double k = 2.0;
+    std::optional<double> nu_eff;  ///< none = infinite, or none can be stated: see `coverage`
+    std::optional<double> k;       ///< none: no expanded uncertainty can be stated
     double coverage_probability = 0.9545;
-    double U = 0.0;
-    std::string distribution;
+    std::optional<double> U;
+    std::string distribution;  ///< of the result: "normal", "student_t", "numerical (Monte Carlo)" …
+    /// Where k comes from: "student_t", "normal", "convolution" (exact, a bounded input dominates), "monte_carlo" (half
+    /// the width of the symmetric interval), "none"
+    std::string coverage = "student_t";
+    std::string coverage_note;  ///< a sentence where `coverage` is not what a person expects; "" else
     Printed printed;
     std::vector<BudgetRow> budget;
+    std::optional<CorrelationRow> correlation;  ///< where inputs of the budget are correlated
+    std::string quantity;                       ///< the output; differs from the name where there is a table of points
+    std::string point;                          ///< name of the point of a table; "" without one
+    std::optional<SecondOrder> second_order;    ///< where the second-order terms matter
+    std::optional<MonteCarloSummary> monte_carlo;
 };
 
 /// One of the six error motions at one angle.
@@ -246,8 +267,14 @@ struct EvaluationRecord {
     std::string printed_coverage;  ///< "95.45 %"
     std::string job_json;          ///< the job as read, canonical JSON text
     std::vector<InputFile> job_files;
-    std::string options_json;     ///< every tolerance and option in force, canonical JSON text
-    std::vector<Result> results;  ///< in the order of documents; an object keyed by name in JSON
+    std::string options_json;                    ///< every tolerance and option in force, canonical JSON text
+    std::vector<Result> results;                 ///< in the order of documents; an object keyed by name in JSON
+    std::optional<ModelSummary> model;           ///< kind "budget"
+    std::optional<ResultCovariance> covariance;  ///< kind "budget", two or more results
+    std::optional<CoverageRegion> region;        ///< kind "budget", two or more outputs, one point
+    std::vector<FitSummary> fits;
+    std::vector<ReadingsSummary> readings;
+    std::vector<VarianceAnalysis> variance_analyses;
     std::optional<RotaryTable> rotary;
     std::optional<Comparison> comparison;
     std::vector<gum::Diagnostic> diagnostics;

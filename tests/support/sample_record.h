@@ -209,7 +209,8 @@ inline reports::EvaluationRecord sample_record() {
                            0.577,
                            0.83,
                            "dial indicator",
-                           {"0.577", "0.577", "83"}},
+                           {},
+                           {"0", "0.577", "", "1", "0.577", "83"}},
                           {"repeatability",
                            {},
                            "um",
@@ -221,7 +222,8 @@ inline reports::EvaluationRecord sample_record() {
                            0.25,
                            0.157,
                            "dial indicator",
-                           {"0.250", "0.250", "16"}},
+                           {},
+                           {"0", "0.250", "", "1", "0.250", "16"}},
                           {"resolution",
                            {},
                            "um",
@@ -233,7 +235,8 @@ inline reports::EvaluationRecord sample_record() {
                            0.0289,
                            0.002,
                            "dial indicator",
-                           {"0.029", "0.029", "0.2"}}};
+                           {},
+                           {"0", "0.029", "", "1", "0.029", "0.2"}}};
     for (const char* direction : {"x", "y", "z"}) {
         for (int i = 0; i < 36; ++i) {
             const double theta = 10.0 * i * std::numbers::pi / 180.0;
@@ -287,6 +290,7 @@ inline reports::EvaluationRecord sample_record() {
     o.unit = "um";
     o.u = t.set_up.u_O_um[1];
     o.nu_eff = 380.25;
+    o.k = 2.0;
     o.U = 2.0 * o.u;
     o.distribution = "normal";
     o.printed = t.set_up.printed_O[1];

@@ -2,18 +2,13 @@
 
 #include "gum/quantity/diagnostic.h"
 #include "tests/support/sample_record.h"
+#include "tests/unit/reports/document_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <functional>
-#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -25,64 +20,6 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A program on the PATH of the test, or an empty path.
-fs::path program(const std::string& name) {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path == nullptr ? "" : path);
-    for (std::string folder; std::getline(folders, folder, ':');) {
-        if (fs::is_regular_file(fs::path(folder) / name)) {
-            return fs::path(folder) / name;
-        }
-    }
-    return {};
-}
-
-RenderAssets assets() {
-    RenderAssets a;
-    a.templates = fs::path(GUMCERT_SOURCE_DIR) / "templates";
-    a.node_program = program("node");
-    a.node_modules = fs::path(GUMCERT_SOURCE_DIR) / "node_modules";
-    a.temporary_folder = ::testing::TempDir();
-    return a;
-}
-
-bool pdf_is_possible() {
-    return !assets().node_program.empty() &&
-           fs::is_directory(assets().node_modules / "@myriaddreamin" / "typst-ts-node-compiler");
-}
-
-#define SKIP_WITHOUT_PDF()                                                                         \
-    if (!pdf_is_possible()) {                                                                      \
-        GTEST_SKIP() << "node or node_modules is missing: run npm ci in the folder of the source"; \
-    }
-
-/// Blanks of every kind become one blank.
-std::string squeezed(const std::string& text) {
-    std::istringstream words(text);
-    std::string out = " ";
-    for (std::string word; words >> word;) {
-        out += word + " ";
-    }
-    return out;
-}
-
-/// HTML without tags and styles.
-std::string html_text(const std::string& html) {
-    std::string out;
-    bool inside = false;
-    for (const char c : html.substr(html.find("<body>"))) {
-        if (c == '<') {
-            inside = true;
-            out += ' ';
-        } else if (c == '>') {
-            inside = false;
-        } else if (!inside) {
-            out += c;
-        }
-    }
-    return squeezed(out);
-}
-
 /// The tags of an HTML text, in order, without what stands between them.
 std::string html_tags(const std::string& html) {
     std::string out;
@@ -90,25 +27,6 @@ std::string html_tags(const std::string& html) {
         out += html.substr(at, html.find('>', at) - at + 1) + "\n";
     }
     return out;
-}
-
-/// Text of a PDF by pdftotext, or nothing when that program is missing.
-std::string pdf_text(const std::string& pdf) {
-    const fs::path reader = program("pdftotext");
-    if (reader.empty()) {
-        return "";
-    }
-    const fs::path file = fs::path(::testing::TempDir()) / ("gumcert-render-test-" + std::to_string(getpid()) + ".pdf");
-    std::ofstream(file, std::ios::binary) << pdf;
-    const std::string command = reader.string() + " -layout '" + file.string() + "' -";
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), pclose);
-    std::string text;
-    std::array<char, 4096> buffer{};
-    for (std::size_t n = 0; pipe != nullptr && (n = std::fread(buffer.data(), 1, buffer.size(), pipe.get())) > 0;) {
-        text.append(buffer.data(), n);
-    }
-    fs::remove(file);
-    return squeezed(text);
 }
 
 /// What every form of the document must show of the record, as rows of texts that stand side by side.

@@ -63,6 +63,64 @@ TEST(SvgPlot, DegenerateScalesStillHaveAPlot) {
     EXPECT_THAT(svg(empty), HasSubstr("</svg>"));
 }
 
+DensityPlot density() {
+    return {.id = "d",
+            .title = "t",
+            .description = "<d>",
+            .x_label = "x",
+            .y_label = "y",
+            .low = -3.0,
+            .high = 3.0,
+            .first_edge = -1.0,
+            .cell_width = 1.0,
+            .cells = {0.5, 0.5},
+            .cells_label = "trials",
+            .curve = {{-3.0, 0.01, 0.0}, {0.0, 0.4, 0.0}, {3.0, 0.01, 0.0}},
+            .curve_label = "curve",
+            .intervals = {{"a & b", -2.0, 2.0}, {"c", -1.9, 4.1}}};
+}
+
+TEST(SvgPlot, BarsRunFromZeroToTheirShare) {
+    BarPlot plot{.id = "b",
+                 .title = "t",
+                 .description = "d",
+                 .x_label = "share / %",
+                 .bars = {{"<x>", 130.0, "130.0"}, {"correlation", -30.0, "-30.0"}}};
+    const std::string text = svg(plot);
+    EXPECT_THAT(text, HasSubstr(">&lt;x&gt;</text>"));
+    EXPECT_THAT(text, HasSubstr(">130.0</text>"));
+    EXPECT_THAT(text, HasSubstr(">\u221220</text>"));
+    EXPECT_EQ(text, svg(plot));
+    plot.bars.clear();
+    EXPECT_THAT(svg(plot), HasSubstr("</svg>"));
+    plot.bars = {{"x", std::numeric_limits<double>::quiet_NaN(), ""}};
+    EXPECT_THROW(static_cast<void>(svg(plot)), gum::NoResultError);
+}
+
+TEST(SvgPlot, DensityShowsCellsCurveAndIntervals) {
+    const std::string text = svg(density());
+    for (const char* part : {">a &amp; b</text>", ">c</text>", ">trials</text>", ">curve</text>", "<polygon",
+                             "<polyline", "stroke-dasharray", "&lt;d&gt;"}) {
+        EXPECT_THAT(text, HasSubstr(part));
+    }
+    EXPECT_THAT(text, HasSubstr(">5</text>"));  // the axis holds the interval that is wider than the cells
+    DensityPlot empty = density();
+    empty.cells.clear();
+    empty.curve.clear();
+    EXPECT_THAT(svg(empty), Not(HasSubstr("nan")));
+    DensityPlot bad = density();
+    bad.intervals[0].high = std::numeric_limits<double>::infinity();
+    EXPECT_THROW(static_cast<void>(svg(bad)), gum::NoResultError);
+}
+
+TEST(SvgPlot, AnAxisThatIsNoAngleHasDecimalTicks) {
+    Plot plot = one_panel(-2.0, 3.0);
+    EXPECT_THAT(svg(plot), HasSubstr(">90</text>"));
+    plot.x_is_angle = false;
+    EXPECT_THAT(svg(plot), Not(HasSubstr(">90</text>")));
+    EXPECT_THAT(svg(plot), HasSubstr(">150</text>"));
+}
+
 TEST(SvgPlot, RefusesNumbersThatAreNotFinite) {
     for (const double v : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {
         EXPECT_THROW(static_cast<void>(svg(one_panel(0.0, v))), gum::NoResultError);

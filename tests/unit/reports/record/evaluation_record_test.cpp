@@ -1,14 +1,19 @@
 #include "reports/record/evaluation_record.h"
 
 #include "reports/record/canonical_json.h"
+#include "tests/support/sample_budget_record.h"
 #include "tests/support/sample_record.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <string>
+#include <utility>
 
 namespace gumcert::reports {
 namespace {
@@ -166,6 +171,126 @@ TEST(EvaluationRecord, OptionalPartsMayBeNull) {
     r.kind = "budget";
     const std::string text = to_canonical_json(r);
     EXPECT_EQ(to_canonical_json(record_from_json(text, "x")), text);
+}
+
+TEST(BudgetRecord, ReadsBackToTheSameBytes) {
+    for (const EvaluationRecord& r :
+         {test::sample_budget_record(), test::sample_two_results_record(), test::sample_points_record(3)}) {
+        const std::string text = to_canonical_json(r);
+        EXPECT_EQ(to_canonical_json(record_from_json(text, "record.json")), text);
+    }
+    const EvaluationRecord again = record_from_json(to_canonical_json(test::sample_budget_record()), "x");
+    EXPECT_EQ(again.results[0].budget[1].components[2].printed.u, "6.7");
+    EXPECT_EQ(again.results[0].monte_carlo->histogram, test::sample_budget_record().results[0].monte_carlo->histogram);
+    EXPECT_EQ(again.results[0].monte_carlo->numerical_error.shortest[1], 0.55);
+}
+
+TEST(BudgetRecord, HoldsTheKeysOfTheContract) {
+    const json one = json::parse(to_canonical_json(test::sample_budget_record()));
+    const json& l = one["results"]["l"];
+    EXPECT_EQ(l["second_order"]["u"], 33.8);
+    EXPECT_EQ(l["monte_carlo"]["trials"], 1000000);
+    EXPECT_EQ(l["monte_carlo"]["symmetric"][0], 50000745.2);
+    for (const char* key : {"mean", "u", "symmetric", "shortest"}) {
+        EXPECT_TRUE(l["monte_carlo"]["numerical_error"].contains(key)) << key;
+        EXPECT_TRUE(l["monte_carlo"].contains(key)) << key;
+    }
+    for (const char* key : {"delta", "d_low", "d_high", "validated"}) {
+        EXPECT_TRUE(l["monte_carlo"]["validation"].contains(key)) << key;
+    }
+    EXPECT_EQ(l["budget"][1]["components"][0]["input"], "repeatability");
+    EXPECT_TRUE(one["covariance"].is_null());
+    EXPECT_TRUE(one["region"].is_null());
+    const json two = json::parse(to_canonical_json(test::sample_two_results_record()));
+    EXPECT_TRUE(two["results"]["X"]["k"].is_null());
+    EXPECT_TRUE(two["results"]["X"]["U"].is_null());
+    EXPECT_TRUE(two["results"]["R"]["second_order"].is_null());
+    EXPECT_TRUE(two["results"]["R"]["monte_carlo"].is_null());
+    EXPECT_EQ(two["covariance"]["names"], json({"R", "X"}));
+    EXPECT_EQ(two["covariance"]["correlation"][0][1], -0.588);
+    EXPECT_EQ(two["covariance"]["matrix"][1][1], 0.08738);
+    EXPECT_EQ(two["region"]["ellipsoid"]["k_p"], 2.486);
+    EXPECT_EQ(two["region"]["parallelepiped"]["k_q"], 2.211);
+    EXPECT_EQ(two["region"]["smallest_region"]["cells"], 512);
+    EXPECT_EQ(two["fits"][0]["data"]["x"].size(), 11U);
+    EXPECT_EQ(two["readings"][1]["component"], "repeatability");
+    EXPECT_EQ(two["variance_analyses"][0]["printed"]["mean_square"][1], "7.2E-9");
+    EXPECT_EQ(two["model"]["unknowns"][0], "X");
+}
+
+TEST(BudgetRecord, ARecordFromBeforeTheseKeysIsRead) {
+    json r = sample_json();
+    for (const char* key : {"model", "covariance", "region", "fits", "readings", "variance_analyses"}) {
+        r.erase(key);
+    }
+    for (json& result : r["results"]) {
+        for (const char* key :
+             {"coverage", "coverage_note", "correlation", "quantity", "point", "second_order", "monte_carlo"}) {
+            result.erase(key);
+        }
+    }
+    for (json& row : r["comparison"]["reference_budget"]) {
+        row.erase("components");
+        for (const char* key : {"value", "nu", "sensitivity"}) {
+            row["printed"].erase(key);
+        }
+    }
+    EXPECT_EQ(refusal(r.dump()), "accepted");
+}
+
+TEST(BudgetRecord, RefusesPartsThatDoNotFitTogether) {
+    const auto refused = [](const std::function<void(json&)>& alter) {
+        json r = json::parse(to_canonical_json(test::sample_two_results_record()));
+        alter(r);
+        return refusal(r.dump());
+    };
+    EXPECT_THAT(refused([](json& r) { r["covariance"]["matrix"][1].erase(0); }),
+                HasSubstr("GC-RECORD-0017 record.json#/covariance/matrix/1 — 1 items — must be 2, one a name"));
+    EXPECT_THAT(refused([](json& r) { r["covariance"]["correlation"][0][1] = 0.5; }),
+                HasSubstr("record.json#/covariance/correlation/1/0 — -0.588 — a covariance or correlation matrix is "
+                          "symmetric"));
+    EXPECT_THAT(refused([](json& r) { r["covariance"]["names"][0] = "Z"; }),
+                HasSubstr("/covariance/names/0 — \"Z\" — must be the name of a result"));
+    EXPECT_THAT(refused([](json& r) { r["covariance"]["units"].push_back("V"); }), HasSubstr("/covariance/units"));
+    EXPECT_THAT(refused([](json& r) { r["covariance"]["file"] = "c.csv"; }),
+                HasSubstr("because the matrix is in a file"));
+    EXPECT_THAT(refused([](json& r) { r["covariance"]["printed"]["correlation"].clear(); }),
+                HasSubstr("/covariance/printed/correlation"));
+    EXPECT_THAT(refused([](json& r) { r["fits"][0]["data"]["x"].erase(3); }), HasSubstr("/fits/0/data/x — 10 items"));
+    EXPECT_THAT(refused([](json& r) { r["fits"][0]["data"]["residual"].clear(); }), HasSubstr("/fits/0/data/residual"));
+    EXPECT_THAT(refused([](json& r) { r["fits"][0]["correlation"].erase(0); }), HasSubstr("one a parameter"));
+    EXPECT_THAT(refused([](json& r) { r["results"]["R"]["U"] = nullptr; }), HasSubstr("/results/R/U — not stated"));
+    EXPECT_THAT(refused([](json& r) { r["results"]["X"]["U"] = 0.8; }), HasSubstr("/results/X/U — stated"));
+    EXPECT_THAT(refused([](json& r) { r["results"]["X"]["k"] = 2; }), HasSubstr("/results/X/U"));
+    EXPECT_THAT(refused([](json& r) { r["results"]["R"]["coverage"] = "guess"; }), HasSubstr("/results/R/coverage"));
+    EXPECT_THAT(refused([](json& r) { r["region"]["ellipsoid"]["k_p"] = 0; }), HasSubstr("must be greater than 0"));
+    EXPECT_THAT(refused([](json& r) { r["readings"][0]["n"] = 0; }), HasSubstr("/readings/0/n — 0"));
+    const auto trials_refused = [](const std::function<void(json&)>& alter) {
+        json r = json::parse(to_canonical_json(test::sample_budget_record()));
+        alter(r["results"]["l"]["monte_carlo"]);
+        return refusal(r.dump());
+    };
+    EXPECT_THAT(trials_refused([](json& m) { m["trials"] = 10; }),
+                HasSubstr("/histogram/counts — more than the trials"));
+    EXPECT_THAT(trials_refused([](json& m) { m["histogram"]["counts"][0] = -1; }), HasSubstr("must be 0 or greater"));
+    EXPECT_THAT(trials_refused([](json& m) { m["histogram"]["high"] = 0; }), HasSubstr("must be above the low end"));
+    EXPECT_THAT(trials_refused([](json& m) { std::swap(m["shortest"][0], m["shortest"][1]); }),
+                HasSubstr("the lower end of an interval is not above the upper end"));
+}
+
+TEST(BudgetRecord, WriterRefusesPartsThatDoNotFitTogether) {
+    EvaluationRecord r = test::sample_two_results_record();
+    r.covariance->matrix.pop_back();
+    EXPECT_THROW(static_cast<void>(to_canonical_json(r)), gum::NoResultError);
+    r = test::sample_budget_record();
+    r.results[0].U.reset();
+    EXPECT_THROW(static_cast<void>(to_canonical_json(r)), gum::NoResultError);
+    r = test::sample_budget_record();
+    r.results[0].monte_carlo->u = std::numeric_limits<double>::infinity();
+    EXPECT_THROW(static_cast<void>(to_canonical_json(r)), gum::NoResultError);
+    r = test::sample_two_results_record();
+    r.fits[0].y.pop_back();
+    EXPECT_THROW(static_cast<void>(to_canonical_json(r)), gum::NoResultError);
 }
 
 TEST(CanonicalJson, HasOneFormOnly) {

@@ -1,4 +1,5 @@
 #include "reports/record/evaluation_record.h"
+#include "tests/support/sample_budget_record.h"
 #include "tests/support/sample_record.h"
 
 #define VALIJSON_USE_EXCEPTIONS 1
@@ -56,6 +57,48 @@ TEST_F(RecordSchema, AcceptsAWholeRecord) {
     small.rotary.reset();
     small.comparison.reset();
     EXPECT_TRUE(accepts(json::parse(to_canonical_json(small)))) << messages_;
+}
+
+TEST_F(RecordSchema, AcceptsBudgets) {
+    for (const EvaluationRecord& r :
+         {test::sample_budget_record(), test::sample_two_results_record(), test::sample_points_record(2)}) {
+        EXPECT_TRUE(accepts(json::parse(to_canonical_json(r)))) << messages_;
+    }
+}
+
+TEST_F(RecordSchema, RefusesBudgetsThatTheReaderRefuses) {
+    const json one = json::parse(to_canonical_json(test::sample_budget_record()));
+    const json two = json::parse(to_canonical_json(test::sample_two_results_record()));
+    const std::vector<std::pair<const json*, std::function<void(json&)>>> breaks = {
+        {&one, [](json& r) { r["results"]["l"]["monte_carlo"]["symmetric"].push_back(1); }},
+        {&one, [](json& r) { r["results"]["l"]["monte_carlo"]["trials"] = 0; }},
+        {&one, [](json& r) { r["results"]["l"]["monte_carlo"]["numerical_error"]["u"] = -1; }},
+        {&one, [](json& r) { r["results"]["l"]["monte_carlo"]["validation"]["interval"] = "both"; }},
+        {&one, [](json& r) { r["results"]["l"]["monte_carlo"]["printed"].erase("trials"); }},
+        {&one, [](json& r) { r["results"]["l"]["monte_carlo"]["histogram"]["counts"][2] = 1.5; }},
+        {&one, [](json& r) { r["results"]["l"]["second_order"].erase("shift"); }},
+        {&one, [](json& r) { r["results"]["l"]["budget"][1]["components"][0]["type"] = "C"; }},
+        {&one, [](json& r) { r["results"]["l"]["budget"][0]["printed"]["sensitivity"] = 1; }},
+        {&one, [](json& r) { r["model"]["equations"] = "l"; }},
+        {&two, [](json& r) { r["results"]["R"]["coverage"] = "k = 2"; }},
+        {&two, [](json& r) { r["results"]["R"]["correlation"]["extra"] = 1; }},
+        {&two, [](json& r) { r["covariance"].erase("names"); }},
+        {&two, [](json& r) { r["covariance"]["matrix"][0][0] = "1"; }},
+        {&two, [](json& r) { r["region"]["from"] = "guess"; }},
+        {&two, [](json& r) { r["region"]["smallest_region"]["cells_per_axis"][0] = 0; }},
+        {&two, [](json& r) { r["fits"][0]["method"] = "by eye"; }},
+        {&two, [](json& r) { r["fits"][0]["parameters"][0].erase("u"); }},
+        {&two, [](json& r) { r["fits"][0]["data"]["y"] = nullptr; }},
+        {&two, [](json& r) { r["readings"][0]["dependent"] = "no"; }},
+        {&two, [](json& r) { r["variance_analyses"][0]["p_value"] = 1.1; }},
+        {&two, [](json& r) { r["variance_analyses"][0]["conclusion"] = ""; }},
+    };
+    for (std::size_t i = 0; i < breaks.size(); ++i) {
+        json broken = *breaks[i].first;
+        breaks[i].second(broken);
+        EXPECT_FALSE(accepts(broken)) << "break " << i;
+        EXPECT_THROW(static_cast<void>(record_from_json(broken.dump(), "x")), gum::InputError) << "break " << i;
+    }
 }
 
 TEST_F(RecordSchema, RefusesWhatTheReaderRefuses) {

@@ -1,0 +1,753 @@
+#include "reports/certificate_budget_sections.h"
+
+#include "gum/quantity/unit.h"
+#include "gum/rounding.h"
+#include "reports/budget_plots.h"
+#include "reports/svg_plot.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gumcert::reports {
+
+namespace {
+
+constexpr std::size_t k_most_budgets = 12;
+constexpr std::size_t k_most_plots = 4;
+constexpr std::size_t k_most_names = 6;
+constexpr std::size_t k_most_correlated = 8;  // more columns of a matrix do not fit on a page
+
+using Rows = std::vector<std::vector<std::string>>;
+
+/// A number that has no printed form in the record, with two significant digits.
+std::string rounded(double v) {
+    return gum::round_significant(v, 2);
+}
+
+/// True for a unit that is one name, without operators and powers.
+bool is_simple(const std::string& unit) {
+    return !unit.empty() && unit.find_first_of(" /*.()-^0123456789") == std::string::npos &&
+           unit.find("·") == std::string::npos && unit.find("⁻") == std::string::npos &&
+           unit.find("²") == std::string::npos && unit.find("³") == std::string::npos;
+}
+
+/// "25 nm" with a blank that does not break, or the number alone.
+/// \param people  a unit for people; "1/K" becomes "K⁻¹", because a 1 would stand beside the number
+std::string with_unit(const std::string& number, const std::string& people) {
+    if (number.empty() || people.empty()) {
+        return number;
+    }
+    const bool reciprocal = people.starts_with("1/") && is_simple(people.substr(2));
+    return number + "\u00A0" + (reciprocal ? people.substr(2) + "⁻¹" : people);
+}
+
+/// "K²", "(nm/K)²", "" of a unit for people.
+std::string squared(const std::string& people) {
+    return people.empty() ? "" : is_simple(people) ? people + "²" : "(" + people + ")²";
+}
+
+/// "95.45 %"
+std::string percent_text(double probability) {
+    std::string text = fixed(100.0 * probability, 6);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') {
+        text.pop_back();
+    }
+    return text + " %";
+}
+
+std::string nu_text(const std::optional<double>& nu, const Wording& words) {
+    return nu ? degrees_of_freedom(*nu) : words("document", "infinite");
+}
+
+/// "a, b and 3 more"
+std::string listed(const std::vector<std::string>& names, const Wording& words) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(names.size(), k_most_names); ++i) {
+        text += (i == 0 ? "" : ", ") + names[i];
+    }
+    return names.size() <= k_most_names
+               ? text
+               : words.fill("and_more", {{"names", text}, {"count", std::to_string(names.size() - k_most_names)}});
+}
+
+/// Results whose coverage is stated by one sentence.
+struct CoverageGroup {
+    std::string kind;  ///< as `coverage`, but "student_t" for a normal distribution as well
+    double probability = 0.0;
+    std::vector<const Result*> results;
+};
+
+std::string coverage_kind(const Result& r) {
+    return r.coverage == "normal" ? "student_t" : r.coverage;
+}
+
+std::vector<CoverageGroup> coverage_groups(const std::vector<Result>& results) {
+    std::vector<CoverageGroup> groups;
+    for (const Result& r : results) {
+        const std::string kind = coverage_kind(r);
+        const auto found = std::find_if(groups.begin(), groups.end(), [&](const CoverageGroup& g) {
+            return g.kind == kind && (kind == "none" || g.probability == r.coverage_probability);
+        });
+        if (found == groups.end()) {
+            groups.push_back({.kind = kind, .probability = r.coverage_probability, .results = {&r}});
+        } else {
+            found->results.push_back(&r);
+        }
+    }
+    return groups;
+}
+
+/// "(a)", "(b)" …; "" where one sentence is for all.
+std::string mark_of(const Result& r, const std::vector<CoverageGroup>& groups) {
+    for (std::size_t i = 0; groups.size() > 1 && i < groups.size(); ++i) {
+        if (std::find(groups[i].results.begin(), groups[i].results.end(), &r) != groups[i].results.end()) {
+            return i < 26 ? std::string("(") + static_cast<char>('a' + i) + ")" : "(" + std::to_string(i + 1) + ")";
+        }
+    }
+    return "";
+}
+
+/// The sentence that says what U means for the results of a group.
+std::string coverage_sentence(const CoverageGroup& group, const Wording& words) {
+    const std::string p = percent_text(group.probability);
+    if (group.kind == "none") {
+        return words("sentence", "coverage_none");
+    }
+    std::optional<double> k_low;
+    std::optional<double> k_high;
+    std::optional<double> nu_low;
+    bool nu_differs = false;
+    const std::string first_nu = nu_text(group.results.front()->nu_eff, words);
+    for (const Result* r : group.results) {
+        if (r->k) {
+            k_low = k_low ? std::min(*k_low, *r->k) : *r->k;
+            k_high = k_high ? std::max(*k_high, *r->k) : *r->k;
+        }
+        if (r->nu_eff && r->coverage == "student_t") {
+            nu_low = nu_low ? std::min(*nu_low, *r->nu_eff) : *r->nu_eff;
+        }
+        nu_differs = nu_differs || nu_text(r->nu_eff, words) != first_nu;
+    }
+    std::string k = "k";
+    if (k_low) {
+        const std::string low = fixed(*k_low, 2);
+        const std::string high = fixed(*k_high, 2);
+        k = low == high ? words.fill("k_one", {{"k", low}}) : words.fill("k_between", {{"low", low}, {"high", high}});
+    }
+    if (group.kind == "monte_carlo") {
+        return words.fill("coverage_monte_carlo", {{"p", p}});
+    }
+    if (group.kind == "convolution") {
+        return words.fill("coverage_convolution", {{"k", k}, {"p", p}});
+    }
+    if (!nu_low) {
+        return words.fill("coverage_normal", {{"k", k}, {"p", p}});
+    }
+    const std::string nu = nu_differs ? words.fill("nu_between", {{"low", whole_below(*nu_low)}})
+                                      : words.fill("nu_one", {{"nu", degrees_of_freedom(*nu_low)}});
+    return words.fill("coverage_student_t", {{"k", k}, {"nu_eff", nu}, {"p", p}});
+}
+
+void coverage(CertificateBuilder& builder, const Wording& words, const std::vector<Result>& results,
+              const std::vector<CoverageGroup>& groups) {
+    for (const CoverageGroup& group : groups) {
+        const std::string mark = mark_of(*group.results.front(), groups);
+        builder.paragraph((mark.empty() ? "" : mark + " ") + coverage_sentence(group, words));
+    }
+    std::vector<std::pair<std::string, std::vector<std::string>>> notes;
+    for (const Result& r : results) {
+        if (r.coverage_note.empty()) {
+            continue;
+        }
+        const auto found =
+            std::find_if(notes.begin(), notes.end(), [&](const auto& note) { return note.first == r.coverage_note; });
+        (found == notes.end() ? notes.emplace_back(r.coverage_note, std::vector<std::string>()) : *found)
+            .second.push_back(r.name);
+    }
+    constexpr std::size_t k_most_notes = 12;
+    for (std::size_t i = 0; i < std::min(notes.size(), k_most_notes); ++i) {
+        builder.paragraph(
+            words.fill("coverage_note", {{"names", listed(notes[i].second, words)}, {"note", notes[i].first}}));
+    }
+    if (notes.size() > k_most_notes) {
+        builder.paragraph(words.fill("more_notes", {{"count", std::to_string(notes.size() - k_most_notes)}}));
+    }
+}
+
+/// Results, or all points of one quantity.
+struct ResultList {
+    std::string quantity;
+    std::vector<const Result*> results;
+};
+
+void result_table(CertificateBuilder& builder, const Wording& words, const ResultList& list, std::size_t number,
+                  const std::vector<CoverageGroup>& groups) {
+    const bool points = !list.quantity.empty();
+    const std::string unit = list.results.front()->printed.unit;
+    const double p = list.results.front()->coverage_probability;
+    bool described = false;
+    bool one_unit = points;
+    bool without_U = false;
+    bool one_p = true;
+    for (const Result* r : list.results) {
+        described = described || (!points && !r->description.empty());
+        one_unit = one_unit && r->printed.unit == unit;
+        without_U = without_U || r->printed.U.empty();
+        one_p = one_p && r->coverage_probability == p;
+    }
+    std::vector<Column> columns = {{words("label", points ? "point" : "name"), ""}};
+    if (described) {
+        columns.push_back({words("label", "description"), ""});
+    }
+    const std::string head_unit = one_unit ? unit : "";
+    columns.push_back({words("label", "value"), head_unit, true});
+    columns.push_back({words("label", "U"), head_unit, true});
+    if (without_U) {
+        columns.push_back({words("label", "u"), head_unit, true});
+    }
+    if (!one_unit) {
+        columns.push_back({words("label", "unit"), ""});
+    }
+    columns.push_back({words("label", "k"), "", true});
+    columns.push_back({words("label", "nu_eff"), "", true});
+    if (!one_p) {
+        columns.push_back({words("label", "p"), "", true});
+    }
+    if (groups.size() > 1) {
+        columns.push_back({words("label", "coverage_mark"), ""});
+    }
+    Rows rows;
+    for (const Result* r : list.results) {
+        std::vector<std::string> row = {points ? r->point : r->name};
+        if (described) {
+            row.push_back(r->description);
+        }
+        row.push_back(r->printed.value);
+        row.push_back(r->printed.U);
+        if (without_U) {
+            row.push_back(rounded(r->u));
+        }
+        if (!one_unit) {
+            row.push_back(r->printed.unit);
+        }
+        row.push_back(r->k ? fixed(*r->k, 2) : "");
+        row.push_back(coverage_kind(*r) == "student_t" ? nu_text(r->nu_eff, words)
+                      : r->nu_eff                      ? degrees_of_freedom(*r->nu_eff)
+                                                       : "");
+        if (!one_p) {
+            row.push_back(percent_text(r->coverage_probability));
+        }
+        if (groups.size() > 1) {
+            row.push_back(mark_of(*r, groups));
+        }
+        rows.push_back(std::move(row));
+    }
+    builder.table(
+        "results-" + std::to_string(number),
+        points ? words.fill("results_points", {{"quantity", list.quantity}}) : words("sentence", "results_list"),
+        columns, rows);
+}
+
+void results(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    builder.section("results");
+    const std::vector<CoverageGroup> groups = coverage_groups(record.results);
+    std::vector<ResultList> lists;
+    for (const Result& r : record.results) {
+        const std::string quantity = r.point.empty() ? "" : r.quantity.empty() ? r.name : r.quantity;
+        const auto found =
+            std::find_if(lists.begin(), lists.end(), [&](const ResultList& l) { return l.quantity == quantity; });
+        (found == lists.end() ? lists.emplace_back(ResultList{.quantity = quantity, .results = {}}) : *found)
+            .results.push_back(&r);
+    }
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+        result_table(builder, words, lists[i], i, groups);
+    }
+    coverage(builder, words, record.results, groups);
+    builder.paragraph(words("sentence", "validity"));
+}
+
+void model(CertificateBuilder& builder, const Wording& words, const ModelSummary& m) {
+    builder.section("model");
+    builder.paragraph(words("sentence", m.equations.size() == 1 ? "model_one" : "model"));
+    for (const std::string& equation : m.equations) {
+        builder.formula(equation);
+    }
+    if (!m.unknowns.empty()) {
+        std::string names;
+        for (const std::string& unknown : m.unknowns) {
+            names += (names.empty() ? "" : ", ") + unknown;
+        }
+        builder.paragraph(words.fill("unknowns", {{"names", names}}));
+    }
+}
+
+/// Unit of a difference; a unit that nothing is known of stays as it is.
+std::string difference_unit(const std::string& unit) {
+    return unit == "degC" || unit == "celsius" || unit == "Celsius" || unit == "°C" ? "K"
+           : unit == "degF"                                                         ? "delta_degF"
+                                                                                    : unit;
+}
+
+/// Unit of a sensitivity coefficient, for people: what the unit of the result is to that of the input.
+std::string sensitivity_unit(const std::string& result, const std::string& input) {
+    const std::string of = difference_unit(result);
+    const std::string by = difference_unit(input);
+    const auto is_one = [](const std::string& unit) { return unit.empty() || unit == "1"; };
+    if (of == by) {
+        return "";
+    }
+    const std::string above = gum::unit_for_people(of);
+    const std::string below = gum::unit_for_people(by);
+    if (is_one(by)) {
+        return above;
+    }
+    if (by.starts_with("1/") && is_simple(by.substr(2))) {
+        const std::string factor = gum::unit_for_people(by.substr(2));
+        return is_one(of) ? factor : above + "·" + factor;
+    }
+    if (!is_one(of) && by.starts_with(of + "/") && is_simple(by.substr(of.size() + 1))) {
+        return gum::unit_for_people(by.substr(of.size() + 1));
+    }
+    return (is_one(of)         ? "1"
+            : is_simple(above) ? above
+                               : "(" + above + ")") +
+           "/" + (is_simple(below) ? below : "(" + below + ")");
+}
+
+/// "A", "B", or "A, B" of an input that is a sum.
+/// The name of a distribution in the language of the document; one that the program does not name stays as it is.
+std::string distribution_text(const std::string& name, const Wording& words) {
+    constexpr std::array<std::string_view, 14> k_named{
+        "constant",  "normal", "uniform",     "triangular", "arcsine", "trapezoidal", "curvilinear_trapezoid",
+        "student_t", "gamma",  "exponential", "lognormal",  "beta",    "empirical",   "sum"};
+    return std::find(k_named.begin(), k_named.end(), name) == k_named.end() ? name : words("distribution_name", name);
+}
+
+std::string type_of(const BudgetRow& row) {
+    std::set<std::string> types;
+    for (const BudgetRow& part : row.components) {
+        types.insert(part.type);
+    }
+    return types.size() > 1 ? "A, B" : row.type;
+}
+
+std::vector<std::string> budget_line(const BudgetRow& row, const Result& result, bool part, const Wording& words) {
+    const auto bracketed = [&](const std::string& text) { return part && !text.empty() ? "(" + text + ")" : text; };
+    return {row.input,
+            with_unit(row.printed.value, gum::unit_for_people(row.unit)),
+            with_unit(row.printed.u, gum::unit_for_people(difference_unit(row.unit))),
+            distribution_text(row.distribution, words),
+            type_of(row),
+            row.printed.nu.empty() ? nu_text(row.nu, words) : row.printed.nu,
+            with_unit(row.printed.sensitivity, sensitivity_unit(result.unit, row.unit)),
+            bracketed(row.printed.contribution),
+            bracketed(row.printed.share)};
+}
+
+void budget(CertificateBuilder& builder, const Wording& words, const Result& result, std::size_t number) {
+    Rows rows;
+    std::vector<RowKind> kinds;
+    for (const BudgetRow& row : result.budget) {
+        rows.push_back(budget_line(row, result, false, words));
+        kinds.push_back(RowKind::plain);
+        for (const BudgetRow& part : row.components) {
+            rows.push_back(budget_line(part, result, true, words));
+            kinds.push_back(RowKind::part);
+        }
+    }
+    if (result.correlation) {
+        rows.push_back({words("label", "correlation"), "", "", "", "", "", "", result.correlation->printed.contribution,
+                        result.correlation->printed.share});
+        kinds.push_back(RowKind::plain);
+    }
+    const bool nu_known = coverage_kind(result) == "student_t" || result.nu_eff;
+    rows.push_back({result.name, with_unit(result.printed.value, result.printed.unit), "",
+                    distribution_text(result.distribution, words), "", nu_known ? nu_text(result.nu_eff, words) : "",
+                    "", rounded(result.u), "100"});
+    kinds.push_back(RowKind::closing);
+    builder.table("budget-" + std::to_string(number), words.fill("budget_result", {{"name", result.name}}),
+                  {{words("label", "quantity_x"), ""},
+                   {words("label", "estimate_x"), "", true},
+                   {words("label", "u_x"), "", true},
+                   {words("label", "distribution"), ""},
+                   {words("label", "type"), ""},
+                   {words("label", "nu_x"), "", true},
+                   {words("label", "c_x"), "", true},
+                   {words("label", "u_y"), result.printed.unit, true},
+                   {words("label", "share"), "%", true}},
+                  rows, {}, kinds);
+}
+
+/// Where the uncertainties of the inputs come from: standards, instruments, certificates.
+void sources(CertificateBuilder& builder, const Wording& words, const std::vector<const Result*>& shown) {
+    std::vector<std::pair<std::string, std::string>> all;
+    const auto add = [&](const std::string& name, const std::string& source) {
+        const std::pair<std::string, std::string> entry(name, source);
+        if (!source.empty() && std::find(all.begin(), all.end(), entry) == all.end()) {
+            all.push_back(entry);
+        }
+    };
+    for (const Result* result : shown) {
+        for (const BudgetRow& row : result->budget) {
+            add(row.input, row.source);
+            for (const BudgetRow& part : row.components) {
+                add(row.input + ": " + part.input, part.source);
+            }
+        }
+    }
+    if (!all.empty()) {
+        builder.paragraph(words("sentence", "sources"));
+        builder.definitions(all);
+    }
+}
+
+void budgets(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    std::vector<const Result*> with_budget;
+    bool parts = false;
+    bool correlated = false;
+    for (const Result& r : record.results) {
+        if (!r.budget.empty()) {
+            with_budget.push_back(&r);
+            correlated = correlated || r.correlation.has_value();
+            for (const BudgetRow& row : r.budget) {
+                parts = parts || !row.components.empty();
+            }
+        }
+    }
+    if (with_budget.empty()) {
+        return;
+    }
+    builder.section("uncertainty");
+    builder.paragraph(words("sentence", "budget"));
+    if (parts) {
+        builder.paragraph(words("sentence", "budget_parts"));
+    }
+    if (correlated) {
+        builder.paragraph(words("sentence", "budget_correlation"));
+    }
+    const std::size_t count = with_budget.size();
+    if (count > k_most_budgets) {
+        with_budget.resize(k_most_budgets);
+        builder.paragraph(
+            words.fill("first_budgets", {{"shown", std::to_string(k_most_budgets)}, {"count", std::to_string(count)}}));
+    }
+    for (std::size_t i = 0; i < with_budget.size(); ++i) {
+        budget(builder, words, *with_budget[i], i);
+        if (i < k_most_plots && with_budget[i]->budget.size() > 1) {
+            const BarPlot plot = share_plot(*with_budget[i], words, "plot-shares-" + std::to_string(i));
+            builder.figure(plot.id, words.fill("figure_shares", {{"name", with_budget[i]->name}}), plot.description,
+                           svg(plot));
+        }
+    }
+    sources(builder, words, with_budget);
+}
+
+void second_order(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    Rows rows;
+    for (const Result& r : record.results) {
+        if (r.second_order) {
+            rows.push_back(
+                {r.name, rounded(r.u), r.second_order->printed.u, r.second_order->printed.shift, r.printed.unit});
+        }
+    }
+    if (rows.empty()) {
+        return;
+    }
+    builder.section("second_order");
+    builder.paragraph(words("sentence", "second_order"));
+    builder.table("second-order", words("sentence", "second_order_table"),
+                  {{words("label", "name"), ""},
+                   {words("label", "u_first"), "", true},
+                   {words("label", "u_second"), "", true},
+                   {words("label", "shift"), "", true},
+                   {words("label", "unit"), ""}},
+                  rows);
+}
+
+const char* verdict_of(const GufValidation& v) {
+    return !v.precise_enough ? "not_precise" : v.validated ? "validated" : "not_validated";
+}
+
+void monte_carlo_of(CertificateBuilder& builder, const Wording& words, const Result& result, std::size_t number) {
+    const MonteCarloSummary& m = *result.monte_carlo;
+    const auto& error = m.numerical_error;
+    const std::string p = percent_text(result.coverage_probability);
+    const std::string id = std::to_string(number);
+    builder.table(
+        "monte-carlo-" + id,
+        words.fill("monte_carlo_table",
+                   {{"name", result.name}, {"trials", m.printed.trials}, {"seed", std::to_string(m.seed)}, {"p", p}}),
+        {{words("label", "quantity"), ""},
+         {words("label", "value"), result.printed.unit, true},
+         {words("label", "numerical_error"), result.printed.unit, true}},
+        {{words("label", "mean_trials"), m.printed.mean, rounded(error.mean)},
+         {words("label", "u_trials"), m.printed.u, rounded(error.u)},
+         {words("label", "symmetric_low"), m.printed.symmetric[0], rounded(error.symmetric[0])},
+         {words("label", "symmetric_high"), m.printed.symmetric[1], rounded(error.symmetric[1])},
+         {words("label", "shortest_low"), m.printed.shortest[0], rounded(error.shortest[0])},
+         {words("label", "shortest_high"), m.printed.shortest[1], rounded(error.shortest[1])}});
+    if (m.adaptive) {
+        builder.paragraph(words("sentence", m.stabilised ? "stabilised" : "not_stabilised"));
+    }
+    if (m.validation) {
+        const GufValidation& v = *m.validation;
+        builder.paragraph(words.fill(verdict_of(v), {{"name", result.name},
+                                                     {"d_low", with_unit(v.printed.d_low, result.printed.unit)},
+                                                     {"d_high", with_unit(v.printed.d_high, result.printed.unit)},
+                                                     {"delta", with_unit(v.printed.delta, result.printed.unit)},
+                                                     {"digits", std::to_string(v.digits)},
+                                                     {"interval", words("value", "interval", v.interval)}}));
+    }
+    if (!m.histogram.empty() && number < k_most_plots) {
+        const DensityPlot plot = monte_carlo_plot(result, words, "plot-monte-carlo-" + id);
+        builder.figure(plot.id, words.fill("figure_monte_carlo", {{"name", result.name}}), plot.description, svg(plot));
+    }
+}
+
+void monte_carlo(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    std::vector<const Result*> all;
+    for (const Result& r : record.results) {
+        if (r.monte_carlo) {
+            all.push_back(&r);
+        }
+    }
+    if (all.empty()) {
+        return;
+    }
+    builder.section("monte_carlo");
+    builder.paragraph(words("sentence", "monte_carlo"));
+    const bool few = all.size() <= k_most_budgets;
+    for (std::size_t i = 0; i < (few ? all.size() : 0); ++i) {
+        monte_carlo_of(builder, words, *all[i], i);
+    }
+    if (few) {
+        return;
+    }
+    Rows rows;
+    std::map<std::string, std::size_t> verdicts;
+    for (const Result* r : all) {
+        const MonteCarloSummary& m = *r->monte_carlo;
+        const std::string verdict = m.validation ? verdict_of(*m.validation) : "";
+        ++verdicts[verdict];
+        rows.push_back({r->name, m.printed.trials, m.printed.mean, m.printed.u, m.printed.symmetric[0],
+                        m.printed.symmetric[1], m.printed.shortest[0], m.printed.shortest[1], r->printed.unit,
+                        verdict.empty() ? "" : words("value", "verdict", verdict)});
+    }
+    builder.table("monte-carlo", words("sentence", "monte_carlo_list"),
+                  {{words("label", "name"), ""},
+                   {words("label", "trials"), "", true},
+                   {words("label", "mean_short"), "", true},
+                   {words("label", "u"), "", true},
+                   {words("label", "low"), "", true},
+                   {words("label", "high"), "", true},
+                   {words("label", "low"), "", true},
+                   {words("label", "high"), "", true},
+                   {words("label", "unit"), ""},
+                   {words("label", "verdict"), ""}},
+                  rows, {{"", 4}, {words("label", "symmetric"), 2}, {words("label", "shortest"), 2}, {"", 2}});
+    if (verdicts.size() > 1 || !verdicts.contains("")) {
+        builder.paragraph(words.fill("verdict_counts", {{"validated", std::to_string(verdicts["validated"])},
+                                                        {"not_validated", std::to_string(verdicts["not_validated"])},
+                                                        {"not_precise", std::to_string(verdicts["not_precise"])}}));
+    }
+}
+
+void region(CertificateBuilder& builder, const Wording& words, const CoverageRegion& r) {
+    builder.paragraph(words.fill(
+        "region", {{"p", percent_text(r.coverage_probability)}, {"from", words("value", "region_from", r.from)}}));
+    std::vector<std::pair<std::string, std::string>> rows = {
+        {words("label", "ellipsoid"),
+         r.k_p ? words.fill("ellipsoid", {{"k_p", r.printed.k_p}}) : words("sentence", "no_ellipsoid")},
+        {words("label", "parallelepiped"),
+         r.k_q ? words.fill("parallelepiped", {{"k_q", r.printed.k_q}}) : words("sentence", "no_parallelepiped")}};
+    if (r.degrees_of_freedom) {
+        rows.emplace_back(words("label", "region_nu"), degrees_of_freedom(*r.degrees_of_freedom));
+    }
+    if (r.smallest_region) {
+        rows.emplace_back(words("label", "smallest_region"),
+                          words.fill("smallest_region", {{"volume", rounded(r.smallest_region->volume)},
+                                                         {"cells", std::to_string(r.smallest_region->cells)},
+                                                         {"p", percent_text(r.smallest_region->probability)}}));
+    }
+    builder.definitions(rows);
+}
+
+void joint(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    if (!record.covariance && !record.region) {
+        return;
+    }
+    builder.section("joint");
+    if (record.covariance) {
+        const ResultCovariance& c = *record.covariance;
+        if (!c.file.empty()) {
+            builder.paragraph(words.fill("covariance", {{"file", c.file}}));
+        } else if (c.names.size() > k_most_correlated) {
+            builder.paragraph(words.fill("covariance_in_record", {{"count", std::to_string(c.names.size())}}));
+        } else {
+            std::vector<Column> columns = {{words("label", "name"), ""}};
+            Rows rows;
+            for (std::size_t i = 0; i < c.names.size(); ++i) {
+                columns.push_back({c.names[i], "", true});
+                rows.push_back({c.names[i]});
+                rows.back().insert(rows.back().end(), c.printed_correlation[i].begin(), c.printed_correlation[i].end());
+            }
+            builder.table("correlation", words("sentence", "correlation_table"), columns, rows);
+        }
+    }
+    if (record.region) {
+        region(builder, words, *record.region);
+    }
+}
+
+void fit(CertificateBuilder& builder, const Wording& words, const FitSummary& f, std::size_t number) {
+    const bool weighted = f.method != "ordinary";
+    builder.paragraph(words.fill("fit", {{"name", f.name}, {"method", words("value", "fit_method", f.method)}}));
+    builder.formula(f.equation);
+    std::vector<Column> columns = {{words("label", "parameter"), ""},
+                                   {words("label", "value"), "", true},
+                                   {words("label", "u"), "", true},
+                                   {words("label", "unit"), ""}};
+    const bool correlated = f.parameters.size() > 1 && f.parameters.size() <= k_most_correlated - 2;
+    Rows rows;
+    for (std::size_t i = 0; i < f.parameters.size(); ++i) {
+        const FitSummary::Parameter& parameter = f.parameters[i];
+        rows.push_back({parameter.name, parameter.printed.value, parameter.printed.u, parameter.printed.unit});
+        if (correlated) {
+            columns.push_back({words.filled("label", "r_with", {{"name", parameter.name}}), "", true});
+            for (std::size_t j = 0; j < f.parameters.size(); ++j) {
+                rows.back().push_back(i == j ? "1" : gum::round_to_quantum(f.correlation[i][j], 4));
+            }
+        }
+    }
+    const std::string id = std::to_string(number);
+    builder.table("fit-" + id, words.fill("fit_table", {{"name", f.name}}), columns, rows);
+    const std::string y_unit = gum::unit_for_people(f.y_unit);
+    std::vector<std::pair<std::string, std::string>> facts = {
+        {words("label", "observations_of_fit"), std::to_string(f.y.size())},
+        {words("label", "degrees_of_freedom"), fixed(f.degrees_of_freedom, 0)},
+        {words("label", weighted ? "residual_factor" : "residual_standard_deviation"),
+         with_unit(f.printed.residual_standard_deviation, weighted ? "" : y_unit)},
+        {words("label", weighted ? "chi_square" : "sum_of_squares"),
+         with_unit(f.printed.sum_of_squares, weighted ? "" : squared(y_unit))}};
+    if (f.p_value) {
+        facts.emplace_back(words("label", "p_value"), f.printed.p_value);
+    }
+    facts.emplace_back(words("label", "r_squared"), f.printed.r_squared);
+    facts.emplace_back(words("label", "fit_uncertainty"),
+                       words("value", f.covariance_scaled ? "scaled_by_residuals" : "as_stated_uncertainties"));
+    builder.definitions(facts);
+    if (!f.residual.empty()) {
+        const Plot plot = residual_plot(f, words, "plot-residuals-" + id);
+        builder.figure(plot.id, words.fill("figure_residuals", {{"name", f.name}}), plot.description, svg(plot));
+    }
+}
+
+void fits(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    if (record.fits.empty()) {
+        return;
+    }
+    builder.section("fits");
+    for (std::size_t i = 0; i < record.fits.size(); ++i) {
+        fit(builder, words, record.fits[i], i);
+    }
+}
+
+std::string part_name(const std::string& input, const std::string& component) {
+    return component.empty() ? input : input + ": " + component;
+}
+
+void readings(CertificateBuilder& builder, const Wording& words, const std::vector<ReadingsSummary>& all) {
+    const bool pooled =
+        std::any_of(all.begin(), all.end(), [](const auto& r) { return r.pooled_standard_deviation.has_value(); });
+    Rows rows;
+    for (const ReadingsSummary& r : all) {
+        std::vector<std::string> row = {part_name(r.input, r.component),
+                                        plain(r.n),
+                                        r.printed.mean,
+                                        r.printed.standard_deviation,
+                                        r.printed.standard_deviation_of_mean,
+                                        gum::unit_for_people(r.unit),
+                                        r.printed.r1,
+                                        r.printed.limit,
+                                        words("value", r.dependent ? "dependent" : "independent")};
+        if (pooled) {
+            row.insert(row.begin() + 5, r.pooled_standard_deviation ? rounded(*r.pooled_standard_deviation) : "");
+        }
+        rows.push_back(std::move(row));
+    }
+    std::vector<Column> columns = {
+        {words("label", "input"), ""},    {words("label", "n"), "", true},        {words("label", "mean"), "", true},
+        {words("label", "s"), "", true},  {words("label", "s_mean"), "", true},   {words("label", "unit"), ""},
+        {words("label", "r1"), "", true}, {words("label", "r1_limit"), "", true}, {words("label", "dependence"), ""}};
+    if (pooled) {
+        columns.insert(columns.begin() + 5, {words("label", "s_pooled"), "", true});
+    }
+    builder.table("readings", words("sentence", "readings"), columns, rows);
+}
+
+void variance_analysis(CertificateBuilder& builder, const Wording& words, const VarianceAnalysis& v,
+                       std::size_t number) {
+    const std::string unit = gum::unit_for_people(v.unit);
+    builder.table(
+        "anova-" + std::to_string(number),
+        words.fill(
+            "anova",
+            {{"name", part_name(v.input, v.component)}, {"groups", plain(v.groups)}, {"readings", plain(v.readings)}}),
+        {{words("label", "variation"), ""},
+         {words("label", "sum_of_squares_short"), squared(unit), true},
+         {words("label", "nu"), "", true},
+         {words("label", "mean_square"), squared(unit), true},
+         {words("label", "F"), "", true},
+         {words("label", "F_critical"), "", true},
+         {words("label", "p_value_short"), "", true}},
+        {{words("label", "between"), rounded(v.sum_of_squares_between), whole_below(v.degrees_of_freedom_between),
+          v.printed.mean_square[0], v.printed.F, v.printed.F_critical, v.printed.p_value},
+         {words("label", "within"), rounded(v.sum_of_squares_within), whole_below(v.degrees_of_freedom_within),
+          v.printed.mean_square[1], "", "", ""}});
+    builder.definitions({{words("label", "mean"), with_unit(v.printed.mean, unit)},
+                         {words("label", "s_within"), with_unit(v.printed.within, unit)},
+                         {words("label", "s_group_means"), with_unit(v.printed.group_means, unit)},
+                         {words("label", "s_between"), with_unit(v.printed.between, unit)},
+                         {words("label", "u_with_between"), with_unit(rounded(v.u_with_between_effect), unit)},
+                         {words("label", "u_without_between"), with_unit(rounded(v.u_without_between_effect), unit)}});
+    builder.paragraph(words("sentence", v.conclusion == "significant" ? "anova_significant" : "anova_not_significant"));
+}
+
+void type_a(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    if (record.readings.empty() && record.variance_analyses.empty()) {
+        return;
+    }
+    builder.section("type_a");
+    if (!record.readings.empty()) {
+        readings(builder, words, record.readings);
+    }
+    for (std::size_t i = 0; i < record.variance_analyses.size(); ++i) {
+        variance_analysis(builder, words, record.variance_analyses[i], i);
+    }
+}
+
+}  // namespace
+
+void budget_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    results(builder, words, record);
+    if (record.model) {
+        model(builder, words, *record.model);
+    }
+    budgets(builder, words, record);
+    second_order(builder, words, record);
+    monte_carlo(builder, words, record);
+    joint(builder, words, record);
+    fits(builder, words, record);
+    type_a(builder, words, record);
+}
+
+}  // namespace gumcert::reports

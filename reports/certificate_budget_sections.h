@@ -1,0 +1,15 @@
+#pragma once
+
+#include "reports/certificate_builder.h"
+#include "reports/record/evaluation_record.h"
+#include "reports/wording.h"
+
+namespace gumcert::reports {
+
+/// The sections of a record whose results come from a measurement model: results with the sentences on coverage, the
+/// model, budgets in the layout of JCGM 100:2008, table H.1, and, where the record holds them, second-order terms,
+/// Monte Carlo, covariances and coverage region, fits, readings and analyses of variance.
+/// \throws gum::StorageError if the wording lacks a text
+void budget_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record);
+
+}  // namespace gumcert::reports

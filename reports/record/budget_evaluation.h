@@ -1,0 +1,150 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gumcert::reports {
+
+// What a record of kind "budget" holds beside the results.
+
+/// Second-order terms of the law of propagation (JCGM 100:2008, 5.1.2 note), in the unit of the result.
+struct SecondOrder {
+    double u = 0.0;      ///< standard uncertainty with first- and second-order terms
+    double shift = 0.0;  ///< expectation of the output minus its value at the estimates
+    struct {
+        std::string u, shift;
+    } printed;
+};
+
+/// Comparison of the law of propagation with Monte Carlo (JCGM 101:2008, clause 8), in the unit of the result.
+struct GufValidation {
+    double delta = 0.0, d_low = 0.0, d_high = 0.0;
+    bool validated = false;
+    bool precise_enough = false;  ///< numerical error of the ends of the interval below delta/5
+    std::string interval;         ///< which Monte Carlo interval was compared: "symmetric" or "shortest"
+    std::int64_t digits = 2;
+    struct {
+        std::string delta, d_low, d_high;
+    } printed;
+};
+
+/// Monte Carlo of one result (JCGM 101:2008, clause 7), in the unit of the result.
+struct MonteCarloSummary {
+    std::int64_t trials = 0, seed = 1;
+    double mean = 0.0, u = 0.0;
+    std::array<double, 2> symmetric{}, shortest{};
+    struct {
+        double mean = 0.0, u = 0.0;
+        std::array<double, 2> symmetric{}, shortest{};
+    } numerical_error;  ///< standard uncertainty of each number, from the finite number of trials
+    bool adaptive = false, stabilised = true;
+    std::optional<GufValidation> validation;
+    /// Counts of the trials in cells of equal width, for the plot; empty: none.
+    double histogram_low = 0.0, histogram_high = 0.0;
+    std::vector<std::int64_t> histogram;
+    struct {
+        std::string mean, u, trials;
+        std::array<std::string, 2> symmetric, shortest;
+    } printed;
+};
+
+/// Covariance of results, in the products of their units.
+struct ResultCovariance {
+    std::vector<std::string> names;
+    std::vector<std::string> units;
+    std::vector<std::vector<double>> matrix, correlation;
+    std::vector<std::vector<std::string>> printed_correlation;
+    std::string file;  ///< CSV beside the record, where the matrices are too large for it and left out here; else ""
+};
+
+/// Joint coverage region of all outputs (JCGM 102:2011, 6.5 and 7.7).
+struct CoverageRegion {
+    double coverage_probability = 0.9545;
+    std::string from;                          ///< "law of propagation" or "Monte Carlo"
+    std::optional<double> degrees_of_freedom;  ///< of the covariance matrix; none = infinite
+    std::optional<double> k_p;                 ///< hyper-ellipsoid; none where the covariance is singular
+    std::optional<double> k_q;                 ///< hyper-rectangle
+    struct SmallestRegion {
+        double volume = 0.0, probability = 0.0;
+        std::int64_t cells = 0;
+        std::vector<std::int64_t> cells_per_axis;
+    };
+    std::optional<SmallestRegion> smallest_region;
+    struct {
+        std::string k_p, k_q;
+    } printed;
+};
+
+/// A least-squares fit whose parameters are inputs of the model, or results.
+struct FitSummary {
+    std::string name, equation;
+    std::string method;  ///< "ordinary", "weighted", "generalised", "errors in both variables"
+    struct Parameter {
+        std::string name, unit;
+        double value = 0.0, u = 0.0;
+        struct {
+            std::string value, u, unit;
+        } printed;
+    };
+    std::vector<Parameter> parameters;
+    std::vector<std::vector<double>> covariance, correlation;  ///< in the units of the parameters
+    double degrees_of_freedom = 0.0;
+    double sum_of_squares = 0.0;               ///< of the residuals in the unit of y, or chi-square where weighted
+    double residual_standard_deviation = 0.0;  ///< in `y_unit`; [1] where weighted
+    double r_squared = 0.0, condition_number = 0.0;
+    std::optional<double> p_value;  ///< of chi-square, where the uncertainties were stated
+    std::int64_t iterations = 0;
+    bool covariance_scaled = false;              ///< by the residuals
+    std::string x_name, x_unit, y_name, y_unit;  ///< x_name is "" where there are several regressors
+    std::vector<double> x, y, fitted, residual;  ///< in x_unit and y_unit
+    struct {
+        std::string residual_standard_deviation, sum_of_squares, p_value, r_squared;
+    } printed;
+};
+
+/// Readings of one input, what they say of its uncertainty (JCGM 100:2008, 4.2), in the unit of the input.
+struct ReadingsSummary {
+    std::string input, component, unit;
+    std::int64_t n = 0;
+    double mean = 0.0, standard_deviation = 0.0, standard_deviation_of_mean = 0.0;
+    std::optional<double> pooled_standard_deviation;
+    std::vector<double> autocorrelation;  ///< coefficients of lag 0, 1, 2 …; empty where all readings are equal
+    double autocorrelation_limit = 0.0;   ///< |r1| above it says that the readings depend on each other
+    bool dependent = false;
+    struct {
+        std::string mean, standard_deviation, standard_deviation_of_mean, r1, limit;
+    } printed;
+};
+
+/// One-way analysis of variance of grouped readings (JCGM 100:2008, H.5), in the unit of the input.
+struct VarianceAnalysis {
+    std::string input, component, unit;
+    std::int64_t groups = 0, readings = 0;
+    double mean = 0.0;
+    double sum_of_squares_between = 0.0, sum_of_squares_within = 0.0;
+    double degrees_of_freedom_between = 0.0, degrees_of_freedom_within = 0.0;
+    double mean_square_between = 0.0, mean_square_within = 0.0;
+    double F = 0.0, p_value = 0.0, F_critical = 0.0;  ///< critical at 5 %
+    double r_squared = 0.0;
+    double standard_deviation_within = 0.0;          ///< s_w, pooled
+    double standard_deviation_of_group_means = 0.0;  ///< s(V̄_j)
+    double standard_deviation_between = 0.0;         ///< component of variance s_B, 0 where its square is negative
+    double u_with_between_effect = 0.0;              ///< s(V̄_j)/√J, J − 1 degrees of freedom
+    double u_without_between_effect = 0.0;           ///< pooled, N − 1 degrees of freedom
+    std::string conclusion;                          ///< "significant" or "not significant"
+    struct {
+        std::string mean, F, F_critical, p_value, within, between, group_means;
+        std::array<std::string, 2> mean_square;
+    } printed;
+};
+
+/// The model of a budget as the job states it.
+struct ModelSummary {
+    std::vector<std::string> equations;
+    std::vector<std::string> unknowns;  ///< of implicit equations
+};
+
+}  // namespace gumcert::reports
