@@ -1,8 +1,11 @@
 #include "app/evaluate_job.h"
 
+#include "app/budget_record.h"
+#include "app/evaluate_budget.h"
 #include "app/file_digest.h"
 #include "app/rotary_table_record.h"
 #include "engine/contact_point_model.h"
+#include "engine/job/budget_job.h"
 #include "engine/job/rotary_table_job.h"
 #include "engine/rotary_table_evaluation.h"
 #include "engine/sequential_evaluation.h"
@@ -13,16 +16,51 @@ namespace gumcert::app {
 
 namespace {
 
+// Covariances of more results than this stand in a file of their own; of more than the second number, nowhere.
+constexpr std::size_t k_most_results_in_record = 100;
+constexpr std::size_t k_most_correlated_results = 2000;
+
 constexpr double k_detection_power = 0.8;  // of the minimal detectable bias, as Baarda chose it
+
+std::vector<reports::InputFile> digests(const std::filesystem::path& job_file, const std::vector<std::string>& names) {
+    std::vector<reports::InputFile> files;
+    for (const std::string& name : names) {
+        files.push_back({name, sha256(read_file(job_file.parent_path() / name))});
+    }
+    return files;
+}
+
+Evaluation evaluate_budget_job(const std::filesystem::path& job_file, const std::string& covariance_file,
+                               unsigned threads, const Progress& progress) {
+    const engine::BudgetJob job = engine::read_budget_job(job_file);
+    BudgetResult result = evaluate_budget(job, threads, progress);
+    const std::size_t results = result.points.size() * result.output_names.size();
+    Eigen::MatrixXd covariance;
+    if (results > 1 && results <= k_most_correlated_results) {
+        covariance = budget_covariance(result);
+    } else if (results > 1) {
+        result.notes.push_back({.code = "GC-BUDGET-0040",
+                                .where = "covariance of the results",
+                                .what = std::to_string(results) + " results",
+                                .rule = "it is written for up to 2000 results",
+                                .action = "Split the table of points where the covariance between points is needed.",
+                                .severity = gum::Severity::note});
+    }
+    Evaluation evaluation;
+    const bool in_file = results > k_most_results_in_record && covariance.size() > 0 && !covariance_file.empty();
+    if (in_file) {
+        evaluation.covariance_csv = budget_covariance_csv(job, result, covariance);
+    }
+    evaluation.record =
+        budget_record(job, result, digests(job_file, job.files), covariance, in_file ? covariance_file : "");
+    evaluation.negative = result.validation_failed;
+    return evaluation;
+}
 
 Evaluation evaluate_rotary_table(const std::filesystem::path& job_file, const std::string& covariance_file,
                                  const Progress& progress) {
     const engine::RotaryTableJob job = engine::read_rotary_table_job(job_file);
-    std::vector<reports::InputFile> files;
-    for (const std::string& name : job.files) {
-        files.push_back({name, sha256(read_file(job_file.parent_path() / name))});
-    }
-
+    const std::vector<reports::InputFile> files = digests(job_file, job.files);
     const engine::RotaryTableMeasurement& measurement = job.measurement;
     engine::EvaluationOptions options;
     options.critical_value = gum::two_sided_normal_critical_value(measurement.outliers.alpha);
@@ -60,7 +98,7 @@ std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_
     return files;
 }
 
-Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string& covariance_file,
+Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string& covariance_file, unsigned threads,
                         const Progress& progress) {
     std::string kind;
     try {
@@ -69,13 +107,16 @@ Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string
         (void)engine::read_rotary_table_job(job_file);  // tells the other problems of the job together with this one
         throw;
     }
-    if (kind != "rotary_table") {
-        throw gum::InputError(gum::Diagnostic{"GC-INPUT-0900", job_file.string() + "#/kind",
-                                              "\"" + kind + "\" cannot be evaluated by this version",
-                                              "this version evaluates jobs of kind \"rotary_table\"",
-                                              "see CHANGELOG.md for what each version brings", gum::Severity::error});
+    if (kind == "budget") {
+        return evaluate_budget_job(job_file, covariance_file, threads, progress);
     }
-    return evaluate_rotary_table(job_file, covariance_file, progress);
+    if (kind == "rotary_table") {
+        return evaluate_rotary_table(job_file, covariance_file, progress);
+    }
+    throw gum::InputError(gum::Diagnostic{"GC-INPUT-0900", job_file.string() + "#/kind",
+                                          "\"" + kind + "\" cannot be evaluated by this version",
+                                          "this version evaluates jobs of the kinds \"budget\" and \"rotary_table\"",
+                                          "see CHANGELOG.md for what each version brings", gum::Severity::error});
 }
 
 }  // namespace gumcert::app

@@ -11,7 +11,8 @@ namespace gumcert::app {
 
 struct Evaluation {
     reports::EvaluationRecord record;
-    std::string covariance_csv;  ///< contents of the file that the record names
+    std::string covariance_csv;  ///< contents of the file that the record names; empty: there is none
+    bool negative = false;       ///< evaluated, and the answer is no: not validated where validation was demanded
 };
 
 /// The files that a record names as read, as paths beside the job.
@@ -24,8 +25,9 @@ using Progress = std::function<void(const std::string&)>;
 /// Reads a job with all its files, evaluates it and makes its record. Writes nothing.
 ///
 /// \param covariance_file  name that the covariance file will have beside the record; "" when none will be written
+/// \param threads          of Monte Carlo; 0: as many as the machine has. Results do not depend on it
 /// \throws gum::InputError, gum::NoResultError, gum::StorageError
 [[nodiscard]] Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string& covariance_file,
-                                      const Progress& progress = {});
+                                      unsigned threads, const Progress& progress = {});
 
 }  // namespace gumcert::app

@@ -29,6 +29,7 @@ using namespace gumcert;  // NOLINT(google-build-using-namespace): one program, 
 
 enum ExitCode : int {
     done = 0,
+    negative_answer = 1,
     usage = 2,
     input_refused = 3,
     no_result = 4,
@@ -39,7 +40,7 @@ enum ExitCode : int {
 struct CommonOptions {
     bool quiet = false;
     bool json_messages = false;
-    int threads = 1;
+    int threads = 0;  // 0: as many as the machine has
 };
 
 /// A terminal that is gone or full must not change the exit code.
@@ -174,6 +175,42 @@ std::string render(const reports::EvaluationRecord& record, const std::string& f
 }
 
 /// Headline numbers of a record, for the terminal.
+/// "k = 2.92, p = 99 %": how the expanded uncertainty was found.
+std::string coverage_text(const reports::Result& result) {
+    std::string text = result.k ? fmt::format("k = {:.2f}, ", *result.k) : "";
+    return text + fmt::format("p = {:.4g} %", 100.0 * result.coverage_probability);
+}
+
+/// Results of a budget, one a line; of a long table of points the first ones.
+void print_results(const reports::EvaluationRecord& record) {
+    constexpr std::size_t k_most_lines = 30;
+    for (std::size_t i = 0; i < record.results.size() && i < k_most_lines; ++i) {
+        const reports::Result& result = record.results[i];
+        const std::string unit = result.printed.unit.empty() ? "" : " " + result.printed.unit;
+        if (result.U) {
+            fmt::print("  {} = {} ± {}{}", result.name, result.printed.value, result.printed.U, unit);
+            fmt::print("   ({})\n", coverage_text(result));
+        } else {
+            fmt::print("  {} = {}{}   no expanded uncertainty can be stated\n", result.name, result.printed.value,
+                       unit);
+        }
+        if (result.monte_carlo) {
+            const reports::MonteCarloSummary& monte_carlo = *result.monte_carlo;
+            fmt::print("      Monte Carlo, {} trials: u = {}, interval {} to {}", monte_carlo.printed.trials,
+                       monte_carlo.printed.u, monte_carlo.printed.symmetric[0], monte_carlo.printed.symmetric[1]);
+            if (monte_carlo.validation) {
+                fmt::print("{}", !monte_carlo.validation->precise_enough ? "; too few trials to validate"
+                                 : monte_carlo.validation->validated     ? "; law of propagation validated"
+                                                                         : "; law of propagation NOT validated");
+            }
+            fmt::print("\n");
+        }
+    }
+    if (record.results.size() > k_most_lines) {
+        fmt::print("  … and {} more, all of them in the record\n", record.results.size() - k_most_lines);
+    }
+}
+
 void print_summary(const reports::EvaluationRecord& record) {
     if (!record.title.empty()) {
         fmt::print("{}\n\n", record.title);
@@ -201,6 +238,9 @@ void print_summary(const reports::EvaluationRecord& record) {
         fmt::print("Outlying distances: {} found, {} left out (listed in the certificate)\n", rotary.flagged.size(),
                    removed);
     }
+    if (record.kind == "budget") {
+        print_results(record);
+    }
     if (record.comparison) {
         fmt::print("\nComparison with {}:\n", record.comparison->reference_name);
         for (const reports::ComparisonSummary& row : record.comparison->summary) {
@@ -223,19 +263,21 @@ void report_diagnostics(const reports::EvaluationRecord& record, const CommonOpt
     throw gum::UsageError(gum::Diagnostic{"GC-USAGE-0001", where, what, rule, action, gum::Severity::error});
 }
 
-void run_job(const fs::path& job, const std::string& output, const std::string& share, const CommonOptions& common) {
+/// \return true when the answer is negative
+bool run_job(const fs::path& job, const std::string& output, const std::string& share, const CommonOptions& common) {
     const fs::path folder = output.empty() ? job.parent_path() / (job.stem().string() + "-out") : fs::path(output);
     app::require_writable(folder / "record.json");
     ProgressLine progress(!common.quiet);
-    const app::Evaluation evaluation =
-        app::evaluate_job(job, "covariance.csv", [&](const std::string& text) { progress(text); });
+    const app::Evaluation evaluation = app::evaluate_job(job, "covariance.csv", static_cast<unsigned>(common.threads),
+                                                         [&](const std::string& text) { progress(text); });
     const reports::RenderAssets with = assets(share, "en");
     progress("documents");
-    const std::vector<app::OutputFile> files{
-        {folder / "record.json", reports::to_canonical_json(evaluation.record)},
-        {folder / "covariance.csv", evaluation.covariance_csv},
-        {folder / "certificate.html", reports::render_html(evaluation.record, with)},
-        {folder / "certificate.pdf", reports::render_pdf(evaluation.record, with)}};
+    std::vector<app::OutputFile> files{{folder / "record.json", reports::to_canonical_json(evaluation.record)}};
+    if (!evaluation.covariance_csv.empty()) {
+        files.push_back({folder / "covariance.csv", evaluation.covariance_csv});
+    }
+    files.push_back({folder / "certificate.html", reports::render_html(evaluation.record, with)});
+    files.push_back({folder / "certificate.pdf", reports::render_pdf(evaluation.record, with)});
     for (const app::OutputFile& file : files) {
         app::require_not_an_input(file.path, app::input_files(job, evaluation.record));
     }
@@ -249,9 +291,10 @@ void run_job(const fs::path& job, const std::string& output, const std::string& 
             fmt::print("  {}\n", file.path.string());
         }
     }
+    return evaluation.negative;
 }
 
-void evaluate(const fs::path& job, const std::string& output, const CommonOptions& common) {
+bool evaluate(const fs::path& job, const std::string& output, const CommonOptions& common) {
     const bool to_stdout = output == "-";
     const fs::path record_file =
         output.empty() ? job.parent_path() / (job.stem().string() + "-record.json") : fs::path(output);
@@ -261,8 +304,8 @@ void evaluate(const fs::path& job, const std::string& output, const CommonOption
         app::require_writable(record_file);
     }
     ProgressLine progress(!common.quiet);
-    const app::Evaluation evaluation =
-        app::evaluate_job(job, covariance_name, [&](const std::string& text) { progress(text); });
+    const app::Evaluation evaluation = app::evaluate_job(job, covariance_name, static_cast<unsigned>(common.threads),
+                                                         [&](const std::string& text) { progress(text); });
     const std::string text = reports::to_canonical_json(evaluation.record);
     progress.clear();
     if (to_stdout) {
@@ -272,19 +315,26 @@ void evaluate(const fs::path& job, const std::string& output, const CommonOption
                                                     "all of the output must arrive",
                                                     "write to a file with -o RECORD.json", gum::Severity::error});
         }
-        return;
+        return evaluation.negative;
     }
-    const fs::path covariance_file = record_file.parent_path() / covariance_name;
-    for (const fs::path& file : {record_file, covariance_file}) {
-        app::require_not_an_input(file, app::input_files(job, evaluation.record));
+    std::vector<app::OutputFile> files{{record_file, text}};
+    if (!evaluation.covariance_csv.empty()) {
+        files.push_back({record_file.parent_path() / covariance_name, evaluation.covariance_csv});
     }
-    app::write_files({{record_file, text}, {covariance_file, evaluation.covariance_csv}});
+    for (const app::OutputFile& file : files) {
+        app::require_not_an_input(file.path, app::input_files(job, evaluation.record));
+    }
+    app::write_files(files);
     report_diagnostics(evaluation.record, common);
     if (!common.quiet) {
         print_summary(evaluation.record);
-        fmt::print("\nWritten:\n  {}\n  {}\nNext: gumcert render {} --format pdf\n", record_file.string(),
-                   (record_file.parent_path() / covariance_name).string(), record_file.string());
+        fmt::print("\nWritten:\n");
+        for (const app::OutputFile& file : files) {
+            fmt::print("  {}\n", file.path.string());
+        }
+        fmt::print("Next: gumcert render {} --format pdf\n", record_file.string());
     }
+    return evaluation.negative;
 }
 
 void render_record(const fs::path& record_file, const std::string& format, const std::string& output,
@@ -402,9 +452,9 @@ int dispatch(int argc, char** argv, CommonOptions& common) {
         refuse_usage("command line", wrong.what(), "see gumcert --help", "correct the command");
     }
     if (run->parsed()) {
-        run_job(job, output, share, common);
+        return run_job(job, output, share, common) ? negative_answer : done;
     } else if (evaluate_command->parsed()) {
-        evaluate(job, output, common);
+        return evaluate(job, output, common) ? negative_answer : done;
     } else if (render_command->parsed()) {
         render_record(record, format, output, language, share, common);
     } else {

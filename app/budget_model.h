@@ -1,0 +1,95 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/curve_fit.h"
+#include "engine/job/budget_job.h"
+#include "gum/expression/equation_system.h"
+#include "gum/quantity/measurement_model.h"
+
+namespace gumcert::app {
+
+/// What the symbols of a model stand for: the inputs of the job, then the parameters of its fits.
+struct BudgetSymbol {
+    std::string name;
+    gum::Unit unit;
+};
+
+/// One quantity that the law of propagation and Monte Carlo treat as one: a component of an input, a whole input where
+/// it is correlated with others, or a parameter of a fit.
+struct BudgetQuantity {
+    static constexpr std::size_t k_whole = std::numeric_limits<std::size_t>::max();
+    std::size_t symbol = 0;
+    std::size_t component = k_whole;  ///< of the input
+};
+
+/// The measurement model of a budget job: every symbol of the equations is the sum of its quantities.
+class BudgetModel final : public gum::MeasurementModel {
+public:
+    /// \param system      nothing: the symbols themselves are the outputs
+    /// \param quantities  one for each quantity of the groups, in their order
+    BudgetModel(std::optional<gum::EquationSystem> system, const std::vector<BudgetSymbol>& symbols,
+                std::vector<gum::InputGroup> groups, std::vector<BudgetQuantity> quantities);
+
+    [[nodiscard]] const std::vector<gum::InputGroup>& inputs() const override { return groups_; }
+    [[nodiscard]] const std::vector<gum::OutputQuantity>& outputs() const override { return outputs_; }
+    [[nodiscard]] const std::vector<BudgetQuantity>& quantities() const { return quantities_; }
+    [[nodiscard]] Eigen::VectorXd evaluate(const Eigen::VectorXd& x) const override;
+    [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const override;
+    [[nodiscard]] std::vector<Eigen::MatrixXd> hessians(const Eigen::VectorXd& x) const override;
+    void evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::Ref<Eigen::MatrixXd> y) const override;
+
+private:
+    [[nodiscard]] Eigen::VectorXd symbols(const Eigen::VectorXd& x) const;
+
+    std::optional<gum::EquationSystem> system_;
+    Eigen::Index symbol_count_ = 0;
+    std::vector<gum::InputGroup> groups_;
+    std::vector<BudgetQuantity> quantities_;
+    std::vector<gum::OutputQuantity> outputs_;
+    Eigen::VectorXd start_;    ///< solution of implicit equations at the estimates, where every trial begins
+    bool one_to_one_ = false;  ///< quantity i is symbol i: nothing to add up
+};
+
+/// The groups of a job at one point of its table, with all that follows from them.
+struct BudgetInputs {
+    std::vector<gum::InputGroup> groups;
+    std::vector<BudgetQuantity> quantities;
+    std::vector<std::uint64_t> streams;  ///< of random numbers, one a group: equal for what points have in common
+    std::vector<gum::Diagnostic> notes;  ///< choices that a person should know of
+};
+
+/// Symbols of a job, in the order of its inputs and fits.
+[[nodiscard]] std::vector<BudgetSymbol> budget_symbols(const engine::BudgetJob& job);
+
+/// Puts the inputs into groups: inputs tied by correlations form one, every other component is one of its own.
+///
+/// Degrees of freedom of a correlated group: n − 1 of inputs observed together, the common ν of inputs that all have
+/// the same one (an ensemble in the sense of Willink 2007, Metrologia 44, 340-349), infinite when all are; none
+/// otherwise. Drawn by Monte Carlo as multivariate normal, multivariate t (observed together: ν = n − N, JCGM
+/// 102:2011, 5.3.2) or Gaussian copula; a note tells when it is the last. \param fits   one for each fit of the job
+/// \param point  position in job.points, or nothing
+/// \throws NoResultError  GC-BUDGET-0001 where fewer than N + 1 observations of N inputs were taken together and Monte
+///                        Carlo is asked for
+[[nodiscard]] BudgetInputs budget_inputs(const engine::BudgetJob& job, const std::vector<engine::CurveFit>& fits,
+                                         std::optional<std::size_t> point);
+
+/// The input of a job that holds at a point of its table.
+[[nodiscard]] const engine::BudgetInput& input_at(const engine::BudgetJob& job, std::size_t input,
+                                                  std::optional<std::size_t> point);
+
+/// Estimate, standard uncertainty and degrees of freedom (Welch–Satterthwaite) of an input as the sum of its
+/// components.
+struct InputTotal {
+    double value = 0.0, u = 0.0;
+    double degrees_of_freedom = std::numeric_limits<double>::infinity();
+};
+[[nodiscard]] InputTotal input_total(const engine::BudgetInput& input);
+
+}  // namespace gumcert::app

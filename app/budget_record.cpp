@@ -1,0 +1,689 @@
+#include "app/budget_record.h"
+
+#include <gumcert_build_info.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "gum/analysis_of_variance.h"
+#include "gum/coverage.h"
+#include "gum/rounding.h"
+#include "gum/type_a.h"
+
+namespace gumcert::app {
+
+namespace {
+
+using engine::BudgetInput;
+using engine::BudgetJob;
+using engine::StatedQuantity;
+using gum::Unit;
+using reports::BudgetRow;
+using reports::Printed;
+
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+constexpr int k_digits_of_u = 2;
+constexpr double k_test_level = 0.05;  // of F tests and of the chi-square test of a fit
+constexpr std::size_t k_longest_lag_list = 100;
+
+std::optional<double> finite_or_none(double value) {
+    return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
+}
+
+std::string shortest(double value) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value == 0.0 ? 0.0 : value).ptr;
+    return {text.data(), end};
+}
+
+std::string rounded(double value, int digits) {
+    return gum::round_significant(value, digits);
+}
+
+/// A value beside a standard uncertainty: digits down to those of u; all of them where u is 0.
+std::string printed_estimate(double value, double u) {
+    return u > 0.0 ? gum::round_to_uncertainty(value, u, k_digits_of_u).value : shortest(value);
+}
+
+Printed printed_result(double value, std::optional<double> U, double u, const std::string& unit,
+                       gum::RoundingMode rounding) {
+    const std::string shown = gum::unit_for_people(unit);
+    if (U && *U > 0.0) {
+        const gum::RoundedPair pair = gum::round_to_uncertainty(value, *U, k_digits_of_u, rounding);
+        return {pair.value, pair.U, shown};
+    }
+    return {printed_estimate(value, u), U ? "0" : "", shown};
+}
+
+std::string printed_degrees_of_freedom(double nu) {
+    if (std::isnan(nu)) {
+        return "–";
+    }
+    return std::isinf(nu) ? "∞" : rounded(nu, nu < 1000.0 ? 3 : 4);
+}
+
+const char* type_letter(gum::Evaluation evaluation) {
+    return evaluation == gum::Evaluation::type_a ? "A" : "B";
+}
+
+/// Numbers of a budget row in the units of its input and of the result.
+struct RowNumbers {
+    double value = 0.0, u = 0.0, nu = k_infinity, sensitivity = 0.0;  ///< coherent SI
+};
+
+BudgetRow budget_row(const std::string& name, const Unit& unit, const RowNumbers& si, const Unit& result_unit,
+                     double result_u) {
+    BudgetRow row;
+    row.input = name;
+    row.unit = unit.text();
+    row.value = unit.from_si(si.value);
+    row.u = unit.difference_from_si(si.u);
+    row.nu = finite_or_none(si.nu);
+    row.sensitivity = result_unit.difference_from_si(si.sensitivity * unit.difference_to_si(1.0));
+    row.contribution = result_unit.difference_from_si(std::abs(si.sensitivity) * si.u);
+    const double ratio = result_u > 0.0 ? std::abs(si.sensitivity) * si.u / result_u : 0.0;
+    row.share = ratio * ratio;
+    row.printed.value = printed_estimate(*row.value, row.u);
+    row.printed.u = rounded(row.u, k_digits_of_u);
+    row.printed.nu = printed_degrees_of_freedom(si.nu);
+    row.printed.sensitivity = rounded(*row.sensitivity, 4);
+    row.printed.contribution = rounded(row.contribution, k_digits_of_u);
+    row.printed.share = gum::percent(row.share);
+    return row;
+}
+
+/// The budget of one output at one point: a row an input, with rows of its components inside.
+std::vector<BudgetRow> budget_rows(const BudgetJob& job, const BudgetResult& result, std::optional<std::size_t> at,
+                                   const BudgetPointResult& point, Eigen::Index output, const Unit& unit) {
+    // All quantities of a symbol have its sensitivity.
+    std::vector<double> sensitivity(result.symbols.size(), 0.0);
+    const std::vector<BudgetQuantity>& quantities = point.model->quantities();
+    for (std::size_t q = 0; q < quantities.size(); ++q) {
+        sensitivity[quantities[q].symbol] = point.propagation.jacobian(output, static_cast<Eigen::Index>(q));
+    }
+    const double u = point.propagation.standard_uncertainty(output);
+    std::vector<BudgetRow> rows;
+    for (std::size_t i = 0; i < job.inputs.size(); ++i) {
+        const BudgetInput& input = input_at(job, i, at);
+        const InputTotal total = input_total(input);
+        const StatedQuantity& first = input.components.front();
+        RowNumbers numbers{
+            .value = total.value, .u = total.u, .nu = total.degrees_of_freedom, .sensitivity = sensitivity[i]};
+        BudgetRow row = budget_row(input.name, input.unit, numbers, unit, u);
+        row.type = type_letter(first.evaluation);
+        row.source = first.source;
+        row.distribution = std::string(gum::distribution_name(first.distribution.kind));
+        if (input.components.size() == 1) {
+            row.value = first.stated_value;
+            row.printed.value = printed_estimate(first.stated_value, row.u);
+        } else {
+            row.distribution = "sum";
+            for (const StatedQuantity& component : input.components) {
+                numbers = {.value = component.value,
+                           .u = component.u,
+                           .nu = component.degrees_of_freedom,
+                           .sensitivity = sensitivity[i]};
+                BudgetRow part = budget_row(component.name, input.unit, numbers, unit, u);
+                part.value = component.stated_value;
+                part.printed.value = printed_estimate(component.stated_value, part.u);
+                part.type = type_letter(component.evaluation);
+                part.source = component.source;
+                part.distribution = std::string(gum::distribution_name(component.distribution.kind));
+                if (component.evaluation == gum::Evaluation::type_b) {
+                    row.type = "B";
+                }
+                row.components.push_back(std::move(part));
+            }
+        }
+        rows.push_back(std::move(row));
+    }
+    std::size_t symbol = job.inputs.size();
+    for (std::size_t f = 0; f < job.fits.size(); ++f) {
+        const engine::CurveFit& fit = result.fits[f];
+        for (Eigen::Index p = 0; p < fit.parameters.size(); ++p, ++symbol) {
+            const RowNumbers numbers{.value = fit.parameters(p),
+                                     .u = std::sqrt(fit.covariance(p, p)),
+                                     .nu = fit.covariance_scaled ? fit.degrees_of_freedom : k_infinity,
+                                     .sensitivity = sensitivity[symbol]};
+            BudgetRow row = budget_row(result.symbols[symbol].name, result.symbols[symbol].unit, numbers, unit, u);
+            row.type = fit.covariance_scaled ? "A" : "B";
+            row.distribution = fit.covariance_scaled ? "student_t" : "normal";
+            row.source = job.fits[f].name;
+            rows.push_back(std::move(row));
+        }
+    }
+    if (!job.model.empty()) {
+        return rows;
+    }
+    // Without equations a result is one of the inputs: its budget has no other rows.
+    std::erase_if(
+        rows, [&](const BudgetRow& row) { return row.input != result.symbols[static_cast<std::size_t>(output)].name; });
+    return rows;
+}
+
+/// The part of the variance that the rows do not show, where inputs are correlated.
+std::optional<reports::CorrelationRow> correlation_row(const BudgetPointResult& point,
+                                                       const std::vector<BudgetRow>& rows, Eigen::Index output,
+                                                       const Unit& unit) {
+    const bool correlated =
+        std::any_of(point.model->inputs().begin(), point.model->inputs().end(),
+                    [](const gum::InputGroup& group) { return group.size() > 1 && !group.is_diagonal(); });
+    if (!correlated) {
+        return std::nullopt;
+    }
+    const double u = unit.difference_from_si(point.propagation.standard_uncertainty(output));
+    double shown = 0.0;
+    for (const BudgetRow& row : rows) {
+        shown += row.contribution * row.contribution;
+    }
+    reports::CorrelationRow row;
+    row.variance = u * u - shown;
+    if (std::abs(row.variance) < 1e-13 * std::max(u * u, shown)) {
+        row.variance = 0.0;
+    }
+    row.share = u > 0.0 ? row.variance / (u * u) : 0.0;
+    const double root = std::sqrt(std::abs(row.variance));
+    row.printed.contribution = (row.variance < 0.0 ? "-" : "") + rounded(root, k_digits_of_u);
+    row.printed.share = gum::percent(row.share);
+    return row;
+}
+
+std::string distribution_of(const BudgetOutputResult& output) {
+    if (output.coverage == "monte_carlo") {
+        return "numerical (Monte Carlo)";
+    }
+    if (output.coverage == "convolution") {
+        return "convolution of the input distributions";
+    }
+    return output.coverage == "none" ? "not stated" : output.coverage;
+}
+
+std::array<double, 2> ends(const gum::CoverageInterval& interval, const Unit& unit) {
+    return {unit.from_si(interval.low), unit.from_si(interval.high)};
+}
+
+std::array<double, 2> differences(const gum::CoverageInterval& interval, const Unit& unit) {
+    return {unit.difference_from_si(interval.low), unit.difference_from_si(interval.high)};
+}
+
+reports::MonteCarloSummary monte_carlo_summary(const BudgetJob& job, const BudgetOutputResult& output,
+                                               const Unit& unit) {
+    const gum::MonteCarloOutput& from = *output.monte_carlo;
+    reports::MonteCarloSummary summary;
+    summary.trials = static_cast<std::int64_t>(output.trials);
+    summary.seed = static_cast<std::int64_t>(job.monte_carlo->seed);
+    summary.mean = unit.from_si(from.mean);
+    summary.u = unit.difference_from_si(from.standard_uncertainty);
+    summary.symmetric = ends(from.symmetric, unit);
+    summary.shortest = ends(from.shortest, unit);
+    summary.numerical_error.mean = unit.difference_from_si(from.numerical_error.mean);
+    summary.numerical_error.u = unit.difference_from_si(from.numerical_error.standard_uncertainty);
+    summary.numerical_error.symmetric = differences(from.numerical_error.symmetric, unit);
+    summary.numerical_error.shortest = differences(from.numerical_error.shortest, unit);
+    summary.adaptive = !job.monte_carlo->trials;
+    summary.stabilised = output.stabilised;
+    // As many digits as the numerical error allows, and not more than four of u.
+    const auto shown = [&](double value, double error) {
+        const double quantum = std::max(error, 1e-4 * summary.u);
+        return quantum > 0.0 ? gum::round_to_uncertainty(value, quantum, 1).value : shortest(value);
+    };
+    summary.printed.trials = std::to_string(summary.trials);
+    summary.printed.mean = shown(summary.mean, summary.numerical_error.mean);
+    summary.printed.u = shown(summary.u, summary.numerical_error.u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        summary.printed.symmetric[i] = shown(summary.symmetric[i], summary.numerical_error.symmetric[i]);
+        summary.printed.shortest[i] = shown(summary.shortest[i], summary.numerical_error.shortest[i]);
+    }
+    if (output.validation) {
+        reports::GufValidation validation;
+        validation.delta = output.validation->tolerance;
+        validation.d_low = output.validation->distance_low;
+        validation.d_high = output.validation->distance_high;
+        validation.validated = output.validation->validated;
+        validation.precise_enough = output.validation->precise_enough;
+        validation.interval = "symmetric";
+        validation.digits = job.monte_carlo->digits;
+        validation.printed.delta = rounded(validation.delta, 2);
+        validation.printed.d_low = rounded(validation.d_low, 2);
+        validation.printed.d_high = rounded(validation.d_high, 2);
+        summary.validation = validation;
+    }
+    return summary;
+}
+
+std::vector<std::vector<double>> rows_of(const Eigen::MatrixXd& matrix) {
+    std::vector<std::vector<double>> rows;
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+        const Eigen::VectorXd row = matrix.row(i).transpose();
+        rows.emplace_back(row.data(), row.data() + row.size());
+    }
+    return rows;
+}
+
+/// A covariance in the products of units from one in coherent SI.
+Eigen::MatrixXd in_units(const Eigen::MatrixXd& si, const std::vector<Unit>& units) {
+    Eigen::MatrixXd scaled = si;
+    for (Eigen::Index i = 0; i < si.rows(); ++i) {
+        for (Eigen::Index j = 0; j < si.cols(); ++j) {
+            scaled(i, j) = units[static_cast<std::size_t>(i)].difference_from_si(
+                units[static_cast<std::size_t>(j)].difference_from_si(si(i, j)));
+        }
+    }
+    return scaled;
+}
+
+std::vector<Unit> result_units(const BudgetResult& result) {
+    std::vector<Unit> units;
+    for (std::size_t p = 0; p < result.points.size(); ++p) {
+        units.insert(units.end(), result.output_units.begin(), result.output_units.end());
+    }
+    return units;
+}
+
+reports::ResultCovariance covariance_of(const BudgetJob& job, const BudgetResult& result,
+                                        const Eigen::MatrixXd& covariance, const std::string& file) {
+    reports::ResultCovariance out;
+    out.names = budget_result_names(job, result);
+    const std::vector<Unit> units = result_units(result);
+    for (const Unit& unit : units) {
+        out.units.push_back(unit.text());
+    }
+    out.file = file;
+    if (!file.empty()) {
+        return out;
+    }
+    const Eigen::MatrixXd correlation = gum::correlation_matrix(covariance);
+    out.matrix = rows_of(in_units(covariance, units));
+    out.correlation = rows_of(correlation);
+    for (Eigen::Index i = 0; i < correlation.rows(); ++i) {
+        std::vector<std::string> row;
+        for (Eigen::Index j = 0; j < correlation.cols(); ++j) {
+            row.push_back(gum::round_to_quantum(correlation(i, j), 3));
+        }
+        out.printed_correlation.push_back(std::move(row));
+    }
+    return out;
+}
+
+/// Joint region of the outputs of the only point. The covariance must not be singular for an ellipsoid.
+reports::CoverageRegion region_of(const BudgetJob& job, const BudgetPointResult& point) {
+    reports::CoverageRegion region;
+    region.coverage_probability = job.coverage_probability;
+    if (point.monte_carlo && point.monte_carlo->regions) {
+        const gum::MonteCarloRegions& from = *point.monte_carlo->regions;
+        region.from = "Monte Carlo";
+        region.coverage_probability = point.monte_carlo->coverage_probability;
+        region.k_p = from.ellipsoid_factor;
+        region.k_q = from.parallelepiped_factor;
+        if (from.smallest_cells > 0) {
+            region.smallest_region = {.volume = from.smallest_volume,
+                                      .probability = from.smallest_probability,
+                                      .cells = static_cast<std::int64_t>(from.smallest_cells),
+                                      .cells_per_axis = {}};
+            for (const int cells : from.cells_per_axis) {
+                region.smallest_region->cells_per_axis.push_back(cells);
+            }
+        }
+    } else {
+        region.from = "law of propagation";
+        const auto m = static_cast<std::size_t>(point.propagation.value.size());
+        const double nu = gum::joint_effective_degrees_of_freedom(*point.model, point.propagation);
+        region.degrees_of_freedom = finite_or_none(nu);
+        const Eigen::MatrixXd correlation = gum::correlation_matrix(point.propagation.covariance);
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation, Eigen::EigenvaluesOnly);
+        const bool singular = !(eigen.eigenvalues()(0) > 1e-12 * static_cast<double>(m)) ||
+                              !(point.propagation.standard_uncertainty.minCoeff() > 0.0);
+        if (!std::isnan(nu) && !singular && (std::isinf(nu) || nu > static_cast<double>(m) - 1.0)) {
+            region.k_p = gum::ellipsoid_coverage_factor(job.coverage_probability, m, nu);
+        }
+        // Each interval with probability 1 − (1 − p)/m, so that all hold together with p at least (Bonferroni).
+        if (!std::isnan(nu)) {
+            region.k_q = gum::coverage_factor(1.0 - (1.0 - job.coverage_probability) / static_cast<double>(m), nu);
+        }
+    }
+    if (region.k_p) {
+        region.printed.k_p = rounded(*region.k_p, 3);
+    }
+    if (region.k_q) {
+        region.printed.k_q = rounded(*region.k_q, 3);
+    }
+    return region;
+}
+
+std::string fit_method(const engine::BudgetFit& fit) {
+    if (fit.x_uncertainty.size() > 0) {
+        return "errors in both variables";
+    }
+    if (fit.y_uncertainty.size() == 0) {
+        return "ordinary";
+    }
+    return fit.y_uncertainty.cols() == 1 ? "weighted" : "generalised";
+}
+
+reports::FitSummary fit_summary(const engine::BudgetFit& fit, const engine::CurveFit& solved) {
+    reports::FitSummary summary;
+    summary.name = fit.name;
+    summary.equation = fit.equation.text;
+    summary.method = fit_method(fit);
+    std::vector<Unit> units;
+    for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+        const auto index = static_cast<Eigen::Index>(i);
+        const Unit& unit = fit.parameters[i].unit;
+        units.push_back(unit);
+        reports::FitSummary::Parameter parameter;
+        parameter.name = fit.parameters[i].name;
+        parameter.unit = unit.text();
+        parameter.value = unit.from_si(solved.parameters(index));
+        parameter.u = unit.difference_from_si(std::sqrt(solved.covariance(index, index)));
+        parameter.printed.value = printed_estimate(parameter.value, parameter.u);
+        parameter.printed.u = rounded(parameter.u, k_digits_of_u);
+        parameter.printed.unit = gum::unit_for_people(unit.text());
+        summary.parameters.push_back(std::move(parameter));
+    }
+    summary.covariance = rows_of(in_units(solved.covariance, units));
+    summary.correlation = rows_of(gum::correlation_matrix(solved.covariance));
+    const bool weighted = fit.y_uncertainty.size() > 0 || fit.x_uncertainty.size() > 0;
+    const auto in_y = [&](double si) { return weighted ? si : fit.ordinate_unit.difference_from_si(si); };
+    summary.degrees_of_freedom = solved.degrees_of_freedom;
+    summary.sum_of_squares = in_y(in_y(solved.sum_of_squares));
+    summary.residual_standard_deviation = in_y(solved.residual_standard_deviation);
+    summary.r_squared = solved.r_squared.value_or(0.0);
+    summary.condition_number = solved.condition_number;
+    summary.iterations = solved.iterations;
+    summary.covariance_scaled = solved.covariance_scaled;
+    if (weighted && !solved.covariance_scaled && solved.degrees_of_freedom > 0.0) {
+        summary.p_value = gum::chi_square_upper_tail(solved.sum_of_squares, solved.degrees_of_freedom);
+        summary.printed.p_value = rounded(*summary.p_value, 2);
+    }
+    summary.printed.residual_standard_deviation = rounded(summary.residual_standard_deviation, 3);
+    summary.printed.sum_of_squares = rounded(summary.sum_of_squares, 3);
+    summary.printed.r_squared = gum::round_to_quantum(summary.r_squared, 6);
+    summary.y_name = fit.ordinate;
+    summary.y_unit = fit.ordinate_unit.text();
+    if (fit.regressors.size() == 1) {
+        summary.x_name = fit.regressors.front();
+        summary.x_unit = fit.regressor_units.front().text();
+    }
+    for (Eigen::Index i = 0; i < fit.y.size(); ++i) {
+        if (fit.regressors.size() == 1) {
+            summary.x.push_back(fit.regressor_units.front().from_si(fit.x(i, 0)));
+        }
+        summary.y.push_back(fit.ordinate_unit.from_si(fit.y(i)));
+        summary.fitted.push_back(fit.ordinate_unit.from_si(fit.y(i) - solved.residuals(i)));
+        summary.residual.push_back(fit.ordinate_unit.difference_from_si(solved.residuals(i)));
+    }
+    return summary;
+}
+
+reports::ReadingsSummary readings_summary(const BudgetInput& input, const StatedQuantity& quantity) {
+    // In the unit of the input, so that what is printed can be checked by hand.
+    std::vector<double> readings;
+    for (const double reading : quantity.observations) {
+        readings.push_back(input.unit.from_si(reading));
+    }
+    reports::ReadingsSummary summary;
+    summary.input = input.name;
+    summary.component = quantity.name;
+    summary.unit = input.unit.text();
+    summary.n = static_cast<std::int64_t>(readings.size());
+    summary.mean = readings.front();
+    if (readings.size() >= 2) {
+        const gum::ObservationSummary of = gum::evaluate_type_a(readings);
+        summary.mean = of.mean;
+        summary.standard_deviation = of.standard_deviation;
+        summary.standard_deviation_of_mean = of.standard_deviation_of_mean;
+        if (of.standard_deviation > 0.0) {
+            const std::size_t lags = std::min(k_longest_lag_list, readings.size() / 4 + 1);
+            summary.autocorrelation = gum::autocorrelation(readings, std::min(lags, readings.size() - 1));
+            const gum::AutocorrelationCheck check = gum::autocorrelation_check(readings);
+            summary.autocorrelation_limit = check.limit;
+            summary.dependent = !check.independent;
+            summary.printed.r1 = gum::round_to_quantum(check.lag_one, 2);
+            summary.printed.limit = gum::round_to_quantum(check.limit, 2);
+        }
+    }
+    if (quantity.pooled_standard_deviation) {
+        summary.pooled_standard_deviation = input.unit.difference_from_si(*quantity.pooled_standard_deviation);
+    }
+    summary.printed.mean = printed_estimate(summary.mean, summary.standard_deviation_of_mean);
+    summary.printed.standard_deviation = rounded(summary.standard_deviation, k_digits_of_u);
+    summary.printed.standard_deviation_of_mean = rounded(summary.standard_deviation_of_mean, k_digits_of_u);
+    return summary;
+}
+
+gum::OneWayAnalysis analysis_of(const BudgetInput& input, const engine::GroupedReadings& from, double alpha) {
+    if (!from.readings.empty()) {
+        std::vector<std::vector<double>> groups = from.readings;
+        for (std::vector<double>& group : groups) {
+            for (double& reading : group) {
+                reading = input.unit.from_si(reading);
+            }
+        }
+        return gum::one_way_analysis(groups, alpha);
+    }
+    std::vector<gum::ObservationGroup> groups;
+    for (std::size_t i = 0; i < from.means.size(); ++i) {
+        groups.push_back({.observations = from.sizes[i],
+                          .mean = input.unit.from_si(from.means[i]),
+                          .standard_deviation = input.unit.difference_from_si(from.standard_deviations[i])});
+    }
+    return gum::one_way_analysis(groups, alpha);
+}
+
+reports::VarianceAnalysis variance_analysis(const BudgetInput& input, const StatedQuantity& quantity) {
+    const gum::OneWayAnalysis from = analysis_of(input, *quantity.groups, k_test_level);
+    reports::VarianceAnalysis out;
+    out.input = input.name;
+    out.component = quantity.name;
+    out.unit = input.unit.text();
+    out.groups = static_cast<std::int64_t>(from.groups.size());
+    out.readings = static_cast<std::int64_t>(from.observations);
+    out.mean = from.mean_of_group_means;
+    out.sum_of_squares_between = from.between.sum_of_squares;
+    out.sum_of_squares_within = from.within.sum_of_squares;
+    out.degrees_of_freedom_between = from.between.degrees_of_freedom;
+    out.degrees_of_freedom_within = from.within.degrees_of_freedom;
+    out.mean_square_between = from.between.mean_square;
+    out.mean_square_within = from.within.mean_square;
+    // A ratio to nothing is not a number that a record may hold; the largest one says the same.
+    out.F = std::isfinite(from.ratio.f) ? from.ratio.f : std::numeric_limits<double>::max();
+    out.p_value = from.ratio.p_value;
+    out.F_critical = from.ratio.critical_value;
+    out.r_squared = from.r_squared;
+    out.standard_deviation_within = from.within_standard_deviation;
+    out.standard_deviation_of_group_means = from.standard_deviation_of_group_means;
+    out.standard_deviation_between = from.between_standard_deviation;
+    out.u_with_between_effect = from.u_with_between_effect;
+    out.u_without_between_effect = from.u_without_between_effect;
+    out.conclusion = from.ratio.significant ? "significant" : "not significant";
+    out.printed.mean = printed_estimate(out.mean, out.u_with_between_effect);
+    out.printed.F = rounded(out.F, 3);
+    out.printed.F_critical = rounded(out.F_critical, 3);
+    out.printed.p_value = rounded(out.p_value, 2);
+    out.printed.within = rounded(out.standard_deviation_within, k_digits_of_u);
+    out.printed.between = rounded(out.standard_deviation_between, k_digits_of_u);
+    out.printed.group_means = rounded(out.standard_deviation_of_group_means, k_digits_of_u);
+    out.printed.mean_square = {rounded(out.mean_square_between, 3), rounded(out.mean_square_within, 3)};
+    return out;
+}
+
+void add_type_a(const BudgetJob& job, reports::EvaluationRecord& record) {
+    for (const BudgetInput& input : job.inputs) {
+        for (const StatedQuantity& quantity : input.components) {
+            if (!quantity.observations.empty()) {
+                record.readings.push_back(readings_summary(input, quantity));
+                const reports::ReadingsSummary& readings = record.readings.back();
+                if (readings.dependent) {
+                    record.diagnostics.push_back(
+                        {.code = "GC-BUDGET-0030",
+                         .where = "readings of " + input.name,
+                         .what = "autocorrelation coefficient of lag 1 is " + readings.printed.r1,
+                         .rule = "readings that are independent of each other stay within ±" + readings.printed.limit +
+                                 " in 95 % of all cases",
+                         .action = "Look for drift; s/√n is not the uncertainty of the mean of dependent readings.",
+                         .severity = gum::Severity::warning});
+                }
+            }
+            if (quantity.groups) {
+                record.variance_analyses.push_back(variance_analysis(input, quantity));
+            }
+        }
+    }
+}
+
+nlohmann::json options_json(const BudgetJob& job) {
+    nlohmann::json options;
+    options["coverage_probability"] = job.coverage_probability;
+    options["law_of_propagation"] = {{"order", 1}, {"second_order_reported_from_relative_change", 0.005}};
+    options["reporting"] = {{"degrees_of_freedom", job.truncate_degrees_of_freedom ? "truncated" : "exact"},
+                            {"rounding", job.rounding == gum::RoundingMode::up ? "up" : "half_even"}};
+    if (job.monte_carlo) {
+        const engine::BudgetMonteCarlo& asked = *job.monte_carlo;
+        nlohmann::json monte_carlo{{"seed", asked.seed},
+                                   {"generator", "Philox 4x64-10"},
+                                   {"validate", asked.validate},
+                                   {"digits", asked.digits}};
+        if (asked.trials) {
+            monte_carlo["trials"] = *asked.trials;
+        } else {
+            monte_carlo["adaptive"] = {{"digits", asked.digits}, {"max_trials", asked.most_trials}};
+        }
+        options["monte_carlo"] = std::move(monte_carlo);
+    } else {
+        options["monte_carlo"] = nullptr;
+    }
+    return options;
+}
+
+}  // namespace
+
+std::vector<std::string> budget_result_names(const BudgetJob& job, const BudgetResult& result) {
+    std::vector<std::string> names;
+    for (std::size_t p = 0; p < result.points.size(); ++p) {
+        for (const std::string& output : result.output_names) {
+            names.push_back(job.points.empty() ? output : output + "[" + job.points[p].name + "]");
+        }
+    }
+    return names;
+}
+
+reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult& result,
+                                        const std::vector<reports::InputFile>& files, const Eigen::MatrixXd& covariance,
+                                        const std::string& covariance_file) {
+    reports::EvaluationRecord record;
+    record.software.version = k_version;
+    record.software.commit = k_commit;
+    record.kind = "budget";
+    record.title = job.title;
+    record.coverage_probability = job.coverage_probability;
+    record.printed_coverage = gum::round_significant(100.0 * job.coverage_probability, 4) + " %";
+    record.job_json = reports::canonical_json(job.document);
+    record.job_files = files;
+    record.options_json = reports::canonical_json(options_json(job));
+    record.diagnostics = job.warnings;
+    record.diagnostics.insert(record.diagnostics.end(), result.notes.begin(), result.notes.end());
+    if (!job.model.empty()) {
+        record.model.emplace();
+        for (const gum::EquationText& equation : job.model) {
+            record.model->equations.push_back(equation.text);
+        }
+        for (const gum::UnknownSymbol& unknown : job.unknowns) {
+            record.model->unknowns.push_back(unknown.name);
+        }
+    }
+
+    const std::vector<std::string> names = budget_result_names(job, result);
+    for (std::size_t p = 0; p < result.points.size(); ++p) {
+        const BudgetPointResult& point = result.points[p];
+        const std::optional<std::size_t> at = job.points.empty() ? std::nullopt : std::optional<std::size_t>(p);
+        for (std::size_t i = 0; i < result.output_names.size(); ++i) {
+            const auto index = static_cast<Eigen::Index>(i);
+            const BudgetOutputResult& from = point.outputs[i];
+            const Unit& unit = result.output_units[i];
+            reports::Result out;
+            out.name = names[p * result.output_names.size() + i];
+            out.quantity = result.output_names[i];
+            out.point = at ? job.points[p].name : "";
+            for (const engine::BudgetOutput& stated : job.outputs) {
+                if (stated.name == out.quantity) {
+                    out.description = stated.description;
+                }
+            }
+            out.value = unit.from_si(point.propagation.value(index));
+            out.unit = unit.text();
+            out.u = unit.difference_from_si(point.propagation.standard_uncertainty(index));
+            out.nu_eff = finite_or_none(from.degrees_of_freedom);
+            out.k = from.coverage_factor;
+            out.coverage_probability = from.coverage_probability;
+            if (from.expanded_uncertainty) {
+                out.U = unit.difference_from_si(*from.expanded_uncertainty);
+            }
+            out.distribution = distribution_of(from);
+            out.coverage = from.coverage;
+            out.coverage_note = from.coverage_note;
+            out.printed = printed_result(out.value, out.U, out.u, out.unit, job.rounding);
+            out.budget = budget_rows(job, result, at, point, index, unit);
+            if (!job.model.empty()) {
+                out.correlation = correlation_row(point, out.budget, index, unit);
+            }
+            if (from.second_order_matters) {
+                reports::SecondOrder second;
+                second.u = unit.difference_from_si(point.second_order->standard_uncertainty(index));
+                second.shift = unit.difference_from_si(point.second_order->shift(index));
+                second.printed.u = rounded(second.u, k_digits_of_u);
+                second.printed.shift = rounded(second.shift, k_digits_of_u);
+                out.second_order = second;
+            }
+            if (from.monte_carlo) {
+                out.monte_carlo = monte_carlo_summary(job, from, unit);
+            }
+            record.results.push_back(std::move(out));
+        }
+    }
+    if (record.results.size() > 1 && covariance.size() > 0) {
+        record.covariance = covariance_of(job, result, covariance, covariance_file);
+    }
+    if (result.output_names.size() > 1 && job.points.empty() && !job.model.empty()) {
+        record.region = region_of(job, result.points.front());
+    }
+    for (std::size_t f = 0; f < job.fits.size(); ++f) {
+        record.fits.push_back(fit_summary(job.fits[f], result.fits[f]));
+    }
+    add_type_a(job, record);
+    return record;
+}
+
+std::string budget_covariance_csv(const BudgetJob& job, const BudgetResult& result, const Eigen::MatrixXd& covariance) {
+    const std::vector<std::string> names = budget_result_names(job, result);
+    const Eigen::MatrixXd scaled = in_units(covariance, result_units(result));
+    const auto quoted = [](const std::string& name) {
+        std::string text = "\"";
+        for (const char c : name) {
+            text += c == '"' ? "\"\"" : std::string(1, c);
+        }
+        return text + "\"";
+    };
+    std::string csv = "result";
+    for (const std::string& name : names) {
+        csv += "," + quoted(name);
+    }
+    csv += "\n";
+    for (Eigen::Index i = 0; i < scaled.rows(); ++i) {
+        csv += quoted(names[static_cast<std::size_t>(i)]);
+        for (Eigen::Index j = 0; j < scaled.cols(); ++j) {
+            csv += "," + shortest(scaled(i, j));
+        }
+        csv += "\n";
+    }
+    return csv;
+}
+
+}  // namespace gumcert::app

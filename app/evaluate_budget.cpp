@@ -1,0 +1,410 @@
+#include "app/evaluate_budget.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "gum/coverage.h"
+
+namespace gumcert::app {
+
+namespace {
+
+using engine::BudgetFit;
+using engine::BudgetJob;
+using gum::Diagnostic;
+
+// Second-order terms are reported where they change the standard uncertainty by half a percent or the estimate by a
+// hundredth of it, and warned about where they change what a document prints.
+constexpr double k_reported_change = 0.005;
+constexpr double k_reported_shift = 0.01;
+constexpr double k_warned_change = 0.05;
+constexpr double k_warned_shift = 0.1;
+constexpr Eigen::Index k_most_inputs_of_second_order = 1000;  // the matrices of second derivatives grow with the square
+constexpr double k_rounding_of_degrees_of_freedom = 1e-12;    // 3.999…9 is 4
+constexpr double k_validation_divisor = 5.0;  // JCGM 101:2008, 8.2: Monte Carlo to a fifth of the tolerance
+
+/// The equation of a fit as the curve of the adjustment.
+class EquationCurve final : public engine::Curve {
+public:
+    EquationCurve(gum::EquationSystem system, std::size_t parameters)
+        : system_(std::move(system)), parameters_(static_cast<Eigen::Index>(parameters)) {
+        std::vector<std::size_t> positions(parameters);
+        for (std::size_t i = 0; i < parameters; ++i) {
+            positions[i] = i;
+        }
+        linear_ = system_.is_affine_in(positions);
+    }
+
+    double evaluate(const Eigen::VectorXd& x, const Eigen::VectorXd& parameters, Eigen::VectorXd& by_parameter,
+                    Eigen::VectorXd& by_x) const override {
+        Eigen::VectorXd all(parameters_ + x.size());
+        all << parameters, x;
+        try {
+            const Eigen::MatrixXd derivative = system_.jacobian(all);
+            by_parameter = derivative.row(0).head(parameters_).transpose();
+            by_x = derivative.row(0).tail(x.size()).transpose();
+            return system_.evaluate(all)(0);
+        } catch (const gum::NoResultError&) {  // the adjustment tries other parameters then
+            by_parameter = Eigen::VectorXd::Zero(parameters_);
+            by_x = Eigen::VectorXd::Zero(x.size());
+            return std::numeric_limits<double>::quiet_NaN();
+        }
+    }
+    [[nodiscard]] bool is_linear() const override { return linear_; }
+
+private:
+    gum::EquationSystem system_;
+    Eigen::Index parameters_;
+    bool linear_ = false;
+};
+
+/// True when one parameter is added to the curve as it is: R² is then taken about the mean.
+bool has_intercept(const EquationCurve& curve, const engine::CurveData& data, Eigen::Index parameters) {
+    Eigen::VectorXd by_parameter;
+    Eigen::VectorXd by_x;
+    const Eigen::VectorXd at = Eigen::VectorXd::Constant(parameters, 1.0);
+    std::vector<bool> constant(static_cast<std::size_t>(parameters), true);
+    Eigen::VectorXd first;
+    for (Eigen::Index i = 0; i < data.x.rows(); ++i) {
+        (void)curve.evaluate(data.x.row(i).transpose(), at, by_parameter, by_x);
+        if (i == 0) {
+            first = by_parameter;
+        }
+        for (Eigen::Index p = 0; p < parameters; ++p) {
+            if (by_parameter(p) != first(p) || first(p) == 0.0) {
+                constant[static_cast<std::size_t>(p)] = false;
+            }
+        }
+    }
+    return std::find(constant.begin(), constant.end(), true) != constant.end();
+}
+
+engine::CurveFit evaluate_fit(const BudgetFit& fit) {
+    std::vector<gum::InputSymbol> symbols;
+    std::vector<std::string> names;
+    Eigen::VectorXd start(static_cast<Eigen::Index>(fit.parameters.size()));
+    for (const BudgetFit::Parameter& parameter : fit.parameters) {
+        start(static_cast<Eigen::Index>(names.size())) = parameter.start.value_or(1.0);
+        symbols.push_back({.name = parameter.name, .unit = parameter.unit, .constant = {}});
+        names.push_back(parameter.name);
+    }
+    for (std::size_t i = 0; i < fit.regressors.size(); ++i) {
+        symbols.push_back({.name = fit.regressors[i], .unit = fit.regressor_units[i], .constant = {}});
+    }
+    const gum::OutputSymbol output{.name = fit.ordinate, .unit = fit.ordinate_unit, .where = fit.where};
+    const EquationCurve curve(gum::EquationSystem::compile({&fit.equation, 1}, symbols, {}, {&output, 1}),
+                              fit.parameters.size());
+    const engine::CurveData data{.x = fit.x,
+                                 .y = fit.y,
+                                 .y_uncertainty = fit.y_uncertainty,
+                                 .x_uncertainty = fit.x_uncertainty,
+                                 .scale_by_residuals = fit.scale_by_residuals};
+    return engine::fit_curve(curve, data, start, names,
+                             has_intercept(curve, data, static_cast<Eigen::Index>(names.size())));
+}
+
+std::optional<gum::EquationSystem> compile_model(const BudgetJob& job) {
+    if (job.model.empty()) {
+        return std::nullopt;
+    }
+    return gum::EquationSystem::compile(job.model, engine::model_inputs(job), job.unknowns, engine::model_outputs(job));
+}
+
+bool is_linear(const gum::EquationSystem& system) {
+    std::vector<std::size_t> all(system.input_count());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        all[i] = i;
+    }
+    return system.is_affine_in(all);
+}
+
+double coverage_probability_of(const BudgetJob& job, const std::string& output) {
+    for (const engine::BudgetOutput& stated : job.outputs) {
+        if (stated.name == output && stated.coverage_probability) {
+            return *stated.coverage_probability;
+        }
+    }
+    return job.coverage_probability;
+}
+
+std::string names_of(const BudgetModel& model, const std::vector<std::size_t>& groups) {
+    std::string names;
+    for (const std::size_t g : groups) {
+        names += (names.empty() ? "" : " and ") + model.inputs()[g].name;
+    }
+    return names;
+}
+
+/// k and U of one output from the law of propagation.
+void expand(const BudgetJob& job, const BudgetPointResult& point, Eigen::Index output, BudgetOutputResult& result) {
+    const double u = point.propagation.standard_uncertainty(output);
+    result.degrees_of_freedom = point.propagation.effective_degrees_of_freedom(output);
+    if (std::isnan(result.degrees_of_freedom)) {
+        result.coverage = "none";
+        Eigen::Index g = 0;
+        for (const gum::InputGroup& group : point.model->inputs()) {
+            if (std::isnan(group.degrees_of_freedom) &&
+                point.propagation.budget[static_cast<std::size_t>(g)].variance(output) > 0.0) {
+                result.coverage_note = group.no_degrees_of_freedom_because;
+            }
+            ++g;
+        }
+        return;
+    }
+    if (u == 0.0 && point.second_order && point.second_order->standard_uncertainty(output) > 0.0) {
+        result.coverage = "none";
+        result.coverage_note =
+            "the first-order terms of the law of propagation vanish at these estimates, so that they say nothing";
+        return;
+    }
+    if (const auto dominated = gum::expand_dominated_output(*point.model, point.propagation, output)) {
+        result.coverage = "convolution";
+        result.coverage_note = "the bounded distribution of " + names_of(*point.model, dominated->dominating) +
+                               " dominates, so that k is taken from the convolution of all distributions";
+        result.coverage_factor = dominated->coverage_factor;
+        result.expanded_uncertainty = dominated->expanded_uncertainty;
+        return;
+    }
+    result.coverage = std::isinf(result.degrees_of_freedom) ? "normal" : "student_t";
+    double nu = result.degrees_of_freedom;
+    if (job.truncate_degrees_of_freedom && std::isfinite(nu) && nu >= 1.0) {
+        nu = std::floor(nu * (1.0 + k_rounding_of_degrees_of_freedom));
+        result.coverage_note = "k is taken for the next lower whole number of degrees of freedom";
+    }
+    result.coverage_factor = gum::coverage_factor(result.coverage_probability, nu);
+    result.expanded_uncertainty = *result.coverage_factor * u;
+}
+
+bool changes(const BudgetPointResult& point, Eigen::Index output, double change, double shift) {
+    if (!point.second_order) {
+        return false;
+    }
+    const double first = point.propagation.standard_uncertainty(output);
+    const double second = point.second_order->standard_uncertainty(output);
+    return std::abs(second - first) > change * first ||
+           std::abs(point.second_order->shift(output)) > shift * std::max(first, second);
+}
+
+/// Monte Carlo of one point for each coverage probability that its outputs ask for.
+void run_monte_carlo(const BudgetJob& job, unsigned threads, BudgetPointResult& point) {
+    const engine::BudgetMonteCarlo& asked = *job.monte_carlo;
+    gum::MonteCarloOptions options;
+    options.seed = asked.seed;
+    options.threads = threads;
+    options.streams = point.streams;
+    options.regions = job.points.empty();
+    if (asked.trials) {
+        options.trials = *asked.trials;
+    } else {
+        options.adaptive = gum::AdaptiveTrials{.digits = asked.digits,
+                                               .most_trials = asked.most_trials,
+                                               .tolerance_divisor = asked.validate ? k_validation_divisor : 1.0};
+    }
+    std::map<double, gum::MonteCarloResult> results;
+    for (std::size_t i = 0; i < point.outputs.size(); ++i) {
+        BudgetOutputResult& output = point.outputs[i];
+        auto found = results.find(output.coverage_probability);
+        if (found == results.end()) {
+            options.coverage_probability = output.coverage_probability;
+            found = results.emplace(output.coverage_probability, gum::run_monte_carlo(*point.model, options)).first;
+            if (!point.monte_carlo) {
+                point.monte_carlo = found->second;
+            }
+        }
+        output.monte_carlo = found->second.outputs[i];
+        output.trials = found->second.trials;
+        output.stabilised = found->second.stabilised;
+    }
+}
+
+/// What Monte Carlo adds to the outputs: an expanded uncertainty where the law of propagation has none, validation.
+void use_monte_carlo(const BudgetJob& job, BudgetPointResult& point, BudgetResult& result) {
+    for (std::size_t i = 0; i < point.outputs.size(); ++i) {
+        BudgetOutputResult& output = point.outputs[i];
+        const auto index = static_cast<Eigen::Index>(i);
+        const double u = point.propagation.standard_uncertainty(index);
+        const double y = point.propagation.value(index);
+        if (job.monte_carlo->validate && output.expanded_uncertainty && u > 0.0) {
+            output.validation = gum::validate(y, u, *output.expanded_uncertainty, output.monte_carlo->symmetric,
+                                              output.monte_carlo->numerical_error.symmetric, job.monte_carlo->digits);
+            if (!output.validation->validated || !output.validation->precise_enough) {
+                result.validation_failed = true;
+            }
+        } else if (job.monte_carlo->validate && !output.expanded_uncertainty) {
+            result.validation_failed = true;
+        }
+        if (!output.expanded_uncertainty && output.coverage == "none") {
+            const gum::CoverageInterval& interval = output.monte_carlo->symmetric;
+            output.coverage = "monte_carlo";
+            output.coverage_note += "; the expanded uncertainty is half the width of the Monte Carlo interval";
+            output.expanded_uncertainty = 0.5 * (interval.high - interval.low);
+            if (u > 0.0) {
+                output.coverage_factor = *output.expanded_uncertainty / u;
+            }
+        }
+    }
+}
+
+void warn(const BudgetJob& job, const BudgetPointResult& point, const std::string& where, BudgetResult& result) {
+    for (std::size_t i = 0; i < point.outputs.size(); ++i) {
+        const auto index = static_cast<Eigen::Index>(i);
+        const std::string place = "result " + result.output_names[i] + where;
+        if (point.outputs[i].coverage == "none") {
+            result.notes.push_back({.code = "GC-BUDGET-0020",
+                                    .where = place,
+                                    .what = "no expanded uncertainty can be stated: " + point.outputs[i].coverage_note,
+                                    .rule = "a coverage factor needs the distribution of the result",
+                                    .action = "Add \"monte_carlo\" to the job.",
+                                    .severity = gum::Severity::warning});
+        } else if (changes(point, index, k_warned_change, k_warned_shift) && !job.monte_carlo) {
+            result.notes.push_back({.code = "GC-BUDGET-0021",
+                                    .where = place,
+                                    .what = "the model is not linear over the uncertainties of its inputs",
+                                    .rule = "higher-order terms must be included then (JCGM 100:2008, 5.1.2 note)",
+                                    .action = "See the second-order terms of the result, and add \"monte_carlo\" with "
+                                              "\"validate\": true to the job.",
+                                    .severity = gum::Severity::warning});
+        }
+        if (!point.outputs[i].stabilised) {
+            result.notes.push_back(
+                {.code = "GC-BUDGET-0022",
+                 .where = place,
+                 .what = std::to_string(point.outputs[i].trials) + " trials, and the results have not stabilised",
+                 .rule = "adaptive Monte Carlo ends when twice the standard deviation of each result "
+                         "is within its tolerance (JCGM 101:2008, 7.9.4)",
+                 .action = "Raise adaptive.max_trials, or ask for one digit.",
+                 .severity = gum::Severity::warning});
+        }
+    }
+}
+
+BudgetPointResult evaluate_point(const BudgetJob& job, const std::optional<gum::EquationSystem>& system,
+                                 std::optional<std::size_t> at, unsigned threads, BudgetResult& result) {
+    BudgetInputs inputs = budget_inputs(job, result.fits, at);
+    if (!at || *at == 0) {
+        result.notes.insert(result.notes.end(), inputs.notes.begin(), inputs.notes.end());
+    }
+    BudgetPointResult point;
+    point.streams = std::move(inputs.streams);
+    point.model = std::make_shared<const BudgetModel>(system, result.symbols, std::move(inputs.groups),
+                                                      std::move(inputs.quantities));
+    point.propagation = gum::propagate(*point.model, job.coverage_probability);
+    if (system && !is_linear(*system) && point.propagation.jacobian.cols() <= k_most_inputs_of_second_order) {
+        point.second_order = gum::propagate_to_second_order(*point.model, point.propagation);
+    }
+    for (std::size_t i = 0; i < result.output_names.size(); ++i) {
+        BudgetOutputResult output;
+        output.coverage_probability = coverage_probability_of(job, result.output_names[i]);
+        const auto index = static_cast<Eigen::Index>(i);
+        point.propagation.coverage_probability = output.coverage_probability;
+        expand(job, point, index, output);
+        output.second_order_matters = changes(point, index, k_reported_change, k_reported_shift);
+        point.outputs.push_back(std::move(output));
+    }
+    if (job.monte_carlo) {
+        run_monte_carlo(job, threads, point);
+        use_monte_carlo(job, point, result);
+    }
+    warn(job, point, at ? " at point " + job.points[*at].name : "", result);
+    return point;
+}
+
+Eigen::MatrixXd full_covariance(const gum::InputGroup& group) {
+    return group.is_diagonal() ? Eigen::MatrixXd(group.covariance.col(0).asDiagonal()) : group.covariance;
+}
+
+/// The group of a point that has a stream: its position, first column of the Jacobian and size.
+struct SharedGroup {
+    std::size_t group = 0;
+    Eigen::Index column = 0, size = 0;
+};
+
+std::optional<SharedGroup> find_shared(const BudgetPointResult& point, std::uint64_t stream) {
+    Eigen::Index column = 0;
+    for (std::size_t g = 0; g < point.streams.size(); ++g) {
+        const Eigen::Index size = point.model->inputs()[g].size();
+        if (point.streams[g] == stream) {
+            return SharedGroup{.group = g, .column = column, .size = size};
+        }
+        column += size;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+BudgetResult evaluate_budget(const BudgetJob& job, unsigned threads,
+                             const std::function<void(const std::string&)>& progress) {
+    BudgetResult result;
+    result.symbols = budget_symbols(job);
+    for (const BudgetFit& fit : job.fits) {
+        if (progress) {
+            progress("fit of " + fit.name);
+        }
+        result.fits.push_back(evaluate_fit(fit));
+    }
+    const std::optional<gum::EquationSystem> system = compile_model(job);
+    if (system) {
+        for (std::size_t i = 0; i < system->output_count(); ++i) {
+            result.output_names.push_back(system->output_name(i));
+            result.output_units.push_back(system->output_unit(i));
+        }
+    } else {
+        for (const BudgetSymbol& symbol : result.symbols) {
+            result.output_names.push_back(symbol.name);
+            result.output_units.push_back(symbol.unit);
+        }
+    }
+    if (job.points.empty()) {
+        if (progress && job.monte_carlo) {
+            progress("Monte Carlo");
+        }
+        result.points.push_back(evaluate_point(job, system, std::nullopt, threads, result));
+    }
+    for (std::size_t p = 0; p < job.points.size(); ++p) {
+        if (progress) {
+            progress("point " + std::to_string(p + 1) + " of " + std::to_string(job.points.size()));
+        }
+        result.points.push_back(evaluate_point(job, system, p, threads, result));
+    }
+    return result;
+}
+
+Eigen::MatrixXd budget_covariance(const BudgetResult& result) {
+    const auto m = static_cast<Eigen::Index>(result.output_names.size());
+    const auto points = static_cast<Eigen::Index>(result.points.size());
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(m * points, m * points);
+    for (Eigen::Index a = 0; a < points; ++a) {
+        const BudgetPointResult& first = result.points[static_cast<std::size_t>(a)];
+        covariance.block(a * m, a * m, m, m) = first.propagation.covariance;
+        for (Eigen::Index b = a + 1; b < points; ++b) {
+            const BudgetPointResult& second = result.points[static_cast<std::size_t>(b)];
+            Eigen::MatrixXd block = Eigen::MatrixXd::Zero(m, m);
+            // One quantity that both points share is one stream of random numbers; its uncertainty may differ between
+            // them (percent of reading).
+            Eigen::Index column = 0;
+            for (std::size_t g = 0; g < first.streams.size(); ++g) {
+                const Eigen::Index n = first.model->inputs()[g].size();
+                const std::optional<SharedGroup> shared = find_shared(second, first.streams[g]);
+                if (shared && shared->size == n) {
+                    const Eigen::MatrixXd V = full_covariance(first.model->inputs()[g]);
+                    const Eigen::MatrixXd W = full_covariance(second.model->inputs()[shared->group]);
+                    const Eigen::VectorXd u = V.diagonal().cwiseSqrt();
+                    const Eigen::VectorXd w = W.diagonal().cwiseSqrt();
+                    const Eigen::MatrixXd common = u.asDiagonal() * gum::correlation_matrix(V) * w.asDiagonal();
+                    block += first.propagation.jacobian.middleCols(column, n) * common *
+                             second.propagation.jacobian.middleCols(shared->column, n).transpose();
+                }
+                column += n;
+            }
+            covariance.block(a * m, b * m, m, m) = block;
+            covariance.block(b * m, a * m, m, m) = block.transpose();
+        }
+    }
+    return covariance;
+}
+
+}  // namespace gumcert::app

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/budget_model.h"
+#include "engine/curve_fit.h"
+#include "engine/job/budget_job.h"
+#include "gum/convolution.h"
+#include "gum/monte_carlo.h"
+#include "gum/propagation.h"
+
+namespace gumcert::app {
+
+/// Everything computed for one output of a budget job at one point of its table, coherent SI.
+struct BudgetOutputResult {
+    double coverage_probability = 0.9545;
+    double degrees_of_freedom = 0.0;        ///< ν_eff; NaN: none can be stated
+    std::optional<double> coverage_factor;  ///< none: no expanded uncertainty can be stated
+    std::optional<double> expanded_uncertainty;
+    std::string coverage;  ///< as reports::Result::coverage
+    std::string coverage_note;
+    bool second_order_matters = false;
+    std::optional<gum::MonteCarloOutput> monte_carlo;
+    std::uint64_t trials = 0;
+    bool stabilised = true;
+    std::optional<gum::Validation> validation;  ///< in the unit of the result
+};
+
+/// A budget job at one point of its table (or the only one).
+struct BudgetPointResult {
+    std::shared_ptr<const BudgetModel> model;
+    std::vector<std::uint64_t> streams;  ///< one a group: what points have in common is equal
+    gum::Propagation propagation;
+    std::optional<gum::SecondOrderPropagation> second_order;
+    std::vector<BudgetOutputResult> outputs;
+    std::optional<gum::MonteCarloResult> monte_carlo;  ///< of the first coverage probability
+};
+
+struct BudgetResult {
+    std::vector<BudgetSymbol> symbols;
+    std::vector<std::string> output_names;
+    std::vector<gum::Unit> output_units;
+    std::vector<engine::CurveFit> fits;
+    std::vector<BudgetPointResult> points;  ///< one without a table of points
+    std::vector<gum::Diagnostic> notes;
+    bool validation_failed = false;  ///< validation was demanded, and a result is not validated
+};
+
+/// Evaluates a budget job: fits, law of propagation, coverage, Monte Carlo, validation.
+/// \param threads  of Monte Carlo; 0: as many as the machine has
+/// \throws InputError, NoResultError
+[[nodiscard]] BudgetResult evaluate_budget(const engine::BudgetJob& job, unsigned threads,
+                                           const std::function<void(const std::string&)>& progress = {});
+
+/// Covariance of all results, points one after the other: (points · outputs) square, coherent SI.
+[[nodiscard]] Eigen::MatrixXd budget_covariance(const BudgetResult& result);
+
+}  // namespace gumcert::app
