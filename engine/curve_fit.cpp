@@ -42,6 +42,25 @@ std::string number_text(double value) {
     return {buffer.data(), result.ptr};
 }
 
+/// The decimal number that a double was read from: its shortest digits, with the precision that sums are kept in. Data
+/// are written in decimal; a polynomial of the tenth degree turns the rounding to double into lost digits of its
+/// parameters.
+Real decimal(double value) {
+    std::array<char, 32> buffer{};
+    const std::to_chars_result end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+    Real result = value;
+    std::from_chars(buffer.data(), end.ptr, result);
+    return result;
+}
+
+Vector decimals(const Eigen::VectorXd& values) {
+    Vector result(values.size());
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+        result[i] = decimal(values[i]);
+    }
+    return result;
+}
+
 std::string size_text(Eigen::Index rows, Eigen::Index columns) {
     return std::to_string(rows) + " × " + std::to_string(columns);
 }
@@ -200,7 +219,7 @@ public:
           data_(data),
           n_(data.y.size()),
           p_(parameters),
-          y_(data.y.cast<Real>()),
+          y_(decimals(data.y)),
           y_spread_(std::move(y_spread)),
           x_spread_(std::move(x_spread)) {}
 
@@ -264,6 +283,28 @@ public:
         result.finite = std::isfinite(result.sum) && result.design.allFinite() && result.right.allFinite() &&
                         std::isfinite(result.rounding);
         return result;
+    }
+
+    /// Columns of the design that are powers of the only regressor, again from its decimal digits. \pre exact x
+    void sharpen_powers(Linearised& at) const {
+        if (data_.x.cols() != 1) {
+            return;
+        }
+        constexpr int k_highest_power = 30;
+        const Vector x = decimals(data_.x.col(0));
+        for (Eigen::Index j = 0; j < p_; ++j) {
+            Vector power = Vector::Ones(n_);
+            for (int k = 0; k <= k_highest_power; ++k) {
+                const Vector difference = (at.by_parameter.col(j) - power).cwiseAbs();
+                const Real rounding = 2.0L * static_cast<Real>(k + 1) * k_double_epsilon;
+                if ((difference.array() <= rounding * power.cwiseAbs().array()).all()) {
+                    at.by_parameter.col(j) = power;
+                    break;
+                }
+                power = power.cwiseProduct(x);
+            }
+        }
+        at.design = at.spread.whitened(at.by_parameter);
     }
 
     /// Gauss–Newton step, damped in the parameters.
@@ -787,6 +828,7 @@ LinearSolution solve_linear(const Problem& problem, const std::vector<std::strin
     if (!solution.at.finite) {
         refuse_not_finite("parameters that are all 0");
     }
+    problem.sharpen_powers(solution.at);
     require_rank(solution.at, names);
     solution.parameters = Factorisation(solution.at.design).solve(solution.at.right);
     const Linearised there = problem.linearise(problem.begin(solution.parameters.cast<double>()));

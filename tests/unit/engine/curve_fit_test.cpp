@@ -497,8 +497,8 @@ TEST(CurveFit, CertifiedNoInt2) {
     EXPECT_GE(correct_digits(fit.r_squared.value(), "0.993348115299335", 15.0), 14.0);
 }
 
-// NIST StRD Filip: a polynomial of degree 10, the hardest linear set. Values to x^10 are rounded to double before the
-// fit sees them; that, not the solution, costs the digits.
+// NIST StRD Filip: a polynomial of degree 10, the hardest linear set. With powers of x in double precision 7.6 digits are
+// left; the powers of its decimal digits give the certified ones.
 TEST(CurveFit, CertifiedFilip) {
     const std::vector<double> y{
         0.8116, 0.9072, 0.9052, 0.9039, 0.8053, 0.8377, 0.8667, 0.8809, 0.7975, 0.8162, 0.8515, 0.8766, 0.8885, 0.8859,
@@ -538,8 +538,8 @@ TEST(CurveFit, CertifiedFilip) {
     digits.sums = std::min(correct_digits(fit.residual_standard_deviation, "0.334801051324544E-02", 15.0),
                            correct_digits(fit.r_squared.value(), "0.996727416185620", 15.0));
     RecordProperty("filip", text_of(digits) + ", condition " + std::to_string(fit.condition_number));
-    EXPECT_GE(digits.parameters, 7.0) << text_of(digits);
-    EXPECT_GE(digits.standard_deviations, 7.0) << text_of(digits);
+    EXPECT_GE(digits.parameters, 9.0) << text_of(digits);
+    EXPECT_GE(digits.standard_deviations, 9.0) << text_of(digits);
     EXPECT_GE(digits.sums, 9.0) << text_of(digits);
 }
 
