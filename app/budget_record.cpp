@@ -89,7 +89,7 @@ BudgetRow budget_row(const std::string& name, const Unit& unit, const RowNumbers
     row.nu = finite_or_none(si.nu);
     row.sensitivity = result_unit.difference_from_si(si.sensitivity * unit.difference_to_si(1.0));
     row.contribution = result_unit.difference_from_si(std::abs(si.sensitivity) * si.u);
-    const double ratio = result_u > 0.0 ? std::abs(si.sensitivity) * si.u / result_u : 0.0;
+    const double ratio = result_u > 0.0 ? std::abs(si.sensitivity) * si.u / result_u : 0.0;  // nothing to share of 0
     row.share = ratio * ratio;
     row.printed.value = printed_estimate(*row.value, row.u);
     row.printed.u = rounded(row.u, k_digits_of_u);
@@ -229,6 +229,11 @@ reports::MonteCarloSummary monte_carlo_summary(const BudgetJob& job, const Budge
     summary.numerical_error.symmetric = differences(from.numerical_error.symmetric, unit);
     summary.numerical_error.shortest = differences(from.numerical_error.shortest, unit);
     summary.adaptive = !job.monte_carlo->trials;
+    if (!from.histogram.counts.empty()) {
+        summary.histogram_low = unit.from_si(from.histogram.low);
+        summary.histogram_high = unit.from_si(from.histogram.high);
+        summary.histogram.assign(from.histogram.counts.begin(), from.histogram.counts.end());
+    }
     summary.stabilised = output.stabilised;
     // As many digits as the numerical error allows, and not more than four of u.
     const auto shown = [&](double value, double error) {
@@ -619,7 +624,7 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
             }
             out.value = unit.from_si(point.propagation.value(index));
             out.unit = unit.text();
-            out.u = unit.difference_from_si(point.propagation.standard_uncertainty(index));
+            out.u = unit.difference_from_si(from.standard_uncertainty);
             out.nu_eff = finite_or_none(from.degrees_of_freedom);
             out.k = from.coverage_factor;
             out.coverage_probability = from.coverage_probability;
@@ -636,6 +641,8 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
             }
             if (from.second_order_matters) {
                 reports::SecondOrder second;
+                second.first_order_u = unit.difference_from_si(point.propagation.standard_uncertainty(index));
+                second.printed.first_order_u = rounded(second.first_order_u, k_digits_of_u);
                 second.u = unit.difference_from_si(point.second_order->standard_uncertainty(index));
                 second.shift = unit.difference_from_si(point.second_order->shift(index));
                 second.printed.u = rounded(second.u, k_digits_of_u);

@@ -23,6 +23,8 @@ constexpr double k_reported_shift = 0.01;
 constexpr double k_warned_change = 0.05;
 constexpr double k_warned_shift = 0.1;
 constexpr Eigen::Index k_most_inputs_of_second_order = 1000;  // the matrices of second derivatives grow with the square
+constexpr std::size_t k_most_points_with_histogram = 4;       // documents draw no more
+constexpr double k_accepted_asymmetry = 0.02;                 // of half the width: below what two digits of U show
 constexpr double k_rounding_of_degrees_of_freedom = 1e-12;    // 3.999…9 is 4
 constexpr double k_validation_divisor = 5.0;  // JCGM 101:2008, 8.2: Monte Carlo to a fifth of the tolerance
 
@@ -141,6 +143,7 @@ std::string names_of(const BudgetModel& model, const std::vector<std::size_t>& g
 /// k and U of one output from the law of propagation.
 void expand(const BudgetJob& job, const BudgetPointResult& point, Eigen::Index output, BudgetOutputResult& result) {
     const double u = point.propagation.standard_uncertainty(output);
+    result.standard_uncertainty = u;
     result.degrees_of_freedom = point.propagation.effective_degrees_of_freedom(output);
     if (std::isnan(result.degrees_of_freedom)) {
         result.coverage = "none";
@@ -155,9 +158,11 @@ void expand(const BudgetJob& job, const BudgetPointResult& point, Eigen::Index o
         return;
     }
     if (u == 0.0 && point.second_order && point.second_order->standard_uncertainty(output) > 0.0) {
+        result.standard_uncertainty = point.second_order->standard_uncertainty(output);
         result.coverage = "none";
         result.coverage_note =
-            "the first-order terms of the law of propagation vanish at these estimates, so that they say nothing";
+            "the first-order terms of the law of propagation vanish at these estimates; u is that of the second-order "
+            "terms, and the distribution of the result is not known from them";
         return;
     }
     if (const auto dominated = gum::expand_dominated_output(*point.model, point.propagation, output)) {
@@ -196,6 +201,7 @@ void run_monte_carlo(const BudgetJob& job, unsigned threads, BudgetPointResult& 
     options.threads = threads;
     options.streams = point.streams;
     options.regions = job.points.empty();
+    options.histogram = job.points.size() <= k_most_points_with_histogram;
     if (asked.trials) {
         options.trials = *asked.trials;
     } else {
@@ -225,7 +231,7 @@ void use_monte_carlo(const BudgetJob& job, BudgetPointResult& point, BudgetResul
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
         BudgetOutputResult& output = point.outputs[i];
         const auto index = static_cast<Eigen::Index>(i);
-        const double u = point.propagation.standard_uncertainty(index);
+        const double u = output.standard_uncertainty;
         const double y = point.propagation.value(index);
         if (job.monte_carlo->validate && output.expanded_uncertainty && u > 0.0) {
             output.validation = gum::validate(y, u, *output.expanded_uncertainty, output.monte_carlo->symmetric,
@@ -237,12 +243,21 @@ void use_monte_carlo(const BudgetJob& job, BudgetPointResult& point, BudgetResul
             result.validation_failed = true;
         }
         if (!output.expanded_uncertainty && output.coverage == "none") {
+            // Half the width of the interval is an expanded uncertainty about its middle, not about any other value.
             const gum::CoverageInterval& interval = output.monte_carlo->symmetric;
-            output.coverage = "monte_carlo";
-            output.coverage_note += "; the expanded uncertainty is half the width of the Monte Carlo interval";
-            output.expanded_uncertainty = 0.5 * (interval.high - interval.low);
-            if (u > 0.0) {
-                output.coverage_factor = *output.expanded_uncertainty / u;
+            const double half_width = 0.5 * (interval.high - interval.low);
+            const double off_centre = std::abs(y - 0.5 * (interval.high + interval.low));
+            if (off_centre > k_accepted_asymmetry * half_width) {
+                output.coverage_note +=
+                    "; the Monte Carlo interval is not symmetric about the value, and stands in place "
+                    "of an expanded uncertainty";
+            } else {
+                output.coverage = "monte_carlo";
+                output.coverage_note += "; the expanded uncertainty is half the width of the Monte Carlo interval";
+                output.expanded_uncertainty = half_width;
+                if (u > 0.0) {
+                    output.coverage_factor = half_width / u;
+                }
             }
         }
     }
@@ -257,7 +272,8 @@ void warn(const BudgetJob& job, const BudgetPointResult& point, const std::strin
                                     .where = place,
                                     .what = "no expanded uncertainty can be stated: " + point.outputs[i].coverage_note,
                                     .rule = "a coverage factor needs the distribution of the result",
-                                    .action = "Add \"monte_carlo\" to the job.",
+                                    .action = job.monte_carlo ? "Use the coverage interval of Monte Carlo."
+                                                              : "Add \"monte_carlo\" to the job.",
                                     .severity = gum::Severity::warning});
         } else if (changes(point, index, k_warned_change, k_warned_shift) && !job.monte_carlo) {
             result.notes.push_back({.code = "GC-BUDGET-0021",

@@ -19,6 +19,8 @@ namespace gumcert::app {
 /// Everything computed for one output of a budget job at one point of its table, coherent SI.
 struct BudgetOutputResult {
     double coverage_probability = 0.9545;
+    /// u(y) of the law of propagation: of the first order, and where that vanishes, with the second-order terms.
+    double standard_uncertainty = 0.0;
     double degrees_of_freedom = 0.0;        ///< ν_eff; NaN: none can be stated
     std::optional<double> coverage_factor;  ///< none: no expanded uncertainty can be stated
     std::optional<double> expanded_uncertainty;

@@ -104,7 +104,12 @@ Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string
     try {
         kind = engine::job_kind(job_file);
     } catch (const gum::InputError&) {
-        (void)engine::read_rotary_table_job(job_file);  // tells the other problems of the job together with this one
+        // The reader of its kind tells the other problems of the job together with this one.
+        if (engine::probable_job_kind(job_file) == "budget") {
+            (void)engine::read_budget_job(job_file);
+        } else {
+            (void)engine::read_rotary_table_job(job_file);
+        }
         throw;
     }
     if (kind == "budget") {

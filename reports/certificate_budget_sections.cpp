@@ -455,8 +455,8 @@ void second_order(CertificateBuilder& builder, const Wording& words, const Evalu
     Rows rows;
     for (const Result& r : record.results) {
         if (r.second_order) {
-            rows.push_back(
-                {r.name, rounded(r.u), r.second_order->printed.u, r.second_order->printed.shift, r.printed.unit});
+            rows.push_back({r.name, r.second_order->printed.first_order_u, r.second_order->printed.u,
+                            r.second_order->printed.shift, r.printed.unit});
         }
     }
     if (rows.empty()) {

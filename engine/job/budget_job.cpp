@@ -423,7 +423,8 @@ std::vector<gum::InputSymbol> model_inputs(const BudgetJob& job) {
     std::vector<gum::InputSymbol> symbols;
     for (std::size_t i = 0; i < job.inputs.size(); ++i) {
         const BudgetInput& input = job.inputs[i];
-        gum::InputSymbol& symbol = symbols.emplace_back(gum::InputSymbol{input.name, input.unit, std::nullopt});
+        gum::InputSymbol& symbol =
+            symbols.emplace_back(gum::InputSymbol{input.name, input.unit, std::nullopt, input.where});
         if (input.constant && !stated_by_points.contains(i)) {
             double value = 0.0;
             for (const StatedQuantity& component : input.components) {

@@ -645,8 +645,15 @@ std::optional<std::int64_t> JsonObject::optional_integer(std::string_view key, c
     // Whole numbers may be written with a point or an exponent: "trials": 1e6. Beyond 2^53 not every one has a double.
     constexpr double k_largest = 9007199254740992.0;
     const double number = value->get<double>();
-    if (!(number >= -k_largest && number <= k_largest) ||
-        number != static_cast<double>(static_cast<std::int64_t>(number))) {
+    if (!(number >= -k_largest && number <= k_largest)) {
+        // A double of that size is whole: what is wrong with it is its size, unless the key allows it.
+        if (number_at(pointer(key), *value, range)) {
+            refuse(k_number_out_of_range, key, range.with_unit(number), "must lie within ±9007199254740992",
+                   "write a smaller number");
+        }
+        return std::nullopt;
+    }
+    if (number != static_cast<double>(static_cast<std::int64_t>(number))) {
         refuse(k_not_an_integer, key, range.with_unit(number), "must be a whole number",
                "write a number without fraction");
         return std::nullopt;

@@ -1203,6 +1203,25 @@ std::string job_kind(const FileSource& source, const std::string& job_file) {
     return kind.value();
 }
 
+std::optional<std::string> probable_job_kind(const std::filesystem::path& job_file) {
+    const DiskJob disk = on_disk(job_file);
+    ProblemList problems(disk.name);
+    const std::string bytes = disk.source.read(disk.name);
+    const std::optional<JsonDocument> document = read_json_document(bytes, problems);
+    if (document && document->value.is_object() && document->value.contains("kind") &&
+        document->value["kind"].is_string()) {
+        return document->value["kind"].get<std::string>();
+    }
+    // The text ends before its end, or is none: the first kind that is named in it.
+    const std::size_t key = bytes.find("\"kind\"");
+    for (const char* kind : {"budget", "rotary_table", "comparison"}) {
+        if (key != std::string::npos && bytes.find('"' + std::string(kind) + '"', key) < bytes.find(',', key)) {
+            return kind;
+        }
+    }
+    return std::nullopt;
+}
+
 std::string job_kind(const std::filesystem::path& job_file) {
     const DiskJob disk = on_disk(job_file);
     return job_kind(disk.source, disk.name);

@@ -97,7 +97,6 @@ private:
         if (!is_new) {
             refuse("GC-MODEL-0029", where, "\"" + name + "\" looks like \"" + twin->second + "\" but is another name",
                    "names can be told apart on paper", "Type the name anew, with letters of one script.");
-            return false;
         }
         symbols_.emplace(canonical, symbol);
         all_names_.push_back(canonical);
@@ -106,7 +105,8 @@ private:
 
     void declare_quantities() {
         for (std::size_t i = 0; i < inputs_.size(); ++i) {
-            declare(inputs_[i].name, {Symbol::Kind::input, i}, "input " + inputs_[i].name);
+            declare(inputs_[i].name, {Symbol::Kind::input, i},
+                    inputs_[i].where.empty() ? "input " + inputs_[i].name : inputs_[i].where);
         }
         for (std::size_t i = 0; i < unknowns_.size(); ++i) {
             declare(unknowns_[i].name, {Symbol::Kind::unknown, i}, "unknown " + unknowns_[i].name);

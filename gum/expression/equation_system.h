@@ -32,6 +32,7 @@ struct InputSymbol {
     std::string name;
     Unit unit;
     std::optional<double> constant;  ///< its value, coherent SI, when it is a constant: it may then be an exponent
+    std::string where = {};          ///< place to name in messages; "input NAME" where it is empty
 };
 
 /// An unknown of the implicit equations.

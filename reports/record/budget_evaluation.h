@@ -12,10 +12,11 @@ namespace gumcert::reports {
 
 /// Second-order terms of the law of propagation (JCGM 100:2008, 5.1.2 note), in the unit of the result.
 struct SecondOrder {
-    double u = 0.0;      ///< standard uncertainty with first- and second-order terms
-    double shift = 0.0;  ///< expectation of the output minus its value at the estimates
+    double first_order_u = 0.0;  ///< standard uncertainty with first-order terms alone
+    double u = 0.0;              ///< with first- and second-order terms
+    double shift = 0.0;          ///< expectation of the output minus its value at the estimates
     struct {
-        std::string u, shift;
+        std::string first_order_u, u, shift;
     } printed;
 };
 

@@ -110,9 +110,11 @@ void describe(Archive& a, Struct& r) {
 
 template <class Archive, Is<SecondOrder> Struct>
 void describe(Archive& a, Struct& r) {
+    a("first_order_u", r.first_order_u, Range::not_negative);
     a("u", r.u, Range::not_negative);
     a("shift", r.shift);
     a.group("printed", [&](auto& b) {
+        b("first_order_u", r.printed.first_order_u);
         b("u", r.printed.u);
         b("shift", r.printed.shift);
     });

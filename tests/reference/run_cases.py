@@ -288,12 +288,14 @@ class Lookup:
                 return probability_of(k)
         return self.options.get("coverage_probability", 0.95)
 
-    def single(self, statement, probability=0.95, monte_carlo=None):
+    def single(self, statement, probability=0.95, monte_carlo=None, reporting=None):
         """Result of a job of one input and no model."""
         job = {"coverage_probability": probability, "inputs": {"x": statement}}
         if monte_carlo:
             job["monte_carlo"] = monte_carlo
-        record = self.record(("x", json.dumps(statement), probability, str(monte_carlo)), lambda: job)
+        if reporting:
+            job["reporting"] = reporting
+        record = self.record(("x", json.dumps(statement), probability, str(monte_carlo), str(reporting)), lambda: job)
         return record["results"]["x"]
 
     def readings(self, name, values, unit="1"):
@@ -492,7 +494,9 @@ class Propagation(Lookup):
         if kind == "u" and self.case["procedure"] == "lpu_second_order" or kind == "u_second_order":
             return Found(result["second_order"]["u"], unit, how="with second-order terms")
         if kind in ("u", "u_first_order"):
-            return Found(result["u"] * scale, unit)
+            # Where the first-order terms vanish, the result has u of the second order.
+            second = result["second_order"]
+            return Found((second["first_order_u"] if second else result["u"]) * scale, unit)
         if kind in ("u_rel_percent", "u_rel", "relative_u"):
             return Found(result["u"] / abs(result["value"]) * (100.0 if kind.endswith("percent") else 1.0))
         if kind == "variance":
@@ -528,7 +532,8 @@ class Propagation(Lookup):
         k, how = result["k"], ""
         if self.is_cut(entry["quantity"]) and result["nu_eff"] is not None:
             nu = math.floor(result["nu_eff"])
-            k = self.single({"value": 0, "u": 1, "nu": nu}, self.probability(entry))["k"]
+            k = self.single({"value": 0, "u": 1, "nu": result["nu_eff"]}, self.probability(entry),
+                            reporting={"degrees_of_freedom": "truncated"})["k"]
             if abs(k - result["k"]) > 1e-9 * k:
                 how = (f"ν_eff cut to {nu} as in the source; the program takes {result['nu_eff']:.2f} as it is,"
                        f" k = {result['k']:.4f}")

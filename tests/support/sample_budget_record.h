@@ -107,7 +107,8 @@ inline reports::EvaluationRecord sample_budget_record() {
     d_theta.printed.nu = "2";
     d_theta.printed.sensitivity = "-575";
     l.budget = {l_s, d, alpha_s, d_alpha, theta, d_theta};
-    l.second_order = SecondOrder{.u = 33.8, .shift = 0.0, .printed = {.u = "34", .shift = "0"}};
+    l.second_order = SecondOrder{
+        .first_order_u = 31.7, .u = 33.8, .shift = 0.0, .printed = {.first_order_u = "32", .u = "34", .shift = "0"}};
 
     MonteCarloSummary m;
     m.trials = 1000000;

@@ -497,8 +497,8 @@ TEST(CurveFit, CertifiedNoInt2) {
     EXPECT_GE(correct_digits(fit.r_squared.value(), "0.993348115299335", 15.0), 14.0);
 }
 
-// NIST StRD Filip: a polynomial of degree 10, the hardest linear set. With powers of x in double precision 7.6 digits are
-// left; the powers of its decimal digits give the certified ones.
+// NIST StRD Filip: a polynomial of degree 10, the hardest linear set. With powers of x in double precision 7.6 digits
+// are left; the powers of its decimal digits give the certified ones.
 TEST(CurveFit, CertifiedFilip) {
     const std::vector<double> y{
         0.8116, 0.9072, 0.9052, 0.9039, 0.8053, 0.8377, 0.8667, 0.8809, 0.7975, 0.8162, 0.8515, 0.8766, 0.8885, 0.8859,

@@ -194,8 +194,8 @@ const std::vector<BadBudget>& bad_budgets() {
         // ---- Monte Carlo
         {"few_trials", abc(R"j("monte_carlo": {"trials": 10})j"), code(k_too_few_trials),
          "job.json#/monte_carlo/trials", "10 trials"},
-        {"gigantic_trials", abc(R"j("monte_carlo": {"trials": 1e18})j"), code(k_not_an_integer),
-         "job.json#/monte_carlo/trials", ""},
+        {"gigantic_trials", abc(R"j("monte_carlo": {"trials": 1e18})j"), code(k_number_out_of_range),
+         "job.json#/monte_carlo/trials", "at most 10000000000"},
         {"many_trials", abc(R"j("monte_carlo": {"trials": 2e10})j"), code(k_number_out_of_range),
          "job.json#/monte_carlo/trials", "at most 10000000000"},
         {"fraction_of_trial", abc(R"j("monte_carlo": {"trials": 10000.5})j"), code(k_not_an_integer),
