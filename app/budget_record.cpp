@@ -198,10 +198,10 @@ std::optional<reports::CorrelationRow> correlation_row(const BudgetPointResult& 
 
 std::string distribution_of(const BudgetOutputResult& output) {
     if (output.coverage == "monte_carlo") {
-        return "numerical (Monte Carlo)";
+        return "numerical";
     }
     if (output.coverage == "convolution") {
-        return "convolution of the input distributions";
+        return "convolution";
     }
     return output.coverage == "none" ? "not stated" : output.coverage;
 }
@@ -319,7 +319,8 @@ reports::ResultCovariance covariance_of(const BudgetJob& job, const BudgetResult
 }
 
 /// Joint region of the outputs of the only point. The covariance must not be singular for an ellipsoid.
-reports::CoverageRegion region_of(const BudgetJob& job, const BudgetPointResult& point) {
+reports::CoverageRegion region_of(const BudgetJob& job, const BudgetPointResult& point,
+                                  const std::vector<Unit>& units) {
     reports::CoverageRegion region;
     region.coverage_probability = job.coverage_probability;
     if (point.monte_carlo && point.monte_carlo->regions) {
@@ -333,6 +334,9 @@ reports::CoverageRegion region_of(const BudgetJob& job, const BudgetPointResult&
                                       .probability = from.smallest_probability,
                                       .cells = static_cast<std::int64_t>(from.smallest_cells),
                                       .cells_per_axis = {}};
+            for (const Unit& unit : units) {
+                region.smallest_region->volume = unit.difference_from_si(region.smallest_region->volume);
+            }
             for (const int cells : from.cells_per_axis) {
                 region.smallest_region->cells_per_axis.push_back(cells);
             }
@@ -353,6 +357,20 @@ reports::CoverageRegion region_of(const BudgetJob& job, const BudgetPointResult&
         if (!std::isnan(nu)) {
             region.k_q = gum::coverage_factor(1.0 - (1.0 - job.coverage_probability) / static_cast<double>(m), nu);
         }
+    }
+    if (point.joint_validation) {
+        const gum::JointValidation& from = *point.joint_validation;
+        const auto numbers = [](const Eigen::VectorXd& v) {
+            return std::vector<double>(v.data(), v.data() + v.size());
+        };
+        region.validation = {.delta = numbers(from.tolerance),
+                             .d_value = numbers(from.value_distance),
+                             .d_u = numbers(from.u_distance),
+                             .delta_eigenvalue = from.eigenvalue_tolerance,
+                             .d_eigenvalue = from.eigenvalue_distance,
+                             .delta_k_p = from.factor_tolerance,
+                             .d_k_p = from.factor_distance,
+                             .validated = from.validated};
     }
     if (region.k_p) {
         region.printed.k_p = rounded(*region.k_p, 3);
@@ -659,7 +677,7 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
         record.covariance = covariance_of(job, result, covariance, covariance_file);
     }
     if (result.output_names.size() > 1 && job.points.empty() && !job.model.empty()) {
-        record.region = region_of(job, result.points.front());
+        record.region = region_of(job, result.points.front(), result.output_units);
     }
     for (std::size_t f = 0; f < job.fits.size(); ++f) {
         record.fits.push_back(fit_summary(job.fits[f], result.fits[f]));

@@ -234,8 +234,14 @@ void use_monte_carlo(const BudgetJob& job, BudgetPointResult& point, BudgetResul
         const double u = output.standard_uncertainty;
         const double y = point.propagation.value(index);
         if (job.monte_carlo->validate && output.expanded_uncertainty && u > 0.0) {
-            output.validation = gum::validate(y, u, *output.expanded_uncertainty, output.monte_carlo->symmetric,
-                                              output.monte_carlo->numerical_error.symmetric, job.monte_carlo->digits);
+            // In the unit of the result: the tolerance is half a unit of a decimal digit there.
+            const gum::Unit& unit = result.output_units[i];
+            const gum::CoverageInterval& interval = output.monte_carlo->symmetric;
+            const gum::CoverageInterval& error = output.monte_carlo->numerical_error.symmetric;
+            output.validation = gum::validate(
+                unit.from_si(y), unit.difference_from_si(u), unit.difference_from_si(*output.expanded_uncertainty),
+                {unit.from_si(interval.low), unit.from_si(interval.high)},
+                {unit.difference_from_si(error.low), unit.difference_from_si(error.high)}, job.monte_carlo->digits);
             if (!output.validation->validated || !output.validation->precise_enough) {
                 result.validation_failed = true;
             }
@@ -261,6 +267,23 @@ void use_monte_carlo(const BudgetJob& job, BudgetPointResult& point, BudgetResul
             }
         }
     }
+}
+
+/// JCGM 102:2011, clause 8, where there are several outputs whose first order does not vanish.
+void validate_together(const BudgetJob& job, BudgetPointResult& point, BudgetResult& result) {
+    const auto m = static_cast<Eigen::Index>(point.outputs.size());
+    if (m < 2 || !job.points.empty() || job.model.empty() ||
+        !(point.propagation.standard_uncertainty.minCoeff() > 0.0)) {
+        return;
+    }
+    Eigen::VectorXd in_unit(m);
+    for (Eigen::Index j = 0; j < m; ++j) {
+        in_unit(j) = result.output_units[static_cast<std::size_t>(j)].difference_from_si(1.0);
+    }
+    point.joint_validation = gum::validate_jointly(
+        point.propagation, gum::joint_effective_degrees_of_freedom(*point.model, point.propagation), *point.monte_carlo,
+        in_unit, job.monte_carlo->digits);
+    result.validation_failed = result.validation_failed || !point.joint_validation->validated;
 }
 
 void warn(const BudgetJob& job, const BudgetPointResult& point, const std::string& where, BudgetResult& result) {
@@ -323,6 +346,9 @@ BudgetPointResult evaluate_point(const BudgetJob& job, const std::optional<gum::
     if (job.monte_carlo) {
         run_monte_carlo(job, threads, point);
         use_monte_carlo(job, point, result);
+        if (job.monte_carlo->validate) {
+            validate_together(job, point, result);
+        }
     }
     warn(job, point, at ? " at point " + job.points[*at].name : "", result);
     return point;

@@ -11,6 +11,7 @@
 #include "engine/curve_fit.h"
 #include "engine/job/budget_job.h"
 #include "gum/convolution.h"
+#include "gum/joint_validation.h"
 #include "gum/monte_carlo.h"
 #include "gum/propagation.h"
 
@@ -40,7 +41,8 @@ struct BudgetPointResult {
     gum::Propagation propagation;
     std::optional<gum::SecondOrderPropagation> second_order;
     std::vector<BudgetOutputResult> outputs;
-    std::optional<gum::MonteCarloResult> monte_carlo;  ///< of the first coverage probability
+    std::optional<gum::MonteCarloResult> monte_carlo;      ///< of the first coverage probability
+    std::optional<gum::JointValidation> joint_validation;  ///< several outputs, in their units
 };
 
 struct BudgetResult {

@@ -579,6 +579,9 @@ void region(CertificateBuilder& builder, const Wording& words, const CoverageReg
                                                          {"p", percent_text(r.smallest_region->probability)}}));
     }
     builder.definitions(rows);
+    if (r.validation) {
+        builder.paragraph(words("sentence", r.validation->validated ? "jointly_validated" : "not_jointly_validated"));
+    }
 }
 
 void joint(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {

@@ -74,6 +74,15 @@ struct CoverageRegion {
         std::vector<std::int64_t> cells_per_axis;
     };
     std::optional<SmallestRegion> smallest_region;
+    /// Law of propagation against Monte Carlo for all outputs together (JCGM 102:2011, clause 8); in the order of the
+    /// results and in their units.
+    struct Validation {
+        std::vector<double> delta, d_value, d_u;
+        double delta_eigenvalue = 0.0, d_eigenvalue = 0.0;  ///< largest eigenvalue of the correlation matrix
+        std::optional<double> delta_k_p, d_k_p;
+        bool validated = false;
+    };
+    std::optional<Validation> validation;
     struct {
         std::string k_p, k_q;
     } printed;

@@ -213,6 +213,18 @@ void describe(Archive& a, Struct& r) {
     a("cells_per_axis", r.cells_per_axis, Range::positive);
 }
 
+template <class Archive, Is<CoverageRegion::Validation> Struct>
+void describe(Archive& a, Struct& r) {
+    a("delta", r.delta, Range::not_negative);
+    a("d_value", r.d_value, Range::not_negative);
+    a("d_u", r.d_u, Range::not_negative);
+    a("delta_eigenvalue", r.delta_eigenvalue, Range::not_negative);
+    a("d_eigenvalue", r.d_eigenvalue, Range::not_negative);
+    a("delta_k_p", r.delta_k_p, Range::not_negative);
+    a("d_k_p", r.d_k_p, Range::not_negative);
+    a("validated", r.validated);
+}
+
 template <class Archive, Is<CoverageRegion> Struct>
 void describe(Archive& a, Struct& r) {
     a("coverage_probability", r.coverage_probability, Range::probability);
@@ -227,6 +239,7 @@ void describe(Archive& a, Struct& r) {
         b("printed_k_q", r.printed.k_q);
     });
     a("smallest_region", r.smallest_region);
+    a("validation", r.validation);
 }
 
 template <class Archive, Is<FitSummary::Parameter> Struct>

@@ -60,7 +60,7 @@ struct Result {
     std::optional<double> k;       ///< none: no expanded uncertainty can be stated
     double coverage_probability = 0.9545;
     std::optional<double> U;
-    std::string distribution;  ///< of the result: "normal", "student_t", "numerical (Monte Carlo)" …
+    std::string distribution;  ///< of the result: "normal", "student_t", "convolution", "numerical", "not stated"
     /// Where k comes from: "student_t", "normal", "convolution" (exact, a bounded input dominates), "monte_carlo" (half
     /// the width of the symmetric interval), "none"
     std::string coverage = "student_t";

@@ -231,6 +231,14 @@ inline reports::EvaluationRecord sample_two_results_record() {
                               .smallest_region =
                                   CoverageRegion::SmallestRegion{
                                       .volume = 0.337, .probability = 0.9547, .cells = 512, .cells_per_axis = {50, 50}},
+                              .validation = CoverageRegion::Validation{.delta = {0.005, 0.05},
+                                                                       .d_value = {0.0004, 0.002},
+                                                                       .d_u = {0.0001, 0.003},
+                                                                       .delta_eigenvalue = 0.05,
+                                                                       .d_eigenvalue = 0.002,
+                                                                       .delta_k_p = 0.05,
+                                                                       .d_k_p = 0.004,
+                                                                       .validated = true},
                               .printed = {.k_p = "2.49", .k_q = "2.21"}};
 
     FitSummary fit;
