@@ -15,8 +15,9 @@ struct JointValidation {
     Eigen::VectorXd tolerance;                   ///< m, δ_j of u(y_j), [unit of y_j]
     Eigen::VectorXd value_distance, u_distance;  ///< m, [unit of y_j]
     double eigenvalue_tolerance = 0.0, eigenvalue_distance = 0.0;
-    std::optional<double> factor_tolerance = {}, factor_distance = {};  ///< of k_p; none where the covariance is singular
-    bool validated = false;                                   ///< every distance is within its tolerance
+    std::optional<double> factor_tolerance = {},
+                          factor_distance = {};  ///< of k_p; none where the covariance is singular
+    bool validated = false;                      ///< every distance is within its tolerance
 };
 
 /// \param in_unit  m, factors that turn coherent SI into the units of the results, where decimal digits count

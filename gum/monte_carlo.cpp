@@ -278,9 +278,9 @@ class TrialSource {
 public:
     TrialSource(const MeasurementModel& model, const MonteCarloOptions& options)
         : model_(model),
-          draws_(model.inputs(), options.seed, options.streams),
-          m_(static_cast<Eigen::Index>(model.outputs().size())),
           workers_(options.threads),
+          draws_(model.inputs(), options.seed, options.streams, &workers_),
+          m_(static_cast<Eigen::Index>(model.outputs().size())),
           scratch_(workers_.size()) {
         // Wide models are evaluated in parts of a block, so that the drawn values stay near the processor.
         const std::uint64_t most = (std::uint64_t{1} << 19) / static_cast<std::uint64_t>(draws_.size() + m_ + 1);
@@ -340,9 +340,9 @@ private:
     };
 
     const MeasurementModel& model_;
+    WorkerThreads workers_;
     InputDraws draws_;
     Eigen::Index m_;
-    WorkerThreads workers_;
     std::vector<Scratch> scratch_;
     std::uint64_t rows_ = k_block;
 };
@@ -503,9 +503,8 @@ private:
     }
 
     [[nodiscard]] bool waits_for_histograms() const {
-        return !histograms_done_ && std::any_of(histograms_.begin(), histograms_.end(), [](const Histogram& histogram) {
-            return !histogram.counts.empty();
-        });
+        return !histograms_done_ && std::any_of(histograms_.begin(), histograms_.end(),
+                                                [](const Histogram& histogram) { return !histogram.counts.empty(); });
     }
 
     [[nodiscard]] std::vector<std::vector<RankSearch::Tally>> new_tallies(const std::vector<RankSearch>& searches) {
@@ -609,19 +608,31 @@ private:
         }
     }
 
+    /// Shortest intervals of all batches of all outputs, those of an output together; none of batches that are too
+    /// small.
+    [[nodiscard]] std::vector<ShortestRange> shortest_of_batches() {
+        std::vector<ShortestRange> ranges;
+        if (batch_ < k_smallest_batch || ranks_.inside == 0) {
+            return ranges;
+        }
+        ranges.resize(static_cast<std::size_t>(m_) * k_batches);
+        const std::uint64_t inside = CoverageRanks(options_.coverage_probability, batch_).inside;
+        source_.workers().run(ranges.size(), [&](unsigned /*worker*/, std::size_t task) {
+            const double* begin = kept_.col(index(task / k_batches)).data() + index(task % k_batches * batch_);
+            std::vector<double> values(begin, begin + batch_);
+            ranges[task] = shortest_range(values, inside);
+        });
+        return ranges;
+    }
+
     /// Standard uncertainty of the ends of the shortest interval of an output.
-    [[nodiscard]] CoverageInterval shortest_error(Eigen::Index output, double u) const {
-        if (batch_ < k_smallest_batch) {
+    [[nodiscard]] CoverageInterval shortest_error(std::span<const ShortestRange> batches, double u) const {
+        if (batches.empty()) {
             return {.low = u, .high = u};
         }
-        const std::uint64_t inside = CoverageRanks(options_.coverage_probability, batch_).inside;
         Moments low;
         Moments high;
-        std::vector<double> values;
-        for (std::uint64_t batch = 0; batch < k_batches; ++batch) {
-            const double* begin = kept_.col(output).data() + batch * batch_;
-            values.assign(begin, begin + batch_);
-            const ShortestRange range = shortest_range(values, inside);
+        for (const ShortestRange& range : batches) {
             low.merge(moments_of(&range.low.value, 1));
             high.merge(moments_of(&range.high.value, 1));
         }
@@ -629,7 +640,7 @@ private:
         return {.low = low.standard_deviation() * scale, .high = high.standard_deviation() * scale};
     }
 
-    MonteCarloOutput output(Eigen::Index j) const {
+    MonteCarloOutput output(Eigen::Index j, std::span<const ShortestRange> batches) const {
         const Moments& moments = sums_.moments[static_cast<std::size_t>(j)];
         const RankSearch& search = searches_[static_cast<std::size_t>(j)];
         MonteCarloOutput result;
@@ -657,7 +668,7 @@ private:
         }
         const ShortestRange shortest = search.shortest();
         result.shortest = {.low = shortest.low.value, .high = shortest.high.value};
-        error.shortest = shortest_error(j, result.standard_uncertainty);
+        error.shortest = shortest_error(batches, result.standard_uncertainty);
         error.shortest.low = std::hypot(error.shortest.low, shortest.low.resolution);
         error.shortest.high = std::hypot(error.shortest.high, shortest.high.resolution);
         return result;
@@ -669,8 +680,13 @@ private:
         result.seed = options_.seed;
         result.coverage_probability = options_.coverage_probability;
         result.outputs.resize(static_cast<std::size_t>(m_));
+        const std::vector<ShortestRange> batches = shortest_of_batches();
         source_.workers().run(static_cast<std::size_t>(m_), [&](unsigned /*worker*/, std::size_t j) {
-            result.outputs[j] = output(static_cast<Eigen::Index>(j));
+            std::span<const ShortestRange> of_output(batches);
+            if (!batches.empty()) {
+                of_output = of_output.subspan(j * k_batches, k_batches);
+            }
+            result.outputs[j] = output(static_cast<Eigen::Index>(j), of_output);
         });
         result.covariance = covariance_;
         if (with_regions_) {
@@ -887,10 +903,12 @@ void require_digits(int digits) {
 double numerical_tolerance(double u, int digits) {
     require_positive(u, "standard uncertainty");
     require_digits(digits);
-    // The decimal exponent from the shortest decimal digits: a logarithm may be off by one at powers of ten.
+    // The decimal exponent from decimal digits: a logarithm may be off by one at powers of ten. Those after the 14th
+    // are the rounding of a computation: 9.999999999999998 is 10.
+    constexpr int k_digits = 14;
     std::array<char, 32> text{};
     const std::to_chars_result written =
-        std::to_chars(text.data(), text.data() + text.size(), u, std::chars_format::scientific);
+        std::to_chars(text.data(), text.data() + text.size(), u, std::chars_format::scientific, k_digits - 1);
     const char* exponent = std::find(static_cast<const char*>(text.data()), static_cast<const char*>(written.ptr), 'e');
     int power = 0;
     std::from_chars(exponent[1] == '+' ? exponent + 2 : exponent + 1, written.ptr, power);
@@ -947,7 +965,12 @@ Validation validate(double value, double standard_uncertainty, double expanded_u
     result.distance_high = std::abs(value + expanded_uncertainty - interval.high);
     result.validated = result.distance_low <= result.tolerance && result.distance_high <= result.tolerance;
     result.numerical_limit = result.tolerance / 5.0;
-    result.precise_enough = interval_error.low < result.numerical_limit && interval_error.high < result.numerical_limit;
+    // An end that is off by more than its numerical error could explain is off, however few the trials.
+    constexpr double k_beyond_doubt = 5.0;
+    const bool is_off = result.distance_low > result.tolerance + k_beyond_doubt * interval_error.low ||
+                        result.distance_high > result.tolerance + k_beyond_doubt * interval_error.high;
+    result.precise_enough =
+        is_off || (interval_error.low < result.numerical_limit && interval_error.high < result.numerical_limit);
     return result;
 }
 

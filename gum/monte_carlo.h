@@ -144,7 +144,8 @@ struct Validation {
     double distance_high = 0.0;    ///< |y + U − y_high|
     bool validated = false;        ///< both ≤ δ
     double numerical_limit = 0.0;  ///< δ/5: what the numerical error of each end must stay below (8.2)
-    bool precise_enough = false;   ///< it does; without that `validated` says little
+    bool precise_enough =
+        false;  ///< it does, or an end is off by more than 5 of its errors; without that `validated` says little
 };
 
 /// \param value, standard_uncertainty, expanded_uncertainty  of the law of propagation

@@ -66,6 +66,12 @@ void increment(std::string& digits) {
     }
 }
 
+// A number of 16 or 17 digits is the result of a computation, and its last digits are the rounding of that computation:
+// 3139.674 + 223.676 gives 3363.3499999999995. Where a tie is judged far above them, they are rounded off first.
+constexpr std::size_t k_digits_of_a_computed_number = 16;
+constexpr int k_digits_before_rounding_noise = 14;
+constexpr int k_most_digits_kept = 12;
+
 /// The multiple of 10^quantum_exponent that stands for the number; the result has just that exponent.
 Decimal rounded(const Decimal& number, int quantum_exponent, RoundingMode mode) {
     Decimal result{.negative = number.negative, .digits = number.digits, .exponent = quantum_exponent};
@@ -75,6 +81,15 @@ Decimal rounded(const Decimal& number, int quantum_exponent, RoundingMode mode) 
     if (number.exponent >= quantum_exponent) {
         result.digits.append(static_cast<std::size_t>(number.exponent - quantum_exponent), '0');
         return result;
+    }
+    const int kept_count = number.leading_exponent() - quantum_exponent + 1;
+    if (mode == RoundingMode::half_even && number.digits.size() >= k_digits_of_a_computed_number &&
+        kept_count <= k_most_digits_kept) {
+        const int noise_exponent = number.leading_exponent() - k_digits_before_rounding_noise + 1;
+        const Decimal without_noise = rounded(number, noise_exponent, mode);
+        if (without_noise.digits.size() < k_digits_of_a_computed_number) {
+            return rounded(without_noise, quantum_exponent, mode);
+        }
     }
     const auto dropped_count = static_cast<std::size_t>(quantum_exponent - number.exponent);
     std::string kept = "0";

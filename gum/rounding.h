@@ -9,7 +9,8 @@ namespace gumcert::gum {
 // All rounding is decimal. A double is first written with its shortest digits that read back as the same double, the
 // number that a person would see and check by hand; those digits are then rounded as a person would. So 2.675 to two
 // decimals is a tie and gives 2.68 (half-even), although the nearest double lies a little below 2.675. A tie goes to
-// the even digit: 1.25 gives 1.2, 1.35 gives 1.4.
+// the even digit: 1.25 gives 1.2, 1.35 gives 1.4. Digits from the 15th on are the rounding of a computation and do not
+// break a tie: 3139.674 + 223.676, which double precision makes 3363.3499999999995, gives 3363.4.
 //
 // Text: '.' as the decimal sign, ASCII '-', no group separators, never a negative zero. Where the last rounded digit
 // stands above the unit digit, a power of ten keeps zeros out that are not significant: 1.23E+3, 1.0E+2, 0E+2.

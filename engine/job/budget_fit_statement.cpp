@@ -613,7 +613,8 @@ std::optional<gum::EquationText> equation_text_of(const json& value, const std::
     text.erase(text.find_last_not_of(' ') + 1);
     if (const auto objection = name_objection(text, gum::ExpressionLimits{}.bytes)) {
         problems.refuse(k_equation_text, where, "the equation " + in_quotes(text) + " " + *objection,
-                        "an equation is one line of text without hidden characters", "correct the equation");
+                        "an equation is one line of at most 65536 bytes without hidden characters",
+                        "correct the equation, or split it into several");
         return std::nullopt;
     }
     return gum::EquationText{std::move(text), where};

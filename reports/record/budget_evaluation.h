@@ -24,7 +24,7 @@ struct SecondOrder {
 struct GufValidation {
     double delta = 0.0, d_low = 0.0, d_high = 0.0;
     bool validated = false;
-    bool precise_enough = false;  ///< numerical error of the ends of the interval below delta/5
+    bool precise_enough = false;  ///< numerical error of the ends below delta/5, or too small to turn a refusal
     std::string interval;         ///< which Monte Carlo interval was compared: "symmetric" or "shortest"
     std::int64_t digits = 2;
     struct {

@@ -644,6 +644,7 @@ TEST(MonteCarlo, NumericalTolerance) {
     EXPECT_EQ(numerical_tolerance(36.0, 2), 0.5);
     EXPECT_EQ(numerical_tolerance(0.000195, 2), 5e-6);
     EXPECT_EQ(numerical_tolerance(0.999, 2), 0.005);
+    EXPECT_EQ(numerical_tolerance(9.999999999999998, 2), 0.5);  // 10
     EXPECT_EQ(numerical_tolerance(1000.0, 1), 500.0);
     EXPECT_EQ(numerical_tolerance(1e-7, 2), 5e-9);
     EXPECT_EQ(code_of<InputError>([] { static_cast<void>(numerical_tolerance(0.0, 2)); }), "GC-GUM-0003");

@@ -244,5 +244,15 @@ TEST(RoundingProperty, RoundingTwiceChangesNothing) {
     }
 }
 
+TEST(Rounding, NoiseOfAComputationDoesNotBreakATie) {
+    EXPECT_EQ(round_to_uncertainty(3139.674 + 223.676, 1.0), (RoundedPair{"3363.4", "1.0"}));
+    EXPECT_EQ(round_to_quantum(0.1 + 0.2 + 0.05, 1), "0.4");  // 0.35000000000000003: a tie that goes to the even digit
+    EXPECT_EQ(round_to_quantum(0.15 + 0.1, 1), "0.2");
+    EXPECT_EQ(round_to_quantum(0.25000000000001, 1), "0.3");  // 14 digits: not noise
+    // Where nearly all digits are kept, nothing is taken for noise.
+    EXPECT_EQ(round_to_quantum(0.1234567890123456, 15), "0.123456789012346");
+    EXPECT_EQ(round_to_quantum(9.9999999999999995, 1), "10.0");
+}
+
 }  // namespace
 }  // namespace gumcert::gum
