@@ -28,6 +28,30 @@ if(NOT output STREQUAL expected)
     message(FATAL_ERROR "the consumer printed\n${output}instead of\n${expected}")
 endif()
 
+# The shipped examples of the C++ libraries: built against the installed package, and run.
+run("configuring the examples" ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/../../examples/api -B ${WORK_DIR}/api -G Ninja
+    -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_BUILD_TYPE=Release)
+run("building the examples" ${CMAKE_COMMAND} --build ${WORK_DIR}/api)
+function(expect_printed program)
+    run("${program}" ${WORK_DIR}/api/${program})
+    foreach(expected IN LISTS ARGN)
+        string(FIND "${output}" "${expected}" position)
+        if(position EQUAL -1)
+            message(FATAL_ERROR "${program} printed\n${output}and not\n${expected}")
+        endif()
+    endforeach()
+endfunction()
+# JCGM 100:2008, H.1 (unrounded: 31.7 nm, 16.8 degrees of freedom) and H.1.7
+expect_printed(budget_by_hand "l_s       25.0 nm" "d_theta   16.6 nm  27.5 %"
+               "l = 50000838 nm, U = 92 nm (k = 2.90, 16.8 degrees of freedom, p = 99 %)"
+               "u = 31.7 nm, with terms of second order 33.8 nm")
+# JCGM 101:2008, 9.3
+expect_printed(monte_carlo "law of propagation  dm = 1.2340 mg, u = 0.0539 mg" "dm = 1.234" "u = 0.075"
+               "95 % from 1.08 mg to 1.38 mg" "the law of propagation is not validated")
+# ISO/TS 28037:2010, clause 7
+expect_printed(calibration_line "a = 0.5788, u = 0.4764" "b = 2.1597, u = 0.1355"
+               "chi-square = 2.743 on 4 degrees of freedom" "x = 4.594, u = 0.163")
+
 # The installed package must not remember the tree that it was built from.
 file(GLOB_RECURSE package_files ${prefix}/lib/cmake/*.cmake ${prefix}/lib/*/cmake/*.cmake)
 if(NOT package_files)
