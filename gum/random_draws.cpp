@@ -19,6 +19,7 @@
 #include "gum/distribution_quantile.h"
 #include "gum/propagation.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/worker_threads.h"
 
 // The same instructions for wider registers where the machine has them. FMA stays out: it would round differently.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
@@ -62,80 +63,104 @@ inline Place place(double scaled_q) {
 /// it knows how often it goes round.
 constexpr Eigen::Index k_run = 32;
 
+using Two = double __attribute__((vector_size(16)));
 using Four = double __attribute__((vector_size(32)));
-using FourLong = std::int64_t __attribute__((vector_size(32)));
-using FourInt = std::int32_t __attribute__((vector_size(16)));
+using FourWords = std::uint32_t __attribute__((vector_size(16)));
+using FourLong = std::uint64_t __attribute__((vector_size(32)));
 constexpr Eigen::Index k_four = 4;
+constexpr std::uint64_t k_sign = ~(~std::uint64_t{0} >> 1);
 
-/// Four draws at a time: the cubic pieces of four words are loaded as rows and turned, which takes two thirds of the
-/// time of a loop over single draws. All of it is exact integer work and the same + and × as QuantileTable::tabulated.
+/// location + scale × draws of the standard distribution for up to k_chunk words, a multiple of four: first the row and
+/// the place in it of all words, then the cubic pieces of four words at a time, loaded by halves of rows and turned.
+/// All of it is exact integer work and the same + and × as QuantileTable::tabulated. Whole numbers become double by way
+/// of the bits of 2^52 + w, and rows go through memory: both spare the unit that moves numbers between lanes.
+/// \return true when one of the draws is NaN
 template <bool symmetric>
-__attribute__((always_inline)) inline void draw_cells(const double* __restrict coefficients,
+__attribute__((always_inline)) inline bool draw_cells(const double* __restrict coefficients,
                                                       const std::uint32_t* __restrict words, Eigen::Index count,
-                                                      double* __restrict draws) {
-    constexpr std::int64_t one = std::bit_cast<std::int64_t>(1.0);
-    constexpr std::int64_t fraction = (std::int64_t{1} << 52) - 1;
-    const auto four_draws = [&](const std::uint32_t* from, double* to) __attribute__((always_inline)) {
-        FourInt word;
-        std::memcpy(&word, from, sizeof word);
-        const Four scaled_q = __builtin_convertvector(word & std::numeric_limits<std::int32_t>::max(), Four) + 0.5;
+                                                      double location, double scale, double* __restrict draws) {
+    constexpr auto one = std::bit_cast<std::uint64_t>(1.0);
+    constexpr std::uint64_t fraction = (std::uint64_t{1} << 52) - 1;
+    constexpr auto two_to_52 = std::bit_cast<std::uint64_t>(0x1p52);
+    alignas(32) std::array<std::uint64_t, static_cast<std::size_t>(k_chunk)> rows;  // in bytes from the first
+    const auto widened = [&](Eigen::Index i, FourLong & wide) __attribute__((always_inline)) {
+        FourWords word;
+        std::memcpy(&word, words + i, sizeof word);
+        wide = __builtin_convertvector(word, FourLong);
+    };
+    for (Eigen::Index i = 0; i < count; i += k_four) {
+        FourLong wide;
+        widened(i, wide);
+        const FourLong shifted = (wide & std::uint64_t{k_upper - 1}) | two_to_52;
+        Four scaled_q;
+        std::memcpy(&scaled_q, &shifted, sizeof scaled_q);
+        scaled_q = (scaled_q - 0x1p52) + 0.5;
         FourLong bits;
         std::memcpy(&bits, &scaled_q, sizeof bits);
-        const FourLong upper = __builtin_convertvector(word >> 31, FourLong);  // all bits, or none
-        FourLong row = (bits >> k_shift) - k_first_row;
+        FourLong row = (bits >> k_shift) - static_cast<std::uint64_t>(k_first_row);
         if constexpr (!symmetric) {
-            row += ~upper & std::int64_t{k_rows};
+            row += ((wide >> 31) ^ 1) * std::uint64_t{k_rows};
         }
+        row *= sizeof(Four);
+        std::memcpy(rows.data() + i, &row, sizeof row);
         const FourLong within = ((bits << k_cell_bits) & fraction) | one;
         Four t;
         std::memcpy(&t, &within, sizeof t);
         t -= 1.0;
-        Four r0;
-        Four r1;
-        Four r2;
-        Four r3;
-        std::memcpy(&r0, coefficients + 4 * row[0], sizeof r0);
-        std::memcpy(&r1, coefficients + 4 * row[1], sizeof r1);
-        std::memcpy(&r2, coefficients + 4 * row[2], sizeof r2);
-        std::memcpy(&r3, coefficients + 4 * row[3], sizeof r3);
-        const Four even01 = __builtin_shufflevector(r0, r1, 0, 4, 2, 6);
-        const Four odd01 = __builtin_shufflevector(r0, r1, 1, 5, 3, 7);
-        const Four even23 = __builtin_shufflevector(r2, r3, 0, 4, 2, 6);
-        const Four odd23 = __builtin_shufflevector(r2, r3, 1, 5, 3, 7);
-        const Four c0 = __builtin_shufflevector(even01, even23, 0, 1, 4, 5);
-        const Four c1 = __builtin_shufflevector(odd01, odd23, 0, 1, 4, 5);
-        const Four c2 = __builtin_shufflevector(even01, even23, 2, 3, 6, 7);
-        const Four c3 = __builtin_shufflevector(odd01, odd23, 2, 3, 6, 7);
+        std::memcpy(draws + i, &t, sizeof t);
+    }
+    FourLong nan{};
+    const auto* const table = reinterpret_cast<const std::byte*>(coefficients);
+    for (Eigen::Index i = 0; i < count; i += k_four) {
+        const std::uint64_t* const four = rows.data() + i;
+        const auto halves = [&](std::size_t first, std::size_t second, std::size_t offset, Four & both)
+            __attribute__((always_inline)) {
+            Two low;
+            Two high;
+            std::memcpy(&low, table + four[first] + offset, sizeof low);
+            std::memcpy(&high, table + four[second] + offset, sizeof high);
+            both = __builtin_shufflevector(low, high, 0, 1, 2, 3);
+        };
+        Four even01;
+        Four odd01;
+        Four even23;
+        Four odd23;
+        halves(0, 2, 0, even01);
+        halves(1, 3, 0, odd01);
+        halves(0, 2, sizeof(Two), even23);
+        halves(1, 3, sizeof(Two), odd23);
+        const Four c0 = __builtin_shufflevector(even01, odd01, 0, 4, 2, 6);
+        const Four c1 = __builtin_shufflevector(even01, odd01, 1, 5, 3, 7);
+        const Four c2 = __builtin_shufflevector(even23, odd23, 0, 4, 2, 6);
+        const Four c3 = __builtin_shufflevector(even23, odd23, 1, 5, 3, 7);
+        Four t;
+        std::memcpy(&t, draws + i, sizeof t);
         Four x = ((c3 * t + c2) * t + c1) * t + c0;
+        nan |= static_cast<FourLong>(x != x);
         if constexpr (symmetric) {
+            FourLong wide;
+            widened(i, wide);
             FourLong signed_x;
             std::memcpy(&signed_x, &x, sizeof x);
-            signed_x ^= ~upper & std::numeric_limits<std::int64_t>::min();
+            signed_x ^= ~(wide << 32) & k_sign;
             std::memcpy(&x, &signed_x, sizeof x);
         }
-        std::memcpy(to, &x, sizeof x);
-    };
-    Eigen::Index i = 0;
-    for (; i + k_four <= count; i += k_four) {
-        four_draws(words + i, draws + i);
+        x = location + scale * x;
+        std::memcpy(draws + i, &x, sizeof x);
     }
-    if (i < count) {
-        std::array<std::uint32_t, 4> last_words{};
-        std::array<double, 4> last_draws;
-        std::copy(words + i, words + count, last_words.begin());
-        four_draws(last_words.data(), last_draws.data());
-        std::copy(last_draws.begin(), last_draws.begin() + (count - i), draws + i);
-    }
+    return (nan[0] | nan[1] | nan[2] | nan[3]) != 0;
 }
 
 GUMCERT_WIDE_CLONES
-void draw_symmetric(const double* coefficients, const std::uint32_t* words, Eigen::Index count, double* draws) {
-    draw_cells<true>(coefficients, words, count, draws);
+bool draw_symmetric(const double* coefficients, const std::uint32_t* words, Eigen::Index count, double location,
+                    double scale, double* draws) {
+    return draw_cells<true>(coefficients, words, count, location, scale, draws);
 }
 
 GUMCERT_WIDE_CLONES
-void draw_asymmetric(const double* coefficients, const std::uint32_t* words, Eigen::Index count, double* draws) {
-    draw_cells<false>(coefficients, words, count, draws);
+bool draw_asymmetric(const double* coefficients, const std::uint32_t* words, Eigen::Index count, double location,
+                     double scale, double* draws) {
+    return draw_cells<false>(coefficients, words, count, location, scale, draws);
 }
 
 /// ±(1 - 2q), the uniform distribution on -1 … 1 in the order of the words of the tables.
@@ -253,8 +278,7 @@ class StudentTChain {
 public:
     explicit StudentTChain(double nu)
         : nu_(nu),
-          normaliser_(std::exp(std::lgamma(0.5 * (nu + 1.0)) - std::lgamma(0.5 * nu)) /
-                      std::sqrt(nu * std::numbers::pi)) {}
+          normaliser_(std::exp(log_gamma(0.5 * (nu + 1.0)) - log_gamma(0.5 * nu)) / std::sqrt(nu * std::numbers::pi)) {}
 
     [[nodiscard]] double density(double x) const {
         return normaliser_ * std::exp(-0.5 * (nu_ + 1.0) * std::log1p(x * x / nu_));
@@ -279,6 +303,12 @@ public:
     }
 
 private:
+    /// std::lgamma writes the sign to a variable that all threads share, and tables are made by several.
+    static double log_gamma(double x) {
+        int sign = 0;
+        return ::lgamma_r(x, &sign);
+    }
+
     double nu_;
     double normaliser_;
 };
@@ -293,11 +323,17 @@ std::array<std::uint64_t, 4> philox_4x64_10(const std::array<std::uint64_t, 2>& 
     return {words[0], words[1], words[2], words[3]};
 }
 
-QuantileTable::QuantileTable(const Distribution& distribution)
+QuantileTable::QuantileTable(const Distribution& distribution, Filled filled)
     : standard_(distribution),
       symmetric_(gum::is_symmetric(distribution) && distribution.kind != DistributionKind::beta) {
     standard_.location = 0.0;
     standard_.scale = 1.0;
+    if (filled == Filled::now) {
+        fill();
+    }
+}
+
+void QuantileTable::fill() {
     coefficients_.assign(static_cast<std::size_t>(4 * k_rows * (symmetric_ ? 1 : 2)), k_nan);
     fill(true);
     if (!symmetric_) {
@@ -384,8 +420,21 @@ double QuantileTable::value(double q, bool upper) const {
     return exact(q, upper);
 }
 
-void QuantileTable::draw(const std::uint32_t* words, Eigen::Index count, double* draws) const {
-    (symmetric_ ? draw_symmetric : draw_asymmetric)(coefficients_.data(), words, count, draws);
+bool QuantileTable::draw(const std::uint32_t* words, Eigen::Index count, double location, double scale,
+                         double* draws) const {
+    const auto draw_fours = symmetric_ ? draw_symmetric : draw_asymmetric;
+    bool has_nan = false;
+    const Eigen::Index fours = count / k_four * k_four;
+    for (Eigen::Index i = 0; i < fours; i += k_chunk) {
+        has_nan |=
+            draw_fours(coefficients_.data(), words + i, std::min(k_chunk, fours - i), location, scale, draws + i);
+    }
+    for (Eigen::Index i = fours; i < count; ++i) {
+        const double scaled_q = static_cast<double>(words[i] & ~k_upper) + 0.5;
+        draws[i] = location + scale * tabulated(scaled_q, (words[i] & k_upper) != 0);
+        has_nan |= std::isnan(draws[i]);
+    }
+    return has_nan;
 }
 
 namespace {
@@ -525,26 +574,38 @@ Eigen::MatrixXd semidefinite_root(const Eigen::MatrixXd& R) {
     return L;
 }
 
-/// Tables of one run, one for each shape that occurs.
+/// Tables of one run, one for each shape that occurs. They are handed out empty, and filled together.
 class TableCache {
 public:
     std::shared_ptr<const QuantileTable> table(const Distribution& distribution) {
         const auto key = std::tuple(distribution.kind, distribution.shape, distribution.second_shape);
-        std::shared_ptr<const QuantileTable>& entry = tables_[key];
+        std::shared_ptr<QuantileTable>& entry = tables_[key];
         if (!entry) {
-            entry = std::make_shared<const QuantileTable>(distribution);
+            entry = std::make_shared<QuantileTable>(distribution, QuantileTable::Filled::later);
+            new_.push_back(entry.get());
         }
         return entry;
     }
 
+    void fill(WorkerThreads* workers) {
+        if (workers == nullptr || new_.size() < 2) {
+            for (QuantileTable* table : new_) {
+                table->fill();
+            }
+        } else {
+            workers->run(new_.size(), [&](unsigned /*worker*/, std::size_t task) { new_[task]->fill(); });
+        }
+    }
+
 private:
-    std::map<std::tuple<DistributionKind, double, double>, std::shared_ptr<const QuantileTable>> tables_;
+    std::map<std::tuple<DistributionKind, double, double>, std::shared_ptr<QuantileTable>> tables_;
+    std::vector<QuantileTable*> new_;
 };
 
 }  // namespace
 
 InputDraws::InputDraws(const std::vector<InputGroup>& groups, std::uint64_t seed,
-                       std::span<const std::uint64_t> streams)
+                       std::span<const std::uint64_t> streams, WorkerThreads* workers)
     : seed_(seed) {
     static_cast<void>(propagate(GroupsAlone(groups), 0.5));
     std::vector<Diagnostic> problems;
@@ -606,6 +667,7 @@ InputDraws::InputDraws(const std::vector<InputGroup>& groups, std::uint64_t seed
         size_ += from.size();
         groups_.push_back(std::move(group));
     }
+    cache.fill(workers);
 }
 
 void InputDraws::draw_words(std::uint64_t stream, std::uint64_t index, std::uint64_t first, Eigen::Index count,
@@ -638,21 +700,28 @@ void in_chunks(std::uint64_t first, Eigen::Index count, Words&& draw_words, Work
 }  // namespace
 
 void InputDraws::draw_table(const QuantileTable& table, std::uint64_t stream, std::uint64_t index, std::uint64_t first,
-                            Eigen::Index count, double* column) const {
+                            Eigen::Index count, double location, double scale, double* column) const {
     in_chunks(
         first, count,
         [&](std::uint64_t trial, Eigen::Index words, std::uint32_t* to) {
             draw_words(stream, index, trial, words, to);
         },
         [&](Eigen::Index offset, const std::uint32_t* words, std::uint64_t trial, Eigen::Index here) {
-            table.draw(words, here, column + offset);
             double* draws = column + offset;
+            if (!table.draw(words, here, location, scale, draws)) {
+                return;
+            }
             for (Eigen::Index i = next_nan(draws, 0, here); i < here; i = next_nan(draws, i + 1, here)) {
                 const double bits = more_bits(stream, index, trial + static_cast<std::uint64_t>(i));
                 const double q = (static_cast<double>(words[i] & ~k_upper) + bits) * k_word;
-                draws[i] = table.exact(q, (words[i] & k_upper) != 0);
+                draws[i] = location + scale * table.exact(q, (words[i] & k_upper) != 0);
             }
         });
+}
+
+void InputDraws::draw_standard(const QuantileTable& table, std::uint64_t stream, std::uint64_t index,
+                               std::uint64_t first, Eigen::Index count, double* column) const {
+    draw_table(table, stream, index, first, count, -0.0, 1.0, column);  // adding -0 leaves every number as it is
 }
 
 void InputDraws::draw_column(const Quantity& quantity, std::uint64_t stream, std::uint64_t index, std::uint64_t first,
@@ -690,7 +759,8 @@ void InputDraws::draw_column(const Quantity& quantity, std::uint64_t stream, std
                       }
                   });
     } else {
-        draw_table(*quantity.table, stream, index, first, count, column);
+        draw_table(*quantity.table, stream, index, first, count, marginal.location, marginal.scale, column);
+        return;
     }
     locate_and_scale(marginal.location, marginal.scale, count, column);
 }
@@ -714,7 +784,8 @@ void InputDraws::draw_correlated(const Group& group, std::uint64_t first, Eigen:
     }
     // Columns of L z in place, from the last to the first, because row i of L reaches back to the columns before it.
     for (Eigen::Index i = 0; i < n; ++i) {
-        draw_table(*normal_, group.stream, static_cast<std::uint64_t>(i), first, trials, x.col(group.first + i).data());
+        draw_standard(*normal_, group.stream, static_cast<std::uint64_t>(i), first, trials,
+                      x.col(group.first + i).data());
     }
     for (Eigen::Index i = n - 1; i >= 0; --i) {
         double* column = x.col(group.first + i).data();
@@ -727,7 +798,7 @@ void InputDraws::draw_correlated(const Group& group, std::uint64_t first, Eigen:
     }
     if (group.chi_square) {
         Eigen::ArrayXd factor(trials);
-        draw_table(*group.chi_square, group.stream, static_cast<std::uint64_t>(n), first, trials, factor.data());
+        draw_standard(*group.chi_square, group.stream, static_cast<std::uint64_t>(n), first, trials, factor.data());
         factor = (0.5 * group.degrees_of_freedom / factor).sqrt();  // χ² is twice the gamma deviate
         for (Eigen::Index i = 0; i < n; ++i) {
             x.col(group.first + i).array() *= factor;

@@ -12,6 +12,8 @@
 
 namespace gumcert::gum {
 
+class WorkerThreads;
+
 /// The four words of Philox 4x64-10 for a key and a counter (Salmon, Moraes, Dror, Shaw: Parallel random numbers: as
 /// easy as 1, 2, 3; SC11, 2011): the one source of randomness of the Monte Carlo method here.
 [[nodiscard]] std::array<std::uint64_t, 4> philox_4x64_10(const std::array<std::uint64_t, 2>& key,
@@ -26,8 +28,13 @@ namespace gumcert::gum {
 /// exact quantile function is asked. (Relative to the quantile, or to 0.1 near the middle of a symmetric distribution.)
 class QuantileTable {
 public:
+    enum class Filled { now, later };
+
     /// \param distribution  without a problem; its location and scale are left out of the table
-    explicit QuantileTable(const Distribution& distribution);
+    /// \param filled  later: only after fill() may anything but standard(), is_symmetric() and exact() be asked
+    explicit QuantileTable(const Distribution& distribution, Filled filled = Filled::now);
+
+    void fill();
 
     [[nodiscard]] const Distribution& standard() const { return standard_; }
     [[nodiscard]] bool is_symmetric() const { return symmetric_; }
@@ -42,9 +49,10 @@ public:
     /// The same for any 0 < q ≤ 1/2, by the table where it has a value.
     [[nodiscard]] double value(double q, bool upper) const;
 
-    /// Turns random words into draws of the standard distribution; NaN where the table has no value.
+    /// Turns random words into location + scale × draws of the standard distribution; NaN where the table has no value.
     /// Bit 31 of a word says which half, the lower bits w say q = (w + 1/2) 2^-32.
-    void draw(const std::uint32_t* words, Eigen::Index count, double* draws) const;
+    /// \return true when one of the draws is NaN
+    bool draw(const std::uint32_t* words, Eigen::Index count, double location, double scale, double* draws) const;
 
 private:
     void fill(bool upper);
@@ -75,7 +83,9 @@ public:
     /// \param streams  one number a group; empty: the index of the group
     /// \throws InputError  every problem of the groups: GC-GUM-0122 (marginals), GC-GUM-0123 (streams, dependence), and
     ///                     those that `propagate` finds in covariances
-    InputDraws(const std::vector<InputGroup>& groups, std::uint64_t seed, std::span<const std::uint64_t> streams);
+    /// \param workers  to share out the making of tables, a millisecond each; none: not shared out
+    InputDraws(const std::vector<InputGroup>& groups, std::uint64_t seed, std::span<const std::uint64_t> streams,
+               WorkerThreads* workers = nullptr);
 
     [[nodiscard]] Eigen::Index size() const { return size_; }  ///< n, number of input quantities
 
@@ -103,7 +113,9 @@ private:
     void draw_column(const Quantity& quantity, std::uint64_t stream, std::uint64_t index, std::uint64_t first,
                      Eigen::Index count, double* column) const;
     void draw_table(const QuantileTable& table, std::uint64_t stream, std::uint64_t index, std::uint64_t first,
-                    Eigen::Index count, double* column) const;
+                    Eigen::Index count, double location, double scale, double* column) const;
+    void draw_standard(const QuantileTable& table, std::uint64_t stream, std::uint64_t index, std::uint64_t first,
+                       Eigen::Index count, double* column) const;
     void draw_words(std::uint64_t stream, std::uint64_t index, std::uint64_t first, Eigen::Index count,
                     std::uint32_t* words) const;
     [[nodiscard]] double more_bits(std::uint64_t stream, std::uint64_t index, std::uint64_t trial) const;
