@@ -13,6 +13,7 @@ namespace gumcert::app {
 namespace {
 
 using engine::BudgetFit;
+using Progress = std::function<void(const std::string&)>;
 using engine::BudgetJob;
 using gum::Diagnostic;
 
@@ -24,8 +25,9 @@ constexpr double k_warned_change = 0.05;
 constexpr double k_warned_shift = 0.1;
 constexpr Eigen::Index k_most_inputs_of_second_order = 1000;  // the matrices of second derivatives grow with the square
 constexpr std::size_t k_most_points_with_histogram = 4;       // documents draw no more
-constexpr double k_accepted_asymmetry = 0.02;                 // of half the width: below what two digits of U show
-constexpr double k_rounding_of_degrees_of_freedom = 1e-12;    // 3.999…9 is 4
+constexpr double k_most_of_the_variance = 0.5;
+constexpr double k_accepted_asymmetry = 0.02;               // of half the width: below what two digits of U show
+constexpr double k_rounding_of_degrees_of_freedom = 1e-12;  // 3.999…9 is 4
 constexpr double k_validation_divisor = 5.0;  // JCGM 101:2008, 8.2: Monte Carlo to a fifth of the tolerance
 
 /// The equation of a fit as the curve of the adjustment.
@@ -194,11 +196,16 @@ bool changes(const BudgetPointResult& point, Eigen::Index output, double change,
 }
 
 /// Monte Carlo of one point for each coverage probability that its outputs ask for.
-void run_monte_carlo(const BudgetJob& job, unsigned threads, BudgetPointResult& point) {
+void run_monte_carlo(const BudgetJob& job, unsigned threads, const Progress& progress, BudgetPointResult& point) {
     const engine::BudgetMonteCarlo& asked = *job.monte_carlo;
     gum::MonteCarloOptions options;
     options.seed = asked.seed;
     options.threads = threads;
+    if (progress && job.points.empty()) {
+        options.progress = [&progress](double done) {
+            progress("Monte Carlo, " + std::to_string(static_cast<int>(100.0 * done)) + " %");
+        };
+    }
     options.streams = point.streams;
     options.regions = job.points.empty();
     options.histogram = job.points.size() <= k_most_points_with_histogram;
@@ -286,6 +293,19 @@ void validate_together(const BudgetJob& job, BudgetPointResult& point, BudgetRes
     result.validation_failed = result.validation_failed || !point.joint_validation->validated;
 }
 
+/// The input with a distribution that is not symmetric which makes up most of the variance of an output; "" if none
+/// does.
+std::string dominating_asymmetric_input(const BudgetPointResult& point, Eigen::Index output) {
+    for (std::size_t g = 0; g < point.model->inputs().size(); ++g) {
+        const gum::InputGroup& group = point.model->inputs()[g];
+        if (group.marginals.size() == 1 && !gum::is_symmetric(group.marginals.front()) &&
+            point.propagation.budget[g].share(output) > k_most_of_the_variance) {
+            return group.name;
+        }
+    }
+    return "";
+}
+
 void warn(const BudgetJob& job, const BudgetPointResult& point, const std::string& where, BudgetResult& result) {
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
         const auto index = static_cast<Eigen::Index>(i);
@@ -307,6 +327,16 @@ void warn(const BudgetJob& job, const BudgetPointResult& point, const std::strin
                                               "\"validate\": true to the job.",
                                     .severity = gum::Severity::warning});
         }
+        if (const std::string input = dominating_asymmetric_input(point, index);
+            !input.empty() && !job.monte_carlo && point.outputs[i].coverage != "none") {
+            result.notes.push_back(
+                {.code = "GC-BUDGET-0023",
+                 .where = place,
+                 .what = "the distribution of " + input + " is not symmetric and dominates",
+                 .rule = "k of a normal or t-distribution holds for results that are nearly symmetric",
+                 .action = "Add \"monte_carlo\" to the job, and state its coverage interval.",
+                 .severity = gum::Severity::warning});
+        }
         if (!point.outputs[i].stabilised) {
             result.notes.push_back(
                 {.code = "GC-BUDGET-0022",
@@ -321,7 +351,8 @@ void warn(const BudgetJob& job, const BudgetPointResult& point, const std::strin
 }
 
 BudgetPointResult evaluate_point(const BudgetJob& job, const std::optional<gum::EquationSystem>& system,
-                                 std::optional<std::size_t> at, unsigned threads, BudgetResult& result) {
+                                 std::optional<std::size_t> at, unsigned threads, const Progress& progress,
+                                 BudgetResult& result) {
     BudgetInputs inputs = budget_inputs(job, result.fits, at);
     if (!at || *at == 0) {
         result.notes.insert(result.notes.end(), inputs.notes.begin(), inputs.notes.end());
@@ -344,7 +375,7 @@ BudgetPointResult evaluate_point(const BudgetJob& job, const std::optional<gum::
         point.outputs.push_back(std::move(output));
     }
     if (job.monte_carlo) {
-        run_monte_carlo(job, threads, point);
+        run_monte_carlo(job, threads, progress, point);
         use_monte_carlo(job, point, result);
         if (job.monte_carlo->validate) {
             validate_together(job, point, result);
@@ -404,13 +435,13 @@ BudgetResult evaluate_budget(const BudgetJob& job, unsigned threads,
         if (progress && job.monte_carlo) {
             progress("Monte Carlo");
         }
-        result.points.push_back(evaluate_point(job, system, std::nullopt, threads, result));
+        result.points.push_back(evaluate_point(job, system, std::nullopt, threads, progress, result));
     }
     for (std::size_t p = 0; p < job.points.size(); ++p) {
         if (progress) {
             progress("point " + std::to_string(p + 1) + " of " + std::to_string(job.points.size()));
         }
-        result.points.push_back(evaluate_point(job, system, p, threads, result));
+        result.points.push_back(evaluate_point(job, system, p, threads, progress, result));
     }
     return result;
 }

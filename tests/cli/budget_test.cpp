@@ -603,6 +603,23 @@ TEST_F(Budget, DistributionsHaveTheirStandardDeviation) {
     expect_u(R"("distribution": {"kind": "exponential", "mean": 3})", 3.0, 3.0);
 }
 
+TEST_F(Budget, ADominatingSkewDistributionIsWarnedAbout) {
+    const std::string skew = R"("a": {"distribution": {"kind": "gamma", "shape": 2, "scale": 1}})";
+    EXPECT_TRUE(tells(record_of(budget("\"y = a\"", skew)), "GC-BUDGET-0023"));
+    EXPECT_FALSE(
+        tells(record_of(budget("\"y = a\"", skew, R"(, "monte_carlo": {"trials": 300000})")), "GC-BUDGET-0023"));
+}
+
+TEST_F(Budget, ValidationCountsDigitsInTheUnitOfTheResult) {
+    // u = 10 mm to two digits: delta is half a millimetre, whatever the unit of the inputs.
+    const json record = record_of(budget(
+        "\"y = a + b\"", R"("a": {"value": 1, "u": 0.006, "unit": "m"}, "b": {"value": 2, "u": 0.008, "unit": "m"})",
+        R"(, "outputs": {"y": {"unit": "mm"}}, "monte_carlo": {"trials": 1000000, "validate": true})"));
+    const json& validation = record["results"]["y"]["monte_carlo"]["validation"];
+    EXPECT_EQ(validation["delta"], 0.5);
+    EXPECT_EQ(validation["validated"], true);
+}
+
 TEST_F(Budget, StudentKeepsItsDegreesOfFreedom) {
     const json y =
         y_of(budget("\"y = a\"", R"("a": {"distribution": {"kind": "t", "location": 0, "scale": 4, "nu": 5}})",
