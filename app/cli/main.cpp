@@ -390,6 +390,7 @@ constexpr const char* k_description =
 constexpr const char* k_footer =
     "Start here:\n"
     "  gumcert run examples/rotary_table/job.json     evaluate, write record, HTML and PDF into job-out/\n"
+    "  gumcert run examples/gauge_block/job.json      an uncertainty budget, with Monte Carlo; docs/budget_job.md\n"
     "\n"
     "Exit codes: 0 done; 1 done, and the answer is negative; 2 the command line is wrong; 3 an input was refused;\n"
     "4 no result can be computed; 5 a file or disk trouble; 70 a defect in the program. Nothing is written when the\n"
