@@ -25,6 +25,7 @@ constexpr double k_warned_change = 0.05;
 constexpr double k_warned_shift = 0.1;
 constexpr Eigen::Index k_most_inputs_of_second_order = 1000;  // the matrices of second derivatives grow with the square
 constexpr std::size_t k_most_points_with_histogram = 4;       // documents draw no more
+constexpr double k_numerical_errors = 5.0;                    // beyond doubt
 constexpr double k_most_of_the_variance = 0.5;
 constexpr double k_accepted_asymmetry = 0.02;               // of half the width: below what two digits of U show
 constexpr double k_rounding_of_degrees_of_freedom = 1e-12;  // 3.999…9 is 4
@@ -306,6 +307,21 @@ std::string dominating_asymmetric_input(const BudgetPointResult& point, Eigen::I
     return "";
 }
 
+/// Whether y ± U of the law of propagation and the Monte Carlo interval are two statements, beyond numerical error.
+bool differs_from_monte_carlo(const BudgetPointResult& point, Eigen::Index output) {
+    const BudgetOutputResult& result = point.outputs[static_cast<std::size_t>(output)];
+    if (!result.monte_carlo || !result.expanded_uncertainty || result.coverage == "monte_carlo") {
+        return false;
+    }
+    const double y = point.propagation.value(output);
+    const double U = *result.expanded_uncertainty;
+    const gum::CoverageInterval& interval = result.monte_carlo->symmetric;
+    const gum::CoverageInterval& error = result.monte_carlo->numerical_error.symmetric;
+    const double accepted = k_warned_change * 0.5 * (interval.high - interval.low);
+    return std::abs(y - U - interval.low) > accepted + k_numerical_errors * error.low ||
+           std::abs(y + U - interval.high) > accepted + k_numerical_errors * error.high;
+}
+
 void warn(const BudgetJob& job, const BudgetPointResult& point, const std::string& where, BudgetResult& result) {
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
         const auto index = static_cast<Eigen::Index>(i);
@@ -335,6 +351,17 @@ void warn(const BudgetJob& job, const BudgetPointResult& point, const std::strin
                  .what = "the distribution of " + input + " is not symmetric and dominates",
                  .rule = "k of a normal or t-distribution holds for results that are nearly symmetric",
                  .action = "Add \"monte_carlo\" to the job, and state its coverage interval.",
+                 .severity = gum::Severity::warning});
+        }
+        if (differs_from_monte_carlo(point, index)) {
+            result.notes.push_back(
+                {.code = "GC-BUDGET-0024",
+                 .where = place,
+                 .what = "the expanded uncertainty of the law of propagation differs from the Monte Carlo "
+                         "interval by more than 5 % of half its width",
+                 .rule = "the law of propagation holds for models that are nearly linear and results that "
+                         "are nearly normal (JCGM 101:2008, clause 8)",
+                 .action = "Use the coverage interval of Monte Carlo.",
                  .severity = gum::Severity::warning});
         }
         if (!point.outputs[i].stabilised) {

@@ -603,6 +603,13 @@ TEST_F(Budget, DistributionsHaveTheirStandardDeviation) {
     expect_u(R"("distribution": {"kind": "exponential", "mean": 3})", 3.0, 3.0);
 }
 
+TEST_F(Budget, ALawOfPropagationThatMonteCarloContradictsIsWarnedAbout) {
+    const std::string x = R"("x": {"value": 1, "u": 0.5})";
+    const std::string monte_carlo = R"(, "monte_carlo": {"trials": 300000})";
+    EXPECT_TRUE(tells(record_of(budget("\"y = x^2\"", x, monte_carlo)), "GC-BUDGET-0024"));
+    EXPECT_FALSE(tells(record_of(budget("\"y = 2*x\"", x, monte_carlo)), "GC-BUDGET-0024"));
+}
+
 TEST_F(Budget, ADominatingSkewDistributionIsWarnedAbout) {
     const std::string skew = R"("a": {"distribution": {"kind": "gamma", "shape": 2, "scale": 1}})";
     EXPECT_TRUE(tells(record_of(budget("\"y = a\"", skew)), "GC-BUDGET-0023"));
