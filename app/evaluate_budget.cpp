@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <unordered_map>
 #include <utility>
 
 #include "gum/coverage.h"
@@ -412,26 +413,27 @@ BudgetPointResult evaluate_point(const BudgetJob& job, const std::optional<gum::
     return point;
 }
 
-Eigen::MatrixXd full_covariance(const gum::InputGroup& group) {
-    return group.is_diagonal() ? Eigen::MatrixXd(group.covariance.col(0).asDiagonal()) : group.covariance;
-}
-
-/// The group of a point that has a stream: its position, first column of the Jacobian and size.
+/// A group of inputs as points share it: its columns of the Jacobian, standard uncertainties and correlations.
 struct SharedGroup {
-    std::size_t group = 0;
-    Eigen::Index column = 0, size = 0;
+    Eigen::Index column = 0;
+    Eigen::VectorXd u;
+    Eigen::MatrixXd correlation;
 };
 
-std::optional<SharedGroup> find_shared(const BudgetPointResult& point, std::uint64_t stream) {
+/// The groups of a point by their stream of random numbers.
+std::unordered_map<std::uint64_t, SharedGroup> shared_groups(const BudgetPointResult& point) {
+    std::unordered_map<std::uint64_t, SharedGroup> groups;
     Eigen::Index column = 0;
     for (std::size_t g = 0; g < point.streams.size(); ++g) {
-        const Eigen::Index size = point.model->inputs()[g].size();
-        if (point.streams[g] == stream) {
-            return SharedGroup{.group = g, .column = column, .size = size};
-        }
-        column += size;
+        const gum::InputGroup& group = point.model->inputs()[g];
+        const Eigen::MatrixXd V =
+            group.is_diagonal() ? Eigen::MatrixXd(group.covariance.col(0).asDiagonal()) : group.covariance;
+        groups.emplace(
+            point.streams[g],
+            SharedGroup{.column = column, .u = V.diagonal().cwiseSqrt(), .correlation = gum::correlation_matrix(V)});
+        column += group.size();
     }
-    return std::nullopt;
+    return groups;
 }
 
 }  // namespace
@@ -477,6 +479,10 @@ Eigen::MatrixXd budget_covariance(const BudgetResult& result) {
     const auto m = static_cast<Eigen::Index>(result.output_names.size());
     const auto points = static_cast<Eigen::Index>(result.points.size());
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(m * points, m * points);
+    std::vector<std::unordered_map<std::uint64_t, SharedGroup>> groups;  // once a point, not once a pair of them
+    for (const BudgetPointResult& point : result.points) {
+        groups.push_back(shared_groups(point));
+    }
     for (Eigen::Index a = 0; a < points; ++a) {
         const BudgetPointResult& first = result.points[static_cast<std::size_t>(a)];
         covariance.block(a * m, a * m, m, m) = first.propagation.covariance;
@@ -485,20 +491,16 @@ Eigen::MatrixXd budget_covariance(const BudgetResult& result) {
             Eigen::MatrixXd block = Eigen::MatrixXd::Zero(m, m);
             // One quantity that both points share is one stream of random numbers; its uncertainty may differ between
             // them (percent of reading).
-            Eigen::Index column = 0;
-            for (std::size_t g = 0; g < first.streams.size(); ++g) {
-                const Eigen::Index n = first.model->inputs()[g].size();
-                const std::optional<SharedGroup> shared = find_shared(second, first.streams[g]);
-                if (shared && shared->size == n) {
-                    const Eigen::MatrixXd V = full_covariance(first.model->inputs()[g]);
-                    const Eigen::MatrixXd W = full_covariance(second.model->inputs()[shared->group]);
-                    const Eigen::VectorXd u = V.diagonal().cwiseSqrt();
-                    const Eigen::VectorXd w = W.diagonal().cwiseSqrt();
-                    const Eigen::MatrixXd common = u.asDiagonal() * gum::correlation_matrix(V) * w.asDiagonal();
-                    block += first.propagation.jacobian.middleCols(column, n) * common *
-                             second.propagation.jacobian.middleCols(shared->column, n).transpose();
+            for (const std::uint64_t stream : first.streams) {
+                const SharedGroup& here = groups[static_cast<std::size_t>(a)].at(stream);
+                const auto there = groups[static_cast<std::size_t>(b)].find(stream);
+                const Eigen::Index n = here.u.size();
+                if (there != groups[static_cast<std::size_t>(b)].end() && there->second.u.size() == n) {
+                    const Eigen::MatrixXd common =
+                        here.u.asDiagonal() * here.correlation * there->second.u.asDiagonal();
+                    block += first.propagation.jacobian.middleCols(here.column, n) * common *
+                             second.propagation.jacobian.middleCols(there->second.column, n).transpose();
                 }
-                column += n;
             }
             covariance.block(a * m, b * m, m, m) = block;
             covariance.block(b * m, a * m, m, m) = block.transpose();
