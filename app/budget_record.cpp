@@ -1,11 +1,8 @@
 #include "app/budget_record.h"
 
-#include <gumcert_build_info.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -13,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/record_parts.h"
 #include "gum/analysis_of_variance.h"
 #include "gum/coverage.h"
 #include "gum/rounding.h"
@@ -34,14 +32,9 @@ constexpr int k_digits_of_u = 2;
 constexpr double k_test_level = 0.05;  // of F tests and of the chi-square test of a fit
 constexpr std::size_t k_longest_lag_list = 100;
 
-std::optional<double> finite_or_none(double value) {
-    return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
-}
-
-std::string shortest(double value) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value == 0.0 ? 0.0 : value).ptr;
-    return {text.data(), end};
+/// All digits, and no negative zero.
+std::string all_digits(double value) {
+    return shortest(value == 0.0 ? 0.0 : value);
 }
 
 std::string rounded(double value, int digits) {
@@ -50,7 +43,7 @@ std::string rounded(double value, int digits) {
 
 /// A value beside a standard uncertainty: digits down to those of u; all of them where u is 0.
 std::string printed_estimate(double value, double u) {
-    return u > 0.0 ? gum::round_to_uncertainty(value, u, k_digits_of_u).value : shortest(value);
+    return u > 0.0 ? gum::round_to_uncertainty(value, u, k_digits_of_u).value : all_digits(value);
 }
 
 Printed printed_result(double value, std::optional<double> U, double u, const std::string& unit,
@@ -68,10 +61,6 @@ std::string printed_degrees_of_freedom(double nu) {
         return "–";
     }
     return std::isinf(nu) ? "∞" : rounded(nu, nu < 1000.0 ? 3 : 4);
-}
-
-const char* type_letter(gum::Evaluation evaluation) {
-    return evaluation == gum::Evaluation::type_a ? "A" : "B";
 }
 
 /// Numbers of a budget row in the units of its input and of the result.
@@ -238,7 +227,7 @@ reports::MonteCarloSummary monte_carlo_summary(const BudgetJob& job, const Budge
     // As many digits as the numerical error allows, and not more than four of u.
     const auto shown = [&](double value, double error) {
         const double quantum = std::max(error, 1e-4 * summary.u);
-        return quantum > 0.0 ? gum::round_to_uncertainty(value, quantum, 1).value : shortest(value);
+        return quantum > 0.0 ? gum::round_to_uncertainty(value, quantum, 1).value : all_digits(value);
     };
     summary.printed.trials = std::to_string(summary.trials);
     summary.printed.mean = shown(summary.mean, summary.numerical_error.mean);
@@ -601,18 +590,13 @@ std::vector<std::string> budget_result_names(const BudgetJob& job, const BudgetR
 reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult& result,
                                         const std::vector<reports::InputFile>& files, const Eigen::MatrixXd& covariance,
                                         const std::string& covariance_file) {
-    reports::EvaluationRecord record;
-    record.software.version = k_version;
-    record.software.commit = k_commit;
-    record.kind = "budget";
-    record.title = job.title;
-    record.coverage_probability = job.coverage_probability;
-    record.printed_coverage = gum::round_significant(100.0 * job.coverage_probability, 4) + " %";
-    record.job_json = reports::canonical_json(job.document);
-    record.job_files = files;
-    record.options_json = reports::canonical_json(options_json(job));
-    record.diagnostics = job.warnings;
-    record.diagnostics.insert(record.diagnostics.end(), result.notes.begin(), result.notes.end());
+    reports::EvaluationRecord record = record_head("budget",
+                                                   {.title = job.title,
+                                                    .coverage_probability = job.coverage_probability,
+                                                    .document = job.document,
+                                                    .warnings = job.warnings,
+                                                    .notes = result.notes},
+                                                   options_json(job), files);
     if (!job.model.empty()) {
         record.model.emplace();
         for (const gum::EquationText& equation : job.model) {
@@ -704,7 +688,7 @@ std::string budget_covariance_csv(const BudgetJob& job, const BudgetResult& resu
     for (Eigen::Index i = 0; i < scaled.rows(); ++i) {
         csv += quoted(names[static_cast<std::size_t>(i)]);
         for (Eigen::Index j = 0; j < scaled.cols(); ++j) {
-            csv += "," + shortest(scaled(i, j));
+            csv += "," + all_digits(scaled(i, j));
         }
         csv += "\n";
     }

@@ -1,15 +1,13 @@
 #include "app/rotary_table_record.h"
 
-#include <gumcert_build_info.h>
-
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "app/record_parts.h"
 #include "gum/comparison.h"
 #include "gum/coverage.h"
 #include "gum/quantity/units.h"
@@ -37,16 +35,6 @@ constexpr DocumentUnit k_mm{gum::k_millimetre, "mm", "mm"};
 
 const DocumentUnit& unit_of(const gum::OutputQuantity& quantity) {
     return quantity.unit == "m" ? k_um : k_arcsec;
-}
-
-std::optional<double> finite_or_none(double value) {
-    return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
-}
-
-std::string shortest(double value) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-    return {text.data(), end};
 }
 
 /// Value and expanded uncertainty in a unit of the document. Without uncertainty (the home angle of the home datum)
@@ -108,10 +96,6 @@ DocumentUnit budget_unit(const std::string& si_unit) {
         return k_um;
     }
     return si_unit == "rad" ? k_arcsec : DocumentUnit{1.0, si_unit.c_str(), si_unit.c_str()};
-}
-
-const char* type_letter(gum::Evaluation evaluation) {
-    return evaluation == gum::Evaluation::type_a ? "A" : "B";
 }
 
 reports::Result result_of(const gum::Propagation& propagation, const gum::MeasurementModel& model, Eigen::Index output,
@@ -570,18 +554,13 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const e
                                               const std::vector<reports::InputFile>& files,
                                               const std::string& covariance_file) {
     const engine::RotaryTableMeasurement& measurement = job.measurement;
-    reports::EvaluationRecord record;
-    record.software.version = k_version;
-    record.software.commit = k_commit;
-    record.kind = "rotary_table";
-    record.title = job.title;
-    record.coverage_probability = job.coverage_probability;
-    record.printed_coverage = gum::round_significant(100.0 * job.coverage_probability, 4) + " %";
-    record.job_json = reports::canonical_json(job.document);
-    record.job_files = files;
-    record.options_json = reports::canonical_json(options_json(job, options));
-    record.diagnostics = job.warnings;
-    record.diagnostics.insert(record.diagnostics.end(), solution.notes.begin(), solution.notes.end());
+    reports::EvaluationRecord record = record_head("rotary_table",
+                                                   {.title = job.title,
+                                                    .coverage_probability = job.coverage_probability,
+                                                    .document = job.document,
+                                                    .warnings = job.warnings,
+                                                    .notes = solution.notes},
+                                                   options_json(job, options), files);
 
     const auto across = engine::across_axis(measurement.axis);
     const char letter = static_cast<char>('A' + engine::axial_coordinate(measurement.axis));
