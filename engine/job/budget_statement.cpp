@@ -470,22 +470,29 @@ bool StatementReader::set_bounded(double half_width) {
         }
         shape = *beta;
     } else if (kind == DistributionKind::curvilinear_trapezoid) {
-        const NumberRange range{.low = 0.0,
-                                .high = half_width,
-                                .low_open = true,
-                                .unit = difference_text_,
-                                .hint = "d is how far the limits themselves may be off; at most the half-width"};
-        const auto d = keys_.number("d", range);
+        const auto d = keys_.number("d", range_of_d(half_width));
         if (!d) {
             return false;
         }
         shape = *d / half_width;
     }
+    set_bounded(kind, half_width, shape);
+    quantity_.degrees_of_freedom = *nu;
+    return true;
+}
+
+NumberRange StatementReader::range_of_d(double half_width) const {
+    return {.low = 0.0,
+            .high = half_width,
+            .low_open = true,
+            .unit = difference_text_,
+            .hint = "d is how far the limits themselves may be off; at most the half-width"};
+}
+
+void StatementReader::set_bounded(DistributionKind kind, double half_width, double shape) {
     quantity_.distribution = {
         .kind = kind, .location = quantity_.value, .scale = difference_to_si(half_width), .shape = shape};
     quantity_.u = gum::standard_deviation(quantity_.distribution);
-    quantity_.degrees_of_freedom = *nu;
-    return true;
 }
 
 void StatementReader::refuse_bounded_word(const std::string& word, bool is_plain) const {

@@ -162,6 +162,10 @@ private:
     /// A distribution within ± half_width about the value that is set.
     bool set_bounded(double half_width);
     void refuse_bounded_word(const std::string& word, bool is_plain) const;
+    /// Of the key `d` of a curvilinear trapezoid, in the unit of the half-width.
+    [[nodiscard]] NumberRange range_of_d(double half_width) const;
+    /// Distribution and u of a quantity between two limits; its value is set before.
+    void set_bounded(gum::DistributionKind kind, double half_width, double shape);
     void refuse_shape_keys(gum::DistributionKind kind) const;
 
     bool read_half_width(std::string_view key, double factor);

@@ -394,20 +394,13 @@ bool StatementReader::read_bounded_form(const JsonObject& object, DistributionKi
         }
         shape = *beta;
     } else if (kind == DistributionKind::curvilinear_trapezoid) {
-        const NumberRange range{.low = 0.0,
-                                .high = half_width,
-                                .low_open = true,
-                                .unit = difference_text_,
-                                .hint = "d is how far the limits themselves may be off; at most the half-width"};
-        const auto d = object.optional_number("d", range);
+        const auto d = object.optional_number("d", range_of_d(half_width));
         if (!d) {
             return false;
         }
         shape = *d / half_width;
     }
-    quantity_.distribution = {
-        .kind = kind, .location = quantity_.value, .scale = difference_to_si(half_width), .shape = shape};
-    quantity_.u = gum::standard_deviation(quantity_.distribution);
+    set_bounded(kind, half_width, shape);
     return true;
 }
 

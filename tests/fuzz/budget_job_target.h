@@ -47,17 +47,8 @@ inline void demand_consistent(const BudgetJob& job) {
 
 /// \param bundle  the files of a job; the job itself is `job.json`
 inline bool budget_job(std::string_view bundle) {
-    try {
-        demand_consistent(read_budget_job(MemoryFileSource(files_of_bundle(bundle)), "job.json"));
-        return true;
-    } catch (const gum::InputError& error) {
-        demand(!error.diagnostics().empty(), "refused without a reason");
-        demand_honest(error.diagnostics());
-    } catch (const gum::StorageError& error) {
-        demand(!error.diagnostics().empty(), "refused without a reason");
-        demand_honest(error.diagnostics());
-    }
-    return false;
+    return read_or_refused(
+        bundle, [](const MemoryFileSource& files) { demand_consistent(read_budget_job(files, "job.json")); });
 }
 
 }  // namespace gumcert::engine::fuzz

@@ -130,19 +130,29 @@ inline void demand_consistent(const RotaryTableJob& job) {
     demand_honest(job.warnings);
 }
 
-/// \param bundle  the files of a job; the job itself is `job.json`
-inline bool rotary_table_job(std::string_view bundle) {
+/// Reads the files of a job with `read`, which either returns or refuses them with reasons that hold what they promise.
+/// \return true when they were read
+template <class Read>
+bool read_or_refused(std::string_view bundle, const Read& read) {
+    const auto demand_reasons = [](const gum::DiagnosedError& error) {
+        demand(!error.diagnostics().empty(), "refused without a reason");
+        demand_honest(error.diagnostics());
+    };
     try {
-        demand_consistent(read_rotary_table_job(MemoryFileSource(files_of_bundle(bundle)), "job.json"));
+        read(MemoryFileSource(files_of_bundle(bundle)));
         return true;
     } catch (const gum::InputError& error) {
-        demand(!error.diagnostics().empty(), "refused without a reason");
-        demand_honest(error.diagnostics());
+        demand_reasons(error);
     } catch (const gum::StorageError& error) {
-        demand(!error.diagnostics().empty(), "refused without a reason");
-        demand_honest(error.diagnostics());
+        demand_reasons(error);
     }
     return false;
+}
+
+/// \param bundle  the files of a job; the job itself is `job.json`
+inline bool rotary_table_job(std::string_view bundle) {
+    return read_or_refused(
+        bundle, [](const MemoryFileSource& files) { demand_consistent(read_rotary_table_job(files, "job.json")); });
 }
 
 }  // namespace gumcert::engine::fuzz
