@@ -558,7 +558,7 @@ nlohmann::json options_json(const BudgetJob& job) {
     options["reporting"] = {{"degrees_of_freedom", job.truncate_degrees_of_freedom ? "truncated" : "exact"},
                             {"rounding", job.rounding == gum::RoundingMode::up ? "up" : "half_even"}};
     if (job.monte_carlo) {
-        const engine::BudgetMonteCarlo& asked = *job.monte_carlo;
+        const engine::MonteCarloRequest& asked = *job.monte_carlo;
         nlohmann::json monte_carlo{{"seed", asked.seed},
                                    {"generator", "Philox 4x64-10"},
                                    {"validate", asked.validate},

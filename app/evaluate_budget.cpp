@@ -199,7 +199,7 @@ bool changes(const BudgetPointResult& point, Eigen::Index output, double change,
 
 /// Monte Carlo of one point for each coverage probability that its outputs ask for.
 void run_monte_carlo(const BudgetJob& job, unsigned threads, const Progress& progress, BudgetPointResult& point) {
-    const engine::BudgetMonteCarlo& asked = *job.monte_carlo;
+    const engine::MonteCarloRequest& asked = *job.monte_carlo;
     gum::MonteCarloOptions options;
     options.seed = asked.seed;
     options.threads = threads;

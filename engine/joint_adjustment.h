@@ -11,6 +11,7 @@
 #include "engine/adjustment.h"
 #include "engine/rotary_table_measurement.h"
 #include "engine/rotation.h"
+#include "engine/start_values.h"
 
 namespace gumcert::engine {
 
@@ -20,6 +21,7 @@ struct StochasticModel {
     double variance_linear = 0.0;  ///< of each translation of one visit of the table, [m²]
     double variance_axial = 0.0;   ///< of the rotation about the axis, [rad²]
     double variance_tilt = 0.0;    ///< of each rotation across the axis, [rad²]
+    double fixture_factor = 1.0;   ///< factor on the stated covariance of the fixture
 };
 
 /// Distances that share one visit of the table to an angle, hence its pose (same `pass` and `angle`).
@@ -29,12 +31,6 @@ struct Visit {
     std::size_t pass = 0;
     Approach approach = Approach::positive;
     std::vector<std::size_t> observations;  ///< indices into RotaryTableMeasurement::lengths
-};
-
-/// Start values of the adjustment, in T.
-struct StartValues {
-    std::vector<Eigen::Vector3d> stations;  ///< [m]
-    Eigen::VectorXd dead_paths;             ///< [m]
 };
 
 /// Joint adjustment of one rotary-table measurement: stations, dead paths, fixture, temperatures, expansion, reversal
@@ -107,20 +103,5 @@ private:
 
 /// Nominal rotation R(θ) of the table at an angle, identity at home.
 [[nodiscard]] Eigen::Matrix3d nominal_rotation(const RotaryTableMeasurement& measurement, std::size_t angle);
-
-/// Start values of stations and dead paths without an operator: linear in (q, l0, |q|² - l0²) with the ideal positions
-/// of the reflectors at all angles. A given start value of a station is used where it explains the distances better.
-///
-/// \param active  one flag a length: false = left out; empty: all are used
-/// \throws gum::NoResultError if the reflectors of a station are seen on a cone or in too few directions
-[[nodiscard]] StartValues find_start_values(const RotaryTableMeasurement& measurement,
-                                            const std::vector<bool>& active = {});
-
-/// The lengths that cannot be of this measurement: off by centimetres and far more than all others of their station.
-///
-/// A linearised adjustment does not survive such an error, so these are found before it, one at a time, from the
-/// deviations of the start values (median and median absolute deviation of every dead path). Returned in the order
-/// found.
-[[nodiscard]] std::vector<std::size_t> find_gross_errors(const RotaryTableMeasurement& measurement);
 
 }  // namespace gumcert::engine

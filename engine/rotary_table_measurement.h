@@ -18,6 +18,10 @@ enum class ScaleModel { fixed, prior, free };
 enum class RepeatabilityMode { estimate, given, none };
 enum class OutlierTest { data_snooping, none };
 enum class OutlierAction { report, remove };
+/// What is done with the factor on the stated covariance of the fixture that the residuals suggest.
+enum class FixtureComponent { given, check, estimate };
+/// Shape of the distribution that is drawn for a quantity with a stated standard uncertainty.
+enum class InputShape { normal, uniform };
 
 /// One distance, as read. The indices point into the lists of names of `RotaryTableMeasurement`.
 struct LengthObservation {
@@ -36,6 +40,9 @@ struct LengthUncertainty {
     double u_proportional = 0.0;  ///< part proportional to the distance, [1]; both add in squares
     ScaleModel scale_model = ScaleModel::fixed;
     double u_scale = 0.0;  ///< standard uncertainty of the scale of a station, [1]; used with `prior`
+    /// Full step of the displayed length, [m]; 0: part of the length noise. Uniform, its variance is known and stays
+    /// outside the estimated variance component.
+    double resolution = 0.0;
 };
 
 /// Standard uncertainties with which the table comes back to an angle, of one visit, given or as start values.
@@ -72,8 +79,12 @@ struct RotaryTableMeasurement {
     std::vector<std::optional<Eigen::Vector3d>> station_start;  ///< per station, in T, [m]; empty when not known
     Eigen::VectorXd temperature_difference;  ///< fixture temperature minus reference temperature, per station, [K]
     Eigen::VectorXd u_temperature;           ///< its standard uncertainty, per station, [K]
-    double expansion = 0.0;                  ///< linear thermal expansion coefficient of the fixture, [1/K]
-    double u_expansion = 0.0;                ///< [1/K]
+    InputShape fixture_shape = InputShape::normal;  ///< of each coordinate; uniform only where they are uncorrelated
+    InputShape temperature_shape = InputShape::normal;
+    InputShape expansion_shape = InputShape::normal;
+    FixtureComponent fixture_component = FixtureComponent::check;
+    double expansion = 0.0;    ///< linear thermal expansion coefficient of the fixture, [1/K]
+    double u_expansion = 0.0;  ///< [1/K]
 
     LengthUncertainty length_uncertainty;
     TableRepeatability table_repeatability;

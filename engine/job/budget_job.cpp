@@ -223,7 +223,7 @@ private:
         if (!object) {
             return;
         }
-        BudgetMonteCarlo& options = job_.monte_carlo.emplace();
+        MonteCarloRequest& options = job_.monte_carlo.emplace();
         options.where = object->where();
         double p = job_.coverage_probability;
         for (const BudgetOutput& output : job_.outputs) {

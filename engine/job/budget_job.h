@@ -12,7 +12,8 @@
 #include <vector>
 
 #include "engine/job/file_source.h"
-#include "engine/job/rotary_table_job.h"
+#include "engine/job/job_kind.h"
+#include "engine/job/monte_carlo_request.h"
 #include "gum/expression/equation_system.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/distribution.h"
@@ -109,15 +110,6 @@ struct BudgetOutput {
     std::string where;
 };
 
-struct BudgetMonteCarlo {
-    std::optional<std::uint64_t> trials;  ///< fixed number; else adaptive
-    int digits = 2;                       ///< significant digits of u, for `adaptive` and `validate`
-    std::uint64_t most_trials = 1'000'000'000;
-    std::uint64_t seed = 1;
-    bool validate = false;
-    std::string where;
-};
-
 /// A job of kind `budget`: the measurement model and its inputs in coherent SI, and the job as it was read.
 struct BudgetJob {
     std::string title;
@@ -134,7 +126,7 @@ struct BudgetJob {
     std::vector<BudgetFit> fits;
     std::vector<BudgetOutput> outputs;  ///< empty: those of the model
     std::vector<BudgetPoint> points;    ///< empty: one evaluation
-    std::optional<BudgetMonteCarlo> monte_carlo;
+    std::optional<MonteCarloRequest> monte_carlo;
     nlohmann::json document;
     nlohmann::json certificate;
     std::vector<std::string> files;  ///< names as the job gives them, each once, the job first

@@ -113,47 +113,6 @@ constexpr NumberRange k_angle{
 constexpr NumberRange k_temperature{
     .low = -50.0, .high = 100.0, .unit = "°C", .hint = "check the unit: temperatures are in degrees Celsius"};
 
-constexpr std::string_view k_schema = "gumcert/job/1";
-constexpr std::array<std::string_view, 3> k_kinds{"budget", "rotary_table", "comparison"};
-
-/// `schema` and `kind` of any job; problems go to the list. \return the kind when it is one of the three
-std::optional<std::string> read_kind(const JsonDocument& document, ProblemList& problems) {
-    if (!document.value.is_object()) {
-        (void)JsonObject::root(document, {}, problems);
-        return std::nullopt;
-    }
-    const auto text_of = [&](const char* key, std::string_view expected) -> std::optional<std::string> {
-        const auto found = document.value.find(key);
-        if (found == document.value.end()) {
-            problems.refuse(k_missing_key, document.where(""), "the key " + in_quotes(key) + " is missing",
-                            "the key is required", "add " + in_quotes(key) + ": " + std::string{expected});
-            return std::nullopt;
-        }
-        if (found->is_discarded()) {
-            return std::nullopt;
-        }
-        if (!found->is_string()) {
-            problems.refuse(k_wrong_type, document.where(child_pointer("", key)), described(*found), "must be a string",
-                            "write " + std::string{expected});
-            return std::nullopt;
-        }
-        return found->get<std::string>();
-    };
-    const std::optional<std::string> schema = text_of("schema", "\"gumcert/job/1\"");
-    if (schema && *schema != k_schema) {
-        problems.refuse(k_wrong_schema, document.where("/schema"), in_quotes(*schema), "must be \"gumcert/job/1\"",
-                        "check that the file is a job, and which version of the program it is for");
-    }
-    const std::optional<std::string> kind = text_of("kind", "the kind of the job");
-    if (kind && std::find(k_kinds.begin(), k_kinds.end(), *kind) == k_kinds.end()) {
-        const std::optional<std::string_view> nearest = nearest_word(*kind, k_kinds);
-        problems.refuse(k_wrong_kind, document.where("/kind"), in_quotes(*kind), "must be " + any_of_words(k_kinds),
-                        nearest ? "did you mean \"" + std::string{*nearest} + "\"?" : "choose one of them");
-        return std::nullopt;
-    }
-    return kind;
-}
-
 /// Names in the order in which they first appear.
 class NameList {
 public:
@@ -197,7 +156,7 @@ bool look_like_radians(const std::vector<double>& angles) {
 /// Reads one job; every step notes what it finds, and `result` throws or returns at the end.
 class Reader {
 public:
-    Reader(const FileSource& source, const std::string& job_file) : source_(source) {
+    Reader(const FileSource& source, const std::string& job_file, JobUse use) : source_(source), use_(use) {
         job_.files.push_back(job_file);
         problems_.emplace_back(job_file);
     }
@@ -1150,6 +1109,7 @@ private:
     }
 
     const FileSource& source_;
+    JobUse use_;
     RotaryTableJob job_;
     std::deque<ProblemList> problems_;  ///< job file first; a deque because tables keep addresses of its elements
     std::vector<gum::Diagnostic> not_readable_;
@@ -1183,48 +1143,13 @@ std::span<const JobKeys> rotary_table_job_keys() {
     return k_all_keys;
 }
 
-RotaryTableJob read_rotary_table_job(const FileSource& source, const std::string& job_file) {
-    return Reader(source, job_file).result();
+RotaryTableJob read_rotary_table_job(const FileSource& source, const std::string& job_file, JobUse use) {
+    return Reader(source, job_file, use).result();
 }
 
-RotaryTableJob read_rotary_table_job(const std::filesystem::path& job_file) {
+RotaryTableJob read_rotary_table_job(const std::filesystem::path& job_file, JobUse use) {
     const DiskJob disk = on_disk(job_file);
-    return read_rotary_table_job(disk.source, disk.name);
-}
-
-std::string job_kind(const FileSource& source, const std::string& job_file) {
-    ProblemList problems(job_file);
-    const std::string bytes = source.read(job_file);
-    const std::optional<JsonDocument> document = read_json_document(bytes, problems);
-    const std::optional<std::string> kind = document ? read_kind(*document, problems) : std::nullopt;
-    if (problems.refusals() > 0) {
-        throw gum::InputError(problems.refused());
-    }
-    return kind.value();
-}
-
-std::optional<std::string> probable_job_kind(const std::filesystem::path& job_file) {
-    const DiskJob disk = on_disk(job_file);
-    ProblemList problems(disk.name);
-    const std::string bytes = disk.source.read(disk.name);
-    const std::optional<JsonDocument> document = read_json_document(bytes, problems);
-    if (document && document->value.is_object() && document->value.contains("kind") &&
-        document->value["kind"].is_string()) {
-        return document->value["kind"].get<std::string>();
-    }
-    // The text ends before its end, or is none: the first kind that is named in it.
-    const std::size_t key = bytes.find("\"kind\"");
-    for (const char* kind : {"budget", "rotary_table", "comparison"}) {
-        if (key != std::string::npos && bytes.find('"' + std::string(kind) + '"', key) < bytes.find(',', key)) {
-            return kind;
-        }
-    }
-    return std::nullopt;
-}
-
-std::string job_kind(const std::filesystem::path& job_file) {
-    const DiskJob disk = on_disk(job_file);
-    return job_kind(disk.source, disk.name);
+    return read_rotary_table_job(disk.source, disk.name, use);
 }
 
 }  // namespace gumcert::engine

@@ -1,18 +1,26 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "engine/job/file_source.h"
+#include "engine/job/job_kind.h"
+#include "engine/job/monte_carlo_request.h"
 #include "engine/rotary_table_measurement.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/units.h"
 
 namespace gumcert::engine {
+
+struct BudgetJob;
 
 /// The air about one station, as the environment file states it; for documents, the adjustment does not use it.
 struct StationAir {
@@ -21,12 +29,53 @@ struct StationAir {
     std::optional<double> humidity_percent;
 };
 
+/// Truth and noise of simulated campaigns (`gumcert simulate`); defaults are those of the source paper, section 4.
+struct SimulationRequest {
+    std::size_t runs = 100;
+    std::uint64_t seed = 1;
+    double set_up_offset = 10e-6;                    ///< both offsets of the fixture across the axis, [m]
+    double set_up_tilt = 20.0 * gum::k_arcsecond;    ///< both tilts, [rad]
+    double error_linear = 10e-6;                     ///< error motions uniform within ± this, [m]
+    double error_angular = 20.0 * gum::k_arcsecond;  ///< [rad]
+    /// Repeatability of the simulated table; nothing: as `table_repeatability` of the job states it.
+    std::optional<TableRepeatability> table_repeatability;
+    std::size_t outliers = 0;               ///< distances with a planted error in every campaign
+    double outlier_size = 3e-6;             ///< its absolute value, sign at random, [m]
+    std::vector<std::size_t> angle_counts;  ///< studies over full turns of these many angles; empty: angles of the job
+};
+
+/// A layout that is not measured yet, and what may be changed in it (`gumcert plan`).
+struct PlanRequest {
+    std::vector<double> angles_deg;  ///< ascending; empty: those of the lengths file
+    bool both_senses = false;
+    bool dead_path_per_reflector = false;            ///< else one a station
+    double target_linear = 1e-6;                     ///< expanded uncertainty wanted of the linear error motions, [m]
+    double target_angular = 1.0 * gum::k_arcsecond;  ///< and of the angular ones, [rad]
+    /// Box in which stations may stand, corners in T, [m]; nothing: stations are not moved.
+    std::optional<std::array<Eigen::Vector3d, 2>> station_region;
+    double station_step = 0.2;    ///< grid of candidate positions in the box, [m]
+    double least_distance = 0.2;  ///< of a station from every reflector at every angle, [m]
+};
+
+/// What is done with a job: only an evaluation needs measured lengths.
+enum class JobUse { evaluate, simulate, plan };
+
 /// A job of kind `rotary_table`: the measurement in SI, and the job as it was read.
 struct RotaryTableJob {
     std::string title;                     ///< empty when the job has none
     double coverage_probability = 0.9545;  ///< [1]
     RotaryTableMeasurement measurement;
     std::optional<ReferenceMethod> reference;
+    std::optional<MonteCarloRequest> monte_carlo;
+    /// Budget of the fixture coordinates, kind `budget`, with a point "<reflector>.x", "<reflector>.y", "<reflector>.z"
+    /// for each coordinate. Its results give the fixture covariance; the application evaluates it.
+    std::shared_ptr<const BudgetJob> fixture_budget;
+    std::string fixture_budget_file;
+    /// The fixture covariance is that of the source paper, eqs. (10) to (12), on purpose.
+    bool source_paper_fixture = false;
+    std::optional<SimulationRequest> simulation;
+    std::optional<PlanRequest> plan;
+    bool has_lengths = true;                   ///< false: a layout for `plan` or `simulate` without measured lengths
     std::vector<StationAir> air;               ///< per station; empty without an environment file
     double reference_temperature_degC = 20.0;  ///< of the fixture coordinates
     nlohmann::json document;                   ///< the job file as read
@@ -35,12 +84,6 @@ struct RotaryTableJob {
     /// fixture covariance, readings and description of the reference method, certificate.
     std::vector<std::string> files;
     std::vector<gum::Diagnostic> warnings;
-};
-
-/// One object of the job document and the keys that it may have.
-struct JobKeys {
-    std::string_view pointer;
-    std::span<const std::string_view> keys;
 };
 
 /// The keys of a job of kind `rotary_table`, object by object. schemas/job-1.schema.json states the same ones.
@@ -52,19 +95,11 @@ struct JobKeys {
 /// order of the fixture file, angles ascending (angles that agree within 1e-9° are one).
 /// \throws InputError    with every problem of every file, those of the job file first
 /// \throws StorageError  if a file cannot be read; with the problems of the other files after it
-[[nodiscard]] RotaryTableJob read_rotary_table_job(const std::filesystem::path& job_file);
+[[nodiscard]] RotaryTableJob read_rotary_table_job(const std::filesystem::path& job_file,
+                                                   JobUse use = JobUse::evaluate);
 
 /// The same from any source. \param job_file  the name of the job in the source
-[[nodiscard]] RotaryTableJob read_rotary_table_job(const FileSource& source, const std::string& job_file);
-
-/// "budget", "rotary_table" or "comparison".
-/// \throws InputError    if the file is not a job of this schema
-/// \throws StorageError  if it cannot be read
-[[nodiscard]] std::string job_kind(const std::filesystem::path& job_file);
-[[nodiscard]] std::string job_kind(const FileSource& source, const std::string& job_file);
-
-/// The kind that a job seems to be of, also where its text has faults: which reader should tell what is wrong with it.
-/// \return nothing when that cannot be seen
-[[nodiscard]] std::optional<std::string> probable_job_kind(const std::filesystem::path& job_file);
+[[nodiscard]] RotaryTableJob read_rotary_table_job(const FileSource& source, const std::string& job_file,
+                                                   JobUse use = JobUse::evaluate);
 
 }  // namespace gumcert::engine

@@ -79,6 +79,7 @@ struct ErrorValue {
     double value = 0.0, u = 0.0, U = 0.0, k = 2.0;  ///< [µm] or [arcsec]
     std::optional<double> nu_eff;
     Printed printed;
+    std::optional<MonteCarloSummary> monte_carlo = {};  ///< without histogram
 };
 
 struct ErrorsAtAngle {
@@ -102,10 +103,11 @@ struct Reversal {
 struct Station {
     std::string name;
     std::array<double, 3> position_mm{}, u_mm{};
-    double scale_deviation = 0.0, u_scale = 0.0;  ///< s - 1, [1]
-    std::vector<std::string> printed_position;    ///< three
-    std::vector<std::string> printed_U;           ///< three, expanded, k of the record
-    Printed printed_scale;                        ///< s - 1 and its U, unit "1e-6"; empty texts: not printed
+    double scale_deviation = 0.0, u_scale = 0.0;            ///< s - 1, [1]
+    std::vector<std::string> printed_position;              ///< three
+    std::vector<std::string> printed_U;                     ///< three, expanded, k of the record
+    Printed printed_scale;                                  ///< s - 1 and its U, unit "1e-6"; empty texts: not printed
+    std::array<std::array<double, 3>, 3> covariance_mm2{};  ///< of the position, for confidence ellipses
 };
 
 struct DeadPath {
@@ -116,10 +118,14 @@ struct DeadPath {
 
 struct Reflector {
     std::string name;
-    std::array<double, 3> position_mm{}, u_mm{};           ///< adjusted, fixture frame, at reference temperature
-    std::array<double, 3> correction_um{};                 ///< adjusted minus CMM
-    std::vector<std::string> printed_position, printed_U;  ///< three each
-    std::vector<std::string> printed_correction;           ///< three, [µm]
+    std::array<double, 3> position_mm{}, u_mm{};            ///< adjusted, fixture frame, at reference temperature
+    std::array<double, 3> correction_um{};                  ///< adjusted minus CMM
+    std::vector<std::string> printed_position, printed_U;   ///< three each
+    std::vector<std::string> printed_correction;            ///< three, [µm]
+    std::array<double, 3> home_position_mm{};               ///< in T of the datum at the home angle
+    std::array<std::array<double, 3>, 3> covariance_mm2{};  ///< of `position_mm`
+    std::array<double, 3> cmm_mm{}, u_cmm_mm{};             ///< as the CMM (or the budget of the fixture) states them
+    std::vector<std::string> printed_cmm, printed_U_cmm;    ///< three each
 };
 
 /// Variance shares of one reported quantity. `shares` is parallel to RotaryTable::budget_sources and sums to 1.
@@ -143,7 +149,17 @@ struct BudgetSummaryRow {
 
 struct VarianceFactor {
     double a_priori = 1.0, a_posteriori = 1.0;
-    std::string used;  ///< "a_priori" or "a_posteriori"
+    std::string used;         ///< "a_priori" or "a_posteriori"
+    std::string reason = {};  ///< a sentence: why this one
+};
+
+/// Two-sided test of chi-square of the adjustment against its distribution.
+struct GlobalTest {
+    double probability = 0.95;        ///< of the region of acceptance
+    double lower = 0.0, upper = 0.0;  ///< limits of chi-square
+    bool accepted = true;
+    std::string meaning;  ///< what the answer says here, where components are estimated from it too
+    std::string printed_lower, printed_upper;
 };
 
 struct AdjustmentSummary {
@@ -151,6 +167,7 @@ struct AdjustmentSummary {
     std::int64_t observations = 0, parameters = 0, degrees_of_freedom = 0, iterations = 0;
     double chi_square = 0.0, p_value = 0.0, condition_number = 0.0;
     VarianceFactor variance_factor;
+    GlobalTest global_test;
     struct {
         std::string chi_square, p_value, variance_factor, condition_number;
     } printed;
@@ -162,7 +179,11 @@ struct VarianceComponent {
     std::string unit;             ///< "um" or "arcsec"
     double redundancy = 0.0;
     bool estimated = false;
-    Printed printed;  ///< U holds the standard uncertainty of the component (k = 1)
+    Printed printed;                                ///< U holds the standard uncertainty of the component (k = 1)
+    std::optional<double> stated = {};              ///< what the job states, in `unit`; for the fixture 1 (a factor)
+    std::optional<double> degrees_of_freedom = {};  ///< of the estimate; none where it is given
+    bool used = true;  ///< in the weights; false: estimated as a check of the stated value only
+    std::string printed_stated = {};
 };
 
 struct ReliabilityRow {
@@ -172,10 +193,77 @@ struct ReliabilityRow {
     bool flagged = false, removed = false;
 };
 
-/// A flagged distance, as a document lists it.
+/// A flagged distance, as a document lists it, in the order in which they were found.
 struct FlaggedDistance {
     std::string station, reflector, pass, angle, residual_um, test_value;  ///< printed
     bool removed = false;
+    std::string estimated_error_um = {};  ///< printed: what the distance is off by, from the others
+    std::string found_with = {};          ///< printed: test value when it was found, and the critical value then
+    std::string reason = {};              ///< a sentence
+};
+
+/// One coordinate of the fixture as an observation.
+struct FixtureReliabilityRow {
+    std::string reflector, coordinate;
+    double residual_um = 0.0, redundancy_number = 0.0, test_value = 0.0, minimal_detectable_bias_um = 0.0;
+};
+
+/// The largest change that an error of one distance, just too small to be found, makes in one reported quantity.
+struct ExternalReliability {
+    std::string quantity;
+    std::optional<double> angle_deg;  ///< of the quantity
+    double influence = 0.0;           ///< in `unit`
+    std::string unit;
+    double ratio_to_U = 0.0;               ///< influence / U of the quantity
+    std::string station, reflector, pass;  ///< the distance that has it
+    double at_angle_deg = 0.0, minimal_detectable_bias_um = 0.0;
+};
+
+/// One number derived from the error motions: a location error of the axis, a parameter of ISO 230-2.
+struct TableParameter {
+    std::string name;  ///< "EY0A", "R_up"
+    std::string description;
+    std::string unit;  ///< "um" or "arcsec"
+    double value = 0.0, u = 0.0, U = 0.0, k = 2.0;
+    std::optional<double> nu_eff;
+    Printed printed;
+    std::optional<MonteCarloSummary> monte_carlo;
+};
+
+/// Deviations of the axial rotation at one target position (ISO 230-2), [arcsec].
+struct PositioningTarget {
+    double angle_deg = 0.0;
+    std::optional<double> mean_up, mean_down, s_up, s_down, reversal;
+    std::string printed_angle, printed_mean_up, printed_mean_down, printed_s_up, printed_s_down, printed_reversal;
+};
+
+/// Accuracy and repeatability of positioning about the axis (ISO 230-2), [arcsec].
+struct PositioningAccuracy {
+    std::int64_t runs_up = 0, runs_down = 0;
+    std::vector<TableParameter> parameters;  ///< M, E, E_up … A_down, those that the runs allow
+    std::vector<PositioningTarget> targets;
+    double u_deviation = 0.0;  ///< rms standard uncertainty of one deviation of one run
+    std::string printed_u_deviation;
+    std::vector<std::string> remarks;
+};
+
+/// Monte Carlo of the whole measurement.
+struct RotaryMonteCarlo {
+    std::int64_t trials = 0, seed = 1;
+    std::int64_t most_steps = 0;  ///< of one trial until it converged
+    double mean_steps = 0.0;
+    std::int64_t compared = 0, validated = 0;  ///< reported quantities; those where both methods agree (clause 8)
+    std::vector<std::string> not_validated;    ///< their names
+    std::string statement;                     ///< a sentence for people
+};
+
+/// Uncertainty of one coordinate of the fixture, from its budget.
+struct FixtureBudget {
+    std::string method;              ///< "stated", "budget" or "source_paper"
+    std::string file;                ///< of the budget
+    std::vector<BudgetRow> largest;  ///< the budget of the coordinate with the largest uncertainty
+    std::string largest_coordinate;  ///< its name
+    std::vector<std::string> remarks;
 };
 
 /// ISO 230-7 range of one error motion over the angles.
@@ -183,6 +271,8 @@ struct RangeRow {
     std::string name;
     double value = 0.0, U = 0.0;
     Printed printed;
+    double u = 0.0;
+    std::optional<MonteCarloSummary> monte_carlo = {};
 };
 
 struct RotaryTable {
@@ -211,6 +301,12 @@ struct RotaryTable {
     std::vector<FlaggedDistance> flagged;
     double outlier_critical_value = 0.0, outlier_alpha = 0.0;
     std::string printed_critical_value;
+    std::vector<FixtureReliabilityRow> fixture_reliability;
+    std::vector<ExternalReliability> external_reliability;  ///< one a reported quantity
+    std::vector<TableParameter> location_errors;            ///< of the axis average line in the frame of the fixture
+    std::optional<PositioningAccuracy> iso230_2;
+    std::optional<RotaryMonteCarlo> monte_carlo;
+    std::optional<FixtureBudget> fixture_budget;
 };
 
 /// One point of a comparison (ISO 13528: E_n number).

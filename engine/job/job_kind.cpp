@@ -1,0 +1,88 @@
+#include "engine/job/job_kind.h"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/job/json_document.h"
+
+namespace gumcert::engine {
+
+namespace {
+
+constexpr std::string_view k_schema = "gumcert/job/1";
+constexpr std::array<std::string_view, 3> k_kinds{"budget", "rotary_table", "comparison"};
+
+}  // namespace
+
+std::optional<std::string> read_kind(const JsonDocument& document, ProblemList& problems) {
+    if (!document.value.is_object()) {
+        (void)JsonObject::root(document, {}, problems);
+        return std::nullopt;
+    }
+    const auto text_of = [&](const char* key, std::string_view expected) -> std::optional<std::string> {
+        const auto found = document.value.find(key);
+        if (found == document.value.end()) {
+            problems.refuse(k_missing_key, document.where(""), "the key " + in_quotes(key) + " is missing",
+                            "the key is required", "add " + in_quotes(key) + ": " + std::string{expected});
+            return std::nullopt;
+        }
+        if (found->is_discarded()) {
+            return std::nullopt;
+        }
+        if (!found->is_string()) {
+            problems.refuse(k_wrong_type, document.where(child_pointer("", key)), described(*found), "must be a string",
+                            "write " + std::string{expected});
+            return std::nullopt;
+        }
+        return found->get<std::string>();
+    };
+    const std::optional<std::string> schema = text_of("schema", "\"gumcert/job/1\"");
+    if (schema && *schema != k_schema) {
+        problems.refuse(k_wrong_schema, document.where("/schema"), in_quotes(*schema), "must be \"gumcert/job/1\"",
+                        "check that the file is a job, and which version of the program it is for");
+    }
+    const std::optional<std::string> kind = text_of("kind", "the kind of the job");
+    if (kind && std::find(k_kinds.begin(), k_kinds.end(), *kind) == k_kinds.end()) {
+        const std::optional<std::string_view> nearest = nearest_word(*kind, k_kinds);
+        problems.refuse(k_wrong_kind, document.where("/kind"), in_quotes(*kind), "must be " + any_of_words(k_kinds),
+                        nearest ? "did you mean \"" + std::string{*nearest} + "\"?" : "choose one of them");
+        return std::nullopt;
+    }
+    return kind;
+}
+
+std::string job_kind(const FileSource& source, const std::string& job_file) {
+    ProblemList problems(job_file);
+    const std::string bytes = source.read(job_file);
+    const std::optional<JsonDocument> document = read_json_document(bytes, problems);
+    const std::optional<std::string> kind = document ? read_kind(*document, problems) : std::nullopt;
+    if (problems.refusals() > 0) {
+        throw gum::InputError(problems.refused());
+    }
+    return kind.value();
+}
+
+std::optional<std::string> probable_job_kind(const std::filesystem::path& job_file) {
+    const std::string name = job_file.filename().string();
+    ProblemList problems(name);
+    const std::string bytes = DiskFileSource(job_file.parent_path()).read(name);
+    const std::optional<JsonDocument> document = read_json_document(bytes, problems);
+    if (document && document->value.is_object() && document->value.contains("kind") &&
+        document->value["kind"].is_string()) {
+        return document->value["kind"].get<std::string>();
+    }
+    // The text ends before its end, or is none: the first kind that is named in it.
+    const std::size_t key = bytes.find("\"kind\"");
+    for (const char* kind : {"budget", "rotary_table", "comparison"}) {
+        if (key != std::string::npos && bytes.find('"' + std::string(kind) + '"', key) < bytes.find(',', key)) {
+            return kind;
+        }
+    }
+    return std::nullopt;
+}
+
+std::string job_kind(const std::filesystem::path& job_file) {
+    return job_kind(DiskFileSource(job_file.parent_path()), job_file.filename().string());
+}
+
+}  // namespace gumcert::engine
