@@ -195,64 +195,6 @@ std::string distribution_of(const BudgetOutputResult& output) {
     return output.coverage == "none" ? "not stated" : output.coverage;
 }
 
-std::array<double, 2> ends(const gum::CoverageInterval& interval, const Unit& unit) {
-    return {unit.from_si(interval.low), unit.from_si(interval.high)};
-}
-
-std::array<double, 2> differences(const gum::CoverageInterval& interval, const Unit& unit) {
-    return {unit.difference_from_si(interval.low), unit.difference_from_si(interval.high)};
-}
-
-reports::MonteCarloSummary monte_carlo_summary(const BudgetJob& job, const BudgetOutputResult& output,
-                                               const Unit& unit) {
-    const gum::MonteCarloOutput& from = *output.monte_carlo;
-    reports::MonteCarloSummary summary;
-    summary.trials = static_cast<std::int64_t>(output.trials);
-    summary.seed = static_cast<std::int64_t>(job.monte_carlo->seed);
-    summary.mean = unit.from_si(from.mean);
-    summary.u = unit.difference_from_si(from.standard_uncertainty);
-    summary.symmetric = ends(from.symmetric, unit);
-    summary.shortest = ends(from.shortest, unit);
-    summary.numerical_error.mean = unit.difference_from_si(from.numerical_error.mean);
-    summary.numerical_error.u = unit.difference_from_si(from.numerical_error.standard_uncertainty);
-    summary.numerical_error.symmetric = differences(from.numerical_error.symmetric, unit);
-    summary.numerical_error.shortest = differences(from.numerical_error.shortest, unit);
-    summary.adaptive = !job.monte_carlo->trials;
-    if (!from.histogram.counts.empty()) {
-        summary.histogram_low = unit.from_si(from.histogram.low);
-        summary.histogram_high = unit.from_si(from.histogram.high);
-        summary.histogram.assign(from.histogram.counts.begin(), from.histogram.counts.end());
-    }
-    summary.stabilised = output.stabilised;
-    // As many digits as the numerical error allows, and not more than four of u.
-    const auto shown = [&](double value, double error) {
-        const double quantum = std::max(error, 1e-4 * summary.u);
-        return quantum > 0.0 ? gum::round_to_uncertainty(value, quantum, 1).value : all_digits(value);
-    };
-    summary.printed.trials = std::to_string(summary.trials);
-    summary.printed.mean = shown(summary.mean, summary.numerical_error.mean);
-    summary.printed.u = shown(summary.u, summary.numerical_error.u);
-    for (std::size_t i = 0; i < 2; ++i) {
-        summary.printed.symmetric[i] = shown(summary.symmetric[i], summary.numerical_error.symmetric[i]);
-        summary.printed.shortest[i] = shown(summary.shortest[i], summary.numerical_error.shortest[i]);
-    }
-    if (output.validation) {
-        reports::GufValidation validation;
-        validation.delta = output.validation->tolerance;
-        validation.d_low = output.validation->distance_low;
-        validation.d_high = output.validation->distance_high;
-        validation.validated = output.validation->validated;
-        validation.precise_enough = output.validation->precise_enough;
-        validation.interval = "symmetric";
-        validation.digits = job.monte_carlo->digits;
-        validation.printed.delta = rounded(validation.delta, 2);
-        validation.printed.d_low = rounded(validation.d_low, 2);
-        validation.printed.d_high = rounded(validation.d_high, 2);
-        summary.validation = validation;
-    }
-    return summary;
-}
-
 std::vector<std::vector<double>> rows_of(const Eigen::MatrixXd& matrix) {
     std::vector<std::vector<double>> rows;
     for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
@@ -557,21 +499,7 @@ nlohmann::json options_json(const BudgetJob& job) {
     options["law_of_propagation"] = {{"order", 1}, {"second_order_reported_from_relative_change", 0.005}};
     options["reporting"] = {{"degrees_of_freedom", job.truncate_degrees_of_freedom ? "truncated" : "exact"},
                             {"rounding", job.rounding == gum::RoundingMode::up ? "up" : "half_even"}};
-    if (job.monte_carlo) {
-        const engine::MonteCarloRequest& asked = *job.monte_carlo;
-        nlohmann::json monte_carlo{{"seed", asked.seed},
-                                   {"generator", "Philox 4x64-10"},
-                                   {"validate", asked.validate},
-                                   {"digits", asked.digits}};
-        if (asked.trials) {
-            monte_carlo["trials"] = *asked.trials;
-        } else {
-            monte_carlo["adaptive"] = {{"digits", asked.digits}, {"max_trials", asked.most_trials}};
-        }
-        options["monte_carlo"] = std::move(monte_carlo);
-    } else {
-        options["monte_carlo"] = nullptr;
-    }
+    options["monte_carlo"] = monte_carlo_json(job.monte_carlo);
     return options;
 }
 
@@ -652,7 +580,11 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
                 out.second_order = second;
             }
             if (from.monte_carlo) {
-                out.monte_carlo = monte_carlo_summary(job, from, unit);
+                out.monte_carlo =
+                    monte_carlo_summary(*from.monte_carlo, *job.monte_carlo, {from.trials, from.stabilised},
+                                        {[&](double value) { return unit.from_si(value); },
+                                         [&](double difference) { return unit.difference_from_si(difference); }},
+                                        from.validation);
             }
             record.results.push_back(std::move(out));
         }

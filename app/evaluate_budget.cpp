@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "app/record_parts.h"
 #include "gum/coverage.h"
 
 namespace gumcert::app {
@@ -30,7 +31,6 @@ constexpr double k_numerical_errors = 5.0;                    // beyond doubt
 constexpr double k_most_of_the_variance = 0.5;
 constexpr double k_accepted_asymmetry = 0.02;               // of half the width: below what two digits of U show
 constexpr double k_rounding_of_degrees_of_freedom = 1e-12;  // 3.999…9 is 4
-constexpr double k_validation_divisor = 5.0;  // JCGM 101:2008, 8.2: Monte Carlo to a fifth of the tolerance
 
 /// The equation of a fit as the curve of the adjustment.
 class EquationCurve final : public engine::Curve {
@@ -200,9 +200,7 @@ bool changes(const BudgetPointResult& point, Eigen::Index output, double change,
 /// Monte Carlo of one point for each coverage probability that its outputs ask for.
 void run_monte_carlo(const BudgetJob& job, unsigned threads, const Progress& progress, BudgetPointResult& point) {
     const engine::MonteCarloRequest& asked = *job.monte_carlo;
-    gum::MonteCarloOptions options;
-    options.seed = asked.seed;
-    options.threads = threads;
+    gum::MonteCarloOptions options = monte_carlo_options(asked, threads);
     if (progress && job.points.empty()) {
         options.progress = [&progress](double done) {
             progress("Monte Carlo, " + std::to_string(static_cast<int>(100.0 * done)) + " %");
@@ -211,13 +209,6 @@ void run_monte_carlo(const BudgetJob& job, unsigned threads, const Progress& pro
     options.streams = point.streams;
     options.regions = job.points.empty();
     options.histogram = job.points.size() <= k_most_points_with_histogram;
-    if (asked.trials) {
-        options.trials = *asked.trials;
-    } else {
-        options.adaptive = gum::AdaptiveTrials{.digits = asked.digits,
-                                               .most_trials = asked.most_trials,
-                                               .tolerance_divisor = asked.validate ? k_validation_divisor : 1.0};
-    }
     std::map<double, gum::MonteCarloResult> results;
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
         BudgetOutputResult& output = point.outputs[i];
@@ -243,14 +234,12 @@ void use_monte_carlo(const BudgetJob& job, BudgetPointResult& point, BudgetResul
         const double u = output.standard_uncertainty;
         const double y = point.propagation.value(index);
         if (job.monte_carlo->validate && output.expanded_uncertainty && u > 0.0) {
-            // In the unit of the result: the tolerance is half a unit of a decimal digit there.
             const gum::Unit& unit = result.output_units[i];
-            const gum::CoverageInterval& interval = output.monte_carlo->symmetric;
-            const gum::CoverageInterval& error = output.monte_carlo->numerical_error.symmetric;
-            output.validation = gum::validate(
-                unit.from_si(y), unit.difference_from_si(u), unit.difference_from_si(*output.expanded_uncertainty),
-                {unit.from_si(interval.low), unit.from_si(interval.high)},
-                {unit.difference_from_si(error.low), unit.difference_from_si(error.high)}, job.monte_carlo->digits);
+            output.validation =
+                validation_in_unit(y, u, *output.expanded_uncertainty, *output.monte_carlo,
+                                   {[&](double value) { return unit.from_si(value); },
+                                    [&](double difference) { return unit.difference_from_si(difference); }},
+                                   job.monte_carlo->digits);
             if (!output.validation->validated || !output.validation->precise_enough) {
                 result.validation_failed = true;
             }

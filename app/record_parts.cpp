@@ -38,6 +38,105 @@ std::string shortest(double value) {
     return {text.data(), end};
 }
 
+gum::MonteCarloOptions monte_carlo_options(const engine::MonteCarloRequest& asked, unsigned threads) {
+    // The numerical error has to be small against the tolerance where the law of propagation is validated
+    // (JCGM 101:2008, 8.2).
+    constexpr double k_validation_divisor = 5.0;
+    gum::MonteCarloOptions options;
+    options.seed = asked.seed;
+    options.threads = threads;
+    if (asked.trials) {
+        options.trials = *asked.trials;
+    } else {
+        options.adaptive = gum::AdaptiveTrials{.digits = asked.digits,
+                                               .most_trials = asked.most_trials,
+                                               .tolerance_divisor = asked.validate ? k_validation_divisor : 1.0};
+    }
+    return options;
+}
+
+nlohmann::json monte_carlo_json(const std::optional<engine::MonteCarloRequest>& asked) {
+    if (!asked) {
+        return nullptr;
+    }
+    nlohmann::json options{{"seed", asked->seed},
+                           {"generator", "Philox 4x64-10"},
+                           {"validate", asked->validate},
+                           {"digits", asked->digits}};
+    if (asked->trials) {
+        options["trials"] = *asked->trials;
+    } else {
+        options["adaptive"] = {{"digits", asked->digits}, {"max_trials", asked->most_trials}};
+    }
+    return options;
+}
+
+gum::Validation validation_in_unit(double value, double u, double U, const gum::MonteCarloOutput& output,
+                                   const ToUnit& to_unit, int digits) {
+    const gum::CoverageInterval& interval = output.symmetric;
+    const gum::CoverageInterval& error = output.numerical_error.symmetric;
+    return gum::validate(to_unit.value(value), to_unit.difference(u), to_unit.difference(U),
+                         {to_unit.value(interval.low), to_unit.value(interval.high)},
+                         {to_unit.difference(error.low), to_unit.difference(error.high)}, digits);
+}
+
+reports::MonteCarloSummary monte_carlo_summary(const gum::MonteCarloOutput& from,
+                                               const engine::MonteCarloRequest& asked, const TrialsDone& done,
+                                               const ToUnit& to_unit, const std::optional<gum::Validation>& compared) {
+    const auto ends = [&](const gum::CoverageInterval& interval) -> std::array<double, 2> {
+        return {to_unit.value(interval.low), to_unit.value(interval.high)};
+    };
+    const auto differences = [&](const gum::CoverageInterval& interval) -> std::array<double, 2> {
+        return {to_unit.difference(interval.low), to_unit.difference(interval.high)};
+    };
+    reports::MonteCarloSummary summary;
+    summary.trials = static_cast<std::int64_t>(done.trials);
+    summary.seed = static_cast<std::int64_t>(asked.seed);
+    summary.mean = to_unit.value(from.mean);
+    summary.u = to_unit.difference(from.standard_uncertainty);
+    summary.symmetric = ends(from.symmetric);
+    summary.shortest = ends(from.shortest);
+    summary.numerical_error.mean = to_unit.difference(from.numerical_error.mean);
+    summary.numerical_error.u = to_unit.difference(from.numerical_error.standard_uncertainty);
+    summary.numerical_error.symmetric = differences(from.numerical_error.symmetric);
+    summary.numerical_error.shortest = differences(from.numerical_error.shortest);
+    summary.adaptive = !asked.trials;
+    if (!from.histogram.counts.empty()) {
+        summary.histogram_low = to_unit.value(from.histogram.low);
+        summary.histogram_high = to_unit.value(from.histogram.high);
+        summary.histogram.assign(from.histogram.counts.begin(), from.histogram.counts.end());
+    }
+    summary.stabilised = done.stabilised;
+    // As many digits as the numerical error allows, and not more than four of u.
+    const auto shown = [&](double value, double error) {
+        const double quantum = std::max(error, 1e-4 * summary.u);
+        return quantum > 0.0 ? gum::round_to_uncertainty(value, quantum, 1).value
+                             : shortest(value == 0.0 ? 0.0 : value);
+    };
+    summary.printed.trials = std::to_string(summary.trials);
+    summary.printed.mean = shown(summary.mean, summary.numerical_error.mean);
+    summary.printed.u = shown(summary.u, summary.numerical_error.u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        summary.printed.symmetric[i] = shown(summary.symmetric[i], summary.numerical_error.symmetric[i]);
+        summary.printed.shortest[i] = shown(summary.shortest[i], summary.numerical_error.shortest[i]);
+    }
+    if (compared) {
+        reports::GufValidation validation;
+        validation.delta = compared->tolerance;
+        validation.d_low = compared->distance_low;
+        validation.d_high = compared->distance_high;
+        validation.validated = compared->validated;
+        validation.precise_enough = compared->precise_enough;
+        validation.interval = "symmetric";
+        validation.digits = asked.digits;
+        validation.printed.delta = gum::round_significant(validation.delta, 2);
+        validation.printed.d_low = gum::round_significant(validation.d_low, 2);
+        validation.printed.d_high = gum::round_significant(validation.d_high, 2);
+        summary.validation = validation;
+    }
+    return summary;
+}
+
 const char* type_letter(gum::Evaluation evaluation) {
     return evaluation == gum::Evaluation::type_a ? "A" : "B";
 }

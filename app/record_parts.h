@@ -1,10 +1,14 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/job/monte_carlo_request.h"
+#include "gum/monte_carlo.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/measurement_model.h"
 #include "reports/record/evaluation_record.h"
@@ -32,6 +36,33 @@ struct JobHead {
 
 /// Shortest decimal text that reads back as the same double.
 [[nodiscard]] std::string shortest(double value);
+
+/// Carries a value, and a difference of values, from SI to the unit of a document.
+struct ToUnit {
+    std::function<double(double)> value, difference;
+};
+
+/// How many trials a result of Monte Carlo rests on.
+struct TrialsDone {
+    std::uint64_t trials = 0;
+    bool stabilised = true;
+};
+
+/// Trials, seed and threads as a job asks for them; nothing else is set.
+[[nodiscard]] gum::MonteCarloOptions monte_carlo_options(const engine::MonteCarloRequest& asked, unsigned threads);
+/// The same for the options of a record; null without Monte Carlo.
+[[nodiscard]] nlohmann::json monte_carlo_json(const std::optional<engine::MonteCarloRequest>& asked);
+
+/// \param validation  in the unit of the document
+[[nodiscard]] reports::MonteCarloSummary monte_carlo_summary(const gum::MonteCarloOutput& output,
+                                                             const engine::MonteCarloRequest& asked,
+                                                             const TrialsDone& done, const ToUnit& to_unit,
+                                                             const std::optional<gum::Validation>& validation);
+
+/// Comparison of the law of propagation with Monte Carlo in the unit of the document, where the tolerance is half a
+/// unit of a decimal digit (JCGM 101:2008, clause 8). \param value, u, U  of the law of propagation, SI
+[[nodiscard]] gum::Validation validation_in_unit(double value, double u, double U, const gum::MonteCarloOutput& output,
+                                                 const ToUnit& to_unit, int digits);
 
 /// "A" or "B".
 [[nodiscard]] const char* type_letter(gum::Evaluation evaluation);

@@ -4,16 +4,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
 
+#include "app/adjustment_record.h"
+#include "app/document_units.h"
 #include "app/record_parts.h"
-#include "gum/comparison.h"
+#include "app/reference_comparison.h"
 #include "gum/coverage.h"
-#include "gum/quantity/units.h"
 #include "gum/rounding.h"
-#include "gum/type_a.h"
-#include "gum/type_b.h"
 
 namespace gumcert::app {
 
@@ -23,54 +21,8 @@ using engine::RotaryTableJob;
 using engine::RotaryTableSolution;
 using reports::Printed;
 
-/// A unit of a document: factor to SI, name in the record, name in print.
-struct DocumentUnit {
-    double si;
-    const char* record;
-    const char* print;
-};
-constexpr DocumentUnit k_um{gum::k_micrometre, "um", "µm"};
-constexpr DocumentUnit k_arcsec{gum::k_arcsecond, "arcsec", "″"};
-constexpr DocumentUnit k_mm{gum::k_millimetre, "mm", "mm"};
-
-const DocumentUnit& unit_of(const gum::OutputQuantity& quantity) {
-    return quantity.unit == "m" ? k_um : k_arcsec;
-}
-
-/// Value and expanded uncertainty in a unit of the document. Without uncertainty (the home angle of the home datum)
-/// the value is zero by definition.
-Printed printed(double value, double U, const DocumentUnit& unit) {
-    if (!(U > 0.0)) {
-        return {"0", "", unit.print};
-    }
-    const gum::RoundedPair pair = gum::round_to_uncertainty(value, U);
-    return {pair.value, pair.U, unit.print};
-}
-
-/// One reported quantity in the unit of the document.
-struct Reported {
-    double value, u, U, k;
-    std::optional<double> nu_eff;
-    Printed text;
-};
-
-Reported reported(const gum::Propagation& propagation, Eigen::Index i, const DocumentUnit& unit) {
-    Reported result;
-    result.value = propagation.value[i] / unit.si;
-    result.u = propagation.standard_uncertainty[i] / unit.si;
-    result.U = propagation.expanded_uncertainty[i] / unit.si;
-    result.k = propagation.coverage_factor[i];
-    result.nu_eff = finite_or_none(propagation.effective_degrees_of_freedom[i]);
-    result.text = printed(result.value, result.U, unit);
-    return result;
-}
-
 reports::ErrorValue error_value(const Reported& from) {
     return {from.value, from.u, from.U, from.k, from.nu_eff, from.text};
-}
-
-std::string angle_text(double angle_deg) {
-    return shortest(angle_deg);
 }
 
 const std::vector<std::string>& budget_sources() {
@@ -143,126 +95,6 @@ reports::Result result_of(const gum::Propagation& propagation, const gum::Measur
         result.budget.push_back(std::move(row));
     }
     return result;
-}
-
-reports::Comparison comparison_of(const RotaryTableJob& job, const gum::Propagation& displacement) {
-    const engine::ReferenceMethod& reference = *job.reference;
-    reports::Comparison comparison;
-    comparison.reference_name = reference.name;
-    for (int c = 0; c < 3; ++c) {
-        comparison.contact_point_mm.push_back(reference.contact_point[c] / gum::k_millimetre);
-    }
-    std::map<std::pair<std::size_t, std::size_t>, std::vector<double>> readings;  // by direction and angle
-    for (const engine::ReferenceReading& reading : reference.readings) {
-        readings[{reading.direction, reading.angle}].push_back(reading.reading);
-    }
-    std::size_t runs = 0;
-    for (const auto& [at, values] : readings) {
-        runs = std::max(runs, values.size());
-    }
-    const double u_mpe = gum::u_from_half_width(reference.maximum_permissible_error);
-    const double u_resolution = gum::u_from_resolution(reference.resolution);
-    const double k = gum::coverage_factor(job.coverage_probability, std::numeric_limits<double>::infinity());
-    const auto u_reference = [&](std::size_t count) {
-        return std::hypot(u_mpe, u_resolution, gum::u_of_mean(reference.repeatability, count));
-    };
-    const auto add_row = [&](const std::string& input, double u, const std::string& type,
-                             const std::string& distribution) {
-        reports::BudgetRow row;
-        row.input = input;
-        row.value = 0.0;
-        row.unit = "um";
-        row.u = u / gum::k_micrometre;
-        row.type = type;
-        row.distribution = distribution;
-        row.sensitivity = 1.0;
-        row.contribution = row.u;
-        row.share = std::pow(u / u_reference(runs), 2);
-        row.source = reference.name;
-        row.printed.u = gum::round_significant(row.u, 2);
-        row.printed.contribution = gum::round_significant(row.contribution, 2);
-        row.printed.share = gum::percent(row.share);
-        comparison.reference_budget.push_back(std::move(row));
-    };
-    add_row("maximum permissible error of the indicator", u_mpe, "B", "uniform");
-    add_row("resolution of the indication", u_resolution, "B", "uniform");
-    add_row("repeatability, mean of " + std::to_string(runs) + " runs", gum::u_of_mean(reference.repeatability, runs),
-            "B", "normal");
-
-    const char* const directions = "xyz";
-    std::array<std::vector<gum::ComparisonScore>, 4> scores;  // x, y, z, all
-    double largest_U = 0.0;
-    double smallest_reference_U = std::numeric_limits<double>::infinity();
-    for (const auto& [at, values] : readings) {
-        const auto [direction, angle] = at;
-        const Reported table = reported(displacement, static_cast<Eigen::Index>(3 * angle + direction), k_um);
-        double mean = 0.0;
-        for (const double value : values) {
-            mean += value / static_cast<double>(values.size());
-        }
-        reports::ComparisonPoint point;
-        point.direction = directions[direction];
-        point.angle_deg = job.measurement.angles_deg[angle];
-        point.value = table.value;
-        point.u = table.u;
-        point.U = table.U;
-        point.reference_value = mean / gum::k_micrometre;
-        point.reference_u = u_reference(values.size()) / gum::k_micrometre;
-        point.reference_U = k * point.reference_u;
-        const gum::ComparisonScore score =
-            gum::score({point.value, point.u, point.U}, {point.reference_value, point.reference_u, point.reference_U});
-        point.D = score.difference;
-        point.u_D = score.u_difference;
-        point.U_D = score.U_difference;
-        point.En = score.en;
-        point.zeta = score.zeta;
-        const Printed reference_text = printed(point.reference_value, point.reference_U, k_um);
-        const Printed difference_text = printed(point.D, point.U_D, k_um);
-        point.printed.angle = angle_text(point.angle_deg);
-        point.printed.value = table.text.value;
-        point.printed.U = table.text.U;
-        point.printed.reference_value = reference_text.value;
-        point.printed.reference_U = reference_text.U;
-        point.printed.D = difference_text.value;
-        point.printed.U_D = difference_text.U;
-        point.printed.En = gum::round_to_quantum(point.En, 2);
-        scores[direction].push_back(score);
-        scores[3].push_back(score);
-        largest_U = std::max(largest_U, point.U);
-        smallest_reference_U = std::min(smallest_reference_U, point.reference_U);
-        comparison.points.push_back(std::move(point));
-    }
-    for (std::size_t d = 0; d < scores.size(); ++d) {
-        if (scores[d].empty()) {
-            continue;
-        }
-        const gum::ComparisonSummary numbers = gum::summarise(scores[d]);
-        reports::ComparisonSummary row;
-        row.direction = d < 3 ? std::string(1, directions[d]) : "all";
-        row.points = static_cast<std::int64_t>(numbers.points);
-        row.count_above_1 = static_cast<std::int64_t>(numbers.count_above_1);
-        row.mean_abs_En = numbers.mean_absolute_en;
-        row.max_abs_En = numbers.largest_absolute_en;
-        row.rms_En = numbers.rms_en;
-        row.printed.mean_abs_En = gum::round_to_quantum(row.mean_abs_En, 2);
-        row.printed.max_abs_En = gum::round_to_quantum(row.max_abs_En, 2);
-        row.printed.rms_En = gum::round_to_quantum(row.rms_En, 2);
-        comparison.summary.push_back(std::move(row));
-    }
-    comparison.remarks.push_back(
-        "The displacement of the contact point and its uncertainty are computed from the six error motions with "
-        "respect "
-        "to the axis average line; the readings are compared as they stand.");
-    if (smallest_reference_U > largest_U) {
-        comparison.remarks.push_back(
-            "The expanded uncertainty of the reference method (" + gum::round_significant(smallest_reference_U, 2) +
-            " µm) is larger than that of the error motions: |En| at or below 1 shows no contradiction, and cannot "
-            "confirm the smaller uncertainty.");
-    }
-    comparison.remarks.push_back(
-        "The points of one direction share the set-up of both methods; they are not independent proofs. No common "
-        "source of both methods is known to this job, so the covariance between them is taken as zero.");
-    return comparison;
 }
 
 const char* action_name(engine::OutlierAction action) {
@@ -405,112 +237,6 @@ void fill_budget(reports::RotaryTable& rotary, const RotaryTableSolution& soluti
     }
 }
 
-void fill_adjustment(reports::RotaryTable& rotary, const RotaryTableSolution& solution,
-                     const engine::RotaryTableMeasurement& measurement, const engine::EvaluationOptions& options,
-                     double k) {
-    for (std::size_t j = 0; j < solution.stations.size(); ++j) {
-        const engine::StationEstimate& from = solution.stations[j];
-        reports::Station station;
-        station.name = measurement.stations[j];
-        for (std::size_t c = 0; c < 3; ++c) {
-            const auto at = static_cast<Eigen::Index>(c);
-            station.position_mm[c] = from.position[at] / gum::k_millimetre;
-            station.u_mm[c] = from.u[at] / gum::k_millimetre;
-            const Printed text = printed(station.position_mm[c], k * station.u_mm[c], k_mm);
-            station.printed_position.push_back(text.value);
-            station.printed_U.push_back(text.U);
-        }
-        station.scale_deviation = from.scale_deviation;
-        station.u_scale = from.u_scale;
-        if (from.u_scale > 0.0) {
-            const gum::RoundedPair scale =
-                gum::round_to_uncertainty(1e6 * from.scale_deviation, 1e6 * k * from.u_scale);
-            station.printed_scale = {scale.value, scale.U, "1e-6"};
-        }
-        rotary.stations.push_back(std::move(station));
-    }
-    for (std::size_t d = 0; d < measurement.dead_paths.size(); ++d) {
-        const auto at = static_cast<Eigen::Index>(d);
-        reports::DeadPath path;
-        path.name = measurement.dead_paths[d];
-        path.value_mm = solution.dead_paths[at] / gum::k_millimetre;
-        path.u_mm = solution.u_dead_paths[at] / gum::k_millimetre;
-        path.printed = printed(path.value_mm, k * path.u_mm, k_mm);
-        rotary.dead_paths.push_back(std::move(path));
-    }
-    for (std::size_t m = 0; m < measurement.reflectors.size(); ++m) {
-        const auto row = static_cast<Eigen::Index>(m);
-        reports::Reflector reflector;
-        reflector.name = measurement.reflectors[m];
-        for (std::size_t c = 0; c < 3; ++c) {
-            const auto at = static_cast<Eigen::Index>(c);
-            reflector.position_mm[c] = solution.fixture(row, at) / gum::k_millimetre;
-            reflector.u_mm[c] = solution.u_fixture(row, at) / gum::k_millimetre;
-            reflector.correction_um[c] = (solution.fixture(row, at) - measurement.fixture(row, at)) / gum::k_micrometre;
-            const Printed text = printed(reflector.position_mm[c], k * reflector.u_mm[c], k_mm);
-            reflector.printed_correction.push_back(gum::round_to_quantum(reflector.correction_um[c], 2));
-            reflector.printed_position.push_back(text.value);
-            reflector.printed_U.push_back(text.U);
-        }
-        rotary.reflectors.push_back(std::move(reflector));
-    }
-
-    reports::AdjustmentSummary& adjustment = rotary.adjustment;
-    adjustment.method = rotary.method;
-    adjustment.observations = solution.observations;
-    adjustment.parameters = solution.parameters;
-    adjustment.degrees_of_freedom = solution.degrees_of_freedom;
-    adjustment.iterations = solution.iterations;
-    adjustment.chi_square = solution.chi_square;
-    const auto nu = static_cast<double>(solution.degrees_of_freedom);
-    adjustment.p_value = nu > 0.0 ? gum::chi_square_upper_tail(solution.chi_square, nu) : 1.0;
-    adjustment.condition_number = solution.condition_number;
-    adjustment.variance_factor = {1.0, nu > 0.0 ? solution.chi_square / nu : 1.0, "a_priori"};
-    adjustment.printed.chi_square = gum::round_to_quantum(adjustment.chi_square, 1);
-    adjustment.printed.p_value = gum::round_significant(adjustment.p_value, 2);
-    adjustment.printed.variance_factor = gum::round_to_quantum(adjustment.variance_factor.a_posteriori, 3);
-    adjustment.printed.condition_number = gum::round_significant(adjustment.condition_number, 2);
-
-    for (const engine::VarianceComponent& from : solution.components) {
-        const DocumentUnit& unit = from.angular ? k_arcsec : k_um;
-        reports::VarianceComponent component;
-        component.name = from.name;
-        component.value = from.value / unit.si;
-        component.u = from.u / unit.si;
-        component.unit = unit.record;
-        component.redundancy = from.redundancy;
-        component.estimated = from.estimated;
-        component.printed = component.u > 0.0 ? printed(component.value, component.u, unit)
-                                              : Printed{gum::round_significant(component.value, 2), "", unit.print};
-        rotary.variance_components.push_back(std::move(component));
-    }
-
-    rotary.outlier_critical_value = options.critical_value;
-    rotary.outlier_alpha = measurement.outliers.alpha;
-    rotary.printed_critical_value = gum::round_to_quantum(options.critical_value, 2);
-    for (std::size_t i = 0; i < solution.reliability.size(); ++i) {
-        const engine::LengthObservation& length = measurement.lengths[i];
-        const engine::DistanceReliability& from = solution.reliability[i];
-        reports::ReliabilityRow row;
-        row.station = measurement.stations[length.station];
-        row.reflector = measurement.reflectors[length.reflector];
-        row.pass = measurement.passes[length.pass];
-        row.angle_deg = measurement.angles_deg[length.angle];
-        row.residual_um = from.residual / gum::k_micrometre;
-        row.redundancy_number = from.redundancy_number;
-        row.test_value = from.test_value;
-        row.minimal_detectable_bias_um = from.minimal_detectable_bias / gum::k_micrometre;
-        row.flagged = from.flagged;
-        row.removed = from.removed;
-        if (from.flagged) {
-            rotary.flagged.push_back({row.station, row.reflector, row.pass, angle_text(row.angle_deg),
-                                      gum::round_to_quantum(row.residual_um, 2),
-                                      gum::round_to_quantum(row.test_value, 1), row.removed});
-        }
-        rotary.reliability.push_back(std::move(row));
-    }
-}
-
 }  // namespace
 
 std::string covariance_csv(const RotaryTableJob& job, const engine::ReportedQuantities& quantities,
@@ -586,7 +312,7 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const e
     for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
         reports::ErrorsAtAngle row;
         row.angle_deg = measurement.angles_deg[i];
-        row.printed_angle = angle_text(row.angle_deg);
+        row.printed_angle = shortest(row.angle_deg);
         for (std::size_t c = 0; c < 6; ++c) {
             row.errors[c] =
                 error_value(reported(propagation, static_cast<Eigen::Index>(6 * i + c), c < 3 ? k_um : k_arcsec));
@@ -610,7 +336,7 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const e
     fill_adjustment(rotary, solution, measurement, options, k);
     record.rotary = std::move(rotary);
     if (contact_point != nullptr) {
-        record.comparison = comparison_of(job, *contact_point);
+        record.comparison = reference_comparison(job, *contact_point);
     }
     return record;
 }
