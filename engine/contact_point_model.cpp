@@ -9,10 +9,7 @@ ContactPointModel::ContactPointModel(std::shared_ptr<const gum::MeasurementModel
     const Eigen::Index angles = datum.errors.cols();
     const DatumSolution average =
         transform_to_datum(measurement, datum.errors, rigid_motion(datum.set_up), Datum::axis_average_line);
-    Eigen::Matrix<double, 3, 6> displacement;  // [I, -c×]
-    displacement << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero();
-    const Eigen::Vector3d& c = contact_point_;
-    displacement.rightCols<3>() << 0.0, c[2], -c[1], -c[2], 0.0, c[0], c[1], -c[0], 0.0;
+    const Eigen::Matrix<double, 3, 6> displacement = point_displacement(contact_point_);
     map_.resize(3 * angles, 6 * angles);
     for (Eigen::Index i = 0; i < angles; ++i) {
         map_.middleRows<3>(3 * i) = displacement * average.error_map.middleRows<6>(6 * i);

@@ -22,19 +22,6 @@ Eigen::Matrix<double, 6, 4> turned_set_up(const Eigen::Matrix3d& rotation, const
     return effect;
 }
 
-/// Displacement of a point at P by a small motion (translation, rotation): [I, -P×], 3×6 (the paper's eq. (8)).
-Eigen::Matrix<double, 3, 6> point_displacement(const Eigen::Vector3d& point) {
-    Eigen::Matrix<double, 3, 6> rows;
-    rows << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero();
-    rows(0, 4) = point[2];
-    rows(0, 5) = -point[1];
-    rows(1, 3) = -point[2];
-    rows(1, 5) = point[0];
-    rows(2, 3) = point[1];
-    rows(2, 4) = -point[0];
-    return rows;
-}
-
 }  // namespace
 
 DatumSolution transform_to_datum(const RotaryTableMeasurement& measurement, const Eigen::MatrixXd& poses,

@@ -44,7 +44,7 @@ private:
 
 NetworkSolution adjust_distance_network(const std::vector<NetworkPoint>& points, std::size_t constants,
                                         const std::vector<NetworkDistance>& distances, const SolverOptions& options,
-                                        double non_centrality) {
+                                        double non_centrality, PointCovariance wanted) {
     Adjustment adjustment;
     std::vector<Adjustment::BlockId> point_block;
     for (const NetworkPoint& point : points) {
@@ -107,6 +107,19 @@ NetworkSolution adjust_distance_network(const std::vector<NetworkPoint>& points,
             block = covariance.block<3, 3>(first, first);
         }
         solution.covariances.push_back(block);
+    }
+    if (wanted == PointCovariance::joint) {
+        const auto size = static_cast<Eigen::Index>(3 * points.size());
+        solution.joint_covariance = Eigen::MatrixXd::Zero(size, size);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            for (std::size_t k = 0; k < points.size(); ++k) {
+                if (!points[i].fixed && !points[k].fixed) {
+                    solution.joint_covariance.block<3, 3>(static_cast<Eigen::Index>(3 * i),
+                                                          static_cast<Eigen::Index>(3 * k)) =
+                        covariance.block<3, 3>(normal.column(point_block[i], 0), normal.column(point_block[k], 0));
+                }
+            }
+        }
     }
     solution.constants.resize(static_cast<Eigen::Index>(constants));
     solution.u_constants.resize(static_cast<Eigen::Index>(constants));

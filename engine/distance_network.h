@@ -41,20 +41,28 @@ struct NetworkSolution {
     RankReport rank;
     std::vector<Eigen::Vector3d> positions;    ///< of all points, [m]
     std::vector<Eigen::Matrix3d> covariances;  ///< a priori, zero for fixed points, [m²]
-    Eigen::VectorXd constants;                 ///< l0, [m]
-    Eigen::VectorXd u_constants;               ///< [m]
+    /// Of all coordinates together, 3P×3P, order x1 y1 z1 x2 …, a priori, zero for fixed points, [m²]; empty unless
+    /// asked for.
+    Eigen::MatrixXd joint_covariance;
+    Eigen::VectorXd constants;    ///< l0, [m]
+    Eigen::VectorXd u_constants;  ///< [m]
     double chi_square = 0.0;
     long degrees_of_freedom = 0;
     std::vector<NetworkReliability> reliability;  ///< one a distance
 };
 
+/// What is stated of the uncertainty of the points: the covariance of each, or of all together.
+enum class PointCovariance { each, joint };
+
 /// Adjustment of a network of points from distances (trilateration with additive constants).
 ///
 /// \param constants      number of additive constants, start values 0
 /// \param non_centrality δ0 of the minimal detectable bias; 4.13 for 0.1 % and 80 %
+/// \param wanted        joint: fill `joint_covariance` as well (a matrix of the size of all points)
 /// \throws gum::NoResultError if the points are not determined or the solution does not converge
 [[nodiscard]] NetworkSolution adjust_distance_network(const std::vector<NetworkPoint>& points, std::size_t constants,
                                                       const std::vector<NetworkDistance>& distances,
-                                                      const SolverOptions& options, double non_centrality = 4.13);
+                                                      const SolverOptions& options, double non_centrality = 4.13,
+                                                      PointCovariance wanted = PointCovariance::each);
 
 }  // namespace gumcert::engine

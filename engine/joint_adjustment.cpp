@@ -293,7 +293,12 @@ Eigen::VectorXd JointAdjustment::stated_variance(std::size_t visit) const {
 }
 
 Eigen::MatrixXd JointAdjustment::visit_covariance(std::size_t visit, const StochasticModel& stochastic) const {
-    Eigen::MatrixXd covariance = (stochastic.length_factor * stated_variance(visit)).asDiagonal();
+    const double resolution = measurement_->length_uncertainty.resolution;
+    // A displayed length lies anywhere within one step (JCGM 100:2008, F.2.2.1): known, whatever the noise turns out.
+    Eigen::MatrixXd covariance =
+        ((stochastic.length_factor * stated_variance(visit)).array() + resolution * resolution / 12.0)
+            .matrix()
+            .asDiagonal();
     Vector6 repeatability;
     repeatability << Eigen::Vector3d::Constant(stochastic.variance_linear),
         Eigen::Vector3d::Constant(stochastic.variance_tilt);
@@ -309,6 +314,7 @@ void JointAdjustment::set_weights(const StochasticModel& stochastic) {
     for (std::size_t v = 0; v < visits_.size(); ++v) {
         adjustment_.set_covariance(v, visit_covariance(v, stochastic));
     }
+    adjustment_.set_covariance(fixture_prior_, stochastic.fixture_factor * measurement_->fixture_covariance);
 }
 
 Eigen::MatrixXd JointAdjustment::poses() const {

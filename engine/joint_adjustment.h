@@ -75,9 +75,10 @@ public:
     [[nodiscard]] Eigen::MatrixXd pose_jacobian(std::size_t visit) const;
     /// Stated variance of each length of a visit, n, [m²], without the factor.
     [[nodiscard]] Eigen::VectorXd stated_variance(std::size_t visit) const;
-    /// Covariance of the lengths of a visit: length noise and the shared repeatability of the table, n×n, [m²].
+    /// Covariance of the lengths of a visit: length noise, resolution and the shared repeatability of the table, n×n,
+    /// [m²].
     [[nodiscard]] Eigen::MatrixXd visit_covariance(std::size_t visit, const StochasticModel& stochastic) const;
-    /// New weights, from derivatives at the present parameters.
+    /// New weights of the lengths and of the fixture, from derivatives at the present parameters.
     void set_weights(const StochasticModel& stochastic);
 
     /// Six error motions at every angle with respect to the solver's datum, 6×angles, [m] and [rad].

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "engine/joint_adjustment.h"
@@ -16,6 +18,23 @@ struct DistanceReliability {
     double minimal_detectable_bias = 0.0;  ///< [m]
     bool flagged = false;
     bool removed = false;
+    double estimated_error = 0.0;  ///< observed minus what all other observations say, [m]
+};
+
+/// Reliability of one coordinate of the fixture as an observation.
+struct CoordinateReliability {
+    double residual = 0.0;                 ///< adjusted minus stated, [m]
+    double redundancy_number = 0.0;        ///< (Q_v V⁻¹)_ii
+    double test_value = 0.0;               ///< w, standard normal for a good coordinate
+    double minimal_detectable_bias = 0.0;  ///< [m]; 0 where nothing controls the coordinate
+    double estimated_error = 0.0;          ///< stated minus what all other observations say, [m]
+};
+
+/// What an undetected bias of one distance does to one reported quantity (Baarda's external reliability).
+struct ExternalReliability {
+    std::size_t quantity = 0;  ///< index of the reported quantity
+    std::size_t length = 0;    ///< index of the distance whose minimal detectable bias changes it most
+    double influence = 0.0;    ///< change of the quantity by that bias, [m] or [rad]
 };
 
 /// One row a length of the measurement.
@@ -27,5 +46,74 @@ struct DistanceReliability {
                                                                     const Eigen::MatrixXd& covariance,
                                                                     const StochasticModel& stochastic,
                                                                     double non_centrality);
+
+/// The same for the coordinates of the fixture, order x1 y1 z1 x2 …
+[[nodiscard]] std::vector<CoordinateReliability> fixture_reliability(const JointAdjustment& adjustment,
+                                                                     const NormalEquations& normal,
+                                                                     const Eigen::MatrixXd& covariance,
+                                                                     double non_centrality);
+
+/// One row a reported quantity that depends on a distance at all, by the gain of the joint estimator: dead paths,
+/// stations and fixture are estimated anew from the wrong distance.
+///
+/// \param gain  ∂(reported quantities)/∂parameters times the covariance of the parameters, m×p
+/// \param rows  of `distance_reliability`
+[[nodiscard]] std::vector<ExternalReliability> external_reliability(const JointAdjustment& adjustment,
+                                                                    const NormalEquations& normal,
+                                                                    const Eigen::MatrixXd& gain,
+                                                                    const std::vector<DistanceReliability>& rows);
+
+/// Critical value of a test value whose variance was estimated from the same residuals (Pope 1976, tau distribution):
+/// τ = sqrt(ν) t / sqrt(ν - 1 + t²).
+///
+/// \param student_critical_value  t, two-sided, with ν - 1 degrees of freedom
+/// \param degrees_of_freedom      ν > 1, redundancy that the variance was estimated from
+[[nodiscard]] double tau_critical_value(double student_critical_value, double degrees_of_freedom);
+
+/// Distances left out one at a time, with the adjustment of all others repeated after each one.
+///
+/// Leaving out a distance is estimating its error b (mean-shift model): with M = V⁻¹ Q_v V⁻¹ and its column m_i,
+/// V⁻¹v ← V⁻¹v - m_i b, M ← M - m_i m_iᵀ / M_ii, b = (V⁻¹v)_i / M_ii. That is the adjustment without the distance,
+/// exact for the linearised model at fixed weights, and costs one column of M instead of an adjustment.
+class OneAtATime {
+public:
+    struct Suspect {
+        std::size_t length = 0;  ///< index into the lengths of the measurement
+        double test_value = 0.0;
+        double redundancy_number = 0.0;
+        double estimated_error = 0.0;  ///< b: observed minus what all others say, [m]
+    };
+
+    /// All three must outlive this.
+    OneAtATime(const JointAdjustment& adjustment, const NormalEquations& normal, const Eigen::MatrixXd& covariance);
+
+    /// The distance with the largest |w|, where that is above `critical`.
+    [[nodiscard]] std::optional<Suspect> largest(double critical) const;
+    void leave_out(std::size_t length);
+
+private:
+    struct Place {
+        std::size_t visit = 0;
+        Eigen::Index row = 0;    ///< within the visit
+        Eigen::Index index = 0;  ///< among the active distances
+    };
+    struct LeftOut {
+        Eigen::VectorXd column;  ///< m_i when it was left out
+        double diagonal = 0.0;   ///< M_ii then
+    };
+    [[nodiscard]] Eigen::VectorXd column(const Place& place) const;
+
+    const NormalEquations& normal_;
+    const Eigen::MatrixXd& covariance_;
+    std::vector<Place> places_;          ///< of the active distances
+    std::vector<std::size_t> lengths_;   ///< index of each active distance in the measurement
+    std::vector<std::size_t> place_of_;  ///< by length
+    std::vector<Eigen::Index> first_;    ///< first active distance of each visit
+    Eigen::VectorXd weighted_;           ///< V⁻¹ v
+    Eigen::VectorXd diagonal_;           ///< of M
+    Eigen::VectorXd floor_;              ///< of the diagonal: below it nothing controls the distance
+    std::vector<bool> out_;
+    std::vector<LeftOut> left_out_;
+};
 
 }  // namespace gumcert::engine

@@ -3,11 +3,14 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <limits>
-#include <map>
+#include <iterator>
 #include <optional>
+#include <system_error>
 
+#include "engine/geometry_check.h"
 #include "gum/quantity/units.h"
 
 namespace gumcert::engine {
@@ -34,32 +37,6 @@ StochasticModel start_model(const TableRepeatability& table) {
     model.variance_axial = square(table.u_axial, k_start_angular);
     model.variance_tilt = square(table.u_tilt, k_start_angular);
     return model;
-}
-
-[[noreturn]] void refuse_rank(const RankReport& rank) {
-    std::string names;
-    bool station = false;
-    bool dead_path = false;
-    bool pose = false;
-    for (const std::string& name : rank.parameters) {
-        names += (names.empty() ? "" : "; ") + name;
-        station = station || name.starts_with("station");
-        dead_path = dead_path || name.starts_with("dead path");
-        pose = pose || name.find(" at angle number ") != std::string::npos;
-    }
-    std::string rule = "a result needs observations that determine every parameter";
-    std::string action = "add stations, reflectors or angles in other directions";
-    if (station && dead_path) {
-        rule =
-            "a station that sees all reflectors on a cone about one line cannot tell a move along that line from a "
-            "longer dead path";
-        action = "move the station off the rotary axis, or place reflectors at different distances from the axis";
-    } else if (pose) {
-        rule = "the six error motions of an angle need at least six distances in independent directions";
-        action = "measure that angle from more stations or to more reflectors";
-    }
-    throw gum::NoResultError(
-        gum::Diagnostic{"GC-RANK-0001", "adjustment", "not determined: " + names, rule, action, gum::Severity::error});
 }
 
 /// Kept in, they would carry the solution away from every other distance.
@@ -130,25 +107,26 @@ JointAdjustment with_active(const JointAdjustment& from, const std::vector<bool>
     return result;
 }
 
-/// Adjustment, weights and test values that agree with each other.
+/// Adjustment and weights that agree with each other.
 class Iteration {
 public:
-    Iteration(const RotaryTableMeasurement& measurement, const Progress& progress) : progress_(progress) {
-        estimated_.length = measurement.estimate_length_noise;
-        estimated_.table = measurement.table_repeatability.mode == RepeatabilityMode::estimate;
-    }
+    Iteration(const EstimatedComponents& estimated, const Progress& progress)
+        : progress_(progress), estimated_(estimated) {}
 
     /// Weights and parameters in turn until no variance moves by more than `tolerance` of its uncertainty.
     void settle(JointAdjustment& adjustment, StochasticModel& stochastic, int max_iterations, double tolerance,
                 const SolverOptions& solver) {
         for (int i = 0; i < max_iterations; ++i) {
-            const SolveSummary summary = adjustment.adjustment().refine(solver);
-            require_convergence(summary);
-            iterations += summary.iterations;
-            normal.emplace(adjustment.adjustment().linearise());
-            covariance = normal->covariance();
+            solve(adjustment, solver);
+            // Whether the residuals speak of the fixture at all is asked once, at its stated covariance.
+            if (estimated_.fixture && !fixture_asked_) {
+                fixture_asked_ = true;
+                if (fixture_redundancy(adjustment, *normal, covariance) < k_least_component_redundancy) {
+                    drop_fixture(stochastic);
+                }
+            }
             step = estimate_variance_components(adjustment, *normal, covariance, stochastic, estimated_);
-            if ((!estimated_.length && !estimated_.table) || step.relative_change < tolerance) {
+            if (!any_estimated() || step.relative_change < tolerance) {
                 components_converged = true;
                 return;
             }
@@ -157,9 +135,20 @@ public:
             adjustment.set_weights(stochastic);
             report("variance components, iteration " + std::to_string(++component_iterations));
         }
-        require_convergence(adjustment.adjustment().refine(solver));
-        normal.emplace(adjustment.adjustment().linearise());
-        covariance = normal->covariance();
+        solve(adjustment, solver);
+    }
+
+    /// Exactly, with weights from derivatives at the very solution, so that whoever makes them again finds the same.
+    void settle_exactly(JointAdjustment& adjustment, StochasticModel& stochastic, const EvaluationOptions& options) {
+        settle(adjustment, stochastic, options.max_component_iterations, options.component_tolerance, options.solver);
+        if (estimated_.fixture && fixture_is_weak()) {
+            drop_fixture(stochastic);
+            adjustment.set_weights(stochastic);
+            settle(adjustment, stochastic, options.max_component_iterations, options.component_tolerance,
+                   options.solver);
+        }
+        adjustment.set_weights(stochastic);
+        solve(adjustment, options.solver);
     }
 
     void report(const std::string& text) const {
@@ -168,17 +157,12 @@ public:
         }
     }
 
-    /// Weights from derivatives at the very solution, so that whoever makes them again finds the same.
-    void finish(JointAdjustment& adjustment, const StochasticModel& stochastic, const SolverOptions& solver) {
-        adjustment.set_weights(stochastic);
-        const SolveSummary summary = adjustment.adjustment().refine(solver);
-        require_convergence(summary);
-        iterations += summary.iterations;
-        normal.emplace(adjustment.adjustment().linearise());
-        covariance = normal->covariance();
-    }
-
     [[nodiscard]] const EstimatedComponents& estimated() const { return estimated_; }
+    /// True where the estimate of the fixture ends where the distances no longer speak of it.
+    [[nodiscard]] bool fixture_is_weak() const {
+        return step.fixture_at_bound || step.components[fixture_cmm].redundancy < k_least_component_redundancy;
+    }
+    [[nodiscard]] bool any_estimated() const { return estimated_.length || estimated_.table || estimated_.fixture; }
 
     std::optional<NormalEquations> normal;
     Eigen::MatrixXd covariance;
@@ -186,74 +170,222 @@ public:
     int iterations = 0;
     int component_iterations = 0;
     bool components_converged = false;
+    bool fixture_separable = true;
 
 private:
+    void solve(JointAdjustment& adjustment, const SolverOptions& solver) {
+        const SolveSummary summary = adjustment.adjustment().refine(solver);
+        require_convergence(summary);
+        iterations += summary.iterations;
+        normal.emplace(adjustment.adjustment().linearise());
+        covariance = normal->covariance();
+    }
+
+    void drop_fixture(StochasticModel& stochastic) {
+        estimated_.fixture = false;
+        fixture_separable = false;
+        stochastic.fixture_factor = 1.0;
+    }
+
     const Progress& progress_;
     EstimatedComponents estimated_;
+    bool fixture_asked_ = false;
 };
 
-/// Largest test value above the critical one, at most one an angle: outliers at one angle smear into each other.
-std::vector<std::size_t> suspects(const RotaryTableMeasurement& measurement,
-                                  const std::vector<DistanceReliability>& rows, const std::vector<bool>& active,
-                                  double critical) {
-    std::map<std::size_t, std::size_t> worst;
-    double largest = 0.0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (!active[i] || !(std::abs(rows[i].test_value) > critical)) {
-            continue;
-        }
-        largest = std::max(largest, std::abs(rows[i].test_value));
-        const auto [found, inserted] = worst.try_emplace(measurement.lengths[i].angle, i);
-        if (!inserted && std::abs(rows[i].test_value) > std::abs(rows[found->second].test_value)) {
-            found->second = i;
+/// Critical value of the test values, and what it rests on.
+struct TestLimits {
+    double critical_value = 0.0;
+    std::optional<double> degrees_of_freedom;  ///< of Pope's tau
+    double non_centrality = 0.0;
+};
+
+TestLimits test_limits(const EvaluationOptions& options, const VarianceComponent& component) {
+    TestLimits limits{options.critical_value, std::nullopt, options.non_centrality};
+    // A variance that was estimated from the same residuals makes the largest of them smaller (Pope 1976).
+    if (component.estimated && component.redundancy > 2.0 && options.student_critical_value) {
+        limits.degrees_of_freedom = component.redundancy;
+        limits.critical_value =
+            tau_critical_value(options.student_critical_value(component.redundancy - 1.0), component.redundancy);
+        limits.non_centrality += limits.critical_value - options.critical_value;
+    }
+    return limits;
+}
+
+// Above this, leaving a distance out moves the solution so far that the derivatives are taken anew before the next one:
+// its second-order effect on the others is about the square of this over the length, some nanometres.
+constexpr double k_linear_reach = 50.0 * gum::k_micrometre;
+// Share of flagged distances above which it is hardly the distances that are wrong.
+constexpr double k_many_outliers = 0.05;
+// Probability of warning of a fixture that is as stated.
+constexpr double k_fixture_test_level = 0.01;
+
+std::string micrometres(double length) {
+    std::array<char, 32> buffer{};
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), length / gum::k_micrometre,
+                                   std::chars_format::general, 3)
+                         .ptr;
+    return std::string(buffer.data(), end) + " µm";
+}
+
+/// The fixture component together with the others, as a check of the stated covariance.
+void check_fixture(RotaryTableSolution& solution, const JointAdjustment& adjustment, const Iteration& main,
+                   const EvaluationOptions& options, const Progress& progress) {
+    VarianceComponent& row = solution.components[fixture_cmm];
+    const double redundancy = fixture_redundancy(adjustment, *main.normal, main.covariance);
+    const double squares = main.normal->groups()[adjustment.fixture_prior()].residual.squaredNorm();
+    EstimatedComponents estimated = main.estimated();
+    estimated.fixture = true;
+    Iteration iteration(estimated, progress);
+    JointAdjustment copy = adjustment;
+    StochasticModel stochastic = solution.stochastic;
+    // A check needs neither the last digits of the parameters nor of the component.
+    SolverOptions solver = options.solver;
+    solver.step_tolerance = std::max(solver.step_tolerance, 1e-4);
+    iteration.settle(copy, stochastic, options.max_component_iterations, std::max(options.component_tolerance, 1e-4),
+                     solver);
+    if (!iteration.fixture_separable || !iteration.components_converged) {
+        row.separable = false;
+        return;
+    }
+    const double stated = row.value;
+    // An estimate without redundancy has no spread of its own; the squares at the stated covariance tell as well.
+    const bool weak = iteration.fixture_is_weak();
+    if (weak) {
+        row.separable = false;
+    } else {
+        row = iteration.step.components[fixture_cmm];
+        row.used = false;
+    }
+    if (!options.chi_square_upper_tail) {
+        return;
+    }
+    const double nu = weak ? redundancy : row.degrees_of_freedom;
+    const double chi_square = weak ? squares : nu * row.value * row.value / (stated * stated);
+    const double above = options.chi_square_upper_tail(chi_square, nu);
+    if (2.0 * std::min(above, 1.0 - above) < k_fixture_test_level) {
+        const bool larger = !weak && row.value > stated;
+        solution.notes.push_back(
+            {"GC-VARIANCE-0003", "variance components, fixture CMM",
+             "the distances suggest " +
+                 (weak ? std::string("hardly any standard uncertainty")
+                       : "a standard uncertainty of " + micrometres(row.value)) +
+                 " for a coordinate of the fixture, " + micrometres(stated) +
+                 " is stated; the result rests on the latter",
+             "an estimate agrees with what is stated when it passes a two-sided chi-square test at 1 %",
+             std::string("review the uncertainty budget of the CMM coordinates and their correlations, or set "
+                         "\"fixture\": {\"variance_component\": \"estimate\"}") +
+                 (larger ? "" : "; the stated value is on the safe side"),
+             gum::Severity::warning});
+    }
+}
+
+void fill_variance_factor(RotaryTableSolution& solution) {
+    if (solution.degrees_of_freedom > 0) {
+        solution.variance_factor = solution.chi_square / static_cast<double>(solution.degrees_of_freedom);
+    }
+    std::string names;
+    for (const VarianceComponent& component : solution.components) {
+        if (component.estimated && component.used) {
+            names += (names.empty() ? "" : "; ") + component.name;
         }
     }
-    std::vector<std::size_t> result;
-    for (const auto& [angle, i] : worst) {
-        // Much smaller ones may be the shadow of the largest through the stations: they get their turn later.
-        if (std::abs(rows[i].test_value) > 0.5 * largest) {
-            result.push_back(i);
+    if (names.empty()) {
+        solution.variance_factor_used = VarianceFactorUsed::a_priori;
+        solution.variance_factor_reason =
+            "All variances are as stated. Chi-square per degree of freedom tests them; no uncertainty is multiplied by "
+            "it.";
+    } else {
+        solution.variance_factor_used = VarianceFactorUsed::a_posteriori;
+        solution.variance_factor_reason =
+            "Estimated from the residuals: " + names +
+            ". The uncertainties contain these estimates, and chi-square per degree of freedom is near 1 by "
+            "construction.";
+    }
+}
+
+void note_outliers(RotaryTableSolution& solution, const RotaryTableMeasurement& measurement, bool settled) {
+    if (measurement.outliers.test != OutlierTest::data_snooping) {
+        return;
+    }
+    const auto flagged =
+        static_cast<std::size_t>(std::ranges::count_if(solution.reliability, &DistanceReliability::flagged));
+    if (static_cast<double>(flagged) > k_many_outliers * static_cast<double>(measurement.lengths.size())) {
+        solution.notes.push_back({"GC-OUTLIER-0001", "outlying distances",
+                                  std::to_string(flagged) + " of " + std::to_string(measurement.lengths.size()) +
+                                      " distances are found outlying",
+                                  "more than 5 % of a measurement are hardly single blunders",
+                                  "review the stated uncertainty of the lengths, the dead paths and the angles, or let "
+                                  "the length noise be estimated with \"variance_components\": \"estimate\"",
+                                  gum::Severity::warning});
+    }
+    if (!settled) {
+        solution.notes.push_back(
+            {"GC-OUTLIER-0002", "outlying distances",
+             "the search did not come to its end; distances that disagree may still be in",
+             "the search ends when no test value is above the critical one",
+             "review the stated uncertainties, and correct or delete the distances that are flagged",
+             gum::Severity::warning});
+    }
+    for (std::size_t k = 0; k < solution.fixture_reliability.size(); ++k) {
+        const CoordinateReliability& row = solution.fixture_reliability[k];
+        if (std::abs(row.test_value) > solution.fixture_critical_value) {
+            solution.notes.push_back(
+                {"GC-OUTLIER-0003", "fixture, reflector " + measurement.reflectors[k / 3] + ", " + "xyz"[k % 3],
+                 "the distances put it " + micrometres(std::abs(row.estimated_error)) +
+                     " away from its stated coordinate",
+                 "a coordinate outlies when its test value is above the critical one, as that of a distance",
+                 "measure the reflector again with the CMM, and check that it has not moved in its holder",
+                 gum::Severity::warning});
         }
     }
-    return result;
 }
 
 }  // namespace
 
 RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, const EvaluationOptions& options,
                                      const Progress& progress) {
-    Iteration iteration(measurement, progress);
+    require_enough_angles(measurement);
+    const FixtureComponent fixture_component = measurement.fixture_component;
+    const EstimatedComponents estimated{measurement.estimate_length_noise,
+                                        measurement.table_repeatability.mode == RepeatabilityMode::estimate,
+                                        fixture_component == FixtureComponent::estimate};
+    Iteration iteration(estimated, progress);
     StochasticModel stochastic = start_model(measurement.table_repeatability);
     const OutlierOptions& outliers = measurement.outliers;
-    const double critical = options.critical_value;
-    const double non_centrality = options.non_centrality;
+    const bool snooping = outliers.test == OutlierTest::data_snooping;
 
     iteration.report("start values");
     const std::vector<bool> all(measurement.lengths.size(), true);
     std::vector<bool> active = all;
     const std::vector<std::size_t> gross = find_gross_errors(measurement);
-    if (!gross.empty() && (outliers.test == OutlierTest::none || outliers.action == OutlierAction::report)) {
+    if (!gross.empty() && (!snooping || outliers.action == OutlierAction::report)) {
         refuse_gross_errors(measurement, gross);
     }
+    std::vector<OutlierFinding> found;
     for (const std::size_t i : gross) {
         active[i] = false;
+        OutlierFinding finding;
+        finding.length = i;
+        finding.reason = OutlierReason::gross_error;
+        finding.redundancy_number = 1.0;
+        found.push_back(finding);
     }
     const StartValues start = find_start_values(measurement, active);
     JointAdjustment first(measurement, active, RigidMotion{}, start, stochastic);
-    const RankReport geometry = first.adjustment().linearise().rank(options.solver.rank_tolerance);
-    if (geometry.deficient) {
-        refuse_rank(geometry);
-    }
+    const auto require_rank = [&](const JointAdjustment& adjustment) {
+        const RankReport rank = adjustment.adjustment().linearise().rank(options.solver.rank_tolerance);
+        if (rank.deficient) {
+            refuse_undetermined(measurement, rank, adjustment.present_values().stations);
+        }
+    };
+    require_rank(first);
     iteration.report("joint adjustment");
     // While an outlier may still be in, the last digits of the solution are not worth their steps.
     SolverOptions rough = options.solver;
     rough.step_tolerance = 1e-3;
     const SolveSummary summary = first.adjustment().solve(rough);
     require_convergence(summary);
-    const RankReport rank = first.adjustment().linearise().rank(options.solver.rank_tolerance);
-    if (rank.deficient) {
-        refuse_rank(rank);
-    }
+    require_rank(first);
     iteration.iterations += summary.iterations;
 
     // The linear maps of the datum are exact for a T_s that is already that of the result.
@@ -262,64 +394,103 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
 
     std::vector<bool> reinserted(all.size(), false);
     std::vector<DistanceReliability> rows;
-    for (int round = 0; round < options.max_outlier_rounds; ++round) {
-        // Rough weights are enough to see gross outliers; the last rounds are exact.
-        iteration.settle(adjustment, stochastic, 3, 0.05, rough);
-        rows = distance_reliability(adjustment, *iteration.normal, iteration.covariance, stochastic, non_centrality);
-        std::vector<std::size_t> worst;
-        if (outliers.test == OutlierTest::data_snooping) {
-            worst = suspects(measurement, rows, active, critical);
-        }
-        if (worst.empty()) {
-            iteration.settle(adjustment, stochastic, options.max_component_iterations, options.component_tolerance,
-                             options.solver);
-            rows =
-                distance_reliability(adjustment, *iteration.normal, iteration.covariance, stochastic, non_centrality);
-            if (outliers.test == OutlierTest::data_snooping) {
-                worst = suspects(measurement, rows, active, critical);
-            }
-        }
+    TestLimits limits;
+    const auto leave_out = [&](const OneAtATime::Suspect& suspect) {
+        active[suspect.length] = false;
+        OutlierFinding finding;
+        finding.length = suspect.length;
+        finding.test_value = suspect.test_value;
+        finding.critical_value = limits.critical_value;
+        finding.redundancy_number = suspect.redundancy_number;
+        finding.estimated_error = suspect.estimated_error;
+        found.push_back(finding);
+        const LengthObservation& length = measurement.lengths[suspect.length];
+        iteration.report("distance " + measurement.stations[length.station] + "–" +
+                         measurement.reflectors[length.reflector] + " found outlying");
+    };
+    bool settled = false;
+    for (int round = 0; round < options.max_outlier_rounds && !settled; ++round) {
         bool changed = false;
-        for (const std::size_t i : worst) {
-            if (!reinserted[i]) {
-                active[i] = false;
+        if (snooping) {
+            // Rough weights are enough to see outliers; the last rounds are exact.
+            iteration.settle(adjustment, stochastic, 3, 0.05, rough);
+            limits = test_limits(options, iteration.step.components[length_noise]);
+            OneAtATime search(adjustment, *iteration.normal, iteration.covariance);
+            while (const auto suspect = search.largest(limits.critical_value)) {
+                leave_out(*suspect);
+                search.leave_out(suspect->length);
                 changed = true;
-                iteration.report("distance " + measurement.stations[measurement.lengths[i].station] + "–" +
-                                 measurement.reflectors[measurement.lengths[i].reflector] + " found outlying");
-            }
-        }
-        if (!changed) {
-            // A distance that was left out in the shadow of a larger one comes back when it agrees after all.
-            for (std::size_t i = 0; i < active.size(); ++i) {
-                if (!active[i] && std::abs(rows[i].test_value) <= critical) {
-                    active[i] = true;
-                    reinserted[i] = true;
-                    changed = true;
+                if (std::abs(suspect->estimated_error) > k_linear_reach) {
+                    break;
                 }
             }
         }
         if (!changed) {
-            break;
+            iteration.settle_exactly(adjustment, stochastic, options);
+            limits = test_limits(options, iteration.step.components[length_noise]);
+            rows = distance_reliability(adjustment, *iteration.normal, iteration.covariance, stochastic,
+                                        limits.non_centrality);
+            if (!snooping) {
+                settled = true;
+                break;
+            }
+            const OneAtATime search(adjustment, *iteration.normal, iteration.covariance);
+            if (const auto suspect = search.largest(limits.critical_value)) {
+                leave_out(*suspect);
+                changed = true;
+            } else {
+                // A distance that was left out in the shadow of a larger one comes back when it agrees after all, the
+                // one that agrees best first, and once only: what is then found again stays out.
+                std::size_t best = active.size();
+                for (std::size_t i = 0; i < active.size(); ++i) {
+                    if (!active[i] && !reinserted[i] && std::abs(rows[i].test_value) <= limits.critical_value &&
+                        (best == active.size() || std::abs(rows[i].test_value) < std::abs(rows[best].test_value))) {
+                        best = i;
+                    }
+                }
+                if (best < active.size()) {
+                    active[best] = true;
+                    reinserted[best] = true;
+                    changed = true;
+                    for (OutlierFinding& finding : found) {
+                        finding.came_back = finding.came_back || finding.length == best;
+                    }
+                }
+            }
         }
-        adjustment = with_active(adjustment, active, stochastic);
-        const RankReport still = adjustment.adjustment().linearise().rank(options.solver.rank_tolerance);
-        if (still.deficient) {
-            refuse_rank(still);
+        if (changed) {
+            adjustment = with_active(adjustment, active, stochastic);
+            require_rank(adjustment);
+        } else {
+            settled = true;
         }
     }
     std::vector<bool> flagged(active.size());
     for (std::size_t i = 0; i < active.size(); ++i) {
         flagged[i] = !active[i];
     }
-    if (outliers.action == OutlierAction::report && active != all) {
-        active = all;
-        adjustment = with_active(adjustment, active, stochastic);
-        iteration.settle(adjustment, stochastic, options.max_component_iterations, options.component_tolerance,
-                         options.solver);
-        rows = distance_reliability(adjustment, *iteration.normal, iteration.covariance, stochastic, non_centrality);
+    for (OutlierFinding& finding : found) {
+        // What a left-out distance is off by is known best at the end, from everything that is in the result.
+        if (settled && !finding.came_back) {
+            finding.estimated_error = rows[finding.length].estimated_error;
+            if (finding.reason == OutlierReason::gross_error) {
+                finding.test_value = rows[finding.length].test_value;
+                finding.critical_value = limits.critical_value;
+            }
+        }
+        finding.removed = !finding.came_back && outliers.action == OutlierAction::remove;
     }
-    iteration.finish(adjustment, stochastic, options.solver);
-    rows = distance_reliability(adjustment, *iteration.normal, iteration.covariance, stochastic, non_centrality);
+    const bool kept = outliers.action == OutlierAction::report && active != all;
+    if (kept || !settled) {
+        if (kept) {
+            active = all;
+            adjustment = with_active(adjustment, active, stochastic);
+        }
+        iteration.settle_exactly(adjustment, stochastic, options);
+        limits = test_limits(options, iteration.step.components[length_noise]);
+        rows = distance_reliability(adjustment, *iteration.normal, iteration.covariance, stochastic,
+                                    limits.non_centrality);
+    }
     for (std::size_t i = 0; i < rows.size(); ++i) {
         rows[i].flagged = flagged[i];
         rows[i].removed = !active[i];
@@ -332,7 +503,8 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
     solution.quantities = reported_quantities(measurement, adjustment.has_reversal());
     solution.values = reported_values(adjustment, solution.datum);
     const Eigen::MatrixXd map = reported_map(adjustment, normal, solution.datum);
-    solution.covariance.noalias() = map * covariance * map.transpose();
+    const Eigen::MatrixXd gain = map * covariance;
+    solution.covariance.noalias() = gain * map.transpose();
 
     const auto pose_columns = [&](Eigen::MatrixXd& rows_of, const Eigen::MatrixXd& by_pose) {
         for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
@@ -349,15 +521,14 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
         const Eigen::VectorXd& value = adjustment.adjustment().parameters(block);
         StationEstimate station;
         station.position = solution.datum.world * value.head<3>();
-        Eigen::Matrix<double, 3, 6> by_world;  // of a small motion of the world: [I, -q×]
-        by_world << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero();
-        by_world.rightCols<3>() << 0.0, value[2], -value[1], -value[2], 0.0, value[0], value[1], -value[0], 0.0;
+        const Eigen::Matrix<double, 3, 6> by_world = point_displacement(value.head<3>());  // of a motion of the world
         Eigen::MatrixXd by_parameter = Eigen::MatrixXd::Zero(3, normal.parameter_count());
         for (int c = 0; c < 3; ++c) {
             by_parameter.col(normal.column(block, c)) += Eigen::Vector3d::Unit(c);
         }
         pose_columns(by_parameter, by_world * solution.datum.world_map);
-        station.u = (by_parameter * covariance * by_parameter.transpose()).diagonal().cwiseSqrt();
+        station.covariance = by_parameter * covariance * by_parameter.transpose();
+        station.u = station.covariance.diagonal().cwiseSqrt();
         station.scale_deviation = value[3];
         if (const Eigen::Index column = normal.column(block, 3); column >= 0) {
             station.u_scale = std::sqrt(covariance(column, column));
@@ -375,13 +546,19 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
     }
     solution.fixture.resize(measurement.fixture.rows(), 3);
     solution.u_fixture.resize(measurement.fixture.rows(), 3);
+    solution.fixture_at_home.resize(measurement.fixture.rows(), 3);
     for (Eigen::Index m = 0; m < measurement.fixture.rows(); ++m) {
+        std::vector<Eigen::Index> columns;
         for (int c = 0; c < 3; ++c) {
             const int component = static_cast<int>(3 * m) + c;
             const Eigen::Index column = normal.column(adjustment.fixture_block(), component);
             solution.fixture(m, c) = adjustment.adjustment().parameters(adjustment.fixture_block())[component];
             solution.u_fixture(m, c) = std::sqrt(covariance(column, column));
+            columns.push_back(column);
         }
+        solution.fixture_position_covariance.emplace_back(covariance(columns, columns));
+        solution.fixture_at_home.row(m) =
+            (solution.datum.world * (adjustment.set_up() * solution.fixture.row(m).transpose())).transpose();
     }
 
     solution.observations = normal.observation_count();
@@ -392,13 +569,27 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
     solution.condition_number = normal.condition_number();
     solution.stochastic = stochastic;
     solution.components = iteration.step.components;
+    solution.components[fixture_cmm].separable = iteration.fixture_separable;
     solution.reliability = std::move(rows);
+    const TestLimits fixture_limits = test_limits(options, solution.components[fixture_cmm]);
+    solution.fixture_reliability = fixture_reliability(adjustment, normal, covariance, fixture_limits.non_centrality);
+    solution.fixture_critical_value = fixture_limits.critical_value;
+    solution.external_reliability = external_reliability(adjustment, normal, gain, solution.reliability);
+    solution.outliers = std::move(found);
+    solution.critical_value = limits.critical_value;
+    solution.critical_value_degrees_of_freedom = limits.degrees_of_freedom;
+    solution.non_centrality = limits.non_centrality;
+    fill_variance_factor(solution);
 
     const auto nu = [&](std::size_t k) { return solution.components[k].degrees_of_freedom; };
-    solution.model = std::make_shared<RotaryTableModel>(measurement, adjustment, stochastic,
-                                                        SourceDegreesOfFreedom{nu(0), nu(1), nu(2), nu(3)});
+    solution.model = std::make_shared<RotaryTableModel>(
+        measurement, adjustment, stochastic,
+        SourceDegreesOfFreedom{nu(length_noise), nu(table_linear), nu(table_axial), nu(table_tilt), nu(fixture_cmm)});
+    if (fixture_component == FixtureComponent::check) {
+        check_fixture(solution, adjustment, iteration, options, progress);
+    }
 
-    if (!iteration.components_converged && (iteration.estimated().length || iteration.estimated().table)) {
+    if (!iteration.components_converged && iteration.any_estimated()) {
         solution.notes.push_back(
             {"GC-VARIANCE-0001", "variance components",
              "did not settle within " + std::to_string(iteration.component_iterations) + " iterations",
@@ -412,11 +603,25 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
                                   "table; their sum is estimated",
                                   "", gum::Severity::note});
     }
+    if (!solution.components[fixture_cmm].separable) {
+        solution.notes.push_back(
+            {"GC-VARIANCE-0004", "variance components, fixture CMM",
+             "cannot be estimated from this measurement: the covariance of the fixture is used as stated and not "
+             "checked",
+             "the redundancy of its coordinates must be at least 2 and its estimate greater than 0",
+             "measure more reflectors, or rely on the uncertainty budget of the CMM", gum::Severity::note});
+    }
+    note_outliers(solution, measurement, settled);
     if (!adjustment.has_reversal()) {
         solution.notes.push_back({"GC-REVERSAL-0001", "reversal", "not reported",
                                   "every station must be measured in both senses of approach to separate it", "",
                                   gum::Severity::note});
     }
+    std::vector<Eigen::Vector3d> positions;
+    for (const StationEstimate& station : solution.stations) {
+        positions.push_back(station.position);
+    }
+    std::ranges::move(geometry_notes(measurement, positions), std::back_inserter(solution.notes));
     return solution;
 }
 

@@ -7,6 +7,27 @@
 
 namespace gumcert::engine {
 
+namespace {
+
+/// Let Monte Carlo draw uncorrelated quantities between limits; their standard uncertainties stay as they are.
+void make_uniform(gum::InputGroup& group) {
+    if (group.covariance.cols() != 1) {
+        if (!group.covariance.isDiagonal(0.0)) {
+            return;  // no uniform quantities with a stated correlation
+        }
+        group.covariance = Eigen::MatrixXd(group.covariance.diagonal());
+    }
+    group.distribution = "uniform";
+    group.marginals.clear();
+    for (Eigen::Index i = 0; i < group.size(); ++i) {
+        const double half_width = std::sqrt(3.0 * group.covariance(i, 0));
+        group.marginals.push_back(half_width > 0.0 ? gum::Distribution::uniform(group.value[i], half_width)
+                                                   : gum::Distribution::constant(group.value[i]));
+    }
+}
+
+}  // namespace
+
 std::array<int, 6> repeatability_order(RotaryAxis axis) {
     const int a = axial_coordinate(axis);
     return {0, 1, 2, 3 + a, a == 0 ? 4 : 3, a == 2 ? 4 : 5};
@@ -118,6 +139,13 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
         group.degrees_of_freedom = nu;
         inputs_.push_back(std::move(group));
     };
+    const auto input_count = [this] {
+        Eigen::Index count = 0;
+        for (const gum::InputGroup& group : inputs_) {
+            count += group.size();
+        }
+        return count;
+    };
 
     for (std::size_t j = 0; j < measurement_.stations.size(); ++j) {
         if (nominal_.scale_prior(j) != JointAdjustment::k_none) {
@@ -127,6 +155,7 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
             temperature_stations_.push_back(j);
         }
     }
+    layout_.scale = input_count();
     if (!scale_stations_.empty()) {
         const auto n = static_cast<Eigen::Index>(scale_stations_.size());
         const double u = measurement_.length_uncertainty.u_scale;
@@ -142,7 +171,7 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
         path_columns.push_back(joint.column(block, 0));
     }
     // Welch-Satterthwaite for the estimated dead paths themselves; the least of them stands for the group.
-    Eigen::MatrixXd path_variance = Eigen::MatrixXd::Zero(paths, 4);  // by length noise, table linear, axial, tilt
+    Eigen::MatrixXd path_variance = Eigen::MatrixXd::Zero(paths, 5);  // by length noise, table linear, axial, tilt, CMM
     const auto pose_order = repeatability_order(measurement_.axis);
     for (std::size_t v = 0; v < visits.size(); ++v) {
         const LinearisedGroup& group = joint.groups()[v];
@@ -156,27 +185,38 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
         path_variance.col(2) += stochastic.variance_axial * by_pose.col(3);
         path_variance.col(3) += stochastic.variance_tilt * by_pose.rightCols(2).rowwise().sum();
     }
-    const std::array<double, 4> component_nu{degrees_of_freedom.length_noise, degrees_of_freedom.table_linear,
-                                             degrees_of_freedom.table_axial, degrees_of_freedom.table_tilt};
+    const LinearisedGroup& prior = joint.groups()[nominal_.fixture_prior()];
+    path_variance.col(4) =
+        (covariance(path_columns, prior.columns) * prior.jacobian.transpose()).rowwise().squaredNorm();
+    const std::array<double, 5> component_nu{degrees_of_freedom.length_noise, degrees_of_freedom.table_linear,
+                                             degrees_of_freedom.table_axial, degrees_of_freedom.table_tilt,
+                                             degrees_of_freedom.fixture};
     double path_nu = std::numeric_limits<double>::infinity();
     for (Eigen::Index d = 0; d < paths; ++d) {
         const double total =
             covariance(path_columns[static_cast<std::size_t>(d)], path_columns[static_cast<std::size_t>(d)]);
         double sum = 0.0;
-        for (Eigen::Index k = 0; k < 4; ++k) {
+        for (Eigen::Index k = 0; k < path_variance.cols(); ++k) {
             sum += path_variance(d, k) * path_variance(d, k) / component_nu[static_cast<std::size_t>(k)];
         }
         path_nu = std::min(path_nu, sum > 0.0 ? total * total / sum : std::numeric_limits<double>::infinity());
     }
+    layout_.dead_paths = input_count();
     add_scalar_group("dead paths", "dead path", "m", path_value, covariance(path_columns, path_columns), path_nu, true);
 
     Eigen::VectorXd coordinates(3 * measurement_.fixture.rows());
     for (Eigen::Index m = 0; m < measurement_.fixture.rows(); ++m) {
         coordinates.segment<3>(3 * m) = measurement_.fixture.row(m).transpose();
     }
-    add_scalar_group("CMM coordinates of the fixture", "fixture CMM", "m", coordinates, measurement_.fixture_covariance,
-                     std::numeric_limits<double>::infinity(), false);
+    layout_.fixture = input_count();
+    add_scalar_group("CMM coordinates of the fixture", "fixture CMM", "m", coordinates,
+                     stochastic.fixture_factor * measurement_.fixture_covariance, degrees_of_freedom.fixture,
+                     std::isfinite(degrees_of_freedom.fixture));
+    if (measurement_.fixture_shape == InputShape::uniform) {
+        make_uniform(inputs_.back());
+    }
 
+    layout_.temperature = input_count();
     if (!temperature_stations_.empty()) {
         Eigen::VectorXd value(temperature_stations_.size());
         Eigen::MatrixXd variance(temperature_stations_.size(), 1);
@@ -187,14 +227,24 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
         }
         add_scalar_group("temperature of the fixture", "fixture thermal", "K", value, variance,
                          std::numeric_limits<double>::infinity(), false);
+        if (measurement_.temperature_shape == InputShape::uniform) {
+            make_uniform(inputs_.back());
+        }
     }
+    layout_.expansion = input_count();
     expansion_is_input_ = nominal_.expansion_prior() != JointAdjustment::k_none;
     if (expansion_is_input_) {
         add_scalar_group("expansion coefficient of the fixture", "fixture thermal", "1/K",
                          Eigen::VectorXd::Constant(1, measurement_.expansion),
                          Eigen::MatrixXd::Constant(1, 1, std::pow(measurement_.u_expansion, 2)),
                          std::numeric_limits<double>::infinity(), false);
+        if (measurement_.expansion_shape == InputShape::uniform) {
+            make_uniform(inputs_.back());
+        }
     }
+    layout_.linear = input_count();
+    layout_.axial = layout_.linear + 3 * visit_count;
+    layout_.tilt = layout_.axial + visit_count;
     const auto add_table = [&](const char* name, const char* unit, Eigen::Index per_visit, double variance, double nu) {
         add_scalar_group(name, "table repeatability", unit, Eigen::VectorXd::Zero(per_visit * visit_count),
                          Eigen::MatrixXd::Constant(per_visit * visit_count, 1, variance), nu, std::isfinite(nu));
@@ -202,6 +252,14 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
     add_table("table repeatability, linear", "m", 3, stochastic.variance_linear, degrees_of_freedom.table_linear);
     add_table("table repeatability, axial", "rad", 1, stochastic.variance_axial, degrees_of_freedom.table_axial);
     add_table("table repeatability, tilt", "rad", 2, stochastic.variance_tilt, degrees_of_freedom.table_tilt);
+    layout_.resolution = input_count();
+    if (const double step = measurement_.length_uncertainty.resolution; step > 0.0) {
+        add_scalar_group("resolution of the lengths", "length noise", "m", Eigen::VectorXd::Zero(length_count),
+                         Eigen::MatrixXd::Constant(length_count, 1, step * step / 12.0),
+                         std::numeric_limits<double>::infinity(), false);
+        make_uniform(inputs_.back());
+    }
+    layout_.size = input_count();
     for (std::size_t d = 0; d < measurement_.dead_paths.size(); ++d) {
         nominal_.adjustment().hold(nominal_.dead_path_block(d), 0);
     }
@@ -211,13 +269,7 @@ JointAdjustment RotaryTableModel::solve_at(const Eigen::VectorXd& x) const {
     JointAdjustment adjustment = nominal_;
     Adjustment& least_squares = adjustment.adjustment();
     const std::vector<Visit>& visits = adjustment.visits();
-    Eigen::Index next = 0;
-    std::vector<Eigen::VectorXd> observed;
-    for (const Visit& visit : visits) {
-        const auto n = static_cast<Eigen::Index>(visit.observations.size());
-        observed.emplace_back(x.segment(next, n));
-        next += n;
-    }
+    Eigen::Index next = layout_.scale;
     for (const std::size_t station : scale_stations_) {
         least_squares.set_observed(adjustment.scale_prior(station), x.segment(next++, 1));
     }
@@ -225,26 +277,33 @@ JointAdjustment RotaryTableModel::solve_at(const Eigen::VectorXd& x) const {
         least_squares.set_parameters(adjustment.dead_path_block(d), x.segment(next++, 1));
     }
     least_squares.set_observed(adjustment.fixture_prior(), x.segment(next, 3 * measurement_.fixture.rows()));
-    next += 3 * measurement_.fixture.rows();
+    next = layout_.temperature;
     for (const std::size_t station : temperature_stations_) {
         least_squares.set_observed(adjustment.temperature_prior(station), x.segment(next++, 1));
     }
     if (expansion_is_input_) {
-        least_squares.set_observed(adjustment.expansion_prior(), x.segment(next++, 1));
+        least_squares.set_observed(adjustment.expansion_prior(), x.segment(layout_.expansion, 1));
     }
-    const auto visit_count = static_cast<Eigen::Index>(visits.size());
+    const bool has_resolution = layout_.resolution < layout_.size;
     const auto order = repeatability_order(measurement_.axis);
+    Eigen::Index first = 0;  // length
     for (std::size_t v = 0; v < visits.size(); ++v) {
         const auto at = static_cast<Eigen::Index>(v);
         Eigen::Matrix<double, 6, 1> deviation;
         for (int c = 0; c < 3; ++c) {
-            deviation[order[static_cast<std::size_t>(c)]] = x[next + 3 * at + c];
+            deviation[order[static_cast<std::size_t>(c)]] = x[layout_.linear + 3 * at + c];
         }
-        deviation[order[3]] = x[next + 3 * visit_count + at];
+        deviation[order[3]] = x[layout_.axial + at];
         for (int c = 0; c < 2; ++c) {
-            deviation[order[static_cast<std::size_t>(4 + c)]] = x[next + 4 * visit_count + 2 * at + c];
+            deviation[order[static_cast<std::size_t>(4 + c)]] = x[layout_.tilt + 2 * at + c];
         }
-        least_squares.set_observed(v, observed[v] - visit_pose_[v] * deviation);
+        const Eigen::Index n = visit_pose_[v].rows();
+        Eigen::VectorXd observed = x.segment(first, n) - visit_pose_[v] * deviation;
+        if (has_resolution) {
+            observed += x.segment(layout_.resolution + first, n);
+        }
+        least_squares.set_observed(v, std::move(observed));
+        first += n;
     }
     const SolveSummary summary = least_squares.refine(SolverOptions{});
     if (!summary.converged) {
@@ -265,59 +324,83 @@ Eigen::VectorXd RotaryTableModel::evaluate(const Eigen::VectorXd& x) const {
 Eigen::MatrixXd RotaryTableModel::jacobian(const Eigen::VectorXd& x) const {
     const JointAdjustment adjustment = solve_at(x);
     const NormalEquations normal = adjustment.adjustment().linearise();
-    const Eigen::MatrixXd covariance = normal.covariance();
     const DatumSolution datum = transform_to_datum(measurement_, adjustment.poses(), set_up_, measurement_.datum);
-    const Eigen::MatrixXd gain = reported_map(adjustment, normal, datum) * covariance;  // m×p
+    const Eigen::MatrixXd map = reported_map(adjustment, normal, datum);
+    return input_sensitivity(adjustment, normal, map, Eigen::MatrixXd(map.rows(), 0));
+}
 
-    // ∂y/∂l of one group: gain J̃ᵀ L⁻¹ over the columns of the group.
+Eigen::MatrixXd RotaryTableModel::input_sensitivity(const JointAdjustment& adjustment, const NormalEquations& normal,
+                                                    const Eigen::Ref<const Eigen::MatrixXd>& by_parameter,
+                                                    const Eigen::Ref<const Eigen::MatrixXd>& by_residual) const {
+    const std::vector<Visit>& visits = adjustment.visits();
+    const bool has_residual = by_residual.cols() > 0;
+
+    // y = a·x̂ + b·(l - f(x̂)): dy/dl = (a - b J) ∂x̂/∂l + b.
+    Eigen::MatrixXd gain;  // (a - b J)(Jᵀ V⁻¹ J)⁻¹, k×p
+    if (has_residual) {
+        Eigen::MatrixXd combined = by_parameter;
+        Eigen::Index first = 0;
+        for (std::size_t v = 0; v < visits.size(); ++v) {
+            const LinearisedGroup& group = normal.groups()[v];
+            const Eigen::Index n = group.cholesky.rows();
+            const Eigen::MatrixXd predicted =
+                by_residual.middleCols(first, n) * (group.cholesky.triangularView<Eigen::Lower>() * group.jacobian);
+            for (std::size_t c = 0; c < group.columns.size(); ++c) {
+                combined.col(group.columns[c]) -= predicted.col(static_cast<Eigen::Index>(c));
+            }
+            first += n;
+        }
+        gain.noalias() = combined * normal.covariance();
+    } else {
+        gain.noalias() = by_parameter * normal.covariance();
+    }
+
+    // ∂y/∂l of one group through x̂: gain J̃ᵀ L⁻¹ over the columns of the group.
     const auto sensitivity = [&](std::size_t group_index) -> Eigen::MatrixXd {
         const LinearisedGroup& group = normal.groups()[group_index];
         const Eigen::MatrixXd whitened = gain(Eigen::all, group.columns) * group.jacobian.transpose();
         return group.cholesky.triangularView<Eigen::Lower>().transpose().solve(whitened.transpose()).transpose();
     };
 
-    Eigen::Index size = 0;
-    for (const gum::InputGroup& group : inputs_) {
-        size += group.size();
-    }
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(gain.rows(), size);
-    const std::vector<Visit>& visits = adjustment.visits();
-    const auto visit_count = static_cast<Eigen::Index>(visits.size());
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(gain.rows(), layout_.size);
     const auto order = repeatability_order(measurement_.axis);
-    const Eigen::Index table = size - 6 * visit_count;
-    const Eigen::Index paths = inputs_[0].size() + static_cast<Eigen::Index>(scale_stations_.size());
-    Eigen::Index next = 0;
+    Eigen::Index first = 0;  // length
     for (std::size_t v = 0; v < visits.size(); ++v) {
-        const Eigen::MatrixXd to_lengths = sensitivity(v);
+        Eigen::MatrixXd to_lengths = sensitivity(v);
         const auto at = static_cast<Eigen::Index>(v);
-        result.middleCols(next, to_lengths.cols()) = to_lengths;
+        if (has_residual) {
+            to_lengths += by_residual.middleCols(first, to_lengths.cols());
+        }
+        result.middleCols(first, to_lengths.cols()) = to_lengths;
         for (std::size_t k = 0; k < visits[v].observations.size(); ++k) {
             // l + l0 = s |P - q|: a longer dead path acts as a longer length.
             const auto path = static_cast<Eigen::Index>(measurement_.lengths[visits[v].observations[k]].dead_path);
-            result.col(paths + path) += to_lengths.col(static_cast<Eigen::Index>(k));
+            result.col(layout_.dead_paths + path) += to_lengths.col(static_cast<Eigen::Index>(k));
         }
-        next += to_lengths.cols();
+        first += to_lengths.cols();
         const Eigen::MatrixXd to_pose = -to_lengths * visit_pose_[v];
         for (int c = 0; c < 3; ++c) {
-            result.col(table + 3 * at + c) = to_pose.col(order[static_cast<std::size_t>(c)]);
+            result.col(layout_.linear + 3 * at + c) = to_pose.col(order[static_cast<std::size_t>(c)]);
         }
-        result.col(table + 3 * visit_count + at) = to_pose.col(order[3]);
+        result.col(layout_.axial + at) = to_pose.col(order[3]);
         for (int c = 0; c < 2; ++c) {
-            result.col(table + 4 * visit_count + 2 * at + c) = to_pose.col(order[static_cast<std::size_t>(4 + c)]);
+            result.col(layout_.tilt + 2 * at + c) = to_pose.col(order[static_cast<std::size_t>(4 + c)]);
         }
     }
+    if (layout_.resolution < layout_.size) {
+        result.middleCols(layout_.resolution, first) = result.leftCols(first);
+    }
+    Eigen::Index next = layout_.scale;
     for (const std::size_t station : scale_stations_) {
         result.col(next++) = sensitivity(adjustment.scale_prior(station));
     }
-    next += static_cast<Eigen::Index>(measurement_.dead_paths.size());
-    const Eigen::MatrixXd to_fixture = sensitivity(adjustment.fixture_prior());
-    result.middleCols(next, to_fixture.cols()) = to_fixture;
-    next += to_fixture.cols();
+    result.middleCols(layout_.fixture, 3 * measurement_.fixture.rows()) = sensitivity(adjustment.fixture_prior());
+    next = layout_.temperature;
     for (const std::size_t station : temperature_stations_) {
         result.col(next++) = sensitivity(adjustment.temperature_prior(station));
     }
     if (expansion_is_input_) {
-        result.col(next++) = sensitivity(adjustment.expansion_prior());
+        result.col(layout_.expansion) = sensitivity(adjustment.expansion_prior());
     }
     return result;
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,13 +39,32 @@ struct ReportedQuantities {
 /// What the variance of a source rests on; infinite for a source that is stated.
 struct SourceDegreesOfFreedom {
     double length_noise, table_linear, table_axial, table_tilt;
+    double fixture = std::numeric_limits<double>::infinity();
+};
+
+/// First index of every group of inputs of `RotaryTableModel`. A group that is not there has the index of the next one.
+struct RotaryTableInputs {
+    Eigen::Index lengths = 0;      ///< one a length, in the order of the visits
+    Eigen::Index scale = 0;        ///< one a station with a prior
+    Eigen::Index dead_paths = 0;   ///< one each
+    Eigen::Index fixture = 0;      ///< x1 y1 z1 x2 …
+    Eigen::Index temperature = 0;  ///< one a station with an uncertain temperature
+    Eigen::Index expansion = 0;    ///< none or one
+    Eigen::Index linear = 0;       ///< deviations of the table: three a visit, then
+    Eigen::Index axial = 0;        ///< one a visit, then
+    Eigen::Index tilt = 0;         ///< two a visit, see `repeatability_order`
+    Eigen::Index resolution = 0;   ///< one a length, or none
+    Eigen::Index size = 0;         ///< of all inputs
 };
 
 /// The adjustment of a rotary table as a measurement model for the GUM layer.
 ///
 /// Inputs: the measured lengths, the deviation of the table at every visit (zero, with its repeatability), the scale of
-/// every station, the dead paths, the CMM coordinates of the fixture, its temperature at every station and its
-/// expansion. Outputs: `ReportedQuantities`.
+/// every station, the dead paths, the CMM coordinates of the fixture, its temperature at every station, its expansion,
+/// and what the resolution of the display takes from every length (zero). Outputs: `ReportedQuantities`.
+///
+/// The lengths are corrected for their inputs: l - A δ + r with the deviation δ of the visit (A = ∂l/∂pose) and the
+/// part r that the display rounded away.
 ///
 /// The dead paths are inputs with the values and the covariance that the adjustment finds for them, and the estimator
 /// takes them as known. This splits the covariance of the joint estimate exactly: the estimate with known dead paths is
@@ -67,16 +87,35 @@ public:
     [[nodiscard]] const JointAdjustment& solved() const { return nominal_; }
     /// ∂length/∂pose of a visit at the nominal solution, n×6.
     [[nodiscard]] const Eigen::MatrixXd& visit_pose(std::size_t visit) const { return visit_pose_[visit]; }
+    [[nodiscard]] const RotaryTableMeasurement& measurement() const { return measurement_; }
+    [[nodiscard]] const StochasticModel& stochastic() const { return stochastic_; }
+    [[nodiscard]] const RotaryTableInputs& layout() const { return layout_; }
 
-private:
+    /// The adjustment solved for other values of the inputs; it refers to this model and must not outlive it.
+    /// \throws gum::NoResultError  if it does not converge
     [[nodiscard]] JointAdjustment solve_at(const Eigen::VectorXd& x) const;
 
+    /// ∂y/∂inputs, k×inputs, of any quantities y = a·x̂ + b·(l - f(x̂)) of a solution: free parameters x̂ of the
+    /// estimator with known dead paths, lengths l corrected for the inputs, predicted lengths f.
+    ///
+    /// Costs one inverse of the normal equations and then grows with k; the 6N rows of the reported quantities are not
+    /// formed.
+    /// \param adjustment    from `solve_at` or `solved()`
+    /// \param normal        `linearise()` of the same
+    /// \param by_parameter  a, k×p, in the order of the free parameters of `normal`
+    /// \param by_residual   b, k×lengths in the order of the visits; or without columns: b = 0
+    [[nodiscard]] Eigen::MatrixXd input_sensitivity(const JointAdjustment& adjustment, const NormalEquations& normal,
+                                                    const Eigen::Ref<const Eigen::MatrixXd>& by_parameter,
+                                                    const Eigen::Ref<const Eigen::MatrixXd>& by_residual) const;
+
+private:
     RotaryTableMeasurement measurement_;
     StochasticModel stochastic_;
     RigidMotion set_up_;
     JointAdjustment nominal_;
     std::vector<Eigen::MatrixXd> visit_pose_;  ///< ∂length/∂pose of every visit at the nominal solution
     std::vector<gum::InputGroup> inputs_;
+    RotaryTableInputs layout_;
     ReportedQuantities quantities_;
     std::vector<std::size_t> scale_stations_, temperature_stations_;
     bool expansion_is_input_ = false;

@@ -62,4 +62,16 @@ Eigen::Matrix<double, 6, 1> motion_parameters(const RigidMotion& motion) {
     return parameters;
 }
 
+Eigen::Matrix<double, 3, 6> point_displacement(const Eigen::Vector3d& point) {
+    Eigen::Matrix<double, 3, 6> rows;
+    rows << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero();
+    rows(0, 4) = point[2];
+    rows(0, 5) = -point[1];
+    rows(1, 3) = -point[2];
+    rows(1, 5) = point[0];
+    rows(2, 3) = point[1];
+    rows(2, 4) = -point[0];
+    return rows;
+}
+
 }  // namespace gumcert::engine

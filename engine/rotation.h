@@ -38,4 +38,8 @@ struct RigidMotion {
 /// Inverse of `rigid_motion`.
 [[nodiscard]] Eigen::Matrix<double, 6, 1> motion_parameters(const RigidMotion& motion);
 
+/// Displacement of a point at P by a small motion (x, y, z, a, b, c): [I, -P×], 3×6, [1] and [m] (eq. (8) of the source
+/// paper).
+[[nodiscard]] Eigen::Matrix<double, 3, 6> point_displacement(const Eigen::Vector3d& point);
+
 }  // namespace gumcert::engine

@@ -16,7 +16,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 /// The input quantities of the method, as numbers.
 struct Inputs {
-    Eigen::VectorXd lengths;      ///< active lengths, visit by visit, freed of the deviations of the table, [m]
+    Eigen::VectorXd lengths;      ///< active lengths, visit by visit, without table and resolution deviations, [m]
     Eigen::VectorXd scale;        ///< s - 1 a station, [1]
     Eigen::MatrixX3d fixture;     ///< [m]
     Eigen::VectorXd temperature;  ///< difference from the reference temperature, a station, [K]
@@ -50,6 +50,8 @@ struct Stages {
 /// One active length with its place in the measurement.
 struct Distance {
     std::size_t station, reflector, angle, dead_path;
+    std::size_t length;     ///< index into the lengths of the measurement
+    Eigen::Index path = 0;  ///< of its dead path among those of its station
 };
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what, const std::string& action) {
@@ -58,19 +60,11 @@ struct Distance {
                                              gum::Severity::error});
 }
 
-/// Rows of a small motion at a point: [I, -P×], 3×6 (the paper's eq. (8)).
-Eigen::Matrix<double, 3, 6> motion_rows(const Eigen::Vector3d& point) {
-    Eigen::Matrix<double, 3, 6> rows;
-    rows << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero();
-    rows.rightCols<3>() << 0.0, point[2], -point[1], -point[2], 0.0, point[0], point[1], -point[0], 0.0;
-    return rows;
-}
-
 /// Rows of the set-up errors across the axis at a point turned to P: eq. (8) times (R - I), 3×4 (the paper's eq. (4)).
 Eigen::Matrix<double, 3, 4> set_up_rows(const Eigen::Vector3d& point, const Eigen::Matrix3d& rotation,
                                         const std::array<int, 2>& across) {
     const Eigen::Matrix3d change = rotation - Eigen::Matrix3d::Identity();
-    const Eigen::Matrix<double, 3, 6> rows = motion_rows(point);
+    const Eigen::Matrix<double, 3, 6> rows = point_displacement(point);
     Eigen::Matrix<double, 3, 4> result;
     for (int c = 0; c < 2; ++c) {
         const Eigen::Vector3d column = change.col(across[static_cast<std::size_t>(c)]);
@@ -103,8 +97,7 @@ public:
             visit_pose_.push_back(joint.visit_pose(v));
             for (const std::size_t i : visits[v].observations) {
                 const LengthObservation& length = measurement_.lengths[i];
-                distances_.push_back({length.station, length.reflector, length.angle, length.dead_path});
-                visit_of_.push_back(v);
+                distances_.push_back({length.station, length.reflector, length.angle, length.dead_path, i});
             }
         }
         for (std::size_t j = 0; j < measurement_.stations.size(); ++j) {
@@ -112,6 +105,19 @@ public:
             has_temperature_.push_back(joint.solved().temperature_prior(j) != JointAdjustment::k_none);
         }
         has_expansion_ = joint.solved().expansion_prior() != JointAdjustment::k_none;
+        // Dead paths of a station in the order of its distances at home, where the first stage finds them.
+        paths_.resize(measurement_.stations.size());
+        for (const Distance& distance : distances_) {
+            std::vector<std::size_t>& paths = paths_[distance.station];
+            if (distance.angle == measurement_.home &&
+                std::find(paths.begin(), paths.end(), distance.dead_path) == paths.end()) {
+                paths.push_back(distance.dead_path);
+            }
+        }
+        for (Distance& distance : distances_) {
+            const std::vector<std::size_t>& paths = paths_[distance.station];
+            distance.path = std::find(paths.begin(), paths.end(), distance.dead_path) - paths.begin();
+        }
         start_ = find_start_values(measurement_, joint.solved().active());
     }
 
@@ -135,13 +141,18 @@ public:
     [[nodiscard]] Eigen::MatrixXd station_derivatives(const Stages& stages, const Inputs& in,
                                                       std::size_t station) const;
     [[nodiscard]] Eigen::MatrixXd reported_derivatives(const Stages& stages, const Inputs& in) const;
-    /// Columns of the table's deviations behind those of the other inputs: they act through the lengths.
+    /// Columns of the table's deviations and of the resolution behind those of the other inputs: they act through the
+    /// lengths.
     [[nodiscard]] Eigen::MatrixXd with_table(const Eigen::MatrixXd& derivatives) const;
+    /// Largest influence of an undetected bias of one distance on every reported quantity, the biases those of `rows`.
+    [[nodiscard]] std::vector<ExternalReliability> external_reliability(
+        const Eigen::MatrixXd& derivatives, const std::vector<DistanceReliability>& rows) const;
     /// D V Dᵀ over all inputs.
     [[nodiscard]] Eigen::MatrixXd propagated(const Eigen::MatrixXd& derivatives) const;
 
 private:
-    [[nodiscard]] Eigen::Index column_count() const;  ///< inputs without the table
+    [[nodiscard]] Eigen::Index column_count() const;  ///< inputs without the table and the resolution
+    [[nodiscard]] bool has_resolution() const { return measurement_.length_uncertainty.resolution > 0.0; }
     /// ∂f/∂inputs of one distance f = s |P + α ΔT R p - q| - l0 apart from station and point, subtracted from `row`.
     void subtract_direct(const Inputs& in, std::size_t k, const Eigen::Vector3d& direction, double distance,
                          bool coordinates, Eigen::Ref<Eigen::RowVectorXd> row) const;
@@ -155,7 +166,7 @@ private:
     ReportedQuantities quantities_;
     std::vector<gum::InputGroup> inputs_;
     std::vector<Distance> distances_;
-    std::vector<std::size_t> visit_of_;
+    std::vector<std::vector<std::size_t>> paths_;  ///< dead paths of every station that were measured at home
     std::vector<Eigen::MatrixXd> visit_pose_;
     std::vector<bool> has_scale_, has_temperature_;
     bool has_expansion_ = false;
@@ -187,6 +198,9 @@ Inputs SequentialModel::unpack(const Eigen::VectorXd& x) const {
     in.expansion = has_expansion_ ? x[next++] : measurement_.expansion;
     const auto visits = static_cast<Eigen::Index>(visit_pose_.size());
     const auto order = repeatability_order(measurement_.axis);
+    if (has_resolution()) {
+        in.lengths += x.tail(n);
+    }
     Eigen::Index row = 0;
     for (Eigen::Index v = 0; v < visits; ++v) {
         Vector6 deviation;
@@ -214,15 +228,11 @@ Stages SequentialModel::solve(const Inputs& in) const {
         for (std::size_t k = 0; k < distances_.size(); ++k) {
             if (distances_[k].station == j && distances_[k].angle == measurement_.home) {
                 station.observations.push_back(k);
-                if (std::find(station.dead_paths.begin(), station.dead_paths.end(), distances_[k].dead_path) ==
-                    station.dead_paths.end()) {
-                    station.dead_paths.push_back(distances_[k].dead_path);
-                }
             }
         }
+        station.dead_paths = paths_[j];
         for (const Distance& distance : distances_) {
-            if (distance.station == j && std::find(station.dead_paths.begin(), station.dead_paths.end(),
-                                                   distance.dead_path) == station.dead_paths.end()) {
+            if (distance.station == j && distance.path == std::ssize(station.dead_paths)) {
                 refuse("dead path " + measurement_.dead_paths[distance.dead_path], "has no distance at the home angle",
                        "measure it at home, or use \"method\": \"joint\"");
             }
@@ -249,9 +259,7 @@ Stages SequentialModel::solve(const Inputs& in) const {
                     stretch * in.fixture.row(static_cast<Eigen::Index>(distances_[k].reflector)).transpose() -
                     station.unknowns.head<3>();
                 const double distance = difference.norm();
-                const auto path =
-                    std::find(station.dead_paths.begin(), station.dead_paths.end(), distances_[k].dead_path) -
-                    station.dead_paths.begin();
+                const Eigen::Index path = distances_[k].path;
                 design.row(at).head<3>() = -scale / distance * difference.transpose();
                 design(at, 3 + path) = -1.0;
                 if (scale_is_free()) {
@@ -296,9 +304,7 @@ Stages SequentialModel::solve(const Inputs& in) const {
                     const std::size_t k = point.observations[row];
                     const std::size_t j = distances_[k].station;
                     const StationStage& station = stages.stations[j];
-                    const auto path =
-                        std::find(station.dead_paths.begin(), station.dead_paths.end(), distances_[k].dead_path) -
-                        station.dead_paths.begin();
+                    const Eigen::Index path = distances_[k].path;
                     const double scale = scale_of(stages, in, j);
                     const Eigen::Vector3d difference =
                         point.position + in.expansion * in.temperature[static_cast<Eigen::Index>(j)] * ideal -
@@ -364,7 +370,7 @@ Stages SequentialModel::solve(const Inputs& in) const {
             }
             ++used;
             const Eigen::Vector3d expected = rotation * (table_from_fixture * home[m].position);
-            const Eigen::Matrix<double, 3, 6> rows = motion_rows(expected);
+            const Eigen::Matrix<double, 3, 6> rows = point_displacement(expected);
             pose_normal += rows.transpose() * rows;
             pose_right += rows.transpose() * (table_from_fixture * stages.points[i][m].position - expected);
         }
@@ -482,9 +488,7 @@ Eigen::MatrixXd SequentialModel::reported_derivatives(const Stages& stages, cons
                 const std::size_t k = point.observations[row];
                 const std::size_t j = distances_[k].station;
                 const StationStage& station = stages.stations[j];
-                const auto path =
-                    std::find(station.dead_paths.begin(), station.dead_paths.end(), distances_[k].dead_path) -
-                    station.dead_paths.begin();
+                const Eigen::Index path = distances_[k].path;
                 const Eigen::Vector3d difference = point.position +
                                                    in.expansion * in.temperature[static_cast<Eigen::Index>(j)] * ideal -
                                                    station.unknowns.head<3>();
@@ -535,7 +539,7 @@ Eigen::MatrixXd SequentialModel::reported_derivatives(const Stages& stages, cons
                 continue;
             }
             const Eigen::Vector3d expected = rotation * (table_from_fixture * home[m].position);
-            const Eigen::Matrix<double, 3, 6> rows = motion_rows(expected);
+            const Eigen::Matrix<double, 3, 6> rows = point_displacement(expected);
             pose_normal += rows.transpose() * rows;
             const Eigen::MatrixXd change = table_from_fixture.rotation * by_point[i][m] -
                                            rotation * (table_from_fixture.rotation * by_point[measurement_.home][m]) -
@@ -554,8 +558,10 @@ Eigen::MatrixXd SequentialModel::with_table(const Eigen::MatrixXd& derivatives) 
     const auto visits = static_cast<Eigen::Index>(visit_pose_.size());
     const Eigen::Index first = derivatives.cols();
     const auto order = repeatability_order(measurement_.axis);
-    Eigen::MatrixXd result(derivatives.rows(), first + 6 * visits);
+    const Eigen::Index resolutions = has_resolution() ? std::ssize(distances_) : 0;
+    Eigen::MatrixXd result(derivatives.rows(), first + 6 * visits + resolutions);
     result.leftCols(first) = derivatives;
+    result.rightCols(resolutions) = derivatives.leftCols(resolutions);
     Eigen::Index row = 0;
     for (Eigen::Index v = 0; v < visits; ++v) {
         const Eigen::MatrixXd& pose = visit_pose_[static_cast<std::size_t>(v)];
@@ -586,6 +592,22 @@ Eigen::MatrixXd SequentialModel::propagated(const Eigen::MatrixXd& derivatives) 
     return covariance;
 }
 
+std::vector<ExternalReliability> SequentialModel::external_reliability(
+    const Eigen::MatrixXd& derivatives, const std::vector<DistanceReliability>& rows) const {
+    std::vector<ExternalReliability> worst(static_cast<std::size_t>(derivatives.rows()));
+    for (std::size_t k = 0; k < distances_.size(); ++k) {
+        const double bias = rows[distances_[k].length].minimal_detectable_bias;
+        for (std::size_t q = 0; q < worst.size(); ++q) {
+            const double influence = derivatives(static_cast<Eigen::Index>(q), static_cast<Eigen::Index>(k)) * bias;
+            if (std::abs(influence) > std::abs(worst[q].influence)) {
+                worst[q] = {q, distances_[k].length, influence};
+            }
+        }
+    }
+    std::erase_if(worst, [](const ExternalReliability& row) { return row.influence == 0.0; });
+    return worst;
+}
+
 }  // namespace
 
 RotaryTableSolution evaluate_sequentially(const RotaryTableMeasurement& measurement, const EvaluationOptions& options,
@@ -603,7 +625,9 @@ RotaryTableSolution evaluate_sequentially(const RotaryTableMeasurement& measurem
     solution.datum = stages.datum;
     solution.quantities = model->quantities();
     solution.values = model->reported(stages);
-    solution.covariance = model->propagated(model->with_table(model->reported_derivatives(stages, in)));
+    const Eigen::MatrixXd derivatives = model->reported_derivatives(stages, in);
+    solution.covariance = model->propagated(model->with_table(derivatives));
+    solution.external_reliability = model->external_reliability(derivatives, solution.reliability);
     solution.condition_number = 0.0;
     const RigidMotion table_from_fixture = rigid_motion(stages.set_up);
     for (std::size_t j = 0; j < stages.stations.size(); ++j) {
@@ -612,7 +636,9 @@ RotaryTableSolution evaluate_sequentially(const RotaryTableMeasurement& measurem
             model->propagated(model->with_table(model->station_derivatives(stages, in, j)));
         StationEstimate& estimate = solution.stations[j];
         estimate.position = stages.datum.world * (table_from_fixture * station.unknowns.head<3>());
-        estimate.u = covariance.diagonal().head<3>().cwiseSqrt();
+        const Eigen::Matrix3d turned = stages.datum.world.rotation * table_from_fixture.rotation;
+        estimate.covariance = turned * covariance.topLeftCorner<3, 3>() * turned.transpose();
+        estimate.u = estimate.covariance.diagonal().cwiseSqrt();
         const bool free = measurement.length_uncertainty.scale_model == ScaleModel::free;
         estimate.scale_deviation = free ? station.unknowns.tail<1>()[0] : in.scale[static_cast<Eigen::Index>(j)];
         estimate.u_scale = free ? std::sqrt(covariance.diagonal().tail<1>()[0])
@@ -628,10 +654,15 @@ RotaryTableSolution evaluate_sequentially(const RotaryTableMeasurement& measurem
         solution.condition_number = std::max(solution.condition_number, station.condition_number);
     }
     solution.fixture = measurement.fixture;
+    const double fixture_factor = solution.stochastic.fixture_factor;
     for (Eigen::Index m = 0; m < measurement.fixture.rows(); ++m) {
         for (int c = 0; c < 3; ++c) {
-            solution.u_fixture(m, c) = std::sqrt(measurement.fixture_covariance(3 * m + c, 3 * m + c));
+            solution.u_fixture(m, c) = std::sqrt(fixture_factor * measurement.fixture_covariance(3 * m + c, 3 * m + c));
         }
+        solution.fixture_position_covariance[static_cast<std::size_t>(m)] =
+            fixture_factor * measurement.fixture_covariance.block<3, 3>(3 * m, 3 * m);
+        solution.fixture_at_home.row(m) =
+            (stages.datum.world * (table_from_fixture * measurement.fixture.row(m).transpose())).transpose();
     }
 
     // Misfit of the sequential solution to the same distances with the same weights.
@@ -662,6 +693,8 @@ RotaryTableSolution evaluate_sequentially(const RotaryTableMeasurement& measurem
         static_cast<Eigen::Index>((free ? 4 : 3) * measurement.stations.size() + measurement.dead_paths.size() +
                                   6 * (measurement.angles.size() - 1));
     solution.degrees_of_freedom = solution.observations - solution.parameters;
+    solution.variance_factor =
+        solution.degrees_of_freedom > 0 ? solution.chi_square / static_cast<double>(solution.degrees_of_freedom) : 1.0;
     solution.model = model;
     solution.notes.push_back({"GC-SEQUENTIAL-0002", "sequential method",
                               "variance components, outlying distances and reliability are those of the joint "

@@ -13,10 +13,17 @@ namespace gumcert::engine {
 
 namespace {
 
-constexpr std::size_t k_components = 4;
+constexpr std::size_t k_visit_components = 4;  // whose derivatives live in the visits; the fixture has its own group
+constexpr std::size_t k_components = 5;
 // Scale of each component, so that the four columns of the Fisher matrix are comparable: (0.1 µm)² and (0.1″)².
 constexpr double k_linear_scale = 1e-14;
 constexpr double k_angular_scale = 2.350443e-13;
+// A factor below these would leave nothing to weight by.
+constexpr double k_least_length_factor = 1e-6;
+constexpr double k_least_fixture_factor = 1e-4;
+
+using Vector5 = Eigen::Matrix<double, 5, 1>;
+using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
 /// Roots B_k of the derivatives V_k = B_k B_kᵀ of the covariance of a visit, in the scales of the components, side by
 /// side: n×(n + 6).
@@ -37,7 +44,7 @@ Eigen::MatrixXd covariance_roots(const JointAdjustment& adjustment, std::size_t 
 }
 
 /// First column of each component in `covariance_roots`, and the end.
-std::array<Eigen::Index, k_components + 1> root_columns(Eigen::Index n) {
+std::array<Eigen::Index, k_visit_components + 1> root_columns(Eigen::Index n) {
     return {0, n, n + 3, n + 4, n + 6};
 }
 
@@ -84,23 +91,28 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
                                                    const Eigen::MatrixXd& covariance, const StochasticModel& present,
                                                    const EstimatedComponents& estimated) {
     const Eigen::Index p = normal.parameter_count();
-    const std::array<bool, k_components> needed{estimated.length, estimated.table, estimated.table, estimated.table};
-    std::array<Eigen::MatrixXd, k_components> inner;  // J̃ᵀ Ũ_k J̃ of the estimated components
-    for (std::size_t k = 0; k < k_components; ++k) {
+    const std::array<bool, k_visit_components> needed{estimated.length, estimated.table, estimated.table,
+                                                      estimated.table};
+    std::array<Eigen::MatrixXd, k_visit_components> inner;  // J̃ᵀ Ũ_k J̃ of the estimated components
+    for (std::size_t k = 0; k < k_visit_components; ++k) {
         if (needed[k]) {
             inner[k] = Eigen::MatrixXd::Zero(p, p);
         }
     }
-    Eigen::Vector4d quadratic = Eigen::Vector4d::Zero();  // ṽᵀ Ũ_k ṽ
-    Eigen::Vector4d trace = Eigen::Vector4d::Zero();      // tr(R V_k)
-    Eigen::Matrix4d fisher = Eigen::Matrix4d::Zero();     // tr(R V_k R V_l)
+    Vector5 quadratic = Vector5::Zero();  // ṽᵀ Ũ_k ṽ
+    Vector5 trace = Vector5::Zero();      // tr(R V_k)
+    Matrix5 fisher = Matrix5::Zero();     // tr(R V_k R V_l)
     bool any_shared_visit = false;
+    double mean_stated = 0.0;  // of the lengths, [m²]
+    double length_count = 0.0;
 
     for (std::size_t v = 0; v < adjustment.visits().size(); ++v) {
         const LinearisedGroup& group = normal.groups()[v];
         any_shared_visit = any_shared_visit || group.residual.size() > 1;
         // Ũ_k = L⁻¹ V_k L⁻ᵀ = B̃_k B̃_kᵀ: everything of a visit follows from the whitened roots.
         Eigen::MatrixXd roots = covariance_roots(adjustment, v);
+        mean_stated += roots.leftCols(group.residual.size()).squaredNorm();
+        length_count += static_cast<double>(group.residual.size());
         group.cholesky.triangularView<Eigen::Lower>().solveInPlace(roots);
         const auto first = root_columns(group.residual.size());
         const Eigen::MatrixXd predicted =
@@ -109,13 +121,13 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
         const Eigen::MatrixXd root_jacobian = roots.transpose() * group.jacobian;
         const Eigen::MatrixXd root_square = roots.transpose() * roots;
         const Eigen::MatrixXd root_predicted = roots.transpose() * predicted * roots;
-        for (std::size_t k = 0; k < k_components; ++k) {
+        for (std::size_t k = 0; k < k_visit_components; ++k) {
             const auto at = static_cast<Eigen::Index>(k);
             const Eigen::Index rank = first[k + 1] - first[k];
             quadratic[at] += root_residual.segment(first[k], rank).squaredNorm();
             trace[at] += root_square.diagonal().segment(first[k], rank).sum() -
                          root_predicted.diagonal().segment(first[k], rank).sum();
-            for (std::size_t l = 0; l < k_components; ++l) {
+            for (std::size_t l = 0; l < k_visit_components; ++l) {
                 const auto square = root_square.block(first[k], first[l], rank, first[l + 1] - first[l]);
                 const auto spread = root_predicted.block(first[k], first[l], rank, first[l + 1] - first[l]);
                 fisher(at, static_cast<Eigen::Index>(l)) += square.cwiseProduct(square - 2.0 * spread).sum();
@@ -133,9 +145,10 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
             }
         }
     }
+    mean_stated /= length_count;
     const BorderedProduct times(adjustment, normal);
-    std::array<Eigen::MatrixXd, k_components> outer;  // C J̃ᵀ Ũ_k J̃
-    for (std::size_t k = 0; k < k_components; ++k) {
+    std::array<Eigen::MatrixXd, k_visit_components> outer;  // C J̃ᵀ Ũ_k J̃
+    for (std::size_t k = 0; k < k_visit_components; ++k) {
         if (!needed[k]) {
             continue;
         }
@@ -153,22 +166,57 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
         }
     }
 
+    // The fixture: Ũ = 1/θ of its own whitened group, whose columns are the coordinates.
+    const LinearisedGroup& fixture = normal.groups()[adjustment.fixture_prior()];
+    const double fixture_factor = present.fixture_factor;
+    const Eigen::MatrixXd fixture_cofactor =
+        fixture.jacobian * covariance(fixture.columns, fixture.columns) * fixture.jacobian.transpose();  // J̃ C J̃ᵀ
+    const auto coordinates = fixture.residual.size();
+    constexpr auto k_fixture = static_cast<Eigen::Index>(ComponentRow::fixture_cmm);
+    quadratic[k_fixture] = fixture.residual.squaredNorm() / fixture_factor;
+    trace[k_fixture] = (static_cast<double>(coordinates) - fixture_cofactor.trace()) / fixture_factor;
+    // tr(R V₅ R V₅) = tr((I - J̃ C J̃ᵀ)²)/θ²: everything of the fixture is in one group.
+    fisher(k_fixture, k_fixture) =
+        (Eigen::MatrixXd::Identity(coordinates, coordinates) - fixture_cofactor).squaredNorm() /
+        (fixture_factor * fixture_factor);
+    if (estimated.fixture) {
+        const Eigen::MatrixXd outer_fixture = covariance(Eigen::all, fixture.columns) *
+                                              (fixture.jacobian.transpose() * fixture.jacobian) / fixture_factor;
+        for (std::size_t k = 0; k < k_visit_components; ++k) {
+            if (!needed[k]) {
+                continue;
+            }
+            double sum = 0.0;
+            for (Eigen::Index j = 0; j < outer_fixture.cols(); ++j) {
+                sum += outer[k].row(fixture.columns[static_cast<std::size_t>(j)]).dot(outer_fixture.col(j));
+            }
+            fisher(static_cast<Eigen::Index>(k), k_fixture) = sum;
+            fisher(k_fixture, static_cast<Eigen::Index>(k)) = sum;
+        }
+    }
+
     VarianceComponentStep step;
     step.length_separable = any_shared_visit;
-    Eigen::Vector4d theta(present.length_factor, present.variance_linear / k_linear_scale,
-                          present.variance_axial / k_angular_scale, present.variance_tilt / k_angular_scale);
-    std::array<bool, k_components> wanted{estimated.length && any_shared_visit, estimated.table, estimated.table,
-                                          estimated.table};
-    // A component that stands at zero and whose likelihood falls from there stays at zero.
+    Vector5 theta;
+    theta << present.length_factor, present.variance_linear / k_linear_scale, present.variance_axial / k_angular_scale,
+        present.variance_tilt / k_angular_scale, fixture_factor;
+    const LengthUncertainty& lengths = adjustment.measurement().length_uncertainty;
+    const double known = lengths.resolution * lengths.resolution / 12.0;
+    // Without noise of their own the lengths are still weighted by their resolution.
+    const std::array<double, k_components> bound{known > 0.0 ? 0.0 : k_least_length_factor, 0.0, 0.0, 0.0,
+                                                 k_least_fixture_factor};
+    const std::array<bool, k_components> wanted{estimated.length && any_shared_visit, estimated.table, estimated.table,
+                                                estimated.table, estimated.fixture};
+    // A component that stands at its bound and whose likelihood falls from there stays at it.
     std::array<bool, k_components> active = wanted;
     for (std::size_t k = 0; k < k_components; ++k) {
         const auto at = static_cast<Eigen::Index>(k);
-        if (active[k] && theta[at] <= 0.0 && quadratic[at] <= trace[at]) {
+        if (active[k] && theta[at] <= bound[k] && quadratic[at] <= trace[at]) {
             active[k] = false;
         }
     }
-    Eigen::Matrix4d inverse = Eigen::Matrix4d::Zero();
-    Eigen::Vector4d next = theta;
+    Matrix5 inverse = Matrix5::Zero();
+    Vector5 next = theta;
     while (true) {
         std::vector<Eigen::Index> free;
         for (std::size_t k = 0; k < k_components; ++k) {
@@ -179,7 +227,7 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
         next = theta;
         for (std::size_t k = 0; k < k_components; ++k) {
             if (wanted[k] && !active[k]) {
-                next[static_cast<Eigen::Index>(k)] = 0.0;
+                next[static_cast<Eigen::Index>(k)] = bound[k];
             }
         }
         inverse.setZero();
@@ -195,34 +243,52 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
         const Eigen::VectorXd change = information_inverse * gradient;
         Eigen::Index worst = -1;
         for (Eigen::Index i = 0; i < change.size(); ++i) {
-            next[free[static_cast<std::size_t>(i)]] = theta[free[static_cast<std::size_t>(i)]] + change[i];
-            if (next[free[static_cast<std::size_t>(i)]] < 0.0) {
-                worst = free[static_cast<std::size_t>(i)];
+            const Eigen::Index at = free[static_cast<std::size_t>(i)];
+            next[at] = theta[at] + change[i];
+            if (next[at] < bound[static_cast<std::size_t>(at)]) {
+                worst = at;
             }
         }
         if (worst < 0) {
             break;
         }
-        if (worst == 0) {
-            next[0] = 0.1 * theta[0];  // lengths without any noise of their own would leave nothing to weight by
+        const bool factor = worst == 0 || worst == k_fixture;
+        // A factor on a stated variance is mostly overshot: it comes down by tens, not to nothing at once.
+        if (factor && 0.1 * theta[worst] > bound[static_cast<std::size_t>(worst)] &&
+            !(worst == 0 && 0.1 * theta[0] * mean_stated < 0.01 * known)) {
+            next[worst] = 0.1 * theta[worst];
+            for (std::size_t k = 0; k < k_components; ++k) {
+                next[static_cast<Eigen::Index>(k)] =
+                    std::max(next[static_cast<Eigen::Index>(k)], wanted[k] ? bound[k] : 0.0);
+            }
             break;
         }
         active[static_cast<std::size_t>(worst)] = false;
     }
+    step.fixture_at_bound = wanted[k_fixture] && !active[k_fixture];
 
     const std::array<const char*, k_components> names{"length noise", "table linear", "table angular, axial",
-                                                      "table angular, tilt"};
-    const double length_u = adjustment.measurement().length_uncertainty.u_constant;
-    const std::array<double, k_components> scales{length_u * length_u, k_linear_scale, k_angular_scale,
-                                                  k_angular_scale};
+                                                      "table angular, tilt", "fixture CMM"};
+    const TableRepeatability& table = adjustment.measurement().table_repeatability;
+    const std::array<double, 3> table_stated{table.u_linear, table.u_axial, table.u_tilt};
+    const double length_scale =
+        lengths.u_constant > 0.0 ? lengths.u_constant * lengths.u_constant : mean_stated;  // of one length, [m²]
+    const std::array<double, k_components> scales{length_scale, k_linear_scale, k_angular_scale, k_angular_scale,
+                                                  adjustment.measurement().fixture_covariance.diagonal().mean()};
     for (std::size_t k = 0; k < k_components; ++k) {
         const auto at = static_cast<Eigen::Index>(k);
         const double variance_of_theta = 2.0 * inverse(at, at);
         VarianceComponent component;
         component.name = names[k];
-        component.angular = k >= 2;
+        component.angular = k == ComponentRow::table_axial || k == ComponentRow::table_tilt;
         component.value = std::sqrt(next[at] * scales[k]);
         component.estimated = wanted[k];
+        component.separable = k != ComponentRow::length_noise || any_shared_visit || !estimated.length;
+        if (k == ComponentRow::length_noise || k == ComponentRow::fixture_cmm) {
+            component.stated = std::sqrt(scales[k]);
+        } else if (table.mode == RepeatabilityMode::given) {
+            component.stated = table_stated[k - 1];
+        }
         component.redundancy = next[at] * trace[at];
         component.degrees_of_freedom = std::numeric_limits<double>::infinity();
         if (wanted[k]) {
@@ -245,7 +311,15 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
     step.stochastic.variance_linear = next[1] * k_linear_scale;
     step.stochastic.variance_axial = next[2] * k_angular_scale;
     step.stochastic.variance_tilt = next[3] * k_angular_scale;
+    step.stochastic.fixture_factor = next[4];
     return step;
+}
+
+double fixture_redundancy(const JointAdjustment& adjustment, const NormalEquations& normal,
+                          const Eigen::MatrixXd& covariance) {
+    const LinearisedGroup& fixture = normal.groups()[adjustment.fixture_prior()];
+    return static_cast<double>(fixture.residual.size()) -
+           (fixture.jacobian * covariance(fixture.columns, fixture.columns) * fixture.jacobian.transpose()).trace();
 }
 
 }  // namespace gumcert::engine

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/rotary_table_evaluation.h"
+#include "engine/table_parameters.h"
 #include "gum/propagation.h"
 #include "tests/support/synthetic_campaign.h"
 
@@ -81,6 +82,43 @@ TEST(RotaryTableBudget, ErrorsComeFromTheLengthsAndSetUpFromTheCmm) {
             EXPECT_GT(contribution.share.segment<4>(solution.quantities.set_up).minCoeff(), 0.8);
         }
     }
+}
+
+TEST(TableParameterBudget, IsThatOfTheReportedQuantitiesItIsMadeOf) {
+    const auto campaign = simulate(plan_of(1));
+    const auto solution = engine::evaluate_jointly(campaign.measurement, engine::EvaluationOptions{});
+    const engine::TableParameterModel model(std::dynamic_pointer_cast<const engine::RotaryTableModel>(solution.model),
+                                            solution.datum);
+    const gum::Propagation all = gum::propagate(*solution.model, 0.9545);
+    const gum::Propagation propagation = gum::propagate(model, 0.9545);
+    // U of a range from the full covariance: u² of the highest and the lowest angle less twice their covariance.
+    for (Eigen::Index k = 0; k < 6; ++k) {
+        Eigen::Index low = k;
+        Eigen::Index high = k;
+        for (Eigen::Index i = k; i < 6 * 12; i += 6) {
+            low = all.value[i] < all.value[low] ? i : low;
+            high = all.value[i] > all.value[high] ? i : high;
+        }
+        EXPECT_DOUBLE_EQ(propagation.value[k], all.value[high] - all.value[low]);
+        const double variance = all.covariance(low, low) + all.covariance(high, high) - 2.0 * all.covariance(low, high);
+        EXPECT_NEAR(propagation.standard_uncertainty[k], std::sqrt(variance), 1e-8 * std::sqrt(variance));
+    }
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(propagation.value.size());
+    Eigen::Vector4d of_fixture = Eigen::Vector4d::Zero();
+    for (const gum::BudgetContribution& contribution : propagation.budget) {
+        sum += contribution.share;
+        if (contribution.name == "CMM coordinates of the fixture" || contribution.name == "dead paths") {
+            of_fixture += contribution.share.segment<4>(6);
+        }
+        if (contribution.name == "table repeatability, axial") {
+            // The positions of the runs are what is measured: the axial deviations of the table are no error of them,
+            // but for what they do to dead paths and stations. Taken for errors they would have most of the variance.
+            EXPECT_LT(contribution.share.tail(model.parameters()->layout().positioning_count).maxCoeff(), 0.2);
+        }
+    }
+    // The axis in the frame of the fixture is known as well as that frame, and the dead paths that rest on it.
+    EXPECT_GT(of_fixture.minCoeff(), 0.9);
+    EXPECT_LT((sum.array() - 1.0).abs().maxCoeff(), 1e-9);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -13,6 +14,7 @@
 #include "engine/job/rotary_table_job.h"
 #include "engine/rotary_table_evaluation.h"
 #include "engine/sequential_evaluation.h"
+#include "gum/coverage.h"
 #include "gum/propagation.h"
 #include "gum/quantity/units.h"
 
@@ -30,6 +32,17 @@ struct Set {
     gum::Propagation propagation;
 };
 
+/// Tests of distances and of the fixture as the program makes them.
+engine::EvaluationOptions options_of(const engine::RotaryTableMeasurement& measurement) {
+    engine::EvaluationOptions options;
+    const double alpha = measurement.outliers.alpha;
+    options.critical_value = gum::two_sided_normal_critical_value(alpha);
+    options.non_centrality = options.critical_value + gum::standard_normal_quantile(0.8);
+    options.student_critical_value = [alpha](double nu) { return gum::coverage_factor(1.0 - alpha, nu); };
+    options.chi_square_upper_tail = gum::chi_square_upper_tail;
+    return options;
+}
+
 /// One evaluation a set, shared by its tests. Null where the data are absent.
 const Set* evaluated(const std::string& name) {
     static std::map<std::string, std::unique_ptr<Set>> sets;
@@ -43,7 +56,7 @@ const Set* evaluated(const std::string& name) {
         std::ifstream stream(folder / "truth.json");
         set->truth = nlohmann::json::parse(stream);
         set->job = engine::read_rotary_table_job(folder / "job.json");
-        set->solution = engine::evaluate_jointly(set->job.measurement, engine::EvaluationOptions{});
+        set->solution = engine::evaluate_jointly(set->job.measurement, options_of(set->job.measurement));
         set->propagation = gum::propagate(*set->solution.model, set->job.coverage_probability);
     }
     return set.get();
@@ -147,7 +160,7 @@ TEST_P(RotaryTableTruth, OnlyPlantedOutliersAreFlagged) {
         const bool flagged = set_->solution.reliability[i].flagged;
         if (planted.contains(i)) {
             EXPECT_TRUE(flagged) << "line " << measurement.lengths[i].line;
-            EXPECT_GT(std::abs(set_->solution.reliability[i].test_value), 3.89);
+            EXPECT_GT(std::abs(set_->solution.reliability[i].test_value), set_->solution.critical_value);
         } else {
             good_flagged += flagged ? 1 : 0;
         }
@@ -156,12 +169,62 @@ TEST_P(RotaryTableTruth, OnlyPlantedOutliersAreFlagged) {
               0.002 * static_cast<double>(measurement.lengths.size() - planted.size()));
 }
 
+TEST_P(RotaryTableTruth, LogOfOutliersIsThatOfTheResult) {
+    std::map<std::size_t, const engine::OutlierFinding*> last;
+    for (const engine::OutlierFinding& finding : set_->solution.outliers) {
+        EXPECT_GT(std::abs(finding.test_value), finding.critical_value);
+        EXPECT_GT(finding.redundancy_number, 0.3);
+        last[finding.length] = &finding;
+    }
+    for (std::size_t i = 0; i < set_->solution.reliability.size(); ++i) {
+        const engine::DistanceReliability& row = set_->solution.reliability[i];
+        EXPECT_EQ(row.removed, last.contains(i) && last[i]->removed);
+        if (row.removed) {
+            EXPECT_EQ(last[i]->estimated_error, row.estimated_error);
+        }
+    }
+}
+
+TEST_P(RotaryTableTruth, LengthNoiseOfTheSimulationIsFoundAndTestedWithTau) {
+    const engine::VarianceComponent& component = set_->solution.components[engine::length_noise];
+    if (!component.estimated) {
+        EXPECT_FALSE(set_->solution.critical_value_degrees_of_freedom.has_value());
+        return;
+    }
+    ASSERT_TRUE(set_->solution.critical_value_degrees_of_freedom.has_value());
+    EXPECT_NEAR(*set_->solution.critical_value_degrees_of_freedom, component.redundancy, 1e-3);
+    EXPECT_LT(set_->solution.critical_value,
+              gum::two_sided_normal_critical_value(set_->job.measurement.outliers.alpha));
+    EXPECT_EQ(set_->solution.variance_factor_used, engine::VarianceFactorUsed::a_posteriori);
+}
+
+TEST_P(RotaryTableTruth, FixtureIsAsStated) {
+    const engine::VarianceComponent& component = set_->solution.components[engine::fixture_cmm];
+    ASSERT_TRUE(component.separable);
+    EXPECT_FALSE(component.used);
+    RecordProperty("fixture_estimated_to_stated", std::to_string(component.value / *component.stated));
+    // u goes with the estimate; that of the stated value is in proportion.
+    EXPECT_LT(std::abs(component.value / *component.stated - 1.0), 3.0 * component.u / component.value);
+    EXPECT_TRUE(std::none_of(set_->solution.notes.begin(), set_->solution.notes.end(),
+                             [](const gum::Diagnostic& note) { return note.code == "GC-VARIANCE-0003"; }));
+}
+
+TEST_P(RotaryTableTruth, EveryQuantityHasItsWorstUndetectedBias) {
+    ASSERT_EQ(set_->solution.external_reliability.size(), static_cast<std::size_t>(set_->solution.values.size()));
+    for (const engine::ExternalReliability& row : set_->solution.external_reliability) {
+        // An undetected bias is a few standard uncertainties of one distance among hundreds.
+        const double u = set_->propagation.standard_uncertainty[static_cast<Eigen::Index>(row.quantity)];
+        EXPECT_LT(std::abs(row.influence), 5.0 * u) << row.quantity;
+        EXPECT_FALSE(set_->solution.reliability[row.length].removed);
+    }
+}
+
 TEST_P(RotaryTableTruth, SolvedWithoutStartValuesToTheSameResult) {
     engine::RotaryTableMeasurement measurement = set_->job.measurement;
     for (auto& start : measurement.station_start) {
         start.reset();
     }
-    const RotaryTableSolution solution = engine::evaluate_jointly(measurement, engine::EvaluationOptions{});
+    const RotaryTableSolution solution = engine::evaluate_jointly(measurement, options_of(measurement));
     for (Eigen::Index i = 0; i < solution.values.size(); ++i) {
         EXPECT_NEAR(solution.values[i], set_->solution.values[i], 1e-4 * set_->propagation.standard_uncertainty[i]);
     }
@@ -170,7 +233,7 @@ TEST_P(RotaryTableTruth, SolvedWithoutStartValuesToTheSameResult) {
 TEST_P(RotaryTableTruth, HomeDatumIsTheSameResultSeenFromHome) {
     engine::RotaryTableMeasurement measurement = set_->job.measurement;
     measurement.datum = engine::Datum::home;
-    const RotaryTableSolution home = engine::evaluate_jointly(measurement, engine::EvaluationOptions{});
+    const RotaryTableSolution home = engine::evaluate_jointly(measurement, options_of(measurement));
     const auto angles = static_cast<Eigen::Index>(measurement.angles.size());
     EXPECT_EQ(home.datum.errors.col(static_cast<Eigen::Index>(measurement.home)).cwiseAbs().maxCoeff(), 0.0);
     EXPECT_EQ(home.covariance.middleRows<6>(6 * static_cast<Eigen::Index>(measurement.home)).cwiseAbs().maxCoeff(),

@@ -1,11 +1,14 @@
 // The joint adjustment gives back what was simulated, with the uncertainty that the simulation shows.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "engine/rotary_table_evaluation.h"
+#include "engine/sequential_evaluation.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {
@@ -412,6 +415,174 @@ TEST(JointAdjustment, ReversalIsNotReportedWhenOneStationSawOneSense) {
     EXPECT_TRUE(std::any_of(solution.notes.begin(), solution.notes.end(),
                             [](const gum::Diagnostic& note) { return note.code == "GC-REVERSAL-0001"; }));
 }
+
+TEST(JointAdjustment, StationsAndFixtureComeWithTheirCovariances) {
+    for (const RotaryAxis axis : {RotaryAxis::a, RotaryAxis::c}) {
+        CampaignPlan plan;
+        plan.axis = axis;
+        plan.home = 5;
+        plan.noise = 0.0;
+        plan.angles_deg = synthetic::full_turn(12);
+        const Campaign campaign = simulate(plan);
+        const RotaryTableSolution solution = evaluate(campaign);
+        for (const StationEstimate& station : solution.stations) {
+            EXPECT_EQ(station.u, station.covariance.diagonal().cwiseSqrt());
+            EXPECT_GT(station.covariance.determinant(), 0.0);
+            // Radially far less certain than across (rotary-table.md, 4c).
+            const Eigen::Vector3d radial = station.position.normalized();
+            EXPECT_GT(radial.dot(station.covariance * radial), 0.8 * station.covariance.trace());
+        }
+        ASSERT_EQ(solution.fixture_position_covariance.size(), 6U);
+        for (Eigen::Index m = 0; m < 6; ++m) {
+            EXPECT_EQ(solution.fixture_position_covariance[static_cast<std::size_t>(m)].diagonal().cwiseSqrt(),
+                      solution.u_fixture.row(m).transpose());
+            const Eigen::Vector3d at_home =
+                synthetic::moved(campaign.truth.errors.col(5),
+                                 synthetic::moved(campaign.truth.set_up, campaign.truth.fixture.row(m).transpose()));
+            EXPECT_LT((solution.fixture_at_home.row(m).transpose() - at_home).norm(), 1e-9);
+        }
+    }
+}
+
+TEST(JointAdjustment, ResolutionReachesTheResultsOfBothMethods) {
+    CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(12);
+    plan.dead_paths = synthetic::DeadPaths::per_station;
+    Campaign campaign = simulate(plan);
+    for (const auto method : {evaluate_jointly, evaluate_sequentially}) {
+        campaign.measurement.length_uncertainty.resolution = 0.0;
+        const RotaryTableSolution fine = method(campaign.measurement, EvaluationOptions{}, {});
+        campaign.measurement.length_uncertainty.resolution = 1e-6;
+        const RotaryTableSolution coarse = method(campaign.measurement, EvaluationOptions{}, {});
+        // Variance of one length at a metre: 0.0625 µm² of noise, 0.0833 µm² of the step of one micrometre.
+        const double ratio = coarse.covariance.diagonal().head(72).sum() / fine.covariance.diagonal().head(72).sum();
+        EXPECT_GT(ratio, 1.8);
+        EXPECT_LT(ratio, 3.6);
+        // The model for the budget has the same covariance.
+        Eigen::Index size = 0;
+        for (const gum::InputGroup& group : coarse.model->inputs()) {
+            size += group.size();
+        }
+        Eigen::VectorXd x(size);
+        size = 0;
+        for (const gum::InputGroup& group : coarse.model->inputs()) {
+            x.segment(size, group.size()) = group.value;
+            size += group.size();
+        }
+        const Eigen::MatrixXd jacobian = coarse.model->jacobian(x);
+        Eigen::VectorXd variance = Eigen::VectorXd::Zero(jacobian.rows());
+        size = 0;
+        for (const gum::InputGroup& group : coarse.model->inputs()) {
+            const Eigen::MatrixXd part = jacobian.middleCols(size, group.size());
+            variance += group.is_diagonal() ? Eigen::VectorXd(part.cwiseAbs2() * group.covariance.col(0))
+                                            : Eigen::VectorXd((part * group.covariance * part.transpose()).diagonal());
+            size += group.size();
+        }
+        EXPECT_LT((variance.array() / coarse.covariance.diagonal().array() - 1.0).abs().maxCoeff(), 1e-6);
+        // External reliability of either method is by its own gain.
+        EXPECT_EQ(coarse.external_reliability.size(), static_cast<std::size_t>(coarse.values.size()));
+    }
+}
+
+/// Layouts beyond the standard one, each with noise: normalised errors of all reported quantities over some campaigns.
+struct Layout {
+    const char* name;
+    void (*change)(CampaignPlan&);
+    bool correlated_fixture;
+};
+
+class HonestLayout : public testing::TestWithParam<Layout> {};
+
+TEST_P(HonestLayout, NormalisedErrorsHaveUnitSpread) {
+    double squares = 0.0;
+    double set_up = 0.0;
+    double coordinates = 0.0;
+    double variance_factor = 0.0;
+    constexpr int k_campaigns = 10;
+    for (int k = 0; k < k_campaigns; ++k) {
+        CampaignPlan plan;
+        plan.table_linear = 0.3e-6;
+        plan.table_axial = 5e-6;
+        plan.table_tilt = 5e-6 / 3.0;
+        plan.angles_deg = synthetic::full_turn(18);
+        plan.seed = 4000 + static_cast<std::uint64_t>(k);
+        GetParam().change(plan);
+        Campaign campaign = simulate(plan);
+        RotaryTableMeasurement& measurement = campaign.measurement;
+        if (GetParam().correlated_fixture) {
+            // A CMM whose scale and squareness are common to all coordinates, on top of its point noise.
+            const Eigen::Index n = measurement.fixture_covariance.rows();
+            Eigen::MatrixXd common(n, 2);
+            for (Eigen::Index m = 0; m < n / 3; ++m) {
+                const Eigen::Vector3d p = campaign.truth.fixture.row(m).transpose();
+                common.middleRows<3>(3 * m) << 10e-6 * p, Eigen::Vector3d(10e-6 * p[1], 0.0, 0.0);
+            }
+            synthetic::Noise noise(plan.seed + 77);
+            const Eigen::Vector2d drawn(noise.normal(), noise.normal());
+            const Eigen::VectorXd shift = common * drawn;
+            for (Eigen::Index i = 0; i < n; ++i) {
+                measurement.fixture(i / 3, i % 3) += shift[i];
+            }
+            measurement.fixture_covariance += common * common.transpose();
+        }
+        const RotaryTableSolution solution = evaluate(campaign);
+        const Eigen::VectorXd difference = solution.values - campaign.true_values(solution.quantities.has_reversal);
+        const Eigen::ArrayXd u = solution.covariance.diagonal().cwiseSqrt();
+        const Eigen::VectorXd normalised = (u > 0.0).select(difference.array() / u, 0.0);  // zero at home by its datum
+        const Eigen::Index errors = solution.quantities.set_up;
+        squares +=
+            normalised.head(errors).squaredNorm() / static_cast<double>((u.head(errors) > 0.0).count()) / k_campaigns;
+        set_up += normalised.segment<4>(errors).squaredNorm() / 4.0 / k_campaigns;
+        coordinates +=
+            ((solution.fixture - campaign.truth.fixture).array() / solution.u_fixture.array()).square().mean() /
+            k_campaigns;
+        variance_factor += solution.variance_factor / k_campaigns;
+    }
+    EXPECT_NEAR(std::sqrt(squares), 1.0, 0.12);
+    EXPECT_NEAR(std::sqrt(set_up), 1.0, 0.35);  // forty numbers, of which those of one campaign hang together
+    EXPECT_NEAR(std::sqrt(coordinates), 1.0, 0.25);
+    EXPECT_NEAR(variance_factor, 1.0, 0.08);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Layouts, HonestLayout,
+    testing::Values(
+        Layout{"QuarterTurn", [](CampaignPlan& plan) { plan.angles_deg = synthetic::partial_turn(90.0, 12); }, false},
+        Layout{"DeadPathPerPair",
+               [](CampaignPlan& plan) { plan.dead_paths = synthetic::DeadPaths::per_station_and_reflector; }, false},
+        Layout{"QuarterTurnWithDeadPathPerPair",
+               [](CampaignPlan& plan) {
+                   plan.angles_deg = synthetic::partial_turn(90.0, 12);
+                   plan.dead_paths = synthetic::DeadPaths::per_station_and_reflector;
+                   plan.start_values = true;
+               },
+               false},
+        Layout{"FreeScale",
+               [](CampaignPlan& plan) {
+                   plan.scale_model = ScaleModel::free;
+                   plan.u_scale = 2e-6;  // of the simulation; the adjustment is told nothing of it
+               },
+               false},
+        Layout{"CorrelatedFixture", [](CampaignPlan&) {}, true},
+        Layout{"AxisBWithHomeWithin",
+               [](CampaignPlan& plan) {
+                   plan.axis = RotaryAxis::b;
+                   plan.home = 7;
+                   plan.datum = Datum::home;
+               },
+               false},
+        Layout{"AxisCBothSensesThreeRunsWithGaps",
+               [](CampaignPlan& plan) {
+                   plan.axis = RotaryAxis::c;
+                   plan.angles_deg = synthetic::full_turn(8);
+                   plan.home = 3;
+                   plan.both_senses = true;
+                   plan.runs = 3;
+                   plan.reversal << 1e-6, -2e-6, 1.5e-6, 4e-6, -3e-6, 2e-6;
+                   plan.missing_share = 0.15;
+               },
+               false}),
+    [](const auto& layout) { return std::string(layout.param.name); });
 
 }  // namespace
 }  // namespace gumcert::engine

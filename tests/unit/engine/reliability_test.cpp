@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/rotary_table_evaluation.h"
@@ -116,9 +117,18 @@ TEST(Reliability, NumbersOfTheNote) {
     EXPECT_NEAR(mean, 0.810, 0.005);
     EXPECT_NEAR(smallest_bias, 0.9e-6, 0.1e-6);
     EXPECT_NEAR(largest_bias, 1.4e-6, 0.1e-6);
-    const double cmm = solved.redundancy(solved.adjustment.fixture_prior());
-    EXPECT_GT(cmm, 18.0 * 0.52);
-    EXPECT_LT(cmm, 18.0 * 0.82);
+    // Coordinates of the CMM: 0.52 … 0.82, minimal detectable bias 1.9 … 2.3 µm.
+    double sum = 0.0;
+    for (const CoordinateReliability& row :
+         fixture_reliability(solved.adjustment, solved.normal, solved.covariance, 4.13)) {
+        EXPECT_GT(row.redundancy_number, 0.51);
+        EXPECT_LT(row.redundancy_number, 0.83);
+        EXPECT_GT(row.minimal_detectable_bias, 1.85e-6);
+        EXPECT_LT(row.minimal_detectable_bias, 2.35e-6);
+        sum += row.redundancy_number;
+    }
+    EXPECT_NEAR(sum, solved.redundancy(solved.adjustment.fixture_prior()), 1e-9);
+    EXPECT_NEAR(sum, fixture_redundancy(solved.adjustment, solved.normal, solved.covariance), 1e-9);
 }
 
 TEST(Reliability, TestValueForUncorrelatedDistancesIsBaardas) {
@@ -262,6 +272,10 @@ TEST(Reliability, ReportFlagsButKeepsThem) {
         EXPECT_FALSE(row.removed);
         EXPECT_LT(row.redundancy_number, 1.0);
     }
+    for (const OutlierFinding& finding : solution.outliers) {
+        EXPECT_FALSE(finding.removed);
+        EXPECT_EQ(solution.reliability[finding.length].flagged, !finding.came_back);
+    }
     // Kept outliers are paid for: the estimated length noise is larger than what was simulated.
     EXPECT_GT(solution.components[0].value, 0.158e-6 + 3.0 * solution.components[0].u);
 }
@@ -286,6 +300,232 @@ TEST(Reliability, GoodDataIsLeftAlone) {
                                                           [](const DistanceReliability& row) { return row.flagged; }));
     }
     EXPECT_LE(flagged, 4U);  // 5184 distances at α = 0.0001: 0.5 expected
+}
+
+TEST(Reliability, OneAtATimeIsTheAdjustmentWithoutThem) {
+    // Each step against an adjustment that was made anew, with correlated distances of one visit among those left out.
+    CampaignPlan plan = real_table();
+    plan.angles_deg = synthetic::full_turn(12);
+    plan.missing_share = 0.05;
+    const Campaign campaign = simulate(plan);
+    const Solved solved(campaign, weights(plan), all(campaign));
+    OneAtATime search(solved.adjustment, solved.normal, solved.covariance);
+    std::vector<bool> active = all(campaign);
+    for (int step = 0; step < 4; ++step) {
+        const Solved anew(campaign, weights(plan), active);
+        const auto rows = anew.rows(4.13);
+        std::size_t expected = rows.size();
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (active[i] &&
+                (expected == rows.size() || std::abs(rows[i].test_value) > std::abs(rows[expected].test_value))) {
+                expected = i;
+            }
+        }
+        const auto suspect = search.largest(0.0);
+        ASSERT_TRUE(suspect.has_value());
+        EXPECT_EQ(suspect->length, expected);
+        EXPECT_NEAR(suspect->test_value, rows[expected].test_value, 1e-3);  // second order of leaving out
+        EXPECT_NEAR(suspect->redundancy_number, rows[expected].redundancy_number, 1e-4);
+        EXPECT_NEAR(suspect->estimated_error / rows[expected].estimated_error, 1.0, 1e-3);
+        EXPECT_FALSE(search.largest(std::abs(suspect->test_value) * 1.0001).has_value());
+        // The largest, and one of the same visit, which the search is told of.
+        for (const Visit& visit : anew.adjustment.visits()) {
+            if (std::find(visit.observations.begin(), visit.observations.end(), expected) != visit.observations.end()) {
+                const std::size_t neighbour =
+                    visit.observations[0] == expected ? visit.observations[1] : visit.observations[0];
+                search.leave_out(expected);
+                search.leave_out(neighbour);
+                active[expected] = false;
+                active[neighbour] = false;
+            }
+        }
+    }
+}
+
+TEST(Reliability, EstimatedErrorIsWhatWasPlanted) {
+    CampaignPlan plan = real_table();
+    plan.angles_deg = synthetic::full_turn(12);
+    Campaign campaign = simulate(plan);
+    const Solved before(campaign, weights(plan), all(campaign));
+    const auto rows_before = before.rows(4.13);
+    for (const std::size_t i : {std::size_t{17}, std::size_t{200}}) {
+        Campaign wrong = campaign;
+        wrong.measurement.lengths[i].length += 4e-6;
+        const Solved after(wrong, weights(plan), all(wrong));
+        EXPECT_NEAR(after.rows(4.13)[i].estimated_error - rows_before[i].estimated_error, 4e-6, 1e-10);
+        std::vector<bool> active = all(wrong);
+        active[i] = false;
+        const Solved without(wrong, weights(plan), active);
+        EXPECT_NEAR(without.rows(4.13)[i].estimated_error, after.rows(4.13)[i].estimated_error, 1e-10);
+    }
+}
+
+TEST(Reliability, ExternalReliabilityIsTheLargestChangeByAnUndetectedBias) {
+    CampaignPlan plan = real_table();
+    plan.angles_deg = synthetic::full_turn(4);
+    plan.datum = Datum::home;
+    Campaign campaign = simulate(plan);
+    campaign.measurement.table_repeatability.mode = RepeatabilityMode::given;
+    const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+    // Nothing moves what the datum fixes: six zeros at home.
+    ASSERT_EQ(solution.external_reliability.size(), static_cast<std::size_t>(solution.values.size()) - 6);
+    Eigen::MatrixXd change(solution.values.size(), campaign.measurement.lengths.size());
+    for (std::size_t i = 0; i < campaign.measurement.lengths.size(); ++i) {
+        Campaign wrong = campaign;
+        wrong.measurement.lengths[i].length += solution.reliability[i].minimal_detectable_bias;
+        change.col(static_cast<Eigen::Index>(i)) =
+            evaluate_jointly(wrong.measurement, EvaluationOptions{}).values - solution.values;
+    }
+    for (const ExternalReliability& row : solution.external_reliability) {
+        const auto q = static_cast<Eigen::Index>(row.quantity);
+        EXPECT_NEAR(change(q, static_cast<Eigen::Index>(row.length)) / row.influence, 1.0, 2e-3) << row.quantity;
+        EXPECT_NEAR(change.row(q).cwiseAbs().maxCoeff() / std::abs(row.influence), 1.0, 2e-3) << row.quantity;
+    }
+}
+
+TEST(Reliability, TauIsPopes) {
+    // Quantiles of Student's t and of the beta distribution (tau²/nu is beta with 1/2 and (nu - 1)/2) by SciPy 1.10.1,
+    // two-sided 0.0001.
+    EXPECT_NEAR(tau_critical_value(6.593682585486598, 10.0), 2.8783591676609492, 1e-9);
+    EXPECT_NEAR(tau_critical_value(4.055041309114334, 100.0), 3.7740774079924417, 1e-9);
+    EXPECT_NEAR(tau_critical_value(3.912546063357392, 719.5), 3.874214272888896, 1e-9);
+}
+
+TEST(Reliability, EstimatedLengthNoiseIsTestedWithTau) {
+    CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(12);
+    Campaign campaign = simulate(plan);
+    campaign.measurement.outliers.test = OutlierTest::data_snooping;
+    campaign.measurement.estimate_length_noise = true;
+    EvaluationOptions options;
+    std::vector<double> asked;
+    options.student_critical_value = [&asked](double degrees_of_freedom) {
+        asked.push_back(degrees_of_freedom);
+        return 4.0;
+    };
+    const RotaryTableSolution estimated = evaluate_jointly(campaign.measurement, options);
+    const double nu = estimated.components[length_noise].redundancy;
+    ASSERT_TRUE(estimated.critical_value_degrees_of_freedom.has_value());
+    EXPECT_NEAR(*estimated.critical_value_degrees_of_freedom / nu, 1.0, 1e-4);
+    EXPECT_NEAR(asked.back(), nu - 1.0, 1e-3 * nu);
+    EXPECT_NEAR(estimated.critical_value, std::sqrt(nu) * 4.0 / std::sqrt(nu - 1.0 + 16.0), 1e-6);
+    EXPECT_NEAR(estimated.non_centrality - options.non_centrality, estimated.critical_value - options.critical_value,
+                1e-12);
+    campaign.measurement.estimate_length_noise = false;
+    const RotaryTableSolution given = evaluate_jointly(campaign.measurement, options);
+    EXPECT_FALSE(given.critical_value_degrees_of_freedom.has_value());
+    EXPECT_EQ(given.critical_value, options.critical_value);
+    EXPECT_EQ(given.variance_factor_used, VarianceFactorUsed::a_priori);
+}
+
+TEST(Reliability, LogTellsWhatWasFoundInWhichOrderAndWhy) {
+    Campaign campaign = with_outliers(CampaignPlan{}, OutlierAction::remove, 31);
+    std::size_t gross = 600;
+    while (std::binary_search(campaign.truth.outliers.begin(), campaign.truth.outliers.end(), gross)) {
+        ++gross;
+    }
+    campaign.measurement.lengths[gross].length += 0.08;
+    const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+    ASSERT_GE(solution.outliers.size(), 13U);
+    EXPECT_EQ(solution.outliers[0].length, gross);
+    EXPECT_EQ(solution.outliers[0].reason, OutlierReason::gross_error);
+    EXPECT_NEAR(solution.outliers[0].estimated_error, 0.08, 1e-6);
+    EXPECT_TRUE(solution.outliers[0].removed);
+    EXPECT_FALSE(solution.outliers[0].came_back);
+    std::vector<bool> removed(solution.reliability.size(), false);
+    for (const OutlierFinding& finding : solution.outliers) {
+        EXPECT_NE(finding.removed, finding.came_back);
+        removed[finding.length] = removed[finding.length] || finding.removed;
+        if (finding.reason == OutlierReason::data_snooping) {
+            EXPECT_GT(std::abs(finding.test_value), finding.critical_value);
+            EXPECT_GT(finding.redundancy_number, 0.0);
+            EXPECT_LE(finding.redundancy_number, 1.0);
+            EXPECT_LT(finding.test_value * finding.estimated_error, 0.0);  // w has the sign of adjusted - observed
+            EXPECT_NEAR(std::abs(finding.estimated_error), 3e-6, 2e-6);
+        }
+    }
+    for (std::size_t i = 0; i < removed.size(); ++i) {
+        EXPECT_EQ(removed[i], solution.reliability[i].removed);
+    }
+    EXPECT_FALSE(std::any_of(solution.notes.begin(), solution.notes.end(),
+                             [](const gum::Diagnostic& note) { return note.code.starts_with("GC-OUTLIER"); }));
+}
+
+TEST(Reliability, TwentyCampaignsAllFoundAndFewGoodOnesFlagged) {
+    std::size_t good = 0;
+    std::size_t false_alarms = 0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        CampaignPlan plan = seed % 2 == 0 ? CampaignPlan{} : real_table();
+        plan.axis = std::array{RotaryAxis::a, RotaryAxis::b, RotaryAxis::c}[seed % 3];
+        plan.angles_deg = synthetic::full_turn(24);
+        plan.outlier_size = (3.0 + static_cast<double>(seed % 4)) * 1e-6;
+        const Campaign campaign = with_outliers(plan, OutlierAction::remove, 8000 + seed);
+        const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+        for (std::size_t i = 0; i < solution.reliability.size(); ++i) {
+            if (std::binary_search(campaign.truth.outliers.begin(), campaign.truth.outliers.end(), i)) {
+                EXPECT_TRUE(solution.reliability[i].removed) << "seed " << seed << ", distance " << i;
+            } else {
+                ++good;
+                false_alarms += solution.reliability[i].flagged ? 1U : 0U;
+            }
+        }
+    }
+    EXPECT_LE(static_cast<double>(false_alarms), 0.002 * static_cast<double>(good));
+}
+
+TEST(Reliability, ManyOutliersOfManySizesInALongMeasurement) {
+    CampaignPlan plan = real_table();
+    plan.both_senses = true;
+    plan.outliers = 60;
+    plan.seed = 4;
+    Campaign campaign = simulate(plan);
+    for (std::size_t k = 0; k < campaign.truth.outliers.size(); k += 4) {
+        LengthObservation& length = campaign.measurement.lengths[campaign.truth.outliers[k]];
+        length.length += (k % 8 == 0 ? 1.0 : -1.0) * 1e-5 * std::pow(10.0, static_cast<double>(k / 4 % 4));
+    }
+    campaign.measurement.outliers = {OutlierTest::data_snooping, 0.0001, OutlierAction::remove};
+    campaign.measurement.estimate_length_noise = true;
+    campaign.measurement.table_repeatability = {RepeatabilityMode::estimate, 0.0, 0.0, 0.0};
+    const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+    ASSERT_EQ(solution.reliability.size(), 2592U);
+    expect_found(campaign, solution);
+    // The largest first.
+    EXPECT_GT(std::abs(solution.outliers.front().estimated_error), 0.009);
+}
+
+TEST(Reliability, WrongCoordinateOfTheFixtureIsNamed) {
+    CampaignPlan plan;
+    plan.seed = 6;
+    Campaign campaign = simulate(plan);
+    campaign.measurement.outliers.test = OutlierTest::data_snooping;
+    campaign.measurement.fixture(2, 1) += 8e-6;
+    const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+    ASSERT_EQ(solution.fixture_reliability.size(), 18U);
+    std::size_t largest = 0;
+    for (std::size_t k = 0; k < 18; ++k) {
+        if (std::abs(solution.fixture_reliability[k].test_value) >
+            std::abs(solution.fixture_reliability[largest].test_value)) {
+            largest = k;
+        }
+    }
+    EXPECT_EQ(largest, 7U);
+    EXPECT_NEAR(solution.fixture_reliability[7].estimated_error, 8e-6, 2e-6);
+    EXPECT_TRUE(std::any_of(solution.notes.begin(), solution.notes.end(), [](const gum::Diagnostic& note) {
+        return note.code == "GC-OUTLIER-0003" && note.where == "fixture, reflector R3, y";
+    }));
+}
+
+TEST(Reliability, UncertaintyStatedMuchTooSmallIsNotTakenForOutliersInSilence) {
+    CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(12);
+    plan.seed = 13;
+    Campaign campaign = simulate(plan);
+    campaign.measurement.length_uncertainty.u_constant /= 3.0;
+    campaign.measurement.length_uncertainty.u_proportional /= 3.0;
+    campaign.measurement.outliers.test = OutlierTest::data_snooping;
+    const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+    EXPECT_TRUE(std::any_of(solution.notes.begin(), solution.notes.end(),
+                            [](const gum::Diagnostic& note) { return note.code == "GC-OUTLIER-0001"; }));
 }
 
 }  // namespace

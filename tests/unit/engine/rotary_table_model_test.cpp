@@ -151,6 +151,16 @@ INSTANTIATE_TEST_SUITE_P(AxesAndData, ModelOfTheTable,
                                     (std::get<1>(tested.param) == Datum::home ? "Home" : "AxisAverageLine");
                          });
 
+/// The model takes an adjustment in which the dead paths are free; that of another model has them held.
+JointAdjustment solution_with_free_dead_paths(const Campaign& campaign, const JointAdjustment& from,
+                                              const StochasticModel& stochastic) {
+    JointAdjustment result(campaign.measurement, from.active(), from.set_up(), from.present_values(), stochastic);
+    result.copy_parameters_from(from);
+    result.set_weights(stochastic);
+    EXPECT_TRUE(result.adjustment().refine(SolverOptions{}).converged);
+    return result;
+}
+
 TEST(RotaryTableModel, EveryGroupNamesItsSource) {
     const Campaign campaign = simulate(full_plan(RotaryAxis::a, Datum::home));
     const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
@@ -180,6 +190,160 @@ TEST(RotaryTableModel, OnlyWhatIsUncertainIsAnInput) {
         }
     }
     EXPECT_EQ(solution.quantities.outputs.size(), 6U * 8U + 4U);
+}
+
+TEST(RotaryTableModel, LayoutIsThatOfTheInputs) {
+    Campaign campaign = simulate(full_plan(RotaryAxis::b, Datum::home));
+    for (const double resolution : {0.0, 1e-7}) {
+        campaign.measurement.length_uncertainty.resolution = resolution;
+        const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+        const auto model = std::dynamic_pointer_cast<const RotaryTableModel>(solution.model);
+        const RotaryTableInputs& layout = model->layout();
+        const std::vector<std::pair<std::string, Eigen::Index>> expected{
+            {"length noise", layout.lengths},
+            {"scale of the stations", layout.scale},
+            {"dead paths", layout.dead_paths},
+            {"CMM coordinates of the fixture", layout.fixture},
+            {"temperature of the fixture", layout.temperature},
+            {"expansion coefficient of the fixture", layout.expansion},
+            {"table repeatability, linear", layout.linear},
+            {"table repeatability, axial", layout.axial},
+            {"table repeatability, tilt", layout.tilt},
+            {"resolution of the lengths", layout.resolution}};
+        Eigen::Index first = 0;
+        ASSERT_EQ(model->inputs().size(), resolution > 0.0 ? 10U : 9U);
+        for (std::size_t g = 0; g < model->inputs().size(); ++g) {
+            EXPECT_EQ(model->inputs()[g].name, expected[g].first);
+            EXPECT_EQ(first, expected[g].second) << expected[g].first;
+            first += model->inputs()[g].size();
+        }
+        EXPECT_EQ(first, layout.size);
+    }
+}
+
+TEST(RotaryTableModel, ResolutionIsAUniformInputOfEveryLength) {
+    Campaign campaign = simulate(full_plan(RotaryAxis::a, Datum::axis_average_line));
+    campaign.measurement.length_uncertainty.resolution = 0.6e-6;
+    const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+    const gum::MeasurementModel& model = *solution.model;
+    const gum::InputGroup& group = model.inputs().back();
+    ASSERT_EQ(group.name, "resolution of the lengths");
+    EXPECT_EQ(group.source, "length noise");
+    EXPECT_EQ(group.distribution, "uniform");
+    ASSERT_EQ(group.size(), static_cast<Eigen::Index>(campaign.measurement.lengths.size()));
+    ASSERT_EQ(group.marginals.size(), campaign.measurement.lengths.size());
+    EXPECT_NEAR(group.marginals[7].scale, 0.3e-6, 1e-18);  // half a step
+    EXPECT_NEAR(std::sqrt(group.covariance(7, 0)), 0.3e-6 / std::sqrt(3.0), 1e-18);
+    // What it adds is in the covariance of the adjustment as well.
+    const Eigen::MatrixXd jacobian = model.jacobian(gum::input_estimates(model));
+    Eigen::VectorXd variance = Eigen::VectorXd::Zero(jacobian.rows());
+    Eigen::Index first = 0;
+    for (const gum::InputGroup& input : model.inputs()) {
+        const Eigen::MatrixXd part = jacobian.middleCols(first, input.size());
+        variance += input.is_diagonal() ? Eigen::VectorXd(part.cwiseAbs2() * input.covariance.col(0))
+                                        : Eigen::VectorXd((part * input.covariance * part.transpose()).diagonal());
+        first += input.size();
+    }
+    for (Eigen::Index i = 0; i < variance.size(); ++i) {
+        EXPECT_NEAR(variance[i], solution.covariance(i, i), 1e-6 * solution.covariance(i, i));
+    }
+    // A length that was rounded down by r is longer by r.
+    Eigen::VectorXd x = gum::input_estimates(model);
+    x[11] += 1e-7;
+    const Eigen::VectorXd by_length = model.evaluate(x);
+    x[11] -= 1e-7;
+    x[x.size() - group.size() + 11] += 1e-7;
+    EXPECT_LT((model.evaluate(x) - by_length).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+TEST(RotaryTableModel, ShapesBecomeDistributions) {
+    Campaign campaign = simulate(full_plan(RotaryAxis::a, Datum::axis_average_line));
+    const auto check = [](const gum::InputGroup& group, bool uniform) {
+        EXPECT_EQ(group.distribution, uniform ? "uniform" : "normal") << group.name;
+        EXPECT_EQ(group.marginals.size(), uniform ? static_cast<std::size_t>(group.size()) : 0U) << group.name;
+        for (std::size_t i = 0; i < group.marginals.size(); ++i) {
+            const auto at = static_cast<Eigen::Index>(i);
+            EXPECT_EQ(group.covariance.cols(), 1) << group.name;
+            EXPECT_NEAR(gum::standard_deviation(group.marginals[i]), std::sqrt(group.covariance(at, 0)),
+                        1e-12 * std::sqrt(group.covariance(at, 0)));
+            EXPECT_EQ(gum::expectation(group.marginals[i]), group.value[at]);
+        }
+    };
+    for (const InputShape shape : {InputShape::normal, InputShape::uniform}) {
+        campaign.measurement.fixture_shape = shape;
+        campaign.measurement.temperature_shape = shape;
+        campaign.measurement.expansion_shape = shape;
+        const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+        for (const gum::InputGroup& group : solution.model->inputs()) {
+            check(group, shape == InputShape::uniform && group.source.starts_with("fixture"));
+        }
+    }
+    // Correlated coordinates stay normal: a uniform shape is for uncorrelated ones.
+    campaign.measurement.fixture_covariance(0, 1) = campaign.measurement.fixture_covariance(1, 0) =
+        0.3 * campaign.measurement.fixture_covariance(0, 0);
+    const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+    for (const gum::InputGroup& group : solution.model->inputs()) {
+        check(group, group.source == "fixture thermal");
+    }
+}
+
+TEST(RotaryTableModel, FixtureFactorScalesTheCovarianceOfTheCoordinates) {
+    const Campaign campaign = simulate(full_plan(RotaryAxis::a, Datum::axis_average_line));
+    const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+    const auto joint = std::dynamic_pointer_cast<const RotaryTableModel>(solution.model);
+    JointAdjustment adjustment = joint->solved();
+    StochasticModel stochastic = joint->stochastic();
+    stochastic.fixture_factor = 2.25;
+    const RotaryTableModel model(campaign.measurement, solution_with_free_dead_paths(campaign, adjustment, stochastic),
+                                 stochastic, {1e9, 1e9, 1e9, 1e9, 12.0});
+    const auto group_of = [](const RotaryTableModel& of) {
+        return *std::find_if(of.inputs().begin(), of.inputs().end(),
+                             [](const gum::InputGroup& group) { return group.source == "fixture CMM"; });
+    };
+    const gum::InputGroup before = group_of(*joint);
+    const gum::InputGroup after = group_of(model);
+    EXPECT_LT((after.covariance - 2.25 * before.covariance).cwiseAbs().maxCoeff(), 1e-25);
+    EXPECT_EQ(after.degrees_of_freedom, 12.0);
+    EXPECT_EQ(after.evaluation, gum::Evaluation::type_a);
+    EXPECT_EQ(before.evaluation, gum::Evaluation::type_b);
+    EXPECT_TRUE(std::isinf(before.degrees_of_freedom));
+}
+
+TEST(RotaryTableModel, SensitivityOfAnyCombinationIsThatOfTheReportedQuantities) {
+    // Two ways to the same rows: all reported quantities and then the combination, or the combination at once. A
+    // residual is l - f: its derivative is that of the length less that of the prediction, zero for A^T V^-1 (l - f).
+    const Campaign campaign = simulate(full_plan(RotaryAxis::c, Datum::home));
+    const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+    const auto model = std::dynamic_pointer_cast<const RotaryTableModel>(solution.model);
+    const Eigen::MatrixXd all = model->jacobian(gum::input_estimates(*model));
+    const NormalEquations normal = model->solved().adjustment().linearise();
+    const Eigen::MatrixXd map = reported_map(model->solved(), normal, solution.datum);
+    Noise noise(5);
+    Eigen::MatrixXd combination(3, map.rows());
+    for (double& value : combination.reshaped()) {
+        value = noise.normal();
+    }
+    const Eigen::MatrixXd direct =
+        model->input_sensitivity(model->solved(), normal, combination * map, Eigen::MatrixXd(3, 0));
+    EXPECT_LT((direct - combination * all).cwiseAbs().maxCoeff(), 1e-8 * direct.cwiseAbs().maxCoeff());
+
+    const Eigen::Index lengths = model->layout().scale;
+    Eigen::MatrixXd normal_rows = Eigen::MatrixXd::Zero(normal.parameter_count(), lengths);  // Jᵀ V⁻¹
+    Eigen::Index first = 0;
+    for (std::size_t v = 0; v < model->solved().visits().size(); ++v) {
+        const LinearisedGroup& group = normal.groups()[v];
+        const Eigen::MatrixXd rows =
+            group.cholesky.triangularView<Eigen::Lower>().transpose().solve(group.jacobian).transpose();
+        for (std::size_t c = 0; c < group.columns.size(); ++c) {
+            normal_rows.row(group.columns[c]).segment(first, rows.cols()) = rows.row(static_cast<Eigen::Index>(c));
+        }
+        first += rows.cols();
+    }
+    // Normal equations of the poses, which no prior touches: Jᵀ V⁻¹ (l - f) = 0 for any lengths.
+    const Eigen::MatrixXd pose_rows = normal_rows.bottomRows(6 * 7);
+    const Eigen::MatrixXd zero = model->input_sensitivity(
+        model->solved(), normal, Eigen::MatrixXd::Zero(pose_rows.rows(), map.cols()), pose_rows);
+    EXPECT_LT(zero.leftCols(lengths).cwiseAbs().maxCoeff(), 1e-7 * pose_rows.cwiseAbs().maxCoeff());
 }
 
 TEST(RotaryTableModel, SmallMonteCarloReproducesTheStandardUncertainties) {

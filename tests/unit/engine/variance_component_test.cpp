@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "engine/rotary_table_evaluation.h"
 #include "tests/support/synthetic_campaign.h"
@@ -47,7 +48,7 @@ TEST(VarianceComponents, AreRecoveredWithinTheirStatedUncertainty) {
         plan.axis = std::array{RotaryAxis::a, RotaryAxis::b, RotaryAxis::c}[static_cast<std::size_t>(k % 3)];
         plan.seed = 2000 + static_cast<std::uint64_t>(k);
         const RotaryTableSolution solution = evaluate_jointly(to_estimate(plan).measurement, EvaluationOptions{});
-        ASSERT_EQ(solution.components.size(), 4U);
+        ASSERT_EQ(solution.components.size(), 5U);
         EXPECT_FALSE(has_note(solution, "GC-VARIANCE-0001")) << "not converged";
         const std::array<double, 4> truth{plan.u_constant, plan.table_linear, plan.table_axial, plan.table_tilt};
         for (std::size_t c = 0; c < 4; ++c) {
@@ -95,16 +96,13 @@ TEST(VarianceComponents, ComponentsAreAFixedPoint) {
     EXPECT_NEAR(step.stochastic.variance_linear / solution.stochastic.variance_linear, 1.0, 1e-4);
     EXPECT_NEAR(step.stochastic.variance_axial / solution.stochastic.variance_axial, 1.0, 1e-4);
     EXPECT_NEAR(step.stochastic.variance_tilt / solution.stochastic.variance_tilt, 1.0, 1e-4);
-    // Redundancies of the components and of the priors add to the degrees of freedom: Σ θ tr(R V_k) = tr(R V).
+    // Redundancies of the components add to the degrees of freedom: Σ θ tr(R V_k) = tr(R V).
     double redundancy = 0.0;
     for (const VarianceComponent& component : step.components) {
         redundancy += component.redundancy;
     }
-    const LinearisedGroup& prior = normal.groups()[adjustment.fixture_prior()];
-    const Eigen::MatrixXd covariance = normal.covariance();
-    const Eigen::MatrixXd local = covariance(prior.columns, prior.columns);
-    redundancy +=
-        static_cast<double>(prior.residual.size()) - (prior.jacobian * local * prior.jacobian.transpose()).trace();
+    EXPECT_NEAR(step.components[fixture_cmm].redundancy, fixture_redundancy(adjustment, normal, normal.covariance()),
+                1e-9);
     EXPECT_NEAR(redundancy, static_cast<double>(solution.degrees_of_freedom), 1e-3);
 }
 
@@ -167,6 +165,216 @@ TEST(VarianceComponents, SingleDistanceAVisitKeepsTheLengthNoiseAsStated) {
     const Eigen::VectorXd normalised =
         (solution.values - truth_values).array() / solution.covariance.diagonal().array().sqrt();
     EXPECT_NEAR(std::sqrt(normalised.squaredNorm() / static_cast<double>(normalised.size())), 1.0, 0.3);
+}
+
+/// Probability above chi-square by the series of the incomplete gamma function, enough for tests.
+double chi_square_above(double chi_square, double degrees_of_freedom) {
+    const double a = 0.5 * degrees_of_freedom;
+    const double x = 0.5 * chi_square;
+    double term = 1.0 / a;
+    double sum = term;
+    for (int n = 1; n < 2000; ++n) {
+        term *= x / (a + n);
+        sum += term;
+    }
+    return 1.0 - std::exp(a * std::log(x) - x - std::lgamma(a)) * sum;
+}
+
+EvaluationOptions with_fixture_test() {
+    EvaluationOptions options;
+    options.chi_square_upper_tail = chi_square_above;
+    return options;
+}
+
+TEST(VarianceComponents, TracerAndCmmHaveTheInformationOfTheNote) {
+    // rotary-table.md, D4: tracer 2.2 %, CMM 21 %, redundancy of the CMM 11.9, for a perfect table.
+    EXPECT_NEAR(chi_square_above(18.307038, 10.0), 0.05, 1e-6);
+    double tracer = 0.0;
+    double cmm = 0.0;
+    double redundancy = 0.0;
+    constexpr int k_campaigns = 8;
+    for (std::uint64_t seed = 0; seed < k_campaigns; ++seed) {
+        CampaignPlan plan;
+        plan.seed = 300 + seed;
+        Campaign campaign = simulate(plan);
+        campaign.measurement.table_repeatability.mode = RepeatabilityMode::none;
+        campaign.measurement.estimate_length_noise = true;
+        campaign.measurement.fixture_component = FixtureComponent::estimate;
+        const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+        tracer += solution.components[length_noise].u / solution.components[length_noise].value / k_campaigns;
+        cmm += solution.components[fixture_cmm].u / solution.components[fixture_cmm].value / k_campaigns;
+        redundancy += solution.components[fixture_cmm].redundancy / k_campaigns;
+        EXPECT_TRUE(solution.components[fixture_cmm].used);
+        EXPECT_NEAR(solution.components[fixture_cmm].value / *solution.components[fixture_cmm].stated,
+                    std::sqrt(solution.stochastic.fixture_factor), 1e-6);
+        // Every component estimated: restricted maximum likelihood fills the degrees of freedom exactly.
+        EXPECT_NEAR(solution.chi_square / static_cast<double>(solution.degrees_of_freedom), 1.0, 1e-5);
+        EXPECT_EQ(solution.variance_factor_used, VarianceFactorUsed::a_posteriori);
+    }
+    EXPECT_NEAR(tracer, 0.022, 0.001);
+    EXPECT_NEAR(cmm, 0.21, 0.015);
+    EXPECT_NEAR(redundancy, 11.9, 0.2);
+}
+
+TEST(VarianceComponents, StatedUncertaintyOfEachAgreesWithTheScatterOverCampaigns) {
+    constexpr int k_campaigns = 60;
+    Eigen::MatrixXd value(5, k_campaigns);
+    Eigen::MatrixXd u(5, k_campaigns);
+    for (int k = 0; k < k_campaigns; ++k) {
+        CampaignPlan plan = real_table();
+        plan.angles_deg = synthetic::full_turn(24);
+        plan.seed = 9000 + static_cast<std::uint64_t>(k);
+        Campaign campaign = to_estimate(plan);
+        campaign.measurement.fixture_component = FixtureComponent::estimate;
+        const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+        ASSERT_EQ(solution.components.size(), 5U);
+        for (Eigen::Index c = 0; c < 5; ++c) {
+            value(c, k) = solution.components[static_cast<std::size_t>(c)].value;
+            u(c, k) = solution.components[static_cast<std::size_t>(c)].u;
+        }
+    }
+    CampaignPlan plan = real_table();
+    const double cmm = std::sqrt(simulate(plan).measurement.fixture_covariance.diagonal().mean());
+    const std::array<double, 5> truth{plan.u_constant, plan.table_linear, plan.table_axial, plan.table_tilt, cmm};
+    for (Eigen::Index c = 0; c < 5; ++c) {
+        const double mean = value.row(c).mean();
+        const double scatter = std::sqrt((value.row(c).array() - mean).square().sum() / (k_campaigns - 1));
+        const double stated = std::sqrt(u.row(c).squaredNorm() / k_campaigns);
+        // A scatter of 60 is known to 9 %; a mean of 60, to 0.13 of the scatter. A standard deviation with 12 degrees
+        // of freedom is low by 2 % in the mean.
+        EXPECT_NEAR(scatter / stated, 1.0, 0.27) << "component " << c;
+        EXPECT_LT(std::abs(mean - truth[static_cast<std::size_t>(c)]), 0.45 * scatter) << "component " << c;
+    }
+}
+
+TEST(VarianceComponents, CheckOfTheFixtureDoesNotTouchTheResult) {
+    CampaignPlan plan = real_table();
+    plan.seed = 12;
+    Campaign campaign = to_estimate(plan);
+    campaign.measurement.fixture_component = FixtureComponent::given;
+    const RotaryTableSolution given = evaluate_jointly(campaign.measurement, with_fixture_test());
+    campaign.measurement.fixture_component = FixtureComponent::check;
+    const RotaryTableSolution check = evaluate_jointly(campaign.measurement, with_fixture_test());
+    EXPECT_EQ(given.values, check.values);
+    EXPECT_EQ(given.covariance, check.covariance);
+    EXPECT_EQ(check.stochastic.fixture_factor, 1.0);
+    const VarianceComponent& stated = given.components[fixture_cmm];
+    EXPECT_FALSE(stated.estimated);
+    EXPECT_EQ(stated.value, *stated.stated);
+    EXPECT_EQ(stated.u, 0.0);
+    const VarianceComponent& row = check.components[fixture_cmm];
+    EXPECT_EQ(row.name, "fixture CMM");
+    EXPECT_TRUE(row.estimated);
+    EXPECT_TRUE(row.separable);
+    EXPECT_FALSE(row.used);
+    EXPECT_FALSE(row.angular);
+    EXPECT_EQ(*row.stated, *stated.stated);
+    EXPECT_LT(std::abs(row.value - *row.stated), 3.0 * row.u);
+    EXPECT_NEAR(row.u / row.value, 0.21, 0.03);
+    EXPECT_NEAR(row.degrees_of_freedom, 11.5, 2.0);
+    EXPECT_FALSE(has_note(check, "GC-VARIANCE-0003"));
+    // The same numbers as when it is used, as far as the other weights are the same.
+    campaign.measurement.fixture_component = FixtureComponent::estimate;
+    const RotaryTableSolution estimate = evaluate_jointly(campaign.measurement, with_fixture_test());
+    EXPECT_NEAR(estimate.components[fixture_cmm].value / row.value, 1.0, 1e-3);
+    EXPECT_NEAR(estimate.components[fixture_cmm].u / row.u, 1.0, 1e-3);
+}
+
+TEST(VarianceComponents, FixtureStatedWrongIsFoundOut) {
+    for (const double factor : {1.0 / 9.0, 9.0}) {
+        CampaignPlan plan = real_table();
+        plan.seed = 40;
+        Campaign campaign = to_estimate(plan);
+        campaign.measurement.fixture_covariance *= factor;
+        const RotaryTableSolution check = evaluate_jointly(campaign.measurement, with_fixture_test());
+        ASSERT_TRUE(has_note(check, "GC-VARIANCE-0003")) << factor;
+        for (const gum::Diagnostic& note : check.notes) {
+            if (note.code == "GC-VARIANCE-0003") {
+                EXPECT_EQ(note.severity, gum::Severity::warning);
+                EXPECT_NE(note.action.find("\"variance_component\": \"estimate\""), std::string::npos);
+                EXPECT_NE(note.what.find(factor < 1.0 ? "0.135 µm is stated" : "1.21 µm is stated"), std::string::npos)
+                    << note.what;
+            }
+        }
+        EXPECT_EQ(check.stochastic.fixture_factor, 1.0);
+        campaign.measurement.fixture_component = FixtureComponent::estimate;
+        const RotaryTableSolution estimate = evaluate_jointly(campaign.measurement, with_fixture_test());
+        EXPECT_FALSE(has_note(estimate, "GC-VARIANCE-0003"));
+        EXPECT_GT(estimate.stochastic.fixture_factor * factor, 0.3);
+        EXPECT_LT(estimate.stochastic.fixture_factor * factor, 2.5);
+        // Set-up errors rest on the fixture: their uncertainty follows its component.
+        const double ratio = estimate.covariance(estimate.quantities.set_up, estimate.quantities.set_up) /
+                             check.covariance(check.quantities.set_up, check.quantities.set_up);
+        EXPECT_NEAR(ratio / estimate.stochastic.fixture_factor, 1.0, 0.35);
+    }
+}
+
+TEST(VarianceComponents, FixtureThatTheDistancesCannotJudgeIsNotJudged) {
+    // A CMM fifty times better than the tracer: what the distances say of the coordinates is nothing new.
+    for (const FixtureComponent mode : {FixtureComponent::check, FixtureComponent::estimate}) {
+        CampaignPlan plan;
+        plan.cmm_factor = 0.02;
+        plan.angles_deg = synthetic::full_turn(12);
+        Campaign campaign = to_estimate(plan);
+        campaign.measurement.fixture_component = mode;
+        const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, with_fixture_test());
+        const VarianceComponent& row = solution.components[fixture_cmm];
+        EXPECT_FALSE(row.separable);
+        EXPECT_FALSE(row.estimated);
+        EXPECT_EQ(row.value, *row.stated);
+        EXPECT_EQ(row.u, 0.0);
+        EXPECT_LT(row.redundancy, 2.0);
+        EXPECT_EQ(solution.stochastic.fixture_factor, 1.0);
+        EXPECT_TRUE(has_note(solution, "GC-VARIANCE-0004"));
+    }
+}
+
+TEST(VarianceComponents, ResolutionStaysOutsideTheLengthNoise) {
+    double with = 0.0;
+    double without = 0.0;
+    double squares = 0.0;
+    constexpr int k_campaigns = 4;
+    for (std::uint64_t seed = 0; seed < k_campaigns; ++seed) {
+        CampaignPlan plan;
+        plan.seed = 700 + seed;
+        Campaign campaign = simulate(plan);
+        campaign.measurement.estimate_length_noise = true;
+        constexpr double k_step = 0.5e-6;
+        for (LengthObservation& length : campaign.measurement.lengths) {
+            length.length = k_step * std::round(length.length / k_step);
+        }
+        const RotaryTableSolution blind = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+        campaign.measurement.length_uncertainty.resolution = k_step;
+        const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+        with += solution.components[length_noise].value / plan.u_constant / k_campaigns;
+        without += blind.components[length_noise].value / plan.u_constant / k_campaigns;
+        EXPECT_EQ(*solution.components[length_noise].stated, plan.u_constant);
+        // The shares of resolution and noise cannot change what both do together.
+        EXPECT_NEAR(solution.covariance(0, 0) / blind.covariance(0, 0), 1.0, 0.03);
+        const Eigen::VectorXd normalised =
+            (solution.values - campaign.true_values(false)).array() / solution.covariance.diagonal().array().sqrt();
+        squares += normalised.squaredNorm() / static_cast<double>(normalised.size()) / k_campaigns;
+    }
+    // Variance of one length at a metre: 0.158² + 0.194² + 0.5²/12, noise and proportional part estimated together.
+    EXPECT_NEAR(with, 1.0, 0.04);
+    EXPECT_GT(without, 1.1);
+    EXPECT_NEAR(std::sqrt(squares), 1.0, 0.12);
+}
+
+TEST(VarianceComponents, NoiseBelowTheResolutionEndsAtZero) {
+    CampaignPlan plan;
+    plan.u_constant = 0.01e-6;
+    plan.u_proportional = 0.0;
+    plan.seed = 77;
+    Campaign campaign = simulate(plan);
+    campaign.measurement.estimate_length_noise = true;
+    // A coarse display whose rounding is taken for larger than it is: nothing is left for the noise.
+    campaign.measurement.length_uncertainty.resolution = 0.1e-6;
+    const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+    EXPECT_FALSE(has_note(solution, "GC-VARIANCE-0001"));
+    EXPECT_EQ(solution.components[length_noise].value, 0.0);
+    EXPECT_GT(solution.components[length_noise].u, 0.0);
+    EXPECT_TRUE(solution.covariance.allFinite());
 }
 
 }  // namespace
