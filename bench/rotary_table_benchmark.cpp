@@ -9,14 +9,19 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <string>
 #include <string_view>
 
 #include "engine/rotary_table_evaluation.h"
+#include "engine/rotary_table_trials.h"
+#include "gum/monte_carlo.h"
 #include "gum/propagation.h"
+#include "gum/random_draws.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {
@@ -146,6 +151,80 @@ void propagate(benchmark::State& state) {
     }
 }
 
+/// Table with repeatability, so that every visit has deviations of its own to draw: the largest number of inputs.
+Campaign with_repeatability(int angles) {
+    CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(angles);
+    plan.table_linear = 0.3e-6;
+    plan.table_axial = 5e-6;
+    plan.table_tilt = 1.7e-6;
+    return simulate(plan);
+}
+
+/// The Monte Carlo method with all its statistics: every trial solves the whole adjustment again.
+void monte_carlo(benchmark::State& state) {
+    const RotaryTableSolution solution = evaluate_jointly(with_repeatability(36).measurement, EvaluationOptions{});
+    const RotaryTableTrials trials(dynamic_cast<const RotaryTableModel&>(*solution.model));
+    gum::MonteCarloOptions options;
+    options.trials = 100'000;
+    options.threads = static_cast<unsigned>(state.range(0));
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(gum::run_monte_carlo(trials, options));
+    }
+    const auto done = static_cast<double>(options.trials) * static_cast<double>(state.iterations());
+    state.counters["trials/s"] = benchmark::Counter(done, benchmark::Counter::kIsRate);
+    state.counters["steps"] = trials.steps().mean();
+}
+
+// Growth with the number of angles. Everything but the covariance of all reported quantities grows in proportion: that
+// one has (6N)² elements.
+
+void growth_solve(benchmark::State& state) {
+    const Campaign campaign = with_repeatability(static_cast<int>(state.range(0)));
+    const JointAdjustment prepared = at_start(campaign);
+    for (auto _ : state) {
+        state.PauseTiming();
+        JointAdjustment adjustment = prepared;
+        state.ResumeTiming();
+        if (!adjustment.adjustment().solve(SolverOptions{}).converged) {
+            state.SkipWithError("not converged");
+            break;
+        }
+    }
+    state.counters["s/angle"] = benchmark::Counter(static_cast<double>(state.iterations() * state.range(0)),
+                                                   benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void growth_covariance(benchmark::State& state) {
+    const Campaign campaign = with_repeatability(static_cast<int>(state.range(0)));
+    const JointAdjustment adjustment = solved(campaign);
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(reported_covariance(adjustment));
+    }
+    state.counters["s/angle"] = benchmark::Counter(static_cast<double>(state.iterations() * state.range(0)),
+                                                   benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void growth_trials(benchmark::State& state) {
+    const Campaign campaign = with_repeatability(static_cast<int>(state.range(0)));
+    constexpr double k_infinity = std::numeric_limits<double>::infinity();
+    const RotaryTableTrials trials(solved(campaign), weights_of(campaign.measurement),
+                                   {k_infinity, k_infinity, k_infinity, k_infinity});
+    // Drawn as the Monte Carlo method does, 64 trials at a time.
+    const gum::InputDraws draws(trials.inputs(), 1, {});
+    Eigen::MatrixXd x(64, draws.size());
+    Eigen::MatrixXd y(64, static_cast<Eigen::Index>(trials.outputs().size()));
+    std::uint64_t first = 0;
+    for (auto _ : state) {
+        draws.draw(first, x);
+        trials.evaluate_trials(x, y);
+        benchmark::DoNotOptimize(y.data());
+        first += 64;
+    }
+    state.counters["s/trial/angle"] = benchmark::Counter(static_cast<double>(64 * state.iterations() * state.range(0)),
+                                                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
 BENCHMARK(start_values)->Unit(benchmark::kMillisecond);
 BENCHMARK(solve)->Unit(benchmark::kMillisecond);
 BENCHMARK(covariance_of_parameters)->Unit(benchmark::kMillisecond);
@@ -154,6 +233,10 @@ BENCHMARK(variance_component_step)->Unit(benchmark::kMillisecond);
 BENCHMARK(evaluate_stated_weights)->Unit(benchmark::kMillisecond);
 BENCHMARK(evaluate_estimated_weights)->Unit(benchmark::kMillisecond);
 BENCHMARK(propagate)->Unit(benchmark::kMillisecond);
+BENCHMARK(monte_carlo)->Arg(1)->Arg(2)->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(growth_solve)->Arg(36)->Arg(360)->Arg(3600)->Unit(benchmark::kMillisecond);
+BENCHMARK(growth_covariance)->Arg(36)->Arg(360)->Unit(benchmark::kMillisecond);
+BENCHMARK(growth_trials)->Arg(36)->Arg(360)->Arg(3600)->Unit(benchmark::kMillisecond);
 
 /// One number of the campaign, by what it is and where: i, j and k are explained in scipy_rotary_table.py.
 void write(std::ostream& file, std::string_view kind, std::array<Eigen::Index, 3> where, double value, double u = 0.0) {
