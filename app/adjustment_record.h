@@ -1,15 +1,16 @@
 #pragma once
 
 #include "engine/rotary_table_evaluation.h"
+#include "gum/propagation.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
 
 /// What a record holds of the adjustment itself: stations, dead paths, fixture, global test, variance components,
 /// reliability and outlying distances.
+/// \param propagation  of the reported quantities
 /// \param k  coverage factor of the printed uncertainties of positions
 void fill_adjustment(reports::RotaryTable& rotary, const engine::RotaryTableSolution& solution,
-                     const engine::RotaryTableMeasurement& measurement, const engine::EvaluationOptions& options,
-                     double k);
+                     const engine::RotaryTableMeasurement& measurement, const gum::Propagation& propagation, double k);
 
 }  // namespace gumcert::app

@@ -2,15 +2,11 @@
 
 #include "app/budget_record.h"
 #include "app/evaluate_budget.h"
+#include "app/evaluate_rotary_table.h"
 #include "app/file_digest.h"
 #include "app/rotary_table_record.h"
-#include "engine/contact_point_model.h"
 #include "engine/job/budget_job.h"
 #include "engine/job/rotary_table_job.h"
-#include "engine/rotary_table_evaluation.h"
-#include "engine/sequential_evaluation.h"
-#include "gum/coverage.h"
-#include "gum/propagation.h"
 
 namespace gumcert::app {
 
@@ -19,8 +15,6 @@ namespace {
 // Covariances of more results than this stand in a file of their own; of more than the second number, nowhere.
 constexpr std::size_t k_most_results_in_record = 100;
 constexpr std::size_t k_most_correlated_results = 2000;
-
-constexpr double k_detection_power = 0.8;  // of the minimal detectable bias, as Baarda chose it
 
 std::vector<reports::InputFile> digests(const std::filesystem::path& job_file, const std::vector<std::string>& names) {
     std::vector<reports::InputFile> files;
@@ -57,33 +51,14 @@ Evaluation evaluate_budget_job(const std::filesystem::path& job_file, const std:
     return evaluation;
 }
 
-Evaluation evaluate_rotary_table(const std::filesystem::path& job_file, const std::string& covariance_file,
-                                 const Progress& progress) {
-    const engine::RotaryTableJob job = engine::read_rotary_table_job(job_file);
-    const std::vector<reports::InputFile> files = digests(job_file, job.files);
-    const engine::RotaryTableMeasurement& measurement = job.measurement;
-    engine::EvaluationOptions options;
-    options.critical_value = gum::two_sided_normal_critical_value(measurement.outliers.alpha);
-    options.non_centrality = options.critical_value + gum::standard_normal_quantile(k_detection_power);
-    const engine::RotaryTableSolution solution = measurement.method == engine::AdjustmentMethod::joint
-                                                     ? engine::evaluate_jointly(measurement, options, progress)
-                                                     : engine::evaluate_sequentially(measurement, options, progress);
-
-    if (progress) {
-        progress("law of propagation");
-    }
-    const gum::Propagation propagation = gum::propagate(*solution.model, job.coverage_probability);
+Evaluation evaluate_rotary_table_job(const std::filesystem::path& job_file, const std::string& covariance_file,
+                                     unsigned threads, const Progress& progress) {
+    engine::RotaryTableJob job = engine::read_rotary_table_job(job_file);
+    const RotaryTableResult result = evaluate_rotary_table(job, threads, progress);
     Evaluation evaluation;
-    evaluation.covariance_csv = covariance_csv(job, solution.quantities, propagation.covariance);
-    if (job.reference) {
-        const engine::ContactPointModel contact(solution.model, measurement, solution.datum,
-                                                job.reference->contact_point);
-        const gum::Propagation displacement = gum::propagate(contact, job.coverage_probability);
-        evaluation.record =
-            rotary_table_record(job, options, solution, propagation, &displacement, files, covariance_file);
-    } else {
-        evaluation.record = rotary_table_record(job, options, solution, propagation, nullptr, files, covariance_file);
-    }
+    evaluation.covariance_csv = covariance_csv(job, result.solution.quantities, result.propagation.covariance);
+    evaluation.record = rotary_table_record(job, result, digests(job_file, job.files), covariance_file);
+    evaluation.negative = result.validation_failed;
     return evaluation;
 }
 
@@ -116,7 +91,7 @@ Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string
         return evaluate_budget_job(job_file, covariance_file, threads, progress);
     }
     if (kind == "rotary_table") {
-        return evaluate_rotary_table(job_file, covariance_file, progress);
+        return evaluate_rotary_table_job(job_file, covariance_file, threads, progress);
     }
     throw gum::InputError(gum::Diagnostic{"GC-INPUT-0900", job_file.string() + "#/kind",
                                           "\"" + kind + "\" cannot be evaluated by this version",

@@ -10,6 +10,8 @@
 #include "app/document_units.h"
 #include "app/record_parts.h"
 #include "app/reference_comparison.h"
+#include "app/rotary_monte_carlo_record.h"
+#include "app/table_parameter_record.h"
 #include "gum/coverage.h"
 #include "gum/rounding.h"
 
@@ -105,6 +107,8 @@ nlohmann::json options_json(const RotaryTableJob& job, const engine::EvaluationO
     const engine::RotaryTableMeasurement& measurement = job.measurement;
     const char* const scale_models[] = {"fixed", "prior", "free"};
     const char* const modes[] = {"estimate", "given", "none"};
+    const char* const uses[] = {"given", "check", "estimate"};
+    const char* const shapes[] = {"normal", "uniform"};
     return {{"solver",
              {{"linear_solver", "Ceres, Levenberg-Marquardt with Schur complement, one thread, then Gauss-Newton"},
               {"max_iterations", options.solver.max_iterations},
@@ -115,8 +119,15 @@ nlohmann::json options_json(const RotaryTableJob& job, const engine::EvaluationO
              {{"method", "restricted maximum likelihood, Fisher scoring"},
               {"length_noise", measurement.estimate_length_noise ? "estimate" : "fixed"},
               {"table_repeatability", modes[static_cast<int>(measurement.table_repeatability.mode)]},
+              {"fixture", uses[static_cast<int>(measurement.fixture_component)]},
               {"max_iterations", options.max_component_iterations},
               {"tolerance", options.component_tolerance}}},
+            {"fixture",
+             {{"uncertainty", job.fixture_budget         ? "budget"
+                              : job.source_paper_fixture ? "source_paper"
+                                                         : "stated"},
+              {"distribution", shapes[static_cast<int>(measurement.fixture_shape)]}}},
+            {"monte_carlo", monte_carlo_json(job.monte_carlo)},
             {"scale_model", scale_models[static_cast<int>(measurement.length_uncertainty.scale_model)]},
             {"outliers",
              {{"test", measurement.outliers.test == engine::OutlierTest::data_snooping ? "data_snooping" : "none"},
@@ -153,27 +164,6 @@ void fill_set_up(reports::RotaryTable& rotary, const RotaryTableSolution& soluti
               &SetUp::printed_S);
     }
     rotary.set_up.k = rotary.axis_in_fixture.k = propagation.coverage_factor.segment<4>(first).maxCoeff();
-}
-
-void fill_ranges(reports::RotaryTable& rotary, const gum::Propagation& propagation, Eigen::Index angles) {
-    for (Eigen::Index c = 0; c < 6; ++c) {
-        const DocumentUnit& unit = c < 3 ? k_um : k_arcsec;
-        Eigen::Index lowest = c;
-        Eigen::Index highest = c;
-        for (Eigen::Index i = 0; i < angles; ++i) {
-            lowest = propagation.value[6 * i + c] < propagation.value[lowest] ? 6 * i + c : lowest;
-            highest = propagation.value[6 * i + c] > propagation.value[highest] ? 6 * i + c : highest;
-        }
-        const double variance = propagation.covariance(lowest, lowest) + propagation.covariance(highest, highest) -
-                                2.0 * propagation.covariance(lowest, highest);
-        const double k = std::max(propagation.coverage_factor[lowest], propagation.coverage_factor[highest]);
-        reports::RangeRow row;
-        row.name = rotary.error_names[static_cast<std::size_t>(c)];
-        row.value = (propagation.value[highest] - propagation.value[lowest]) / unit.si;
-        row.U = k * std::sqrt(std::max(0.0, variance)) / unit.si;
-        row.printed = printed(row.value, row.U, unit);
-        rotary.ranges.push_back(std::move(row));
-    }
 }
 
 void fill_budget(reports::RotaryTable& rotary, const RotaryTableSolution& solution, const gum::Propagation& propagation,
@@ -274,19 +264,19 @@ std::vector<std::string> covariance_order(const RotaryTableJob& job, const engin
     return names;
 }
 
-reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const engine::EvaluationOptions& options,
-                                              const RotaryTableSolution& solution, const gum::Propagation& propagation,
-                                              const gum::Propagation* contact_point,
+reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const RotaryTableResult& result,
                                               const std::vector<reports::InputFile>& files,
                                               const std::string& covariance_file) {
     const engine::RotaryTableMeasurement& measurement = job.measurement;
+    const RotaryTableSolution& solution = result.solution;
+    const gum::Propagation& propagation = result.propagation;
     reports::EvaluationRecord record = record_head("rotary_table",
                                                    {.title = job.title,
                                                     .coverage_probability = job.coverage_probability,
                                                     .document = job.document,
                                                     .warnings = job.warnings,
                                                     .notes = solution.notes},
-                                                   options_json(job, options), files);
+                                                   options_json(job, result.options), files);
 
     const auto across = engine::across_axis(measurement.axis);
     const char letter = static_cast<char>('A' + engine::axial_coordinate(measurement.axis));
@@ -325,7 +315,7 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const e
              error_value(reported(propagation, solution.quantities.reversal + static_cast<Eigen::Index>(c),
                                   c < 3 ? k_um : k_arcsec))});
     }
-    fill_ranges(rotary, propagation, static_cast<Eigen::Index>(measurement.angles.size()));
+    fill_table_parameters(rotary, *result.parameter_model, measurement, result.parameters);
     if (!covariance_file.empty()) {
         rotary.covariance_file = covariance_file;
     }
@@ -333,10 +323,15 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const e
     rotary.covariance_unit = "um and arcsec: each element in the product of the units of its row and column";
     fill_budget(rotary, solution, propagation, measurement);
     const double k = gum::coverage_factor(job.coverage_probability, std::numeric_limits<double>::infinity());
-    fill_adjustment(rotary, solution, measurement, options, k);
+    fill_adjustment(rotary, solution, measurement, propagation, k);
+    rotary.fixture_budget = result.fixture.record;
     record.rotary = std::move(rotary);
-    if (contact_point != nullptr) {
-        record.comparison = reference_comparison(job, *contact_point);
+    record.diagnostics.insert(record.diagnostics.end(), result.fixture.notes.begin(), result.fixture.notes.end());
+    if (result.contact_point) {
+        record.comparison = reference_comparison(job, *result.contact_point);
+    }
+    if (result.monte_carlo) {
+        fill_monte_carlo(record, job, result);
     }
     return record;
 }

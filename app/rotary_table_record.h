@@ -3,22 +3,17 @@
 #include <string>
 #include <vector>
 
+#include "app/evaluate_rotary_table.h"
 #include "engine/job/rotary_table_job.h"
-#include "engine/rotary_table_evaluation.h"
-#include "gum/propagation.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
 
 /// The record of a rotary-table evaluation: units of documents, rounding, names, nothing computed but the scores.
 ///
-/// \param contact_point    displacements of the contact point, angle by angle, x, y, z, [m]; null without comparison
 /// \param covariance_file  name that the covariance file will have beside the record; "" when there is none
 [[nodiscard]] reports::EvaluationRecord rotary_table_record(const engine::RotaryTableJob& job,
-                                                            const engine::EvaluationOptions& options,
-                                                            const engine::RotaryTableSolution& solution,
-                                                            const gum::Propagation& propagation,
-                                                            const gum::Propagation* contact_point,
+                                                            const RotaryTableResult& result,
                                                             const std::vector<reports::InputFile>& files,
                                                             const std::string& covariance_file);
 

@@ -75,7 +75,11 @@ CertificateBuilder::CertificateBuilder(const Wording& wording)
 CertificateBuilder::~CertificateBuilder() = default;
 
 void CertificateBuilder::section(const std::string& id) {
-    sections_->push_back({{"id", id}, {"heading", wording_("heading", id)}, {"blocks", json::array()}});
+    section(id, wording_("heading", id));
+}
+
+void CertificateBuilder::section(const std::string& id, const std::string& heading) {
+    sections_->push_back({{"id", id}, {"heading", printable(heading)}, {"blocks", json::array()}});
 }
 
 void CertificateBuilder::paragraph(const std::string& text) {

@@ -32,6 +32,8 @@ public:
     CertificateBuilder& operator=(const CertificateBuilder&) = delete;
 
     void section(const std::string& id);
+    /// A section whose heading is not in the wording.
+    void section(const std::string& id, const std::string& heading);
     void paragraph(const std::string& text);
     void formula(const std::string& text);
     void definitions(const std::vector<std::pair<std::string, std::string>>& rows);

@@ -5,6 +5,7 @@
 #include "reports/certificate_budget_sections.h"
 #include "reports/certificate_builder.h"
 #include "reports/certificate_plots.h"
+#include "reports/certificate_rotary_sections.h"
 #include "reports/record/canonical_json.h"
 #include "reports/svg_plot.h"
 #include "reports/wording.h"
@@ -34,28 +35,6 @@ std::string coordinate_of(const std::string& axis) {
 
 void figure(CertificateBuilder& builder, const std::string& caption, const Plot& plot) {
     builder.figure(plot.id, caption, plot.description, svg(plot));
-}
-
-/// \param unit  of the result, hence of every contribution
-void budget_table(CertificateBuilder& builder, const Wording& words, const std::string& id, const std::string& caption,
-                  const std::vector<BudgetRow>& budget, const std::string& unit) {
-    std::vector<std::vector<std::string>> rows;
-    for (const BudgetRow& row : budget) {
-        rows.push_back({row.input, row.source, row.type, row.distribution,
-                        row.nu ? whole_below(*row.nu) : words("document", "infinite"), row.printed.u,
-                        gum::unit_for_people(row.unit), row.printed.contribution, row.printed.share});
-    }
-    builder.table(id, caption,
-                  {{words("label", "input"), ""},
-                   {words("label", "source"), ""},
-                   {words("label", "type"), ""},
-                   {words("label", "distribution"), ""},
-                   {words("label", "nu"), "", true},
-                   {words("label", "u"), "", true},
-                   {words("label", "unit"), ""},
-                   {words("label", "contribution"), unit, true},
-                   {words("label", "share"), "%", true}},
-                  rows);
 }
 
 void identification(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
@@ -235,20 +214,8 @@ void uncertainty(CertificateBuilder& builder, const Wording& words, const Evalua
             words.fill("uncertainty", {{"k", k}, {"reason", reason}, {"coverage", record.printed_coverage}}));
     }
     builder.paragraph(words("sentence", "validity"));
-    if (record.rotary && !record.rotary->budget_summary.empty()) {
-        const RotaryTable& r = *record.rotary;
-        std::vector<Column> columns = {
-            {words("label", "quantity"), ""}, {words("label", "rms_u"), "", true}, {words("label", "unit"), ""}};
-        for (const std::string& source : r.budget_sources) {
-            columns.push_back({source, "%", true});
-        }
-        std::vector<std::vector<std::string>> rows;
-        for (const BudgetSummaryRow& row : r.budget_summary) {
-            std::vector<std::string> line = {row.quantity, row.printed_rms_u, gum::unit_for_people(row.unit)};
-            line.insert(line.end(), row.printed_shares.begin(), row.printed_shares.end());
-            rows.push_back(std::move(line));
-        }
-        builder.table("budget-summary", words("sentence", "budget_summary"), columns, rows);
+    if (record.rotary) {
+        budget_by_source(builder, words, *record.rotary);
     }
     for (std::size_t i = 0; i < record.results.size(); ++i) {
         if (!record.results[i].budget.empty()) {
@@ -260,113 +227,6 @@ void uncertainty(CertificateBuilder& builder, const Wording& words, const Evalua
     if (record.rotary && record.rotary->covariance_file) {
         builder.paragraph(words.fill("covariance", {{"file", *record.rotary->covariance_file}}));
     }
-}
-
-void adjustment(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
-    const AdjustmentSummary& a = r.adjustment;
-    builder.section("adjustment");
-    builder.paragraph(words("sentence", "adjustment"));
-    builder.definitions(
-        {{words("label", "method"), words("value", "method", a.method)},
-         {words("label", "observations"), plain(a.observations)},
-         {words("label", "parameters"), plain(a.parameters)},
-         {words("label", "degrees_of_freedom"), plain(a.degrees_of_freedom)},
-         {words("label", "chi_square"), a.printed.chi_square},
-         {words("label", "p_value"), a.printed.p_value},
-         {words("label", "variance_factor"), a.printed.variance_factor},
-         {words("label", "variance_factor_used"), words("value", "variance_factor", a.variance_factor.used)},
-         {words("label", "condition_number"), a.printed.condition_number},
-         {words("label", "iterations"), plain(a.iterations)}});
-    std::vector<std::vector<std::string>> rows;
-    for (const VarianceComponent& v : r.variance_components) {
-        rows.push_back({v.name, v.printed.value, v.printed.U, v.printed.unit, fixed(v.redundancy, 1),
-                        words("value", v.estimated ? "estimated" : "given")});
-    }
-    if (!rows.empty()) {
-        builder.table("variance-components", words("sentence", "variance_components"),
-                      {{words("label", "component"), ""},
-                       {words("label", "standard_deviation"), "", true},
-                       {words("label", "its_u"), "", true},
-                       {words("label", "unit"), ""},
-                       {words("label", "redundancy"), "", true},
-                       {words("label", "origin"), ""}},
-                      rows);
-    }
-    const std::string alpha = plain(r.outlier_alpha);
-    if (r.flagged.empty()) {
-        if (!r.printed_critical_value.empty()) {
-            builder.paragraph(words.fill("no_flagged", {{"critical", r.printed_critical_value}, {"alpha", alpha}}));
-        }
-        return;
-    }
-    rows.clear();
-    for (const FlaggedDistance& f : r.flagged) {
-        rows.push_back({f.station, f.reflector, f.pass, f.angle, f.residual_um, f.test_value,
-                        words("value", f.removed ? "removed" : "kept")});
-    }
-    builder.table("flagged", words.fill("flagged", {{"critical", r.printed_critical_value}, {"alpha", alpha}}),
-                  {{words("label", "station"), ""},
-                   {words("label", "reflector"), ""},
-                   {words("label", "pass"), ""},
-                   {words("label", "angle"), "°", true},
-                   {words("label", "residual"), "µm", true},
-                   {words("label", "test_value"), "", true},
-                   {words("label", "action"), ""}},
-                  rows);
-}
-
-/// name, then value and U of each coordinate
-std::vector<std::string> coordinates(const std::string& name, const std::vector<std::string>& position,
-                                     const std::vector<std::string>& U) {
-    std::vector<std::string> row = {name};
-    for (std::size_t c = 0; c < 3; ++c) {
-        row.push_back(c < position.size() ? position[c] : "");
-        row.push_back(c < U.size() ? U[c] : "");
-    }
-    return row;
-}
-
-std::vector<Column> coordinate_columns(const Wording& words, const std::string& first) {
-    std::vector<Column> columns = {{first, ""}};
-    for (const char* c : {"x", "y", "z"}) {
-        columns.push_back({c, "mm", true});
-        columns.push_back({words("label", "U"), "mm", true});
-    }
-    return columns;
-}
-
-void geometry(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
-    builder.section("geometry");
-    std::vector<std::vector<std::string>> rows;
-    for (const Station& s : r.stations) {
-        rows.push_back(coordinates(s.name, s.printed_position, s.printed_U));
-        rows.back().push_back(s.printed_scale.value);
-        rows.back().push_back(s.printed_scale.U);
-    }
-    std::vector<Column> columns = coordinate_columns(words, words("label", "station"));
-    columns.push_back({words("label", "scale"), "10⁻⁶", true});
-    columns.push_back({words("label", "U"), "10⁻⁶", true});
-    builder.table("stations", words("sentence", "stations"), columns, rows);
-
-    rows.clear();
-    for (const DeadPath& d : r.dead_paths) {
-        rows.push_back({d.name, d.printed.value, d.printed.U});
-    }
-    builder.table("dead-paths", words("sentence", "dead_paths"),
-                  {{words("label", "dead_path"), ""}, {"l0", "mm", true}, {words("label", "U"), "mm", true}}, rows);
-
-    rows.clear();
-    for (const Reflector& m : r.reflectors) {
-        rows.push_back(coordinates(m.name, m.printed_position, m.printed_U));
-        for (std::size_t c = 0; c < 3; ++c) {
-            rows.back().push_back(c < m.printed_correction.size() ? m.printed_correction[c] : "");
-        }
-    }
-    columns = coordinate_columns(words, words("label", "reflector"));
-    for (const char* c : {"Δx", "Δy", "Δz"}) {
-        columns.push_back({c, "µm", true});
-    }
-    builder.table("reflectors", words("sentence", "reflectors"), columns, rows);
 }
 
 void comparison(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
@@ -499,7 +359,9 @@ nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::
     if (record.rotary) {
         conventions(builder, words, *record.rotary);
         set_up(builder, words, *record.rotary);
+        location_errors(builder, words, *record.rotary);
         error_motions(builder, words, *record.rotary);
+        positioning(builder, words, *record.rotary);
     }
     if (!record.rotary && !record.results.empty()) {
         budget_sections(builder, words, record);
@@ -507,7 +369,10 @@ nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::
         uncertainty(builder, words, record);
     }
     if (record.rotary) {
+        fixture(builder, words, *record.rotary);
+        rotary_monte_carlo(builder, words, record);
         adjustment(builder, words, *record.rotary);
+        reliability(builder, words, *record.rotary);
         geometry(builder, words, *record.rotary);
     }
     if (record.comparison) {

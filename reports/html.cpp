@@ -1,6 +1,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "reports/asset_files.h"
 #include "reports/certificate_view.h"
+#include "reports/document_forms.h"
 #include "reports/render.h"
 
 #if defined(__GNUC__) && !defined(__clang__)
@@ -39,8 +40,7 @@ data to_mustache(const nlohmann::json& value) {
 
 }  // namespace
 
-std::string render_html(const EvaluationRecord& record, const RenderAssets& assets) {
-    nlohmann::json view = certificate_view(record, read_wording(assets));
+std::string view_as_html(nlohmann::json view, const RenderAssets& assets) {
     view["style"] = read_asset(assets.templates / "certificate.css");
     const std::filesystem::path file = assets.templates / "certificate.html.mustache";
     kainjow::mustache::mustache page{read_asset(file)};
@@ -53,6 +53,10 @@ std::string render_html(const EvaluationRecord& record, const RenderAssets& asse
                                                 .action = "take the templates of this release"});
     }
     return html;
+}
+
+std::string render_html(const EvaluationRecord& record, const RenderAssets& assets) {
+    return view_as_html(certificate_view(record, read_wording(assets)), assets);
 }
 
 }  // namespace gumcert::reports

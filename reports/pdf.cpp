@@ -1,6 +1,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "reports/asset_files.h"
 #include "reports/certificate_view.h"
+#include "reports/document_forms.h"
 #include "reports/render.h"
 
 #include <nlohmann/json.hpp>
@@ -118,8 +119,7 @@ std::string whole_file(const fs::path& file) {
 
 }  // namespace
 
-std::string render_pdf(const EvaluationRecord& record, const RenderAssets& assets) {
-    const nlohmann::json view = certificate_view(record, read_wording(assets));
+std::string view_as_pdf(const nlohmann::json& view, const RenderAssets& assets) {
     if (!fs::is_regular_file(assets.node_program)) {
         storage_error(assets.node_program.empty() ? "node" : assets.node_program.string(), "not found",
                       "PDF is set by Typst, which runs in Node.js 18 or later", k_set_up);
@@ -162,6 +162,10 @@ std::string render_pdf(const EvaluationRecord& record, const RenderAssets& asset
                       "the PDF step ends with status 0", k_set_up);
     }
     return pdf;
+}
+
+std::string render_pdf(const EvaluationRecord& record, const RenderAssets& assets) {
+    return view_as_pdf(certificate_view(record, read_wording(assets)), assets);
 }
 
 }  // namespace gumcert::reports

@@ -1,21 +1,20 @@
 #include "reports/svg_plot.h"
 
-#include "gum/quantity/diagnostic.h"
+#include "reports/svg_drawing.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <initializer_list>
 #include <limits>
+#include <set>
+#include <string>
 #include <utility>
 
 namespace gumcert::reports {
 
 namespace {
 
-constexpr double k_width = 680.0;
 constexpr double k_left = 50.0;  // room for tick labels and the axis label
 constexpr double k_right = 10.0;
 constexpr double k_head = 22.0;     // room for the heading of a panel
@@ -23,129 +22,9 @@ constexpr double k_foot = 8.0;      // below a panel that has no tick labels
 constexpr double k_axis = 42.0;     // tick labels and label of the horizontal axis
 constexpr double k_key = 20.0;      // the key above the panels
 constexpr double k_between = 14.0;  // between columns
-constexpr const char* k_font = "font-family=\"'Libertinus Serif', 'DejaVu Serif', Georgia, serif\"";
-
-/// With at most two decimals and without trailing zeros: 12.5, 3, -0.25.
-std::string number(double v) {
-    std::array<char, 64> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), v, std::chars_format::fixed, 2).ptr;
-    std::string text(buffer.data(), end);
-    while (text.back() == '0') {
-        text.pop_back();
-    }
-    if (text.back() == '.') {
-        text.pop_back();
-    }
-    return text == "-0" ? "0" : text;
-}
-
-std::string tick_text(double v, int decimals) {
-    std::array<char, 64> buffer{};
-    const auto end =
-        std::to_chars(buffer.data(), buffer.data() + buffer.size(), std::abs(v), std::chars_format::fixed, decimals)
-            .ptr;
-    const std::string text(buffer.data(), end);
-    const bool zero = text.find_first_not_of("0.") == std::string::npos;
-    return v < 0.0 && !zero ? "\u2212" + text : text;
-}
-
-struct Ticks {
-    double low = 0.0, high = 1.0, step = 1.0;
-    int decimals = 0;
-
-    [[nodiscard]] int count() const { return static_cast<int>(std::lround((high - low) / step)) + 1; }
-    [[nodiscard]] double at(int i) const { return low + i * step; }
-};
-
-/// Steps of 1, 2 or 5 times a power of ten that cover [low, high] with at most `most` intervals.
-Ticks nice_ticks(double low, double high, int most) {
-    if (!(high - low > 1e-9 * std::max(1e-3, std::abs(high)))) {
-        const double room = std::max(1e-3, 0.1 * std::abs(low));
-        low -= room;
-        high += room;
-    }
-    const double raw = (high - low) / most;
-    Ticks ticks;
-    int exponent = static_cast<int>(std::floor(std::log10(raw)));
-    double step = 0.0;
-    for (;; ++exponent) {
-        for (const double digit : {1.0, 2.0, 5.0}) {
-            step = digit * std::pow(10.0, exponent);
-            ticks.low = std::floor(low / step + 1e-9) * step;
-            ticks.high = std::ceil(high / step - 1e-9) * step;
-            if (ticks.high - ticks.low <= (most + 0.5) * step) {
-                ticks.step = step;
-                ticks.decimals = std::max(0, -exponent);
-                return ticks;
-            }
-        }
-    }
-}
-
-/// Steps that divide a circle, for angles in degrees; other axes fall back to decimal steps.
-Ticks angle_ticks(double low, double high) {
-    if (high - low < 10.0) {
-        return nice_ticks(low, high, 8);
-    }
-    for (const double step : {5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0}) {
-        const double from = std::floor(low / step + 1e-9) * step;
-        const double to = std::ceil(high / step - 1e-9) * step;
-        if (to - from <= 8.5 * step) {
-            return {.low = from, .high = to, .step = step, .decimals = 0};
-        }
-    }
-    return nice_ticks(low, high, 8);
-}
-
-class Drawing {
-public:
-    std::string body;
-
-    void line(double x1, double y1, double x2, double y2, const char* style) {
-        body += "<line x1=\"" + number(x1) + "\" y1=\"" + number(y1) + "\" x2=\"" + number(x2) + "\" y2=\"" +
-                number(y2) + "\" " + style + "/>\n";
-    }
-
-    void rectangle(double x, double y, double width, double height, const char* style) {
-        body += "<rect x=\"" + number(x) + "\" y=\"" + number(y) + "\" width=\"" + number(width) + "\" height=\"" +
-                number(height) + "\" " + style + "/>\n";
-    }
-
-    void points(const char* element, const std::vector<std::pair<double, double>>& at, const char* style) {
-        body += std::string("<") + element + " points=\"";
-        for (std::size_t i = 0; i < at.size(); ++i) {
-            body += (i == 0 ? "" : " ") + number(at[i].first) + "," + number(at[i].second);
-        }
-        body += std::string("\" ") + style + "/>\n";
-    }
-
-    void text(double x, double y, const std::string& content, const char* anchor, double size, const char* more = "") {
-        body += "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" font-size=\"" + number(size) +
-                "\" text-anchor=\"" + anchor + "\" fill=\"#000000\" " + k_font + more + ">" + escape_markup(content) +
-                "</text>\n";
-    }
-
-    void upright_text(double x, double y, const std::string& content, double size) {
-        const std::string turn = " transform=\"rotate(-90 " + number(x) + " " + number(y) + ")\"";
-        text(x, y, content, "middle", size, turn.c_str());
-    }
-
-    void marker(PlotMarker kind, double x, double y, double r) {
-        switch (kind) {
-            case PlotMarker::disc:
-                body += "<circle cx=\"" + number(x) + "\" cy=\"" + number(y) + "\" r=\"" + number(r) +
-                        "\" fill=\"#000000\" stroke=\"none\"/>\n";
-                return;
-            case PlotMarker::square:
-                rectangle(x - r, y - r, 2.0 * r, 2.0 * r, "fill=\"#ffffff\" stroke=\"#000000\" stroke-width=\"0.9\"");
-                return;
-            case PlotMarker::triangle:
-                points("polygon", {{x, y - 1.3 * r}, {x + 1.2 * r, y + 0.9 * r}, {x - 1.2 * r, y + 0.9 * r}},
-                       "fill=\"#9a9a9a\" stroke=\"#000000\" stroke-width=\"0.9\"");
-                return;
-        }
-    }
-};
+constexpr const char* k_grid = "stroke=\"#e2e2e2\" stroke-width=\"0.6\"";
+constexpr const char* k_tick = "stroke=\"#000000\" stroke-width=\"0.8\"";
+constexpr std::size_t k_many = 150;  // points of a series above which they are drawn as one path
 
 struct Frame {
     double x = 0.0, y = 0.0, width = 0.0, height = 0.0;
@@ -155,11 +34,29 @@ struct Frame {
     [[nodiscard]] double py(double v) const { return y + height - (v - up.low) / (up.high - up.low) * height; }
 };
 
+/// One path of dots for points too many to be told apart one by one. Dots that fall on the same place are drawn once.
+void draw_dense(Drawing& drawing, const std::vector<PlotPoint>& sorted, const Frame& frame, double shift) {
+    std::set<std::pair<long, long>> places;  // twice the drawing units
+    for (const PlotPoint& p : sorted) {
+        places.emplace(std::lround(2.0 * (frame.px(p.x) + shift)), std::lround(2.0 * frame.py(p.y)));
+    }
+    drawing.body += "<path d=\"";
+    for (const auto& [x, y] : places) {
+        const double left = 0.5 * static_cast<double>(x) - 0.8;
+        drawing.body += "M" + drawing_number(left) + "," + drawing_number(0.5 * static_cast<double>(y)) + "h1.6";
+    }
+    drawing.body += "\" fill=\"none\" stroke=\"#000000\" stroke-width=\"1.6\"/>\n";
+}
+
 void draw_series(Drawing& drawing, const PlotSeries& series, const Frame& frame) {
     std::vector<PlotPoint> sorted = series.points;
     std::stable_sort(sorted.begin(), sorted.end(), [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
     const double radius = sorted.size() > 80 ? 1.3 : 2.2;
     const auto x = [&](const PlotPoint& p) { return frame.px(p.x) + series.shift; };
+    if (sorted.size() > k_many && series.marker == PlotMarker::disc && !series.joined) {
+        draw_dense(drawing, sorted, frame, series.shift);
+        return;
+    }
     if (series.bars == PlotBars::band && !sorted.empty()) {
         std::vector<std::pair<double, double>> outline;
         for (const PlotPoint& p : sorted) {
@@ -195,7 +92,6 @@ void draw_series(Drawing& drawing, const PlotSeries& series, const Frame& frame)
 void draw_panel(Drawing& drawing, const PlotPanel& panel, const Frame& frame, bool with_axis) {
     drawing.text(frame.x, frame.y - 7.0, panel.heading, "start", 11.0, " font-weight=\"bold\"");
     drawing.rectangle(frame.x, frame.y, frame.width, frame.height, "fill=\"#ffffff\" stroke=\"none\"");
-    constexpr const char* k_grid = "stroke=\"#e2e2e2\" stroke-width=\"0.6\"";
     for (int i = 0; i < frame.across.count(); ++i) {
         drawing.line(frame.px(frame.across.at(i)), frame.y, frame.px(frame.across.at(i)), frame.y + frame.height,
                      k_grid);
@@ -244,16 +140,36 @@ void draw_panel(Drawing& drawing, const PlotPanel& panel, const Frame& frame, bo
     drawing.upright_text(frame.x - 38.0, frame.y + 0.5 * frame.height, panel.y_label, 11.0);
 }
 
-/// \throws gum::NoResultError  for a number whose tick label could not be read
-void require_ordinary(const std::string& where, std::initializer_list<double> numbers) {
-    constexpr double k_most = 1e12;
-    for (const double v : numbers) {
-        if (!(std::abs(v) < k_most)) {
-            throw gum::NoResultError(gum::Diagnostic{.code = "GC-REPORT-0003",
-                                                     .where = "plot " + where,
-                                                     .what = "a number that is not finite, or above 1e12",
-                                                     .rule = "a plot shows finite numbers of ordinary size",
-                                                     .action = "look for it in the record"});
+/// A rectangle in the style of the part of that number: eight fillings that differ in grey and hatching.
+void fill_part(Drawing& drawing, double x, double y, double width, double height, std::size_t part) {
+    struct Style {
+        const char* fill;
+        bool rising, falling;
+    };
+    static constexpr std::array<Style, 8> k_styles = {{{"#ffffff", false, false},
+                                                       {"#8c8c8c", false, false},
+                                                       {"#ffffff", true, false},
+                                                       {"#d4d4d4", false, false},
+                                                       {"#ffffff", false, true},
+                                                       {"#4d4d4d", false, false},
+                                                       {"#ffffff", true, true},
+                                                       {"#b3b3b3", true, false}}};
+    const Style& style = k_styles.at(part % k_styles.size());
+    const std::string outline = std::string("fill=\"") + style.fill + "\" stroke=\"#000000\" stroke-width=\"0.8\"";
+    drawing.rectangle(x, y, width, height, outline.c_str());
+    constexpr double k_spacing = 5.0;
+    for (const bool rising : {true, false}) {
+        if (!(rising ? style.rising : style.falling)) {
+            continue;
+        }
+        // Lines at 45 degrees through the lower edge at `from`, cut off at the sides.
+        for (double from = -height + k_spacing; from < width; from += k_spacing) {
+            const double low = std::max(0.0, from);
+            const double high = std::min(width, from + height);
+            const double left = rising ? low : width - low;
+            const double right = rising ? high : width - high;
+            drawing.line(x + left, y + height - (low - from), x + right, y + height - (high - from),
+                         "stroke=\"#000000\" stroke-width=\"0.6\"");
         }
     }
 }
@@ -268,44 +184,7 @@ void require_finite(const Plot& plot) {
     }
 }
 
-/// The drawing inside its document, with the texts for screen readers.
-std::string document(const std::string& id, const std::string& title, const std::string& description, double height,
-                     const Drawing& drawing) {
-    const std::string size = number(k_width) + " " + number(height);
-    return "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" viewBox=\"0 0 " + size +
-           "\" role=\"img\" aria-labelledby=\"" + id + "-title " + id + "-desc\">\n<title id=\"" + id + "-title\">" +
-           escape_markup(title) + "</title>\n<desc id=\"" + id + "-desc\">" + escape_markup(description) + "</desc>\n" +
-           drawing.body + "</svg>\n";
-}
-
 }  // namespace
-
-std::string escape_markup(const std::string& text) {
-    std::string out;
-    out.reserve(text.size());
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            case '\'':
-                out += "&#39;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
-}
 
 std::string svg(const Plot& plot) {
     require_finite(plot);
@@ -337,9 +216,9 @@ std::string svg(const Plot& plot) {
     const double top = key.empty() ? 0.0 : k_key;
     const double panel_pitch = k_head + plot.panel_height + k_foot;
     const double height = top + rows * panel_pitch - k_foot + k_axis;
-    const double column_width = (k_width - (columns - 1) * k_between) / columns;
+    const double column_width = (k_drawing_width - (columns - 1) * k_between) / columns;
 
-    drawing.rectangle(0.0, 0.0, k_width, height, "fill=\"#ffffff\" stroke=\"none\"");
+    drawing.rectangle(0.0, 0.0, k_drawing_width, height, "fill=\"#ffffff\" stroke=\"none\"");
     double key_x = k_left + 6.0;
     for (const PlotSeries& series : key) {
         drawing.marker(series.marker, key_x, 10.0, 2.6);
@@ -347,16 +226,18 @@ std::string svg(const Plot& plot) {
         key_x += 8.0 + 6.4 * static_cast<double>(series.label.size()) + 18.0;
     }
     for (int i = 0; i < count; ++i) {
-        const PlotPanel& panel = plot.panels[static_cast<std::size_t>(i)];
+        PlotPanel panel = plot.panels[static_cast<std::size_t>(i)];
         const int column = i / rows;
         const int row = i % rows;
-        double low = 0.0;  // the zero line belongs to every panel: errors and differences are read against it
-        double high = 0.0;
+        double low = -panel.y_most;  // the zero line belongs to every panel: errors and differences are read against it
+        double high = panel.y_most;
         for (const PlotSeries& series : panel.series) {
             for (const PlotPoint& p : series.points) {
                 const double U = series.bars == PlotBars::none ? 0.0 : p.U;
-                low = std::min(low, p.y - U);
-                high = std::max(high, p.y + U);
+                if (panel.y_most == 0.0) {
+                    low = std::min(low, p.y - U);
+                    high = std::max(high, p.y + U);
+                }
             }
         }
         for (const PlotLimit& limit : panel.limits) {
@@ -369,6 +250,14 @@ std::string svg(const Plot& plot) {
                           .height = plot.panel_height,
                           .across = across,
                           .up = nice_ticks(low, high, plot.panel_height > 100.0 ? 6 : 4)};
+        if (panel.y_most > 0.0) {
+            const double room = 3.0 * (frame.up.high - frame.up.low) / frame.height;  // the marker stays inside
+            for (PlotSeries& series : panel.series) {
+                for (PlotPoint& p : series.points) {
+                    p.y = std::clamp(p.y, frame.up.low + room, frame.up.high - room);
+                }
+            }
+        }
         const bool lowest = row == rows - 1 || i == count - 1;
         draw_panel(drawing, panel, frame, lowest);
         if (lowest) {
@@ -376,7 +265,7 @@ std::string svg(const Plot& plot) {
         }
     }
 
-    return document(plot.id, plot.title, plot.description, height, drawing);
+    return svg_document(plot.id, plot.title, plot.description, height, drawing);
 }
 
 std::string svg(const BarPlot& plot) {
@@ -396,11 +285,11 @@ std::string svg(const BarPlot& plot) {
     const double top = 4.0;
     const double bottom = top + k_pitch * static_cast<double>(plot.bars.size()) + 3.0;
     const double height = bottom + k_axis;
-    const double width = k_width - labels - k_texts;
+    const double width = k_drawing_width - labels - k_texts;
     const auto px = [&](double v) { return labels + (v - ticks.low) / (ticks.high - ticks.low) * width; };
 
     Drawing drawing;
-    drawing.rectangle(0.0, 0.0, k_width, height, "fill=\"#ffffff\" stroke=\"none\"");
+    drawing.rectangle(0.0, 0.0, k_drawing_width, height, "fill=\"#ffffff\" stroke=\"none\"");
     for (int i = 0; i < ticks.count(); ++i) {
         const double x = px(ticks.at(i));
         drawing.line(x, top, x, bottom, "stroke=\"#e2e2e2\" stroke-width=\"0.6\"");
@@ -420,7 +309,7 @@ std::string svg(const BarPlot& plot) {
     drawing.line(px(0.0), top, px(0.0), bottom, "stroke=\"#000000\" stroke-width=\"0.9\"");
     drawing.line(labels, bottom, labels + width, bottom, "stroke=\"#000000\" stroke-width=\"0.9\"");
     drawing.text(labels + 0.5 * width, bottom + 31.0, plot.x_label, "middle", 11.0);
-    return document(plot.id, plot.title, plot.description, height, drawing);
+    return svg_document(plot.id, plot.title, plot.description, height, drawing);
 }
 
 std::string svg(const DensityPlot& plot) {
@@ -447,7 +336,7 @@ std::string svg(const DensityPlot& plot) {
     const double strips = k_strip * static_cast<double>(plot.intervals.size());
     const Frame frame{.x = k_side,
                       .y = k_key + 2.0,
-                      .width = k_width - k_side - k_right,
+                      .width = k_drawing_width - k_side - k_right,
                       .height = strips + k_curve,
                       .across = nice_ticks(low, high, 10),
                       .up = {.low = 0.0, .high = most > 0.0 ? most * (strips + k_curve) / (0.96 * k_curve) : 1.0}};
@@ -455,7 +344,7 @@ std::string svg(const DensityPlot& plot) {
     const double height = bottom + k_axis;
 
     Drawing drawing;
-    drawing.rectangle(0.0, 0.0, k_width, height, "fill=\"#ffffff\" stroke=\"none\"");
+    drawing.rectangle(0.0, 0.0, k_drawing_width, height, "fill=\"#ffffff\" stroke=\"none\"");
     drawing.rectangle(frame.x, 5.0, 16.0, 9.0, "fill=\"#cfcfcf\" stroke=\"#777777\" stroke-width=\"0.6\"");
     drawing.text(frame.x + 21.0, 13.5, plot.cells_label, "start", 10.5);
     const double second = frame.x + 0.42 * frame.width;
@@ -498,7 +387,128 @@ std::string svg(const DensityPlot& plot) {
     }
     drawing.text(frame.x + 0.5 * frame.width, bottom + 31.0, plot.x_label, "middle", 11.0);
     drawing.upright_text(frame.x - 10.0, frame.y + 0.5 * frame.height, plot.y_label, 11.0);
-    return document(plot.id, plot.title, plot.description, height, drawing);
+    return svg_document(plot.id, plot.title, plot.description, height, drawing);
+}
+
+std::string svg(const HistogramPlot& plot) {
+    constexpr double k_panel = 170.0;
+    constexpr double k_above = 8.0;
+    double most = 0.0;
+    require_ordinary(plot.id, {plot.first_edge, plot.cell_width});
+    for (const double count : plot.counts) {
+        require_ordinary(plot.id, {count});
+        most = std::max(most, count);
+    }
+    const double end = plot.first_edge + plot.cell_width * static_cast<double>(plot.counts.size());
+    const Frame frame{.x = k_left + 8.0,
+                      .y = k_above,
+                      .width = k_drawing_width - k_left - 8.0 - k_right,
+                      .height = k_panel,
+                      .across = nice_ticks(plot.first_edge, end, 10),
+                      .up = nice_ticks(0.0, std::max(1.0, most), 5)};
+    const double bottom = frame.y + frame.height;
+    const double height = bottom + k_axis;
+    Drawing drawing;
+    drawing.rectangle(0.0, 0.0, k_drawing_width, height, "fill=\"#ffffff\" stroke=\"none\"");
+    for (int i = 0; i < frame.up.count(); ++i) {
+        const double y = frame.py(frame.up.at(i));
+        drawing.line(frame.x, y, frame.x + frame.width, y, k_grid);
+        drawing.line(frame.x - 4.0, y, frame.x, y, k_tick);
+        drawing.text(frame.x - 6.0, y + 3.4, tick_text(frame.up.at(i), frame.up.decimals), "end", 10.0);
+    }
+    for (std::size_t i = 0; i < plot.counts.size(); ++i) {
+        const double left = frame.px(plot.first_edge + plot.cell_width * static_cast<double>(i));
+        const double right = frame.px(plot.first_edge + plot.cell_width * static_cast<double>(i + 1));
+        if (plot.counts[i] > 0.0) {
+            const double y = frame.py(plot.counts[i]);
+            drawing.rectangle(left, y, right - left, bottom - y,
+                              "fill=\"#b5b5b5\" stroke=\"#000000\" stroke-width=\"0.8\"");
+        }
+    }
+    drawing.rectangle(frame.x, frame.y, frame.width, frame.height,
+                      "fill=\"none\" stroke=\"#000000\" stroke-width=\"0.9\"");
+    for (int i = 0; i < frame.across.count(); ++i) {
+        const double x = frame.px(frame.across.at(i));
+        drawing.line(x, bottom, x, bottom + 4.0, k_tick);
+        drawing.text(x, bottom + 15.0, tick_text(frame.across.at(i), frame.across.decimals), "middle", 10.0);
+    }
+    drawing.text(frame.x + 0.5 * frame.width, bottom + 31.0, plot.x_label, "middle", 11.0);
+    drawing.upright_text(frame.x - 44.0, frame.y + 0.5 * frame.height, plot.y_label, 11.0);
+    return svg_document(plot.id, plot.title, plot.description, height, drawing);
+}
+
+std::string svg(const StackedPlot& plot) {
+    constexpr double k_texts = 70.0;  // room for the text at the end of a bar
+    constexpr double k_pitch = 23.0;
+    constexpr double k_bar = 16.0;
+    constexpr double k_line = 16.0;  // of the key
+    double labels = 44.0;            // room for the names
+    for (const StackedBar& bar : plot.bars) {
+        labels = std::max(labels, std::min(200.0, 16.0 + text_width(bar.label, 10.5)));
+        for (const double share : bar.shares) {
+            require_ordinary(plot.id + ", " + bar.label, {share});
+        }
+    }
+    Drawing key;
+    double key_x = labels;
+    double top = 4.0;
+    for (std::size_t i = 0; i < plot.parts.size(); ++i) {
+        const double room = 20.0 + text_width(plot.parts[i], 10.5) + 16.0;
+        if (key_x + room > k_drawing_width && key_x > labels) {
+            key_x = labels;
+            top += k_line;
+        }
+        fill_part(key, key_x, top, 14.0, 9.0, i);
+        key.text(key_x + 19.0, top + 8.5, plot.parts[i], "start", 10.5);
+        key_x += room;
+    }
+    top += k_line + 10.0;
+    const double bottom = top + k_pitch * static_cast<double>(plot.bars.size());
+    const double height = bottom + k_axis;
+    const double width = k_drawing_width - labels - k_texts;
+    const auto px = [&](double v) { return labels + v / 100.0 * width; };
+
+    Drawing drawing;
+    drawing.rectangle(0.0, 0.0, k_drawing_width, height, "fill=\"#ffffff\" stroke=\"none\"");
+    drawing.body += key.body;
+    drawing.text(labels + width + 8.0, top - 4.0, plot.text_head, "start", 10.5);
+    for (int percent = 0; percent <= 100; percent += 10) {
+        drawing.line(px(percent), top, px(percent), bottom, k_grid);
+        drawing.line(px(percent), bottom, px(percent), bottom + 4.0, k_tick);
+        drawing.text(px(percent), bottom + 15.0, tick_text(percent, 0), "middle", 10.0);
+    }
+    for (std::size_t i = 0; i < plot.bars.size(); ++i) {
+        const StackedBar& bar = plot.bars[i];
+        const double y = top + k_pitch * (static_cast<double>(i) + 0.5);
+        drawing.text(labels - 8.0, y + 3.6, bar.label, "end", 10.5);
+        drawing.text(labels + width + 8.0, y + 3.6, bar.text, "start", 10.5);
+        double whole = 0.0;
+        for (const double share : bar.shares) {
+            whole += std::max(0.0, share);
+        }
+        double from = 0.0;
+        for (std::size_t part = 0; part < bar.shares.size(); ++part) {
+            // Where some shares are negative, the others exceed the whole together.
+            const double share = std::max(0.0, bar.shares[part]) * (whole > 100.0 ? 100.0 / whole : 1.0);
+            const double part_width = share / 100.0 * width;
+            if (part_width < 0.05) {
+                continue;
+            }
+            fill_part(drawing, px(from), y - 0.5 * k_bar, part_width, k_bar, part);
+            const std::string text = part < bar.texts.size() ? bar.texts[part] : "";
+            const double room = text_width(text, 9.5) + 4.0;
+            if (!text.empty() && room + 4.0 < part_width) {
+                const double middle = px(from) + 0.5 * part_width;
+                drawing.rectangle(middle - 0.5 * room, y - 5.5, room, 11.0, "fill=\"#ffffff\" stroke=\"none\"");
+                drawing.text(middle, y + 3.2, text, "middle", 9.5);
+            }
+            from += share;
+        }
+    }
+    drawing.line(px(0.0), top, px(0.0), bottom, "stroke=\"#000000\" stroke-width=\"0.9\"");
+    drawing.line(labels, bottom, labels + width, bottom, "stroke=\"#000000\" stroke-width=\"0.9\"");
+    drawing.text(labels + 0.5 * width, bottom + 31.0, plot.x_label, "middle", 11.0);
+    return svg_document(plot.id, plot.title, plot.description, height, drawing);
 }
 
 }  // namespace gumcert::reports

@@ -5,7 +5,7 @@
 
 namespace gumcert::reports {
 
-enum class PlotMarker { disc, square, triangle };
+enum class PlotMarker { disc, ring, square, triangle, cross };
 enum class PlotBars { none, bars, band };  ///< how the expanded uncertainty is drawn
 
 /// One value with its expanded uncertainty, in the units of the axes; U = 0: none is drawn.
@@ -32,6 +32,8 @@ struct PlotPanel {
     std::string y_label;
     std::vector<PlotSeries> series;
     std::vector<PlotLimit> limits;  ///< dashed horizontal lines; always inside the panel
+    /// Greatest magnitude of the vertical axis; what is beyond it is drawn at the edge. 0: as the points need it.
+    double y_most = 0.0;
 };
 
 /// Panels in rows of `columns`, filled column by column; all share the horizontal axis.
@@ -60,6 +62,31 @@ struct BarPlot {
     std::vector<ShareBar> bars;
 };
 
+/// Parts of a whole side by side in one bar.
+struct StackedBar {
+    std::string label;
+    std::vector<double> shares;  ///< [%], parallel to StackedPlot::parts; what is negative is not drawn
+    std::vector<std::string> texts;
+    std::string text;  ///< at the end of the bar
+};
+
+/// Horizontal stacked bars, from the top down, with a key of the parts.
+struct StackedPlot {
+    std::string id, title, description;
+    std::string x_label;
+    std::string text_head;  ///< above the texts at the ends of the bars
+    std::vector<std::string> parts;
+    std::vector<StackedBar> bars;
+};
+
+/// Counts in cells of equal width side by side.
+struct HistogramPlot {
+    std::string id, title, description;
+    std::string x_label, y_label;
+    double first_edge = 0.0, cell_width = 1.0;
+    std::vector<double> counts;
+};
+
 struct DensityInterval {
     std::string label;
     double low = 0.0, high = 0.0;
@@ -78,13 +105,15 @@ struct DensityPlot {
     std::vector<DensityInterval> intervals;
 };
 
-/// A plot as a whole SVG 1.1 document: lines, rectangles, polygons, circles and plain text elements only.
+/// A plot as a whole SVG 1.1 document: lines, rectangles, polygons, circles, paths and plain text elements only.
 ///
 /// Series differ by marker and filling, not by colour; numbers are fixed texts, so the same plot has the same bytes.
 /// \throws gum::NoResultError if a number is not finite
 [[nodiscard]] std::string svg(const Plot& plot);
 [[nodiscard]] std::string svg(const BarPlot& plot);
 [[nodiscard]] std::string svg(const DensityPlot& plot);
+[[nodiscard]] std::string svg(const StackedPlot& plot);
+[[nodiscard]] std::string svg(const HistogramPlot& plot);
 
 /// The five characters that mean something to XML and HTML, escaped.
 [[nodiscard]] std::string escape_markup(const std::string& text);

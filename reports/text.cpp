@@ -1,5 +1,6 @@
 #include "reports/asset_files.h"
 #include "reports/certificate_view.h"
+#include "reports/document_forms.h"
 #include "reports/render.h"
 
 #include <nlohmann/json.hpp>
@@ -161,6 +162,13 @@ std::string table_line(const std::vector<std::vector<std::string>>& cells, const
     return out;
 }
 
+std::size_t span_of(const json& cell) {
+    const std::string text = text_of(cell, "span");
+    std::size_t span = 1;
+    (void)std::from_chars(text.data(), text.data() + text.size(), span);
+    return span;
+}
+
 std::string table(const json& block) {
     const json& columns = block.at("columns");
     const std::size_t count = columns.size();
@@ -192,6 +200,19 @@ std::string table(const json& block) {
         }
     }
     std::size_t gap = 2;
+    for (const json& group : block.at("groups")) {  // the head of a group fits above its columns
+        std::size_t first = 0;
+        for (const json& cell : group.at("cells")) {
+            const std::size_t span = span_of(cell);
+            std::size_t room = span - 1;  // with the narrow gap
+            for (std::size_t c = first; c < first + span; ++c) {
+                room += widths[c];
+            }
+            const std::size_t own = width(text_of(cell, "text"));
+            widths[first] += own > room ? own - room : 0;
+            first += span;
+        }
+    }
     const auto total = [&] {
         std::size_t sum = gap * (count - 1);
         for (const std::size_t w : widths) {
@@ -228,9 +249,7 @@ std::string table(const json& block) {
         std::string line;
         std::size_t c = 0;
         for (const json& cell : group.at("cells")) {
-            const std::string span_text = text_of(cell, "span");
-            std::size_t span = 1;
-            (void)std::from_chars(span_text.data(), span_text.data() + span_text.size(), span);
+            const std::size_t span = span_of(cell);
             std::size_t room = gap * (span - 1);
             for (std::size_t i = 0; i < span; ++i) {
                 room += widths[c + i];
@@ -238,6 +257,7 @@ std::string table(const json& block) {
             line += std::string(c == 0 ? 0 : gap, ' ') + padded(text_of(cell, "text"), room, true);
             c += span;
         }
+        line.erase(line.find_last_not_of(' ') + 1);
         out += line + "\n";
     }
     std::vector<std::vector<std::string>> cells;
@@ -268,8 +288,7 @@ std::string table(const json& block) {
 
 }  // namespace
 
-std::string render_text(const EvaluationRecord& record, const RenderAssets& assets) {
-    const json view = certificate_view(record, read_wording(assets));
+std::string view_as_text(const nlohmann::json& view) {
     const std::string rule(k_columns, '=');
     std::string out = rule + "\n" + centred(text_of(view, "mark")) + rule + "\n" +
                       paragraph(text_of(view, "mark_reason"), 0) + "\n" + centred(text_of(view, "type")) +
@@ -298,6 +317,10 @@ std::string render_text(const EvaluationRecord& record, const RenderAssets& asse
     }
     return out + "\n" + std::string(k_columns, '-') + "\n" + paragraph(text_of(view, "only_items"), 0) + "\n" +
            centred(text_of(view, "end_mark"));
+}
+
+std::string render_text(const EvaluationRecord& record, const RenderAssets& assets) {
+    return view_as_text(certificate_view(record, read_wording(assets)));
 }
 
 }  // namespace gumcert::reports

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -18,9 +19,13 @@
 #include "app/evaluate_job.h"
 #include "app/file_digest.h"
 #include "app/output_files.h"
+#include "app/plan_job.h"
+#include "app/simulate_job.h"
+#include "app/study_inputs.h"
 #include "gum/quantity/diagnostic.h"
 #include "reports/record/evaluation_record.h"
 #include "reports/render.h"
+#include "reports/study_document.h"
 
 namespace {
 
@@ -263,6 +268,14 @@ void report_diagnostics(const reports::EvaluationRecord& record, const CommonOpt
     throw gum::UsageError(gum::Diagnostic{"GC-USAGE-0001", where, what, rule, action, gum::Severity::error});
 }
 
+void write_to_stdout(const std::string& bytes) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0) {
+        throw gum::StorageError(gum::Diagnostic{"GC-STORE-0003", "standard output", "cannot be written",
+                                                "all of the output must arrive", "write to a file with -o FILE",
+                                                gum::Severity::error});
+    }
+}
+
 /// \return true when the answer is negative
 bool run_job(const fs::path& job, const std::string& output, const std::string& share, const CommonOptions& common) {
     const fs::path folder = output.empty() ? job.parent_path() / (job.stem().string() + "-out") : fs::path(output);
@@ -310,11 +323,7 @@ bool evaluate(const fs::path& job, const std::string& output, const CommonOption
     progress.clear();
     if (to_stdout) {
         report_diagnostics(evaluation.record, common);
-        if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-            throw gum::StorageError(gum::Diagnostic{"GC-STORE-0003", "standard output", "cannot be written",
-                                                    "all of the output must arrive",
-                                                    "write to a file with -o RECORD.json", gum::Severity::error});
-        }
+        write_to_stdout(text);
         return evaluation.negative;
     }
     std::vector<app::OutputFile> files{{record_file, text}};
@@ -360,16 +369,49 @@ void render_record(const fs::path& record_file, const std::string& format, const
     }
     const std::string bytes = render(record, format, assets(share, language));
     if (to_stdout) {
-        if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0) {
-            throw gum::StorageError(gum::Diagnostic{"GC-STORE-0003", "standard output", "cannot be written",
-                                                    "all of the output must arrive", "write to a file with -o FILE",
-                                                    gum::Severity::error});
-        }
+        write_to_stdout(bytes);
         return;
     }
     app::write_files({{file, bytes}});
     if (!common.quiet) {
         fmt::print("Written: {}\n", file.string());
+    }
+}
+
+/// Where the outcome of a study goes, and in which form: by the ending of the file.
+struct StudyOutput {
+    fs::path file;  ///< empty: text to standard output
+    std::string form = ".txt";
+};
+
+StudyOutput study_output(const std::string& output, const fs::path& job) {
+    if (output.empty() || output == "-") {
+        return {};
+    }
+    StudyOutput result{output, fs::path(output).extension().string()};
+    if (result.form != ".txt" && result.form != ".json" && result.form != ".html" && result.form != ".pdf") {
+        refuse_usage("-o " + output, "the ending does not say which form is wanted",
+                     "a study is written as .txt, .json, .html or .pdf", "give the file one of these endings");
+    }
+    app::require_writable(result.file);
+    app::require_not_an_input(result.file, {job});
+    return result;
+}
+
+void write_study(const reports::StudyDocument& study, const StudyOutput& output, const fs::path& job,
+                 const std::string& share, const CommonOptions& common) {
+    if (output.file.empty()) {
+        write_to_stdout(reports::render_text(study));
+        return;
+    }
+    app::require_not_an_input(output.file, app::study_inputs(job));
+    const std::string bytes = output.form == ".json"   ? study.data_json
+                              : output.form == ".html" ? reports::render_html(study, assets(share, "en"))
+                              : output.form == ".pdf"  ? reports::render_pdf(study, assets(share, "en"))
+                                                       : reports::render_text(study);
+    app::write_files({{output.file, bytes}});
+    if (!common.quiet) {
+        fmt::print("Written: {}\n", output.file.string());
     }
 }
 
@@ -391,6 +433,8 @@ constexpr const char* k_footer =
     "Start here:\n"
     "  gumcert run examples/rotary_table/job.json     evaluate, write record, HTML and PDF into job-out/\n"
     "  gumcert run examples/gauge_block/job.json      an uncertainty budget, with Monte Carlo; docs/budget_job.md\n"
+    "  gumcert plan examples/rotary_table/plan.json   the uncertainty to expect, before anything is measured\n"
+    "  gumcert simulate examples/rotary_table/simulation.json   measurements with a known truth, evaluated\n"
     "\n"
     "Exit codes: 0 done; 1 done, and the answer is negative; 2 the command line is wrong; 3 an input was refused;\n"
     "4 no result can be computed; 5 a file or disk trouble; 70 a defect in the program. Nothing is written when the\n"
@@ -441,7 +485,35 @@ int dispatch(int argc, char** argv, CommonOptions& common) {
     render_command->add_option("--share", share, "Folder that holds templates/ and node_modules/");
     render_command->footer("Example: gumcert render record.json --format pdf -o certificate.pdf");
 
-    for (CLI::App* command : {run, evaluate_command, render_command}) {
+    std::optional<std::size_t> runs;
+    std::optional<std::uint64_t> seed;
+    CLI::App* simulate_command = program.add_subcommand(
+        "simulate", "Simulate measurements of a rotary-table job with a known truth, and evaluate them");
+    simulate_command->add_option("JOB", job, "Job file (JSON) of kind rotary_table")->required();
+    simulate_command->add_option("--runs", runs, "Simulated campaigns; default: as the job says, else 100")
+        ->check(CLI::Range(2, 1'000'000));
+    simulate_command->add_option("--seed", seed, "Seed of the random numbers; default: as the job says, else 1");
+    simulate_command->footer(
+        "Example: gumcert simulate examples/rotary_table/simulation.json --runs 20 -o study.html\n"
+        "Says how far evaluated set-up and error motions are from the simulated truth, how much of that is the choice\n"
+        "of a datum and how much is measurement, and whether the stated uncertainties hold. docs/simulation.md");
+
+    CLI::App* plan_command =
+        program.add_subcommand("plan", "Uncertainty to expect of a rotary-table job before anything is measured");
+    plan_command->add_option("JOB", job, "Job file (JSON) of kind rotary_table; measured lengths are not needed")
+        ->required();
+    plan_command->footer(
+        "Example: gumcert plan examples/rotary_table/plan.json -o plan.html\n"
+        "Expected expanded uncertainties, what each station and the number of angles contribute, and better station\n"
+        "positions inside the region that the job allows. docs/planning.md");
+    for (CLI::App* command : {simulate_command, plan_command}) {
+        command->add_option(
+            "-o,--output", output,
+            "File; its ending says the form: .txt, .json, .html or .pdf. Default: text to the terminal");
+        command->add_option("--share", share, "Folder that holds templates/ and node_modules/");
+    }
+
+    for (CLI::App* command : {run, evaluate_command, render_command, simulate_command, plan_command}) {
         add_common(*command);
     }
 
@@ -458,6 +530,16 @@ int dispatch(int argc, char** argv, CommonOptions& common) {
         return evaluate(job, output, common) ? negative_answer : done;
     } else if (render_command->parsed()) {
         render_record(record, format, output, language, share, common);
+    } else if (simulate_command->parsed() || plan_command->parsed()) {
+        const StudyOutput to = study_output(output, job);
+        ProgressLine progress(!common.quiet);
+        const auto report = [&](const std::string& text) { progress(text); };
+        const auto threads = static_cast<unsigned>(common.threads);
+        const reports::StudyDocument study = simulate_command->parsed()
+                                                 ? app::simulate_job(job, runs, seed, threads, report)
+                                                 : app::plan_job(job, threads, report);
+        progress.clear();
+        write_study(study, to, job, share, common);
     } else {
         fmt::print("{}", program.help());
     }

@@ -27,11 +27,7 @@ constexpr std::array<std::string_view, 17> k_job_keys{
 constexpr std::array<std::string_view, 2> k_reporting_keys{"degrees_of_freedom", "rounding"};
 constexpr std::array<std::string_view, 3> k_unknown_keys{"start", "unit", "description"};
 constexpr std::array<std::string_view, 3> k_output_keys{"unit", "coverage_probability", "description"};
-constexpr std::array<std::string_view, 5> k_monte_carlo_keys{"trials", "adaptive", "seed", "validate", "digits"};
-constexpr std::array<std::string_view, 2> k_adaptive_keys{"digits", "max_trials"};
 
-constexpr double k_most_trials = 1e10;
-constexpr double k_largest_seed = 9007199254740992.0;  // 2^53: up to it every integer has a double
 constexpr NumberRange k_probability{.low = 0.0,
                                     .high = 1.0,
                                     .low_open = true,
@@ -80,7 +76,11 @@ private:
         read_correlations(*root, *document_, covariance, positions, inputs.names(), job_, *problems_);
         read_outputs(*root);
         inputs.read_points(*root, job_);
-        read_monte_carlo(*root);
+        double p = job_.coverage_probability;
+        for (const BudgetOutput& output : job_.outputs) {
+            p = std::max(p, output.coverage_probability.value_or(p));
+        }
+        job_.monte_carlo = read_monte_carlo(*root, p, *problems_);
         check_model(*root, inputs);
         job_.certificate = files_.certificate(*root);
     }
@@ -214,76 +214,6 @@ private:
             }
             job_.outputs.push_back(std::move(output));
         });
-    }
-
-    // ---- Monte Carlo ------------------------------------------------------------------------------------------------
-
-    void read_monte_carlo(const JsonObject& root) {
-        const auto object = root.optional_object("monte_carlo", k_monte_carlo_keys);
-        if (!object) {
-            return;
-        }
-        MonteCarloRequest& options = job_.monte_carlo.emplace();
-        options.where = object->where();
-        double p = job_.coverage_probability;
-        for (const BudgetOutput& output : job_.outputs) {
-            p = std::max(p, output.coverage_probability.value_or(p));
-        }
-        const NumberRange trials{
-            .low = 1.0, .high = k_most_trials, .hint = "a job has at most 10000000000 trials; 1000000 is usual"};
-        const auto digits = object->optional_integer("digits", between(1.0, 2.0, ""));
-        options.digits = static_cast<int>(digits.value_or(2));
-        options.seed =
-            static_cast<std::uint64_t>(object->optional_integer("seed", between(0.0, k_largest_seed, "")).value_or(1));
-        options.validate = object->optional_boolean("validate").value_or(false);
-        if (object->has("trials") && object->has("adaptive")) {
-            object->refuse(k_trials_and_adaptive, "adaptive", "\"trials\" and \"adaptive\" are given together",
-                           "the number of trials is fixed or adaptive", "keep one of them");
-        }
-        if (const auto count = object->optional_integer("trials", trials)) {
-            options.trials = static_cast<std::uint64_t>(*count);
-            check_trials(*object, static_cast<double>(*count), p);
-        }
-        if (const auto adaptive = object->optional_object("adaptive", k_adaptive_keys)) {
-            const auto own = adaptive->optional_integer("digits", between(1.0, 2.0, ""));
-            if (own && digits && *own != *digits) {
-                adaptive->refuse(
-                    k_trials_and_adaptive, "digits",
-                    "digits is " + std::to_string(*own) + " here and " + std::to_string(*digits) + " in monte_carlo",
-                    "one number of significant digits holds for both", "keep one of them");
-            }
-            options.digits = static_cast<int>(own.value_or(options.digits));
-            if (const auto most = adaptive->optional_integer("max_trials", trials)) {
-                options.most_trials = static_cast<std::uint64_t>(*most);
-                // One block of the adaptive procedure is the least that there is.
-                const double least = std::max(1e4, 100.0 / (1.0 - p));
-                if (static_cast<double>(*most) < least) {
-                    adaptive->refuse(k_too_few_trials, "max_trials", shortest(static_cast<double>(*most)) + " trials",
-                                     "the adaptive procedure takes at least " + shortest(std::ceil(least)) +
-                                         " trials at p = " + shortest(p),
-                                     "state a larger number, such as 1000000000");
-                }
-            }
-        }
-    }
-
-    void check_trials(const JsonObject& object, double count, double p) {
-        const double least = 100.0 / (1.0 - p);
-        const double recommended = 1e4 / (1.0 - p);
-        // Nobody meant a fraction of a trial: 10⁴/(1 − 0.99) is a million, whatever the rounding of 1 − 0.99.
-        constexpr double k_rounding = 1.0 - 1e-9;
-        if (count < least * k_rounding) {
-            object.refuse(
-                k_too_few_trials, "trials", shortest(count) + " trials",
-                "a coverage interval for p = " + shortest(p) +
-                    " needs at least 100/(1 - p) = " + shortest(std::ceil(least * k_rounding)) + " trials",
-                "state at least 10000/(1 - p) = " + shortest(std::ceil(recommended * k_rounding)) + " trials");
-        } else if (count < recommended * k_rounding) {
-            problems_->warn(k_warn_few_trials, object.where("trials"), shortest(count) + " trials",
-                            "at p = " + shortest(p) + ", at least 10000/(1 - p) = " +
-                                shortest(std::ceil(recommended * k_rounding)) + " trials are recommended",
-                            "state more trials");
-        }
     }
 
     // ---- the model as a whole ---------------------------------------------------------------------------------------

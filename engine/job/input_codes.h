@@ -64,8 +64,7 @@ inline constexpr InputCode k_csv_name{"GC-INPUT-0115",
 inline constexpr InputCode k_csv_matrix_size{"GC-INPUT-0116", "a matrix has another number of rows than demanded"};
 inline constexpr InputCode k_csv_too_many_columns{"GC-INPUT-0117", "a row has more than 10000 fields"};
 
-// Rotary-table jobs.
-inline constexpr InputCode k_no_monte_carlo{"GC-INPUT-0200", "Monte Carlo is asked for where it is not available"};
+// Rotary-table jobs. GC-INPUT-0200 is retired and not given again: it refused Monte Carlo of a rotary_table job.
 inline constexpr InputCode k_scale_without_u{"GC-INPUT-0201", "scale_model prior without scale_u"};
 inline constexpr InputCode k_no_length_uncertainty{"GC-INPUT-0202", "both parts of the length uncertainty are zero"};
 inline constexpr InputCode k_no_repeatability{"GC-INPUT-0203", "table_repeatability given without a value above zero"};
@@ -92,6 +91,17 @@ inline constexpr InputCode k_reading_at_unknown_angle{"GC-INPUT-0220", "a dial i
 inline constexpr InputCode k_repeated_reading{"GC-INPUT-0221", "a dial indicator reading occurs twice"};
 inline constexpr InputCode k_no_indicator_uncertainty{"GC-INPUT-0222", "nothing is known of the dial indicator"};
 inline constexpr InputCode k_too_many_reflectors{"GC-INPUT-0223", "more than 500 reflectors"};
+inline constexpr InputCode k_fixture_keys_exclude{"GC-INPUT-0224", "keys of the fixture that exclude each other"};
+inline constexpr InputCode k_fixture_budget_points{"GC-INPUT-0225",
+                                                   "points of the fixture budget that are not the coordinates"};
+inline constexpr InputCode k_layout_incomplete{"GC-INPUT-0226", "neither measured lengths nor a complete layout"};
+inline constexpr InputCode k_repeated_angle{"GC-INPUT-0227", "a planned angle occurs twice"};
+inline constexpr InputCode k_limits_reversed{"GC-INPUT-0228", "a lower limit above the upper one"};
+inline constexpr InputCode k_layout_too_large{"GC-INPUT-0229", "a layout or a study that is larger than allowed"};
+inline constexpr InputCode k_fixture_budget_output{"GC-INPUT-0230",
+                                                   "the fixture budget has not one output of the unit of a length"};
+inline constexpr InputCode k_fixture_budget_differs{"GC-INPUT-0231",
+                                                    "fixture budget and coordinates file state different values"};
 
 // Budget jobs.
 inline constexpr InputCode k_no_statement{"GC-INPUT-0300", "an input without a statement of what is known of it"};
@@ -151,6 +161,8 @@ inline constexpr InputCode k_warn_unused_input{"GC-WARN-0008", "an input that no
 inline constexpr InputCode k_warn_same_but_case{"GC-WARN-0009", "names that differ by capital letters only"};
 inline constexpr InputCode k_warn_few_trials{"GC-WARN-0010", "fewer Monte Carlo trials than recommended"};
 inline constexpr InputCode k_warn_equal_observations{"GC-WARN-0011", "observations that are all equal"};
+inline constexpr InputCode k_warn_fixture_u_differs{"GC-WARN-0012",
+                                                    "u columns of the fixture that are not used, and are far off"};
 
 /// The whole table, in the order of the codes.
 inline constexpr std::array k_input_codes{k_file_too_large,
@@ -198,7 +210,6 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_csv_name,
                                           k_csv_matrix_size,
                                           k_csv_too_many_columns,
-                                          k_no_monte_carlo,
                                           k_scale_without_u,
                                           k_no_length_uncertainty,
                                           k_no_repeatability,
@@ -222,6 +233,14 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_repeated_reading,
                                           k_no_indicator_uncertainty,
                                           k_too_many_reflectors,
+                                          k_fixture_keys_exclude,
+                                          k_fixture_budget_points,
+                                          k_layout_incomplete,
+                                          k_repeated_angle,
+                                          k_limits_reversed,
+                                          k_layout_too_large,
+                                          k_fixture_budget_output,
+                                          k_fixture_budget_differs,
                                           k_no_statement,
                                           k_two_statements,
                                           k_incomplete_statement,
@@ -266,6 +285,7 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_warn_unused_input,
                                           k_warn_same_but_case,
                                           k_warn_few_trials,
-                                          k_warn_equal_observations};
+                                          k_warn_equal_observations,
+                                          k_warn_fixture_u_differs};
 
 }  // namespace gumcert::engine

@@ -6,7 +6,8 @@
 
 namespace gumcert::engine {
 
-JobFiles::JobFiles(const FileSource& source, const std::string& job_file) : source_(source) {
+JobFiles::JobFiles(const FileSource& source, const std::string& job_file)
+    : source_(source), folder_(job_file.substr(0, job_file.rfind('/') + 1)) {
     names_.push_back(job_file);
     problems_.emplace_back(job_file);
 }
@@ -15,7 +16,8 @@ JobFiles::File JobFiles::job() {
     return {source_.read(names_.front()), &problems_.front()};
 }
 
-std::optional<JobFiles::File> JobFiles::open(const std::string& name) {
+std::optional<JobFiles::File> JobFiles::open(const std::string& name_in_job) {
+    const std::string name = folder_ + name_in_job;
     if (std::find(names_.begin(), names_.end(), name) == names_.end()) {
         names_.push_back(name);
     }
@@ -48,6 +50,23 @@ std::optional<std::string> JobFiles::file_name(const JsonObject& object, std::st
         return std::nullopt;
     }
     return name;
+}
+
+void JobFiles::add(const std::vector<std::string>& names, const std::vector<gum::Diagnostic>& warnings) {
+    for (const std::string& name : names) {
+        if (std::find(names_.begin(), names_.end(), name) == names_.end()) {
+            names_.push_back(name);
+        }
+    }
+    warnings_elsewhere_.insert(warnings_elsewhere_.end(), warnings.begin(), warnings.end());
+}
+
+void JobFiles::add(const gum::InputError& error) {
+    refused_elsewhere_.insert(refused_elsewhere_.end(), error.diagnostics().begin(), error.diagnostics().end());
+}
+
+void JobFiles::add(const gum::StorageError& error) {
+    not_readable_.insert(not_readable_.end(), error.diagnostics().begin(), error.diagnostics().end());
 }
 
 nlohmann::json JobFiles::certificate(const JsonObject& root) {
@@ -83,6 +102,7 @@ void JobFiles::refuse_if_needed() const {
         const std::vector<gum::Diagnostic> of_file = list.refused();
         refused.insert(refused.end(), of_file.begin(), of_file.end());
     }
+    refused.insert(refused.end(), refused_elsewhere_.begin(), refused_elsewhere_.end());
     if (!not_readable_.empty()) {
         throw gum::StorageError(std::move(refused));
     }
@@ -97,6 +117,7 @@ std::vector<gum::Diagnostic> JobFiles::warnings() const {
         const std::vector<gum::Diagnostic> of_file = list.warnings();
         all.insert(all.end(), of_file.begin(), of_file.end());
     }
+    all.insert(all.end(), warnings_elsewhere_.begin(), warnings_elsewhere_.end());
     return all;
 }
 

@@ -15,6 +15,8 @@
 namespace gumcert::engine {
 
 /// The files of one job while it is read: their content, and for each the list of its problems.
+///
+/// Names in a job are relative to it: those of a job "budgets/fixture.json" are looked for, and told, as "budgets/…".
 class JobFiles {
 public:
     JobFiles(const FileSource& source, const std::string& job_file);
@@ -35,6 +37,11 @@ public:
     /// Why a text is not acceptable as such a file name; nothing when it is.
     [[nodiscard]] static std::optional<std::string> file_name_objection(std::string_view name);
 
+    /// Takes over what another reader found in the files of a job of its own, which this job names.
+    void add(const std::vector<std::string>& names, const std::vector<gum::Diagnostic>& warnings);
+    void add(const gum::InputError& error);
+    void add(const gum::StorageError& error);
+
     /// The key `certificate`: an object, or the name of a file with one; null without.
     [[nodiscard]] nlohmann::json certificate(const JsonObject& root);
 
@@ -42,14 +49,17 @@ public:
     /// \throws InputError    with every problem of every file, those of the job first
     void refuse_if_needed() const;
     [[nodiscard]] std::vector<gum::Diagnostic> warnings() const;
-    /// Names as the job gives them, each once, the job first.
+    /// Names as the job gives them, after the folder of the job in the source, each once, the job first.
     [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
 private:
     const FileSource& source_;
+    std::string folder_;  ///< of the job in the source, with its /; empty at the top
     std::vector<std::string> names_;
     std::deque<ProblemList> problems_;  ///< a deque because readers keep addresses of its elements
     std::vector<gum::Diagnostic> not_readable_;
+    std::vector<gum::Diagnostic> refused_elsewhere_;
+    std::vector<gum::Diagnostic> warnings_elsewhere_;
 };
 
 /// One field of the header of a table.

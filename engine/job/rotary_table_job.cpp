@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
 #include <iterator>
 #include <limits>
 #include <numbers>
@@ -13,8 +12,11 @@
 #include <unordered_map>
 #include <utility>
 
+#include "engine/job/budget_job.h"
 #include "engine/job/csv_table.h"
+#include "engine/job/job_files.h"
 #include "engine/job/json_document.h"
+#include "engine/job/rotary_table_study.h"
 #include "gum/quantity/units.h"
 
 namespace gumcert::engine {
@@ -29,7 +31,7 @@ using Words = std::span<const std::string_view>;
 
 // ---- keys -----------------------------------------------------------------------------------------------------------
 
-constexpr std::array<std::string_view, 17> k_job_keys{"schema",
+constexpr std::array<std::string_view, 20> k_job_keys{"schema",
                                                       "kind",
                                                       "title",
                                                       "axis",
@@ -44,36 +46,49 @@ constexpr std::array<std::string_view, 17> k_job_keys{"schema",
                                                       "variance_components",
                                                       "outliers",
                                                       "reference_method",
+                                                      "monte_carlo",
+                                                      "simulation",
+                                                      "plan",
                                                       "certificate",
                                                       "notes"};
-constexpr std::array<std::string_view, 3> k_observations_keys{"lengths", "stations", "environment"};
-constexpr std::array<std::string_view, 4> k_length_uncertainty_keys{"u_constant_um", "u_proportional_um_per_m",
-                                                                    "scale_u", "scale_model"};
-constexpr std::array<std::string_view, 4> k_fixture_keys{"coordinates", "covariance", "reference_temperature_degC",
+constexpr std::array<std::string_view, 4> k_observations_keys{"lengths", "stations", "environment",
+                                                              "temperature_distribution"};
+constexpr std::array<std::string_view, 5> k_length_uncertainty_keys{"u_constant_um", "u_proportional_um_per_m",
+                                                                    "resolution_um", "scale_u", "scale_model"};
+constexpr std::array<std::string_view, 8> k_fixture_keys{"coordinates",
+                                                         "covariance",
+                                                         "budget",
+                                                         "uncertainty",
+                                                         "distribution",
+                                                         "variance_component",
+                                                         "reference_temperature_degC",
                                                          "thermal_expansion_per_K"};
-constexpr std::array<std::string_view, 2> k_expansion_keys{"value", "u"};
+constexpr std::array<std::string_view, 3> k_expansion_keys{"value", "u", "distribution"};
 constexpr std::array<std::string_view, 4> k_repeatability_keys{"mode", "u_linear_um", "u_axial_arcsec",
                                                                "u_tilt_arcsec"};
 constexpr std::array<std::string_view, 3> k_outliers_keys{"test", "alpha", "action"};
 constexpr std::array<std::string_view, 3> k_reference_keys{"name", "readings", "description"};
 constexpr std::array<std::string_view, 6> k_indicator_keys{"contact_point_mm", "resolution_um",    "mpe_um",
                                                            "repeatability_um", "temperature_degC", "note"};
-// monte_carlo is a key of every job; it stands apart because this kind refuses it with a reason of its own.
-constexpr auto k_job_keys_and_monte_carlo = [] {
-    std::array<std::string_view, k_job_keys.size() + 1> keys{};
-    std::copy(k_job_keys.begin(), k_job_keys.end(), keys.begin());
-    keys.back() = "monte_carlo";
-    return keys;
-}();
 
-const std::array<JobKeys, 8> k_all_keys{{{"", k_job_keys},
-                                         {"/observations", k_observations_keys},
-                                         {"/length_uncertainty", k_length_uncertainty_keys},
-                                         {"/fixture", k_fixture_keys},
-                                         {"/fixture/thermal_expansion_per_K", k_expansion_keys},
-                                         {"/table_repeatability", k_repeatability_keys},
-                                         {"/outliers", k_outliers_keys},
-                                         {"/reference_method", k_reference_keys}}};
+const std::vector<JobKeys>& all_keys() {
+    static const std::vector<JobKeys> k_all = [] {
+        std::vector<JobKeys> all{{"", k_job_keys},
+                                 {"/observations", k_observations_keys},
+                                 {"/length_uncertainty", k_length_uncertainty_keys},
+                                 {"/fixture", k_fixture_keys},
+                                 {"/fixture/thermal_expansion_per_K", k_expansion_keys},
+                                 {"/table_repeatability", k_repeatability_keys},
+                                 {"/outliers", k_outliers_keys},
+                                 {"/reference_method", k_reference_keys},
+                                 {"/monte_carlo", k_monte_carlo_keys},
+                                 {"/monte_carlo/adaptive", k_adaptive_keys}};
+        const std::span<const JobKeys> studies = rotary_table_study_keys();
+        all.insert(all.end(), studies.begin(), studies.end());
+        return all;
+    }();
+    return k_all;
+}
 
 template <typename E>
 using Choice = std::pair<std::string_view, E>;
@@ -93,6 +108,11 @@ constexpr std::array<Choice<OutlierTest>, 2> k_tests{
     {{"data_snooping", OutlierTest::data_snooping}, {"none", OutlierTest::none}}};
 constexpr std::array<Choice<OutlierAction>, 2> k_actions{
     {{"report", OutlierAction::report}, {"remove", OutlierAction::remove}}};
+constexpr std::array<Choice<InputShape>, 2> k_shapes{
+    {{"normal", InputShape::normal}, {"uniform", InputShape::uniform}}};
+constexpr std::array<Choice<FixtureComponent>, 3> k_fixture_components{
+    {{"check", FixtureComponent::check}, {"estimate", FixtureComponent::estimate}, {"given", FixtureComponent::given}}};
+constexpr std::array<Choice<bool>, 2> k_fixture_uncertainties{{{"stated", false}, {"source_paper", true}}};
 
 // ---- limits of what a campaign can be -------------------------------------------------------------------------------
 
@@ -101,6 +121,7 @@ constexpr std::size_t k_least_at_angle = 6;     // a pose has six unknowns
 constexpr std::size_t k_least_of_station = 4;   // a station has x, y, z and a dead path
 constexpr std::size_t k_least_reflectors = 3;   // three points fix a rigid body
 constexpr std::size_t k_most_reflectors = 500;  // their covariance is dense
+constexpr double k_most_distances = 1e6;        // of a layout, as of a lengths file
 constexpr NumberRange k_fixture_coordinate{
     .low = -10'000.0, .high = 10'000.0, .unit = "mm", .hint = "check the unit: coordinates are in millimetres"};
 constexpr NumberRange k_station_coordinate{
@@ -156,18 +177,14 @@ bool look_like_radians(const std::vector<double>& angles) {
 /// Reads one job; every step notes what it finds, and `result` throws or returns at the end.
 class Reader {
 public:
-    Reader(const FileSource& source, const std::string& job_file, JobUse use) : source_(source), use_(use) {
-        job_.files.push_back(job_file);
-        problems_.emplace_back(job_file);
-    }
+    Reader(const FileSource& source, const std::string& job_file, JobUse use)
+        : source_(source), files_(source, job_file), use_(use) {}
 
     RotaryTableJob result() {
         read_job();
-        refuse_if_needed();
-        for (const ProblemList& list : problems_) {
-            const std::vector<gum::Diagnostic> warnings = list.warnings();
-            job_.warnings.insert(job_.warnings.end(), warnings.begin(), warnings.end());
-        }
+        files_.refuse_if_needed();
+        job_.files = files_.names();
+        job_.warnings = files_.warnings();
         return std::move(job_);
     }
 
@@ -187,64 +204,20 @@ private:
 
     // ---- files ------------------------------------------------------------------------------------------------------
 
-    void refuse_if_needed() {
-        std::vector<gum::Diagnostic> refused = not_readable_;
-        for (const ProblemList& list : problems_) {
-            const std::vector<gum::Diagnostic> of_file = list.refused();
-            refused.insert(refused.end(), of_file.begin(), of_file.end());
-        }
-        if (!not_readable_.empty()) {
-            throw gum::StorageError(std::move(refused));
-        }
-        if (!refused.empty()) {
-            throw gum::InputError(std::move(refused));
-        }
-    }
-
-    /// A file name under a key. \return nothing when it is absent or not acceptable
-    std::optional<std::string> file_name(const JsonObject& object, std::string_view key, bool required) {
-        const std::optional<std::string> name =
-            required ? object.required_name(key, 4096) : object.optional_name(key, 4096);
-        if (!name) {
-            return std::nullopt;
-        }
-        const bool has_drive = name->size() > 1 && (*name)[1] == ':';
-        if (name->front() == '/' || has_drive || name->find('\\') != std::string::npos) {
-            object.refuse(k_file_name, key, "the file name " + in_quotes(*name),
-                          "file names are relative to the job file and have / between folders",
-                          "put the file beside the job and give its name");
-            return std::nullopt;
-        }
-        return name;
-    }
+    using File = JobFiles::File;
 
     /// The content of a file that the job names, and the list for its problems.
-    struct File {
-        std::string bytes;
-        ProblemList* problems;
-    };
     std::optional<File> open(const std::optional<std::string>& name) {
-        if (!name) {
-            return std::nullopt;
-        }
-        if (std::find(job_.files.begin(), job_.files.end(), *name) == job_.files.end()) {
-            job_.files.push_back(*name);
-        }
-        ProblemList& problems = problems_.emplace_back(*name);
-        try {
-            return File{source_.read(*name), &problems};
-        } catch (const gum::StorageError& error) {
-            not_readable_.insert(not_readable_.end(), error.diagnostics().begin(), error.diagnostics().end());
-            return std::nullopt;
-        }
+        return name ? files_.open(*name) : std::nullopt;
     }
 
     // ---- the job file -----------------------------------------------------------------------------------------------
 
     void read_job() {
-        ProblemList& problems = problems_.front();
-        const std::string bytes = source_.read(problems.file());
-        std::optional<JsonDocument> document = read_json_document(bytes, problems);
+        const File file = files_.job();
+        problems_ = file.problems;
+        ProblemList& problems = *problems_;
+        std::optional<JsonDocument> document = read_json_document(file.bytes, problems);
         if (!document) {
             return;
         }
@@ -257,7 +230,7 @@ private:
                             "a job of kind \"rotary_table\" is expected here", "use the command for this kind of job");
             return;
         }
-        const std::optional<JsonObject> root = JsonObject::root(*document, k_job_keys_and_monte_carlo, problems);
+        const std::optional<JsonObject> root = JsonObject::root(*document, k_job_keys, problems);
         if (!root) {
             return;
         }
@@ -267,15 +240,20 @@ private:
         const std::optional<JsonObject> fixture = root->required_object("fixture", k_fixture_keys);
         const std::optional<JsonObject> reference = root->optional_object("reference_method", k_reference_keys);
         const auto name_in = [&](const std::optional<JsonObject>& object, std::string_view key, bool required) {
-            return object ? file_name(*object, key, required) : std::nullopt;
+            return object ? JobFiles::file_name(*object, key, required) : std::nullopt;
         };
-        const std::optional<std::string> lengths_name = name_in(observations, "lengths", true);
+        job_.has_lengths = use_ == JobUse::evaluate || !observations || observations->has("lengths");
+        const std::optional<std::string> lengths_name = name_in(observations, "lengths", job_.has_lengths);
         const std::optional<std::string> stations_name = name_in(observations, "stations", false);
         const std::optional<std::string> environment_name = name_in(observations, "environment", false);
         const std::optional<std::string> fixture_name = name_in(fixture, "coordinates", true);
         const std::optional<std::string> covariance_name = name_in(fixture, "covariance", false);
+        const std::optional<std::string> budget_name = name_in(fixture, "budget", false);
         if (fixture) {
             read_fixture_options(*fixture, observations && observations->has("environment"));
+        }
+        if (observations) {
+            read_temperature_shape(*observations);
         }
         if (observations && !observations->has("environment")) {
             problems.warn(
@@ -290,7 +268,6 @@ private:
         }
         const std::optional<std::string> readings_name = name_in(reference, "readings", true);
         const std::optional<std::string> description_name = name_in(reference, "description", true);
-        const std::optional<std::string> certificate_name = read_certificate_key(*root);
 
         // The lengths are read after the fixture because they name its reflectors; the lists of names and problems keep
         // the order of the documentation.
@@ -301,7 +278,6 @@ private:
         std::optional<File> covariance = open(covariance_name);
         std::optional<File> readings = open(readings_name);
         std::optional<File> description = open(description_name);
-        std::optional<File> certificate = open(certificate_name);
         if (coordinates) {
             read_fixture(std::move(*coordinates));
         }
@@ -311,6 +287,11 @@ private:
         if (stations) {
             read_stations(std::move(*stations));
         }
+        if (!job_.has_lengths) {
+            read_layout(*root, *observations);
+        }
+        check_home_of_plan(*root);
+        check_sizes(*root);
         if (environment) {
             read_environment(std::move(*environment));
         } else {
@@ -331,9 +312,8 @@ private:
                 read_indicator(*description, method);
             }
         }
-        if (certificate) {
-            read_certificate(*certificate);
-        }
+        job_.certificate = files_.certificate(*root);
+        read_fixture_budget(budget_name);
         job_.document = std::move(document->value);
     }
 
@@ -348,12 +328,9 @@ private:
                                       .hint = "state a probability, not a percentage, such as 0.9545"};
         job_.coverage_probability = root.optional_number("coverage_probability", probability).value_or(0.9545);
         (void)root.optional_string("notes");
-        if (root.has("monte_carlo")) {
-            root.refuse(k_no_monte_carlo, "monte_carlo", "Monte Carlo is asked for",
-                        "a rotary_table job is evaluated by the law of propagation in this version; Monte Carlo is not "
-                        "available for it",
-                        "remove \"monte_carlo\"");
-        }
+        job_.monte_carlo = read_monte_carlo(root, job_.coverage_probability, *problems_);
+        job_.simulation = read_simulation(root, *problems_);
+        job_.plan = read_plan(root, *problems_);
     }
 
     void read_options(const JsonObject& root) {
@@ -402,6 +379,8 @@ private:
         }
         uncertainty.u_constant = constant.value_or(0.0) * k_micrometre;
         uncertainty.u_proportional = proportional.value_or(0.0) * k_micrometre;
+        uncertainty.resolution =
+            object.optional_number("resolution_um", not_negative("µm")).value_or(0.0) * k_micrometre;
         // A relative uncertainty of 1 % and more is a value in ppm or percent by mistake.
         const NumberRange relative{
             .low = 0.0,
@@ -419,9 +398,9 @@ private:
                           "add \"scale_u\", or choose \"fixed\" or \"free\"");
         }
         if (uncertainty.scale_model != ScaleModel::prior && scale) {
-            problems_.front().warn(k_warn_unused_value, object.where("scale_u"),
-                                   "scale_u " + shortest(*scale) + " is not used",
-                                   "it belongs to scale_model \"prior\"", "remove it, or choose \"prior\"");
+            problems_->warn(k_warn_unused_value, object.where("scale_u"),
+                            "scale_u " + shortest(*scale) + " is not used", "it belongs to scale_model \"prior\"",
+                            "remove it, or choose \"prior\"");
         }
     }
 
@@ -438,11 +417,10 @@ private:
             any = any || value.value_or(0.0) > 0.0;
             all_read = all_read && (value || !object.has(key)) && (value || !is_given);
             if (repeatability.mode == RepeatabilityMode::none && value) {
-                problems_.front().warn(
-                    k_warn_unused_value, object.where(key),
-                    std::string{key} + " " + shortest(*value) + " " + std::string{unit} + " is not used",
-                    "with mode \"none\" the table has no uncertainty of repeatability",
-                    "remove it, or choose mode \"given\"");
+                problems_->warn(k_warn_unused_value, object.where(key),
+                                std::string{key} + " " + shortest(*value) + " " + std::string{unit} + " is not used",
+                                "with mode \"none\" the table has no uncertainty of repeatability",
+                                "remove it, or choose mode \"given\"");
             }
             return value.value_or(0.0) * factor;
         };
@@ -466,38 +444,54 @@ private:
             coefficient.hint = "check the unit: steel has about 1.15e-5 1/K";
             job_.measurement.expansion = expansion->required_number("value", coefficient).value_or(0.0);
             job_.measurement.u_expansion = expansion->required_number("u", coefficient).value_or(0.0);
+            job_.measurement.expansion_shape =
+                expansion->optional_choice<InputShape>("distribution", k_shapes).value_or(InputShape::normal);
+        }
+        job_.measurement.fixture_component =
+            fixture.optional_choice<FixtureComponent>("variance_component", k_fixture_components)
+                .value_or(FixtureComponent::check);
+        job_.measurement.fixture_shape =
+            fixture.optional_choice<InputShape>("distribution", k_shapes).value_or(InputShape::normal);
+        job_.source_paper_fixture =
+            fixture.optional_choice<bool>("uncertainty", k_fixture_uncertainties).value_or(false);
+        u_is_elsewhere_ = job_.source_paper_fixture || fixture.has("budget");
+        refuse_second_uncertainty(fixture);
+    }
+
+    /// The uncertainty of the fixture comes from one place: columns, covariance, budget or the equation of the paper.
+    void refuse_second_uncertainty(const JsonObject& fixture) const {
+        std::vector<std::pair<std::string_view, std::string>> sources;
+        if (job_.source_paper_fixture) {
+            sources.emplace_back("uncertainty", "\"uncertainty\": \"source_paper\"");
+        }
+        for (const std::string_view key : {"covariance", "budget"}) {
+            if (fixture.has(key)) {
+                sources.emplace_back(key, in_quotes(key));
+            }
+        }
+        if (job_.measurement.fixture_shape == InputShape::uniform) {
+            sources.emplace_back("distribution", "\"distribution\": \"uniform\"");
+        }
+        for (std::size_t i = 1; i < sources.size(); ++i) {
+            const bool is_shape = sources[i].first == "distribution";
+            fixture.refuse(k_fixture_keys_exclude, sources[i].first,
+                           sources[i].second + " is given beside " + sources.front().second,
+                           is_shape ? "a uniform distribution belongs to uncorrelated coordinates with the standard "
+                                      "uncertainties of the coordinates file"
+                                    : "the uncertainty of the fixture comes from a covariance, a budget or the "
+                                      "source paper",
+                           "keep one of them");
         }
     }
 
-    /// \return the name of the certificate file; an object in the job itself is taken as it stands
-    std::optional<std::string> read_certificate_key(const JsonObject& root) {
-        const nlohmann::json* certificate = root.find("certificate");
-        if (certificate == nullptr) {
-            return std::nullopt;
+    void read_temperature_shape(const JsonObject& observations) {
+        const auto shape = observations.optional_choice<InputShape>("temperature_distribution", k_shapes);
+        job_.measurement.temperature_shape = shape.value_or(InputShape::normal);
+        if (shape && !observations.has("environment")) {
+            problems_->warn(k_warn_unused_value, observations.where("temperature_distribution"),
+                            "temperature_distribution is not used", "it belongs to the environment file",
+                            "remove it, or add \"environment\"");
         }
-        if (certificate->is_object()) {
-            job_.certificate = *certificate;
-            return std::nullopt;
-        }
-        if (!certificate->is_string()) {
-            root.refuse(k_wrong_type, "certificate", described(*certificate), "must be an object or the name of a file",
-                        "correct the value");
-            return std::nullopt;
-        }
-        return file_name(root, "certificate", false);
-    }
-
-    void read_certificate(const File& file) {
-        std::optional<JsonDocument> document = read_json_document(file.bytes, *file.problems);
-        if (!document) {
-            return;
-        }
-        if (!document->value.is_object()) {
-            file.problems->refuse(k_wrong_type, document->where(""), "the document is " + described(document->value),
-                                  "must be an object", "write { \"key\": value, … }");
-            return;
-        }
-        job_.certificate = std::move(document->value);
     }
 
     // ---- fixture ----------------------------------------------------------------------------------------------------
@@ -506,7 +500,10 @@ private:
         enum : std::size_t { reflector, x, u_x = 4 };
         static constexpr std::array<std::string_view, 7> k_columns{"reflector", "x_mm",   "y_mm",  "z_mm",
                                                                    "u_x_um",    "u_y_um", "u_z_um"};
-        fixture_table_ = read_csv_table(std::move(file.bytes), k_columns, {}, *file.problems);
+        const Words columns(k_columns);
+        fixture_table_ = u_is_elsewhere_ ? read_csv_table(std::move(file.bytes), columns.first(u_x),
+                                                          columns.subspan(u_x), *file.problems)
+                                         : read_csv_table(std::move(file.bytes), columns, {}, *file.problems);
         if (!fixture_table_) {
             return;
         }
@@ -520,7 +517,7 @@ private:
         }
         const auto count = static_cast<Eigen::Index>(table.rows());
         Eigen::MatrixX3d coordinates = Eigen::MatrixX3d::Zero(count, 3);
-        Eigen::VectorXd variances = Eigen::VectorXd::Zero(3 * count);
+        Eigen::VectorXd stated_u = Eigen::VectorXd::Zero(3 * count);
         std::vector<std::size_t> lines;
         for (std::size_t row = 0; row < table.rows(); ++row) {
             const auto r = static_cast<Eigen::Index>(row);
@@ -536,8 +533,9 @@ private:
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto column = static_cast<Eigen::Index>(k);
                 coordinates(r, column) = table.number(row, x + k, k_fixture_coordinate).value_or(0.0);
-                const double u = table.number(row, u_x + k, above_zero("µm")).value_or(0.0) * k_micrometre;
-                variances(3 * r + column) = u * u;
+                const auto u = u_is_elsewhere_ ? table.number_if_any(row, u_x + k, above_zero("µm"))
+                                               : table.number(row, u_x + k, above_zero("µm"));
+                stated_u(3 * r + column) = u.value_or(0.0) * k_micrometre;
             }
         }
         if (file.problems->refusals() > 0) {
@@ -551,7 +549,18 @@ private:
         }
         job_.measurement.reflectors = reflectors_.names();
         job_.measurement.fixture = coordinates * k_millimetre;
-        job_.measurement.fixture_covariance = variances.asDiagonal();
+        if (!u_is_elsewhere_) {
+            job_.measurement.fixture_covariance = stated_u.array().square().matrix().asDiagonal();
+        } else {
+            Eigen::VectorXd variances = Eigen::VectorXd::Zero(3 * count);
+            for (Eigen::Index i = 0; job_.source_paper_fixture && i < variances.size(); ++i) {
+                variances(i) = std::pow(source_paper_fixture_uncertainty(job_.measurement.fixture(i / 3, i % 3)), 2);
+            }
+            job_.measurement.fixture_covariance = variances.asDiagonal();
+            if (stated_u.maxCoeff() > 0.0) {
+                job_.stated_fixture_u = stated_u;
+            }
+        }
         fixture_is_whole_ = true;
     }
 
@@ -630,6 +639,64 @@ private:
 
     static std::string where_in_row(const std::string& file, Eigen::Index row) {
         return printable(file) + " (row " + std::to_string(row + 1) + ")";
+    }
+
+    /// The budget job with all its files; its problems are told with the others.
+    void read_fixture_budget(const std::optional<std::string>& name) {
+        const std::optional<File> file = open(name);
+        if (!file) {
+            return;
+        }
+        job_.fixture_budget_file = *name;
+        try {
+            auto budget = std::make_shared<const BudgetJob>(read_budget_job(source_, file->problems->file()));
+            files_.add(budget->files, budget->warnings);
+            if (fixture_is_whole_) {
+                check_points(*budget, *file->problems);
+            }
+            job_.fixture_budget = std::move(budget);
+        } catch (const gum::InputError& error) {
+            files_.add(error);
+        } catch (const gum::StorageError& error) {
+            files_.add(error);
+        }
+    }
+
+    void check_points(const BudgetJob& budget, ProblemList& problems) const {
+        const std::string where = printable(problems.file()) + "#/points";
+        std::vector<std::string> expected;
+        for (const std::string& reflector : reflectors_.names()) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                expected.push_back(fixture_coordinate_name(reflector, k));
+            }
+        }
+        const std::string rule = "the budget of the fixture has one point for each coordinate, \"" + expected.front() +
+                                 "\" to \"" + expected.back() + "\"";
+        if (budget.points.empty()) {
+            problems.refuse(k_fixture_budget_points, where, "the budget has no points", rule, "add \"points\"");
+            return;
+        }
+        std::vector<std::string> stated;
+        for (const BudgetPoint& point : budget.points) {
+            stated.push_back(point.name);
+        }
+        std::vector<std::string> sorted_expected = expected;
+        std::vector<std::string> sorted_stated = stated;
+        std::sort(sorted_expected.begin(), sorted_expected.end());
+        std::sort(sorted_stated.begin(), sorted_stated.end());
+        for (const std::string& name : expected) {
+            if (!std::binary_search(sorted_stated.begin(), sorted_stated.end(), name)) {
+                problems.refuse(k_fixture_budget_points, where, "the coordinate " + in_quotes(name) + " has no point",
+                                rule, "add the point, or correct its name");
+            }
+        }
+        for (const std::string& name : stated) {
+            if (!std::binary_search(sorted_expected.begin(), sorted_expected.end(), name)) {
+                problems.refuse(k_fixture_budget_points, where,
+                                "the point " + in_quotes(name) + " is no coordinate of the fixture file", rule,
+                                "remove the point, or correct its name");
+            }
+        }
     }
 
     // ---- lengths ----------------------------------------------------------------------------------------------------
@@ -875,8 +942,14 @@ private:
                             "no length reaches 10 mm; the longest is " + shortest(longest->length_mm) + " mm",
                             "lengths are in millimetres", "multiply by 1000 if the values are metres");
         }
+        check_angles(root, where(rows.front(), c_angle), printable(problems.file()), problems);
+    }
+
+    /// \param where_angles  place of the first angle \param where_all  place for a warning of all angles
+    void check_angles(const JsonObject& root, const std::string& where_angles, const std::string& where_all,
+                      ProblemList& problems) const {
         if (look_like_radians(angles_deg_)) {
-            problems.refuse(k_angles_in_radians, where(rows.front(), c_angle),
+            problems.refuse(k_angles_in_radians, where_angles,
                             plural(angles_deg_.size(), "angle") + " from " + shortest(angles_deg_.front()) + " to " +
                                 shortest(angles_deg_.back()) +
                                 " are multiples of half a degree when they are taken as radians",
@@ -886,24 +959,108 @@ private:
         const double span = angles_deg_.back() - angles_deg_.front();
         if (span < 180.0) {
             problems.warn(
-                k_warn_angle_span, printable(problems.file()),
+                k_warn_angle_span, where_all,
                 "the angles span " + shortest(span) + "°, from " + shortest(angles_deg_.front()) + "° to " +
                     shortest(angles_deg_.back()) + "°",
                 "below half a turn, set-up errors and the first harmonics of the error motions are poorly separated",
                 "measure over a full turn if the table allows it");
         }
         if (home_angle_deg_ && !angle_index(*home_angle_deg_)) {
+            const bool measured = job_.has_lengths;
             root.refuse(k_home_not_measured, "home_angle_deg",
-                        "the home angle " + shortest(*home_angle_deg_) + "°" +
-                            (root.has("home_angle_deg") ? "" : " (the default)") + " has no distance",
-                        "the home angle is one of the measured angles",
-                        "state a home_angle_deg that was measured, from " + shortest(angles_deg_.front()) + "° to " +
-                            shortest(angles_deg_.back()) + "°");
+                        home_angle(root) + (measured ? " has no distance" : " is not planned"),
+                        std::string("the home angle is one of the ") + (measured ? "measured" : "planned") + " angles",
+                        std::string("state a home_angle_deg that ") + (measured ? "was measured" : "is planned") +
+                            ", from " + shortest(angles_deg_.front()) + "° to " + shortest(angles_deg_.back()) + "°");
         }
     }
 
+    [[nodiscard]] std::string home_angle(const JsonObject& root) const {
+        return "the home angle " + shortest(*home_angle_deg_) + "°" +
+               (root.has("home_angle_deg") ? "" : " (the default)");
+    }
+
+    /// A plan beside measured lengths has angles of its own; home is one of them, too.
+    void check_home_of_plan(const JsonObject& root) const {
+        if (!job_.has_lengths || !job_.plan || job_.plan->angles_deg.empty() || !home_angle_deg_) {
+            return;
+        }
+        const std::vector<double>& planned = job_.plan->angles_deg;
+        if (std::none_of(planned.begin(), planned.end(),
+                         [&](double angle) { return std::abs(angle - *home_angle_deg_) <= k_same_angle_deg; })) {
+            root.refuse(k_home_not_measured, "plan", home_angle(root) + " is not among the angles of plan",
+                        "the home angle is one of the planned angles", "add it to plan.angles_deg");
+        }
+    }
+
+    // ---- a layout without lengths -----------------------------------------------------------------------------------
+
+    /// Stations from their file and angles from the plan; distances are not there yet.
+    void read_layout(const JsonObject& root, const JsonObject& observations) {
+        const char* rule = "a layout that was not measured is described by the stations file and plan.angles_deg";
+        if (!observations.has("stations")) {
+            observations.refuse(k_layout_incomplete, "stations", "neither lengths nor stations are given", rule,
+                                "add \"stations\", or \"lengths\" if there are some");
+        }
+        if (!job_.plan || job_.plan->angles_deg.empty()) {
+            // Angles that were refused are told already.
+            const nlohmann::json* plan = root.find("plan");
+            if (plan == nullptr || (plan->is_object() && !plan->contains("angles_deg"))) {
+                root.refuse(k_layout_incomplete, "plan", "neither lengths nor planned angles are given", rule,
+                            "add \"plan\": {\"angles_deg\": {\"first\": 0, \"step\": 10, \"count\": 36}}");
+            }
+            return;
+        }
+        angles_deg_ = job_.plan->angles_deg;
+        lengths_are_whole_ = true;
+        store_angles();
+        check_angles(root, root.where("plan"), root.where("plan"), *problems_);
+        if (!stations_table_ || !fixture_is_whole_) {
+            return;
+        }
+        const std::size_t at_angle = stations_.size() * reflectors_.size();
+        if (at_angle < k_least_at_angle) {
+            root.refuse(k_too_few_at_angle, "observations",
+                        plural(stations_.size(), "station") + " and " + plural(reflectors_.size(), "reflector"),
+                        "a pose has six unknowns: every angle needs at least 6 distances",
+                        "add stations or reflectors");
+        }
+        if (reflectors_.size() < k_least_reflectors) {
+            root.refuse(k_too_few_reflectors, "fixture", plural(reflectors_.size(), "reflector"),
+                        "the pose of the table needs at least 3 reflectors", "add further reflectors");
+        }
+    }
+
+    /// What is planned or simulated must fit into memory as a measurement does.
+    void check_sizes(const JsonObject& root) const {
+        const auto check = [&](std::string_view key, std::size_t angles, std::size_t senses) {
+            const double distances = static_cast<double>(stations_.size() * reflectors_.size()) *
+                                     static_cast<double>(angles) * static_cast<double>(senses);
+            if (distances > k_most_distances) {
+                root.refuse(k_layout_too_large, key, shortest(distances) + " distances",
+                            "a layout has at most " + shortest(k_most_distances) + " distances", "state fewer angles");
+            }
+        };
+        if (job_.plan) {
+            check("plan", job_.plan->angles_deg.size(), job_.plan->both_senses ? 2 : 1);
+        }
+        if (job_.simulation && !job_.simulation->angle_counts.empty()) {
+            check("simulation",
+                  *std::max_element(job_.simulation->angle_counts.begin(), job_.simulation->angle_counts.end()), 2);
+        }
+    }
+
+    void store_angles() {
+        job_.measurement.angles_deg = angles_deg_;
+        for (const double angle : angles_deg_) {
+            job_.measurement.angles.push_back(angle * k_degree);
+        }
+        job_.measurement.home = angle_index(home_angle_deg_.value_or(0.0)).value_or(0);
+    }
+
     [[nodiscard]] std::string where_station_appears(std::size_t station) const {
-        return lengths_table_->where(lengths_table_->cell(first_row_of_station_[station], c_station));
+        const CsvTable& table = job_.has_lengths ? *lengths_table_ : *stations_table_;
+        return table.where(table.cell(first_row_of_station_[station], c_station));
     }
 
     void store_lengths(const std::vector<Row>& rows) {
@@ -911,12 +1068,8 @@ private:
         measurement.stations = stations_.names();
         measurement.passes = passes_.names();
         measurement.dead_paths = dead_paths_.names();
-        measurement.angles_deg = angles_deg_;
         measurement.station_start.assign(stations_.size(), std::nullopt);
-        for (const double angle : angles_deg_) {
-            measurement.angles.push_back(angle * k_degree);
-        }
-        measurement.home = angle_index(home_angle_deg_.value_or(0.0)).value_or(0);
+        store_angles();
         measurement.lengths.reserve(rows.size());
         for (const Row& row : rows) {
             LengthObservation observation;
@@ -947,10 +1100,13 @@ private:
                     refuse_repeated_name(table, row, 0, "station", entry->second, problems);
                 }
                 station = stations_.find(*name);
-                if (is_new && !station && lengths_table_) {
+                if (is_new && !station && (lengths_table_ || stations_table_)) {
                     problems.warn(k_warn_unused_station, table.where(table.cell(row, 0)),
-                                  "the station " + in_quotes(*name) + " has no distance",
-                                  "stations appear in the lengths file", "check the name, or remove the row");
+                                  "the station " + in_quotes(*name) +
+                                      (job_.has_lengths ? " has no distance" : " is not in the stations file"),
+                                  job_.has_lengths ? "stations appear in the lengths file"
+                                                   : "the stations of a layout are those of the stations file",
+                                  "check the name, or remove the row");
                 }
             }
             use(row, station);
@@ -961,10 +1117,20 @@ private:
         static constexpr std::array<std::string_view, 4> k_columns{"station", "x_mm", "y_mm", "z_mm"};
         static constexpr std::array<std::string_view, 1> k_optional{"u_mm"};
         enum : std::size_t { x = 1, u = 4 };
-        const std::optional<CsvTable> table =
-            read_csv_table(std::move(file.bytes), k_columns, k_optional, *file.problems);
+        std::optional<CsvTable> table = read_csv_table(std::move(file.bytes), k_columns, k_optional, *file.problems);
         if (!table) {
             return;
+        }
+        if (!job_.has_lengths) {
+            stations_table_ = table;
+            for (std::size_t row = 0; row < table->rows(); ++row) {
+                const std::string_view name = table->cell(row, 0).text;
+                if (!name_objection(name) && stations_.index(name) == first_row_of_station_.size()) {
+                    first_row_of_station_.push_back(row);
+                }
+            }
+            job_.measurement.stations = stations_.names();
+            job_.measurement.station_start.assign(stations_.size(), std::nullopt);
         }
         for_each_station(*table, *file.problems, [&](std::size_t row, std::optional<std::size_t> station) {
             Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -1021,7 +1187,7 @@ private:
                 file.problems->refuse(k_unknown_station, where_station_appears(i),
                                       "the station " + in_quotes(stations_.names()[i]) + " has no row in " +
                                           printable(file.problems->file()),
-                                      "every station with distances has a row in the environment file",
+                                      "every station has a row in the environment file",
                                       "add the row, or correct the name of the station");
             }
         }
@@ -1050,7 +1216,8 @@ private:
                 index = angle_index(*angle);
                 if (!index && lengths_are_whole_) {
                     file.problems->refuse(k_reading_at_unknown_angle, table->where(table->cell(row, c_at)),
-                                          "the angle " + shortest(*angle) + "° has no distance",
+                                          "the angle " + shortest(*angle) + "° " +
+                                              (job_.has_lengths ? "has no distance" : "is not planned"),
                                           "the reference method is compared at the measured angles",
                                           "correct the angle, or remove the row");
                 }
@@ -1109,16 +1276,18 @@ private:
     }
 
     const FileSource& source_;
+    JobFiles files_;
     JobUse use_;
     RotaryTableJob job_;
-    std::deque<ProblemList> problems_;  ///< job file first; a deque because tables keep addresses of its elements
-    std::vector<gum::Diagnostic> not_readable_;
+    ProblemList* problems_ = nullptr;  ///< of the job file
 
     std::optional<double> home_angle_deg_;
     std::optional<CsvTable> fixture_table_;
     bool fixture_is_whole_ = false;
-    NameList reflectors_;  ///< of the fixture
+    bool u_is_elsewhere_ = false;  ///< the u columns of the fixture file are not used
+    NameList reflectors_;          ///< of the fixture
     std::optional<CsvTable> lengths_table_;
+    std::optional<CsvTable> stations_table_;  ///< kept for a layout without lengths, whose names are in it
     bool lengths_are_whole_ = false;
     NameList stations_;
     NameList lengths_reflectors_;
@@ -1139,8 +1308,19 @@ DiskJob on_disk(const std::filesystem::path& job_file) {
 
 }  // namespace
 
+double source_paper_fixture_uncertainty(double coordinate) {
+    constexpr double k_constant = 0.401 * k_micrometre;
+    constexpr double k_proportional = 3.32e-7;  // L and u_c in the same unit
+    return std::hypot(k_constant, k_proportional * coordinate);
+}
+
+std::string fixture_coordinate_name(const std::string& reflector, std::size_t axis) {
+    static constexpr std::array<const char*, 3> k_suffixes{".x", ".y", ".z"};
+    return reflector + k_suffixes[axis];
+}
+
 std::span<const JobKeys> rotary_table_job_keys() {
-    return k_all_keys;
+    return all_keys();
 }
 
 RotaryTableJob read_rotary_table_job(const FileSource& source, const std::string& job_file, JobUse use) {

@@ -69,10 +69,14 @@ struct RotaryTableJob {
     std::optional<MonteCarloRequest> monte_carlo;
     /// Budget of the fixture coordinates, kind `budget`, with a point "<reflector>.x", "<reflector>.y", "<reflector>.z"
     /// for each coordinate. Its results give the fixture covariance; the application evaluates it.
+    /// The fixture covariance is zero until then.
     std::shared_ptr<const BudgetJob> fixture_budget;
     std::string fixture_budget_file;
     /// The fixture covariance is that of the source paper, eqs. (10) to (12), on purpose.
     bool source_paper_fixture = false;
+    /// Columns u of the coordinates file where the covariance comes from elsewhere, 3n, order x1 y1 z1 …, [m]; empty
+    /// where the file has none of them. They have no part in any result.
+    Eigen::VectorXd stated_fixture_u;
     std::optional<SimulationRequest> simulation;
     std::optional<PlanRequest> plan;
     bool has_lengths = true;                   ///< false: a layout for `plan` or `simulate` without measured lengths
@@ -81,10 +85,20 @@ struct RotaryTableJob {
     nlohmann::json document;                   ///< the job file as read
     nlohmann::json certificate;                ///< the object, from the job or from a file of its own; null without
     /// Names as the job gives them, each once: the job file, lengths, stations, environment, fixture coordinates,
-    /// fixture covariance, readings and description of the reference method, certificate.
+    /// fixture covariance, readings and description of the reference method, certificate, fixture budget with its
+    /// files.
     std::vector<std::string> files;
     std::vector<gum::Diagnostic> warnings;
 };
+
+/// Standard uncertainty of one fixture coordinate as the source paper states it, eq. (11):
+/// u_c = sqrt(0.401² + (3.32e-7 L)²) µm with L in µm. It is kept to reproduce the paper, not because it is right.
+/// \param coordinate  [m]
+/// \return [m]
+[[nodiscard]] double source_paper_fixture_uncertainty(double coordinate);
+
+/// The name that a fixture budget gives a coordinate: "R1.x". \param axis  0, 1, 2 for x, y, z
+[[nodiscard]] std::string fixture_coordinate_name(const std::string& reflector, std::size_t axis);
 
 /// The keys of a job of kind `rotary_table`, object by object. schemas/job-1.schema.json states the same ones.
 [[nodiscard]] std::span<const JobKeys> rotary_table_job_keys();
@@ -93,6 +107,9 @@ struct RotaryTableJob {
 ///
 /// Stations, passes and dead paths come in the order in which the lengths file first names them, reflectors in the
 /// order of the fixture file, angles ascending (angles that agree within 1e-9° are one).
+///
+/// Without lengths, which only `plan` and `simulate` allow, the stations are those of the stations file and the angles
+/// those of `plan`; lengths, passes and dead paths stay empty.
 /// \throws InputError    with every problem of every file, those of the job file first
 /// \throws StorageError  if a file cannot be read; with the problems of the other files after it
 [[nodiscard]] RotaryTableJob read_rotary_table_job(const std::filesystem::path& job_file,

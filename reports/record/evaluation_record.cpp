@@ -355,6 +355,7 @@ void describe(Archive& a, Struct& r) {
     a("k", r.k, Range::positive);
     a("nu_eff", r.nu_eff, Range::positive);
     a("printed", r.printed);
+    a.added("monte_carlo", r.monte_carlo);
 }
 
 template <class Archive, Is<SetUp> Struct>
@@ -390,6 +391,7 @@ void describe(Archive& a, Struct& r) {
         b("U", r.printed_U);
         b("scale", r.printed_scale);
     });
+    a.added("covariance_mm2", r.covariance_mm2);
 }
 
 template <class Archive, Is<DeadPath> Struct>
@@ -410,7 +412,13 @@ void describe(Archive& a, Struct& r) {
         b("position", r.printed_position);
         b("U", r.printed_U);
         b("correction", r.printed_correction);
+        b.added("cmm", r.printed_cmm);
+        b.added("U_cmm", r.printed_U_cmm);
     });
+    a.added("home_position_mm", r.home_position_mm);
+    a.added("covariance_mm2", r.covariance_mm2);
+    a.added("cmm_mm", r.cmm_mm);
+    a.added("u_cmm_mm", r.u_cmm_mm, Range::not_negative);
 }
 
 template <class Archive, Is<BudgetSummaryRow> Struct>
@@ -422,6 +430,19 @@ void describe(Archive& a, Struct& r) {
     a.group("printed", [&](auto& b) {
         b("rms_u", r.printed_rms_u);
         b("shares", r.printed_shares);
+    });
+}
+
+template <class Archive, Is<GlobalTest> Struct>
+void describe(Archive& a, Struct& r) {
+    a("probability", r.probability, Range::probability);
+    a("lower", r.lower, Range::not_negative);
+    a("upper", r.upper, Range::not_negative);
+    a("accepted", r.accepted);
+    a("meaning", r.meaning);
+    a.group("printed", [&](auto& b) {
+        b("lower", r.printed_lower);
+        b("upper", r.printed_upper);
     });
 }
 
@@ -439,7 +460,9 @@ void describe(Archive& a, Struct& r) {
         b("a_priori", r.variance_factor.a_priori, Range::not_negative);
         b("a_posteriori", r.variance_factor.a_posteriori, Range::not_negative);
         b("used", r.variance_factor.used, {"a_priori", "a_posteriori"});
+        b.added("reason", r.variance_factor.reason);
     });
+    a.added("global_test", r.global_test);
     a.group("printed", [&](auto& b) {
         b("chi_square", r.printed.chi_square);
         b("p_value", r.printed.p_value);
@@ -457,6 +480,10 @@ void describe(Archive& a, Struct& r) {
     a("redundancy", r.redundancy);
     a("estimated", r.estimated);
     a("printed", r.printed);
+    a.added("stated", r.stated, Range::not_negative);
+    a.added("degrees_of_freedom", r.degrees_of_freedom, Range::not_negative);
+    a.added("used", r.used);
+    a.added("printed_stated", r.printed_stated);
 }
 
 template <class Archive, Is<ReliabilityRow> Struct>
@@ -482,6 +509,100 @@ void describe(Archive& a, Struct& r) {
     a("residual_um", r.residual_um);
     a("test_value", r.test_value);
     a("removed", r.removed);
+    a.added("estimated_error_um", r.estimated_error_um);
+    a.added("found_with", r.found_with);
+    a.added("reason", r.reason);
+}
+
+template <class Archive, Is<FixtureReliabilityRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("reflector", r.reflector);
+    a("coordinate", r.coordinate, {"x", "y", "z"});
+    a("residual_um", r.residual_um);
+    a("redundancy_number", r.redundancy_number);
+    a("test_value", r.test_value);
+    a("minimal_detectable_bias_um", r.minimal_detectable_bias_um);
+}
+
+template <class Archive, Is<ExternalReliability> Struct>
+void describe(Archive& a, Struct& r) {
+    a("quantity", r.quantity);
+    a("angle_deg", r.angle_deg);
+    a("influence", r.influence);
+    a("unit", r.unit);
+    a("ratio_to_U", r.ratio_to_U);
+    a("station", r.station);
+    a("reflector", r.reflector);
+    a("pass", r.pass);
+    a("at_angle_deg", r.at_angle_deg);
+    a("minimal_detectable_bias_um", r.minimal_detectable_bias_um);
+}
+
+template <class Archive, Is<TableParameter> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("description", r.description);
+    a("unit", r.unit, {"um", "arcsec"});
+    a("value", r.value);
+    a("u", r.u, Range::not_negative);
+    a("U", r.U, Range::not_negative);
+    a("k", r.k, Range::positive);
+    a("nu_eff", r.nu_eff, Range::positive);
+    a("printed", r.printed);
+    a("monte_carlo", r.monte_carlo);
+}
+
+template <class Archive, Is<PositioningTarget> Struct>
+void describe(Archive& a, Struct& r) {
+    a("angle_deg", r.angle_deg);
+    a("mean_up", r.mean_up);
+    a("mean_down", r.mean_down);
+    a("s_up", r.s_up, Range::not_negative);
+    a("s_down", r.s_down, Range::not_negative);
+    a("reversal", r.reversal);
+    a.group("printed", [&](auto& b) {
+        b("angle", r.printed_angle);
+        b("mean_up", r.printed_mean_up);
+        b("mean_down", r.printed_mean_down);
+        b("s_up", r.printed_s_up);
+        b("s_down", r.printed_s_down);
+        b("reversal", r.printed_reversal);
+    });
+}
+
+template <class Archive, Is<PositioningAccuracy> Struct>
+void describe(Archive& a, Struct& r) {
+    std::string unit = "arcsec";
+    a("unit", unit, {"arcsec"});
+    a("runs_up", r.runs_up, Range::not_negative);
+    a("runs_down", r.runs_down, Range::not_negative);
+    a("parameters", r.parameters);
+    a.by_name(r.parameters);
+    a("targets", r.targets);
+    a("u_deviation", r.u_deviation, Range::not_negative);
+    a("remarks", r.remarks);
+    a.group("printed", [&](auto& b) { b("u_deviation", r.printed_u_deviation); });
+}
+
+template <class Archive, Is<RotaryMonteCarlo> Struct>
+void describe(Archive& a, Struct& r) {
+    a("trials", r.trials, Range::positive);
+    a("seed", r.seed);
+    a("most_steps", r.most_steps, Range::not_negative);
+    a("mean_steps", r.mean_steps, Range::not_negative);
+    a("compared", r.compared, Range::not_negative);
+    a("validated", r.validated, Range::not_negative);
+    a("not_validated", r.not_validated);
+    a("statement", r.statement);
+}
+
+template <class Archive, Is<FixtureBudget> Struct>
+void describe(Archive& a, Struct& r) {
+    a("method", r.method, {"stated", "budget", "source_paper"});
+    a("file", r.file);
+    a("largest", r.largest);
+    a("largest_coordinate", r.largest_coordinate);
+    a("remarks", r.remarks);
 }
 
 template <class Archive, Is<RangeRow> Struct>
@@ -490,6 +611,8 @@ void describe(Archive& a, Struct& r) {
     a("value", r.value, Range::not_negative);
     a("U", r.U, Range::not_negative);
     a("printed", r.printed);
+    a.added("u", r.u, Range::not_negative);
+    a.added("monte_carlo", r.monte_carlo);
 }
 
 template <class Archive, Is<ComparisonPoint> Struct>
@@ -599,6 +722,12 @@ void describe(Archive& a, Struct& r) {
         b("alpha", r.outlier_alpha, Range::probability);
         b("printed_critical_value", r.printed_critical_value);
     });
+    a.added("fixture_reliability", r.fixture_reliability);
+    a.added("external_reliability", r.external_reliability);
+    a.added("location_errors", r.location_errors);
+    a.added("iso230_2", r.iso230_2);
+    a.added("monte_carlo", r.monte_carlo);
+    a.added("fixture_budget", r.fixture_budget);
 }
 
 template <class Archive, Is<EvaluationRecord> Struct>
@@ -625,6 +754,33 @@ void describe(Archive& a, Struct& r) {
     a("comparison", r.comparison);
     a("diagnostics", r.diagnostics);
     a.null("audit");  // the record of this version holds no audit
+}
+
+/// The parameters of ISO 230-2 that a record may hold.
+constexpr std::array<const char*, 12> k_positioning_names = {"M",      "E", "E_up",   "E_down", "R",    "R_up",
+                                                             "R_down", "B", "B_mean", "A",      "A_up", "A_down"};
+
+/// What must hold in a Monte Carlo evaluation of one quantity.
+template <class Report>
+void check_monte_carlo(const MonteCarloSummary& m, const std::string& at, const Report& report) {
+    for (const auto& [name, ends] : {std::pair("symmetric", m.symmetric), std::pair("shortest", m.shortest)}) {
+        if (ends[0] > ends[1]) {
+            report(at + "/" + name, shortest(ends[0]) + " to " + shortest(ends[1]),
+                   "the lower end of an interval is not above the upper end");
+        }
+    }
+    std::int64_t left = m.trials;
+    for (const std::int64_t count : m.histogram) {
+        left = count > left ? -1 : left - count;
+        if (left < 0) {
+            report(at + "/histogram/counts", "more than the trials",
+                   "the cells hold at most all " + std::to_string(m.trials) + " trials");
+            break;
+        }
+    }
+    if (!m.histogram.empty() && !(m.histogram_low < m.histogram_high)) {
+        report(at + "/histogram/high", shortest(m.histogram_high), "must be above the low end");
+    }
 }
 
 /// What must hold between the parts of a rotary table. Calls `report(pointer, what, rule)` for each breach.
@@ -666,6 +822,75 @@ void check_rotary(const RotaryTable& r, const Report& report) {
         length(at + "position", r.reflectors[i].printed_position.size(), 3, "one a coordinate");
         length(at + "U", r.reflectors[i].printed_U.size(), 3, "one a coordinate");
         length(at + "correction", r.reflectors[i].printed_correction.size(), 3, "one a coordinate");
+        // Records of earlier releases do not hold what the CMM stated.
+        for (const auto& [name, texts] :
+             {std::pair("cmm", &r.reflectors[i].printed_cmm), std::pair("U_cmm", &r.reflectors[i].printed_U_cmm)}) {
+            length(at + name, texts->size(), texts->empty() ? 0 : 3, "one a coordinate, or none");
+        }
+    }
+    const auto symmetric = [&](const std::string& at, const std::array<std::array<double, 3>, 3>& m) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t j = 0; j < 3; ++j) {
+                const double most = std::sqrt(std::abs(m[i][i]) * std::abs(m[j][j]));
+                if (m[i][i] < 0.0 || !(std::abs(m[i][j] - m[j][i]) <= 1e-9 * most) ||
+                    !(std::abs(m[i][j]) <= most * (1.0 + 1e-9))) {
+                    report(at + "/" + std::to_string(i) + "/" + std::to_string(j), shortest(m[i][j]),
+                           "a covariance matrix is symmetric, and no covariance exceeds what its variances allow");
+                    return;
+                }
+            }
+        }
+    };
+    for (std::size_t i = 0; i < r.stations.size(); ++i) {
+        symmetric("/stations/" + std::to_string(i) + "/covariance_mm2", r.stations[i].covariance_mm2);
+    }
+    for (std::size_t i = 0; i < r.reflectors.size(); ++i) {
+        symmetric("/reflectors/" + std::to_string(i) + "/covariance_mm2", r.reflectors[i].covariance_mm2);
+    }
+    if (const GlobalTest& test = r.adjustment.global_test; test.lower > test.upper) {
+        report("/adjustment/global_test/lower", shortest(test.lower), "must not be above the upper limit");
+    }
+    const auto trials = [&](const std::string& at, const std::optional<MonteCarloSummary>& m) {
+        if (m) {
+            check_monte_carlo(*m, at + "/monte_carlo", report);
+        }
+    };
+    for (std::size_t i = 0; i < r.errors.size(); ++i) {
+        for (std::size_t m = 0; m < r.errors[i].errors.size(); ++m) {
+            trials("/errors/" + std::to_string(i) + "/" + r.error_names[m], r.errors[i].errors[m].monte_carlo);
+        }
+    }
+    for (std::size_t i = 0; i < r.ranges.size(); ++i) {
+        trials("/ranges/" + std::to_string(i), r.ranges[i].monte_carlo);
+    }
+    for (std::size_t i = 0; i < r.reversal.size(); ++i) {
+        trials("/reversal/" + std::to_string(i), r.reversal[i].value.monte_carlo);
+    }
+    const auto parameters = [&](const std::string& at, const std::vector<TableParameter>& all) {
+        std::set<std::string> names;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const std::string one = at + "/" + std::to_string(i);
+            trials(one, all[i].monte_carlo);
+            if (!names.insert(all[i].name).second) {
+                report(one + "/name", '"' + all[i].name + '"', "a parameter is listed once");
+            }
+        }
+    };
+    parameters("/location_errors", r.location_errors);
+    if (r.iso230_2) {
+        const std::vector<TableParameter>& all = r.iso230_2->parameters;
+        parameters("/iso230_2/parameters", all);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            if (std::find(k_positioning_names.begin(), k_positioning_names.end(), all[i].name) ==
+                k_positioning_names.end()) {
+                report("/iso230_2/parameters/" + std::to_string(i) + "/name", '"' + all[i].name + '"',
+                       "must be a parameter of ISO 230-2: M, E, R, B, A …");
+            }
+        }
+    }
+    if (r.monte_carlo && r.monte_carlo->validated > r.monte_carlo->compared) {
+        report("/monte_carlo/validated", std::to_string(r.monte_carlo->validated),
+               "not more than the " + std::to_string(r.monte_carlo->compared) + " that were compared");
     }
 }
 
@@ -709,27 +934,8 @@ void check_results(const EvaluationRecord& r, const Report& report) {
                    "is \"" +
                        result.coverage + '"');
         }
-        if (!result.monte_carlo) {
-            continue;
-        }
-        const MonteCarloSummary& m = *result.monte_carlo;
-        for (const auto& [name, ends] : {std::pair("symmetric", m.symmetric), std::pair("shortest", m.shortest)}) {
-            if (ends[0] > ends[1]) {
-                report(at + "/monte_carlo/" + name, shortest(ends[0]) + " to " + shortest(ends[1]),
-                       "the lower end of an interval is not above the upper end");
-            }
-        }
-        std::int64_t left = m.trials;
-        for (const std::int64_t count : m.histogram) {
-            left = count > left ? -1 : left - count;
-            if (left < 0) {
-                report(at + "/monte_carlo/histogram/counts", "more than the trials",
-                       "the cells hold at most all " + std::to_string(m.trials) + " trials");
-                break;
-            }
-        }
-        if (!m.histogram.empty() && !(m.histogram_low < m.histogram_high)) {
-            report(at + "/monte_carlo/histogram/high", shortest(m.histogram_high), "must be above the low end");
+        if (result.monte_carlo) {
+            check_monte_carlo(*result.monte_carlo, at + "/monte_carlo", report);
         }
     }
     if (r.covariance) {
@@ -873,6 +1079,16 @@ public:
             all.push_back(std::move(inner.object));
         }
         object[key] = std::move(all);
+    }
+
+    /// The numbers of the parameters under their names, as the contract has them, beside the list with everything.
+    void by_name(const std::vector<TableParameter>& v) {
+        json U = json::object();
+        for (const TableParameter& p : v) {
+            object[p.name] = p.value;
+            U[p.name] = p.U;
+        }
+        object["U"] = std::move(U);
     }
 
     [[noreturn]] static void refuse(const std::string& pointer, std::string what, std::string rule) {
@@ -1153,6 +1369,35 @@ public:
             });
             inner.finish();
             v.push_back(std::move(row));
+        }
+    }
+
+    /// What is said twice has to be the same twice.
+    void by_name(const std::vector<TableParameter>& v) {
+        const json* U = find_object("U");
+        const auto same = [&](const json* in, const std::string& at, const std::string& name, double expected) {
+            const auto found = in == nullptr ? json::const_iterator() : in->find(name);
+            const bool stated = in != nullptr && found != in->end();
+            if (in != nullptr && (!stated || !found->is_number() || found->get<double>() != expected)) {
+                problems_.add("GC-RECORD-0016", at + "/" + pointer_token(name), stated ? found->dump() : "missing",
+                              "must be " + shortest(expected) + ", as the parameter of that name says", k_restore);
+            }
+        };
+        std::set<std::string> names;
+        for (const TableParameter& p : v) {
+            names.insert(p.name);
+            known_.insert(p.name);
+            same(&object_, pointer_, p.name, p.value);
+            same(U, pointer_ + "/U", p.name, p.U);
+        }
+        if (U == nullptr) {
+            return;
+        }
+        for (const auto& [name, item] : U->items()) {
+            if (!names.contains(name)) {
+                problems_.add("GC-RECORD-0014", pointer_ + "/U/" + pointer_token(name), "unknown key",
+                              "U holds the parameters of the list and no others", k_restore);
+            }
         }
     }
 

@@ -220,6 +220,42 @@ TEST_F(Record, AxisInFixtureHasTheOppositeSign) {
     EXPECT_EQ(set_up["U_S_arcsec"][2], record_["results"]["S_z"]["U"]);
 }
 
+TEST_F(Record, PositioningHasNumbersUnderTheNamesOfTheContract) {
+    const json& p = rotary()["iso230_2"];
+    ASSERT_TRUE(p.is_object());
+    EXPECT_EQ(p["unit"], "arcsec");
+    ASSERT_FALSE(p["parameters"].empty());
+    for (const json& parameter : p["parameters"]) {
+        const std::string name = parameter["name"];
+        SCOPED_TRACE(name);
+        EXPECT_EQ(p.at(name), parameter["value"]);
+        EXPECT_EQ(p["U"].at(name), parameter["U"]);
+        expect_printed(parameter);
+    }
+    for (const char* const name : {"M", "E_up", "E_down", "B_mean"}) {
+        EXPECT_TRUE(p.contains(name)) << name << " needs runs in both senses, which the example has";
+    }
+    // M is the range of the means of both senses, hence not above the range of all means (ISO 230-2).
+    EXPECT_LE(p["M"].get<double>(), p["E"].get<double>());
+}
+
+TEST_F(Record, LayoutOfTheCertificateComesFromTheRecord) {
+    for (const json& station : rotary()["stations"]) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double u = station["u_mm"][c];
+            EXPECT_NEAR(station["covariance_mm2"][c][c].get<double>(), u * u, 1e-9 * u * u);
+        }
+    }
+    for (const json& reflector : rotary()["reflectors"]) {
+        double apart = 0.0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double home = reflector["home_position_mm"][c];
+            apart = std::max(apart, std::abs(home - reflector["position_mm"][c].get<double>()));
+        }
+        EXPECT_LT(apart, 1.0) << "the set-up moves the fixture by less than a millimetre";
+    }
+}
+
 TEST_F(Record, CovarianceFileBelongsToTheRecord) {
     const json& about = rotary()["covariance"];
     const std::vector<std::string> lines =

@@ -233,6 +233,34 @@ TEST_F(RefusedInput, KindsThatThisVersionDoesNotEvaluate) {
     EXPECT_EQ(only_message().code, "GC-INPUT-0027");
 }
 
+TEST_F(RefusedInput, ProblemsOfTheFixtureBudgetAreToldWithItsPlace) {
+    change_json(job_, [](json& job) { job["fixture"]["budget"] = "fixture_budget.json"; });
+    const fs::path points = job_.parent_path() / "fixture_points.csv";
+    replace_in(points, "R2.y,", "R2.w,");
+    const std::vector<Message> all = messages();
+    ASSERT_EQ(all.size(), 2U);
+    EXPECT_EQ(all[0].code, "GC-INPUT-0225");
+    EXPECT_EQ(all[0].where, "fixture_budget.json#/points");
+    EXPECT_NE(all[0].what.find("\"R2.y\" has no point"), std::string::npos) << all[0].what;
+    EXPECT_NE(all[1].what.find("\"R2.w\" is no coordinate"), std::string::npos) << all[1].what;
+
+    replace_in(points, "R2.w,", "R2.y,");
+    replace_in(job_.parent_path() / "fixture_budget.json", "\"u\": 0.027", "\"u\": -0.027");
+    const Message message = only_message();
+    EXPECT_EQ(message.code, "GC-INPUT-0023");
+    EXPECT_TRUE(message.where.starts_with("fixture_budget.json#/inputs/d_theta/u")) << message.where;
+}
+
+TEST_F(RefusedInput, TwoSourcesOfTheUncertaintyOfTheFixture) {
+    change_json(job_, [](json& job) {
+        job["fixture"]["budget"] = "fixture_budget.json";
+        job["fixture"]["uncertainty"] = "source_paper";
+    });
+    const Message message = only_message();
+    EXPECT_EQ(message.code, "GC-INPUT-0224");
+    EXPECT_TRUE(message.where.starts_with("job.json#/fixture/budget")) << message.where;
+}
+
 TEST_F(RefusedInput, MissingDataFileIsAFileTrouble) {
     fs::remove(fixture_);
     const Message message = only_message(5);

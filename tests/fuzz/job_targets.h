@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -8,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "engine/job/budget_job.h"
 #include "engine/job/csv_table.h"
 #include "engine/job/json_document.h"
 #include "engine/job/rotary_table_job.h"
@@ -108,13 +110,41 @@ inline void demand_consistent(const RotaryTableJob& job) {
     demand(m.angles.size() == m.angles_deg.size() && m.home < m.angles.size(), "angles");
     demand(m.fixture.rows() == reflectors && m.fixture.allFinite(), "fixture");
     demand(m.fixture_covariance.rows() == 3 * reflectors && m.fixture_covariance.cols() == 3 * reflectors &&
-               m.fixture_covariance.allFinite() && m.fixture_covariance.diagonal().minCoeff() > 0.0,
+               m.fixture_covariance.allFinite(),
            "fixture covariance");
+    // A budget of the fixture is evaluated by the application, which fills in the covariance.
+    demand(job.fixture_budget ? job.fixture_budget->points.size() == 3 * m.reflectors.size()
+                              : m.fixture_covariance.diagonal().minCoeff() > 0.0,
+           "variances of the fixture");
+    demand(job.stated_fixture_u.size() == 0 || job.stated_fixture_u.size() == 3 * reflectors, "columns u");
     demand(m.station_start.size() == m.stations.size() && m.temperature_difference.size() == stations &&
                m.u_temperature.size() == stations && m.temperature_difference.allFinite() &&
                m.u_temperature.allFinite(),
            "stations");
-    demand(!m.lengths.empty(), "lengths");
+    demand(m.lengths.empty() != job.has_lengths && m.passes.empty() == m.lengths.empty(), "lengths");
+    if (!job.has_lengths) {
+        demand(job.plan && job.plan->angles_deg == m.angles_deg, "planned angles");
+        for (const auto& start : m.station_start) {
+            demand(start && start->allFinite(), "a station of a layout");
+        }
+    }
+    if (job.plan) {
+        const std::vector<double>& planned = job.plan->angles_deg;
+        demand(std::is_sorted(planned.begin(), planned.end()) &&
+                   static_cast<double>(planned.size() * m.stations.size() * m.reflectors.size()) <= 1e6 &&
+                   job.plan->target_linear > 0.0 && job.plan->target_angular > 0.0 && job.plan->station_step > 0.0 &&
+                   (!job.plan->station_region ||
+                    ((*job.plan->station_region)[1] - (*job.plan->station_region)[0]).minCoeff() >= 0.0),
+               "a plan");
+    }
+    if (job.simulation) {
+        demand(job.simulation->runs > 0 && job.simulation->outlier_size > 0.0 && job.simulation->set_up_offset >= 0.0 &&
+                   job.simulation->error_angular >= 0.0,
+               "a simulation");
+    }
+    if (job.monte_carlo && job.monte_carlo->trials) {
+        demand(*job.monte_carlo->trials > 0, "trials");
+    }
     for (const LengthObservation& length : m.lengths) {
         demand(length.station < m.stations.size() && length.reflector < m.reflectors.size() &&
                    length.pass < m.passes.size() && length.angle < m.angles.size() &&
@@ -149,10 +179,16 @@ bool read_or_refused(std::string_view bundle, const Read& read) {
     return false;
 }
 
-/// \param bundle  the files of a job; the job itself is `job.json`
+/// \param bundle  the files of a job; the job itself is `job.json`. It is read to be evaluated and to be planned with.
 inline bool rotary_table_job(std::string_view bundle) {
-    return read_or_refused(
-        bundle, [](const MemoryFileSource& files) { demand_consistent(read_rotary_table_job(files, "job.json")); });
+    bool any_read = false;
+    for (const JobUse use : {JobUse::evaluate, JobUse::plan}) {
+        const bool was_read = read_or_refused(bundle, [use](const MemoryFileSource& files) {
+            demand_consistent(read_rotary_table_job(files, "job.json", use));
+        });
+        any_read = any_read || was_read;
+    }
+    return any_read;
 }
 
 }  // namespace gumcert::engine::fuzz

@@ -40,6 +40,53 @@ inline reports::ErrorValue error_value(double value, double u, const std::string
     return e;
 }
 
+/// Monte Carlo of one quantity that agrees with the law of propagation, or does not.
+inline reports::MonteCarloSummary trials_of(double value, double u, bool validated = true, bool precise = true) {
+    reports::MonteCarloSummary m;
+    m.trials = 100000;
+    m.seed = 7;
+    m.mean = value;
+    m.u = u;
+    const double stretch = validated ? 2.0 : 2.3;
+    m.symmetric = {value - 2.0 * u, value + stretch * u};
+    m.shortest = {value - 2.01 * u, value + stretch * u};
+    m.numerical_error = {
+        .mean = 0.003 * u, .u = 0.002 * u, .symmetric = {0.01 * u, 0.01 * u}, .shortest = {0.02 * u, 0.02 * u}};
+    reports::GufValidation v;
+    v.delta = 0.05 * u;
+    v.d_low = 0.01 * u;
+    v.d_high = (stretch - 2.0) * u;
+    v.validated = validated && precise;
+    v.precise_enough = precise;
+    v.interval = "symmetric";
+    v.digits = 2;
+    v.printed = {.delta = "0.005", .d_low = "0.002", .d_high = validated ? "0.002" : "0.063"};
+    m.validation = v;
+    m.printed.trials = "100000";
+    m.printed.mean = decimals(value, 3);
+    m.printed.u = decimals(u, 3);
+    m.printed.symmetric = {decimals(m.symmetric[0], 2), decimals(m.symmetric[1], 2)};
+    m.printed.shortest = {decimals(m.shortest[0], 2), decimals(m.shortest[1], 2)};
+    return m;
+}
+
+/// One number derived from the error motions.
+inline reports::TableParameter table_parameter(const std::string& name, const std::string& description, double value,
+                                               double u, const std::string& unit) {
+    reports::TableParameter p;
+    p.name = name;
+    p.description = description;
+    p.unit = unit;
+    p.value = value;
+    p.u = u;
+    p.k = 2.0;
+    p.U = p.k * u;
+    p.nu_eff = 380.0;
+    p.printed = printed(value, p.U, unit == "um" ? "µm" : "″");
+    p.monte_carlo = trials_of(value, u);
+    return p;
+}
+
 /// A whole record of a rotary table with plausible numbers: 36 angles, six stations, six reflectors, dial indicator.
 /// Every number is made up by a formula, so that a test can tell a misplaced one.
 inline reports::EvaluationRecord sample_record() {
@@ -95,6 +142,7 @@ inline reports::EvaluationRecord sample_record() {
             const double value = amplitude[m] * (std::sin(2.0 * theta + phase) + 0.3 * std::cos(5.0 * theta - phase) +
                                                  0.12 * std::sin(17.0 * theta + 2.0 * phase));
             row.errors[m] = error_value(value, u[m] * (1.0 + 0.15 * std::cos(theta)), units[m]);
+            row.errors[m].monte_carlo = trials_of(value, row.errors[m].u, !(i == 3 && m == 0), !(i == 4 && m == 5));
         }
         t.errors.push_back(row);
     }
@@ -102,7 +150,9 @@ inline reports::EvaluationRecord sample_record() {
         t.ranges.push_back({.name = t.error_names[m],
                             .value = 2.3 * amplitude[m],
                             .U = 2.8 * u[m],
-                            .printed = printed(2.3 * amplitude[m], 2.8 * u[m], units[m])});
+                            .printed = printed(2.3 * amplitude[m], 2.8 * u[m], units[m]),
+                            .u = 1.4 * u[m],
+                            .monte_carlo = trials_of(2.3 * amplitude[m], 1.4 * u[m], m != 4)});
         t.reversal.push_back(
             {.name = t.error_names[m],
              .value = error_value(m == 3 ? 0.61 : 0.02 * static_cast<double>(m), 0.3 * u[m], units[m])});
@@ -123,6 +173,9 @@ inline reports::EvaluationRecord sample_record() {
             s.printed_position.push_back(decimals(s.position_mm[c], 4));
             s.printed_U.push_back(decimals(2.0 * s.u_mm[c], 4));
         }
+        s.covariance_mm2 = {{{1.21e-6, 0.6e-6 * (d - 3.0) / 3.0, 0.0},
+                             {0.6e-6 * (d - 3.0) / 3.0, 1.44e-6, 0.2e-6},
+                             {0.0, 0.2e-6, 1.69e-6}}};
         s.printed_scale = {.value = decimals(0.11 * (d - 3.0), 2), .U = "0.28", .unit = "1e-6"};
         t.stations.push_back(s);
         t.dead_paths.push_back({.name = s.name,
@@ -131,13 +184,19 @@ inline reports::EvaluationRecord sample_record() {
                                 .printed = {.value = decimals(190.0 + 10.0 * d, 4), .U = "0.0016", .unit = "mm"}});
         Reflector m;
         m.name = "R" + std::to_string(i);
-        m.position_mm = {33.2569 + d, 136.307 - 40.0 * d, 5.26 * d};
+        m.position_mm = {33.2569 + 21.0 * (i % 3), 136.307 * std::cos(1.05 * d), 136.307 * std::sin(1.05 * d)};
         m.u_mm = {0.0002, 0.0002, 0.0002};
         m.correction_um = {0.11 * d, -0.07 * d, 0.05};
         for (std::size_t c = 0; c < 3; ++c) {
             m.printed_position.push_back(decimals(m.position_mm[c], 4));
             m.printed_U.push_back("0.0004");
             m.printed_correction.push_back(decimals(m.correction_um[c], 2));
+            m.home_position_mm[c] = m.position_mm[c] + 1e-3 * t.set_up.O_um[c];
+            m.covariance_mm2[c][c] = m.u_mm[c] * m.u_mm[c];
+            m.cmm_mm[c] = m.position_mm[c] - 1e-3 * m.correction_um[c];
+            m.u_cmm_mm[c] = 0.0004 + 1e-6 * d;
+            m.printed_cmm.push_back(decimals(m.cmm_mm[c], 4));
+            m.printed_U_cmm.push_back("0.0008");
         }
         t.reflectors.push_back(m);
     }
@@ -169,27 +228,171 @@ inline reports::EvaluationRecord sample_record() {
     t.adjustment.chi_square = 1032.647;
     t.adjustment.p_value = 0.61;
     t.adjustment.condition_number = 2960.0;
-    t.adjustment.variance_factor = {.a_priori = 1.0, .a_posteriori = 0.98723, .used = "a_priori"};
+    t.adjustment.variance_factor = {.a_priori = 1.0,
+                                    .a_posteriori = 0.98723,
+                                    .used = "a_priori",
+                                    .reason =
+                                        "The variance components were estimated, so the a-posteriori factor is 1 but "
+                                        "for the iteration; the stated factor is used."};
+    t.adjustment.global_test = {.probability = 0.95,
+                                .lower = 958.271,
+                                .upper = 1137.503,
+                                .accepted = true,
+                                .meaning =
+                                    "Three components were estimated from the same residuals: the test can only "
+                                    "find what they do not describe.",
+                                .printed_lower = "958.3",
+                                .printed_upper = "1137.5"};
     t.adjustment.printed = {
         .chi_square = "1032.6", .p_value = "0.61", .variance_factor = "0.987", .condition_number = "3.0e3"};
     t.variance_components = {{"length noise", 0.0512, 0.0011, "um", 812.0, true, {"0.0512", "0.0011", "µm"}},
                              {"table linear", 0.148, 0.011, "um", 96.2, true, {"0.148", "0.011", "µm"}},
                              {"table angular, axial", 0.31, 0.04, "arcsec", 33.0, true, {"0.31", "0.04", "″"}},
                              {"table angular, tilt", 0.29, 0.02, "arcsec", 68.0, false, {"0.290", "0.020", "″"}}};
-    for (int i = 0; i < 4; ++i) {
-        t.reliability.push_back({.station = "P1",
-                                 .reflector = "R" + std::to_string(i + 1),
-                                 .pass = "P1-1",
-                                 .angle_deg = 10.0 * i,
-                                 .residual_um = 0.01 * i,
-                                 .redundancy_number = 0.8,
-                                 .test_value = i == 2 ? 61.2 : 0.4,
-                                 .minimal_detectable_bias_um = 0.33,
-                                 .flagged = i == 2,
-                                 .removed = i == 2});
+    for (std::size_t i = 0; i < t.variance_components.size(); ++i) {
+        VarianceComponent& v = t.variance_components[i];
+        v.used = i != 3;
+        if (i == 0 || i == 3) {
+            v.stated = i == 0 ? 0.05 : 0.3;
+            v.printed_stated = i == 0 ? "0.05" : "0.3";
+        }
+        if (i != 3) {
+            v.degrees_of_freedom = 0.97 * v.redundancy;
+        }
     }
-    t.flagged = {{"P1", "R3", "P1-1", "20", "3.12", "61.2", true},
-                 {"P4", "R6", "P4-1", "310", "\u22120.24", "4.3", false}};
+    for (int station = 1; station <= 6; ++station) {
+        for (int i = 0; i < 36; ++i) {
+            for (int m = 1; m <= 6; ++m) {
+                const bool removed = station == 1 && m == 3 && i == 2;
+                const double wave = std::sin(1.7 * station + 2.9 * i * i + 5.3 * m * i);
+                t.reliability.push_back({.station = "P" + std::to_string(station),
+                                         .reflector = "R" + std::to_string(m),
+                                         .pass = "P" + std::to_string(station) + "-1",
+                                         .angle_deg = 10.0 * i,
+                                         .residual_um = removed ? 3.12 : 0.07 * wave * (station == 4 ? 1.8 : 1.0),
+                                         .redundancy_number = 0.81 - 0.25 * wave * wave - 0.05 * m,
+                                         .test_value = removed ? 61.2 : 1.4 * wave,
+                                         .minimal_detectable_bias_um = 0.33 + 0.1 * wave,
+                                         .flagged = removed || (station == 4 && m == 6 && i == 31),
+                                         .removed = removed});
+            }
+        }
+    }
+    t.flagged = {{"P1", "R3", "P1-1", "20", "3.12", "61.2", true, "3.24", "58.7 (3.89)",
+                  "largest test value of the first search"},
+                 {"P4", "R6", "P4-1", "310", "\u22120.24", "4.3", false, "\u22120.27", "4.3 (3.89)",
+                  "flagged; outliers.action is \"report\""}};
+    for (std::size_t i = 0; i < 18; ++i) {
+        t.fixture_reliability.push_back({.reflector = "R" + std::to_string(i / 3 + 1),
+                                         .coordinate = std::string(1, static_cast<char>('x' + i % 3)),
+                                         .residual_um = 0.05 * static_cast<double>(i % 5) - 0.1,
+                                         .redundancy_number = 0.62 + 0.01 * static_cast<double>(i),
+                                         .test_value = 0.3 * static_cast<double>(i % 7) - 0.9,
+                                         .minimal_detectable_bias_um = 2.1 - 0.02 * static_cast<double>(i)});
+    }
+    for (std::size_t m = 0; m < 6; ++m) {
+        for (const ErrorsAtAngle& row : t.errors) {
+            t.external_reliability.push_back({.quantity = t.error_names[m],
+                                              .angle_deg = row.angle_deg,
+                                              .influence = 0.12 + 0.001 * row.angle_deg,
+                                              .unit = t.error_units[m],
+                                              .ratio_to_U = 0.3 + 0.001 * row.angle_deg,
+                                              .station = "P4",
+                                              .reflector = "R6",
+                                              .pass = "P4-1",
+                                              .at_angle_deg = row.angle_deg,
+                                              .minimal_detectable_bias_um = 0.33});
+        }
+    }
+    for (const char* name : {"O_y", "O_z", "S_y", "S_z"}) {
+        t.external_reliability.push_back({.quantity = name,
+                                          .angle_deg = {},
+                                          .influence = 0.021,
+                                          .unit = name[0] == 'O' ? "um" : "arcsec",
+                                          .ratio_to_U = 0.07,
+                                          .station = "P2",
+                                          .reflector = "R1",
+                                          .pass = "P2-1",
+                                          .at_angle_deg = 90.0,
+                                          .minimal_detectable_bias_um = 0.35});
+    }
+    t.location_errors = {
+        table_parameter("EY0A", "position of the axis average line along y", -59.43, 0.147, "um"),
+        table_parameter("EZ0A", "position of the axis average line along z", 192.61, 0.151, "um"),
+        table_parameter("EB0A", "orientation of the axis average line about y", -50.782, 0.122, "arcsec"),
+        table_parameter("EC0A", "orientation of the axis average line about z", 108.704, 0.131, "arcsec")};
+    t.location_errors[2].monte_carlo = trials_of(-50.782, 0.122, false);
+
+    PositioningAccuracy positioning;
+    positioning.runs_up = 5;
+    positioning.runs_down = 5;
+    const std::array<const char*, 12> positioning_names = {"M",      "E", "E_up",   "E_down", "R",    "R_up",
+                                                           "R_down", "B", "B_mean", "A",      "A_up", "A_down"};
+    for (std::size_t i = 0; i < positioning_names.size(); ++i) {
+        positioning.parameters.push_back(table_parameter(positioning_names[i], "parameter of the positioning",
+                                                         6.1 - 0.37 * static_cast<double>(i), 0.11, "arcsec"));
+    }
+    for (int i = 0; i < 12; ++i) {
+        PositioningTarget target;
+        target.angle_deg = 30.0 * i;
+        target.mean_up = 2.0 * std::sin(0.5 * i);
+        target.mean_down = *target.mean_up - 0.61;
+        target.s_up = 0.21;
+        target.s_down = 0.24;
+        target.reversal = 0.61;
+        target.printed_angle = decimals(target.angle_deg, 0);
+        target.printed_mean_up = decimals(*target.mean_up, 2);
+        target.printed_mean_down = decimals(*target.mean_down, 2);
+        target.printed_s_up = "0.21";
+        target.printed_s_down = "0.24";
+        target.printed_reversal = "0.61";
+        positioning.targets.push_back(target);
+    }
+    positioning.u_deviation = 0.092;
+    positioning.printed_u_deviation = "0.092";
+    positioning.remarks = {"Five runs in each direction: the positional deviations are corrected for nothing."};
+    t.iso230_2 = positioning;
+
+    t.monte_carlo = {.trials = 100000,
+                     .seed = 7,
+                     .most_steps = 4,
+                     .mean_steps = 2.31,
+                     .compared = 238,
+                     .validated = 235,
+                     .not_validated = {"EXA(30)", "EBA range", "EB0A"},
+                     .statement =
+                         "Monte Carlo of the whole measurement: every input was drawn from its own "
+                         "distribution, and every trial was adjusted anew."};
+    t.fixture_budget = {.method = "budget",
+                        .file = "fixture_budget.json",
+                        .largest = {{"maximum permissible error of the CMM",
+                                     {},
+                                     "um",
+                                     0.24,
+                                     {},
+                                     "B",
+                                     "uniform",
+                                     1.0,
+                                     0.24,
+                                     0.92,
+                                     "certificate of the CMM",
+                                     {},
+                                     {"0", "0.24", "", "1", "0.240", "92.0"}},
+                                    {"repeatability of the CMM",
+                                     {},
+                                     "um",
+                                     0.0708,
+                                     9.0,
+                                     "A",
+                                     "normal",
+                                     1.0,
+                                     0.0708,
+                                     0.08,
+                                     "ten measurements",
+                                     {},
+                                     {"0", "0.071", "", "1", "0.071", "8.0"}}},
+                        .largest_coordinate = "x of R6",
+                        .remarks = {"The maximum permissible error is taken as a uniform bound."}};
     t.outlier_critical_value = 3.89;
     t.outlier_alpha = 0.0001;
     t.printed_critical_value = "3.89";

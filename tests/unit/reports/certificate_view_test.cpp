@@ -52,8 +52,9 @@ TEST(CertificateView, SectionsComeInTheOrderOfACertificate) {
     for (const json& section : view["sections"]) {
         ids.push_back(section["id"]);
     }
-    EXPECT_THAT(ids, ::testing::ElementsAre("identification", "conventions", "set_up", "error_motions", "uncertainty",
-                                            "adjustment", "geometry", "comparison", "messages", "input"));
+    EXPECT_THAT(ids, ::testing::ElementsAre("identification", "conventions", "set_up", "error_motions", "positioning",
+                                            "uncertainty", "fixture", "monte_carlo", "adjustment", "reliability",
+                                            "geometry", "comparison", "messages", "input"));
 }
 
 TEST(CertificateView, DecimalSignsStandBelowEachOther) {

@@ -20,11 +20,16 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// The tags of an HTML text, in order, without what stands between them.
+/// The tags of an HTML text, in order, without what stands between them. Left out are the labels of drawings, the lines
+/// that lead to them and all digits: a label finds its place by its length, and a key grows with its texts.
 std::string html_tags(const std::string& html) {
     std::string out;
     for (std::size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at + 1)) {
-        out += html.substr(at, html.find('>', at) - at + 1) + "\n";
+        std::string tag = html.substr(at, html.find('>', at) - at + 1);
+        std::erase_if(tag, [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
+        if (!tag.starts_with("<text ") && tag != "</text>" && !tag.starts_with("<line ")) {
+            out += tag + "\n";
+        }
     }
     return out;
 }
@@ -113,6 +118,18 @@ EvaluationRecord with_text(const std::string& text) {
     r.rotary->dead_paths[0].name = text;
     r.rotary->flagged[0].pass = text;
     r.rotary->variance_components[0].name = text;
+    r.rotary->adjustment.variance_factor.reason = text;
+    r.rotary->adjustment.global_test.meaning = text;
+    r.rotary->flagged[0].reason = text;
+    r.rotary->location_errors[0].description = text;
+    r.rotary->iso230_2->remarks[0] = text;
+    r.rotary->monte_carlo->statement = text;
+    r.rotary->fixture_budget->remarks[0] = text;
+    r.rotary->fixture_budget->largest_coordinate = text;
+    r.rotary->budget_sources[0] = text;
+    for (ExternalReliability& e : r.rotary->external_reliability) {
+        e.pass = text;
+    }
     r.rotary->covariance_file = text;
     r.diagnostics[0].what = text;
     r.software.commit = text;
@@ -122,7 +139,8 @@ EvaluationRecord with_text(const std::string& text) {
 TEST(RenderHtml, HostileTextsDoNotAlterTheStructure) {
     const std::string plain = html_tags(render_html(with_text("Smith"), assets()));
     for (const std::string& text : k_hostile) {
-        EXPECT_EQ(html_tags(render_html(with_text(text), assets())), plain) << text;
+        // Not EXPECT_EQ: the difference of two whole documents takes a minute to print.
+        EXPECT_TRUE(html_tags(render_html(with_text(text), assets())) == plain) << text;
     }
     EXPECT_THAT(render_html(with_text(k_hostile[0]), assets()), HasSubstr("&lt;script&gt;alert(1)&lt;"));
     EXPECT_THAT(render_html(with_text("{{title}}"), assets()),

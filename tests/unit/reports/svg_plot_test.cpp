@@ -97,6 +97,76 @@ TEST(SvgPlot, BarsRunFromZeroToTheirShare) {
     EXPECT_THROW(static_cast<void>(svg(plot)), gum::NoResultError);
 }
 
+TEST(SvgPlot, StackedBarsFillOneHundredPercent) {
+    StackedPlot plot{.id = "s",
+                     .title = "t",
+                     .description = "d",
+                     .x_label = "share / %",
+                     .text_head = "rms u",
+                     .parts = {"<a>", "b", "c"},
+                     .bars = {{"EXA", {25.0, 75.0, 0.0}, {"25.0", "75.0", "0.0"}, "0.21 µm"},
+                              {"EYA", {130.0, 20.0, -50.0}, {"130.0", "20.0", "-50.0"}, "0.3 µm"}}};
+    const std::string text = svg(plot);
+    EXPECT_EQ(text, svg(plot));
+    for (const char* part : {">&lt;a&gt;</text>", ">25.0</text>", ">75.0</text>", ">130.0</text>", ">0.21 µm</text>",
+                             ">rms u</text>", ">100</text>"}) {
+        EXPECT_THAT(text, HasSubstr(part));
+    }
+    EXPECT_THAT(text, Not(HasSubstr("-50.0")));  // a negative share has no place in a bar
+    EXPECT_THAT(text, Not(HasSubstr("width=\"-")));
+    plot.bars[0].shares[1] = std::numeric_limits<double>::infinity();
+    EXPECT_THROW(static_cast<void>(svg(plot)), gum::NoResultError);
+    plot.bars.clear();
+    EXPECT_THAT(svg(plot), HasSubstr("</svg>"));
+}
+
+TEST(SvgPlot, HistogramHasABarForEveryCellWithCounts) {
+    HistogramPlot plot{.id = "h",
+                       .title = "t",
+                       .description = "d",
+                       .x_label = "r",
+                       .y_label = "n",
+                       .first_edge = 0.0,
+                       .cell_width = 0.25,
+                       .counts = {0.0, 4.0, 40.0, 2.0}};
+    const std::string text = svg(plot);
+    std::size_t bars = 0;
+    for (std::size_t at = text.find("#b5b5b5"); at != std::string::npos; at = text.find("#b5b5b5", at + 1)) {
+        ++bars;
+    }
+    EXPECT_EQ(bars, 3U);
+    EXPECT_THAT(text, HasSubstr(">40</text>"));
+    EXPECT_THAT(text, HasSubstr(">1.0</text>"));
+    plot.counts.assign(4, 0.0);
+    EXPECT_THAT(svg(plot), Not(HasSubstr("nan")));
+    plot.counts[0] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(static_cast<void>(svg(plot)), gum::NoResultError);
+}
+
+TEST(SvgPlot, ManyPointsAreOnePath) {
+    Plot plot = one_panel(-2.0, 3.0);
+    plot.panels[0].series[0].marker = PlotMarker::disc;
+    plot.panels[0].series[0].bars = PlotBars::none;
+    plot.panels[0].series[0].joined = false;
+    for (int i = 0; i < 100000; ++i) {
+        plot.panels[0].series[0].points.push_back({.x = i % 360 * 0.5, .y = (i % 77) * 0.03, .U = 0.0});
+    }
+    const std::string text = svg(plot);
+    EXPECT_THAT(text, HasSubstr("<path d=\"M"));
+    EXPECT_LT(text.size(), 700'000U);
+    EXPECT_EQ(text, svg(plot));
+}
+
+TEST(SvgPlot, WhatIsBeyondAFixedScaleStandsAtItsEdge) {
+    Plot plot = one_panel(-2.0, 300.0);
+    plot.panels[0].limits.clear();
+    plot.panels[0].y_most = 4.0;
+    const std::string text = svg(plot);
+    EXPECT_THAT(text, HasSubstr(">4</text>"));
+    EXPECT_THAT(text, Not(HasSubstr(">300</text>")));
+    EXPECT_THAT(text, Not(HasSubstr("y=\"-")));
+}
+
 TEST(SvgPlot, DensityShowsCellsCurveAndIntervals) {
     const std::string text = svg(density());
     for (const char* part : {">a &amp; b</text>", ">c</text>", ">trials</text>", ">curve</text>", "<polygon",

@@ -89,6 +89,21 @@ inline void replace_all(std::string& text, const std::string& old_text, const st
     }
 }
 
+/// The small campaign before it is measured: a layout in place of the lengths, and no readings.
+inline Files small_layout() {
+    Files files = small_campaign();
+    std::string& job = files.at("job.json");
+    replace(job, "\"lengths\": \"lengths.csv\", ", "");
+    replace(job, R"(  "reference_method": {
+    "name": "dial indicator",
+    "readings": "dial_indicator.csv",
+    "description": "dial_indicator.json"
+  })",
+            R"(  "plan": { "angles_deg": {"first": -90, "step": 30, "count": 12} })");
+    files.erase("lengths.csv");
+    return files;
+}
+
 /// Replaces a whole line, counted from 1; without its line end.
 inline void replace_line(std::string& text, std::size_t line, const std::string& new_text) {
     std::size_t start = 0;
@@ -98,14 +113,31 @@ inline void replace_line(std::string& text, std::size_t line, const std::string&
     text.replace(start, text.find('\n', start) - start, new_text);
 }
 
-inline RotaryTableJob read(const Files& files) {
-    return read_rotary_table_job(MemoryFileSource(files), "job.json");
+/// A budget of the fixture of the small campaign, with the points in a table: u = 0.3 µm, and 1e-6 of the coordinate in
+/// common.
+inline std::string small_fixture_budget() {
+    return R"({ "schema": "gumcert/job/1", "kind": "budget", "model": ["x = l + d_cmm + l * d_scale"],
+  "inputs": { "l": {"value": 0, "unit": "mm", "constant": true},
+              "d_cmm": {"value": 0, "u": 0.3, "unit": "um", "between_points": "independent"},
+              "d_scale": {"value": 0, "u": 1e-6} },
+  "outputs": {"x": {"unit": "mm"}},
+  "points": {"file": "fixture_points.csv"} }
+)";
+}
+
+inline std::string small_fixture_points() {
+    return "point,l\nR1.x,33.25\nR1.y,136.5\nR1.z,5.25\nR2.x,85.5\nR2.y,28.25\nR2.z,72.0\n"
+           "R3.x,152.75\nR3.y,-99.5\nR3.z,117.25\nR4.x,35.75\nR4.y,-87.5\nR4.z,-0.75\n";
+}
+
+inline RotaryTableJob read(const Files& files, JobUse use = JobUse::evaluate) {
+    return read_rotary_table_job(MemoryFileSource(files), "job.json", use);
 }
 
 /// The refusals of a campaign; empty when it was accepted.
-inline std::vector<gum::Diagnostic> refusals(const Files& files) {
+inline std::vector<gum::Diagnostic> refusals(const Files& files, JobUse use = JobUse::evaluate) {
     try {
-        (void)read(files);
+        (void)read(files, use);
     } catch (const gum::InputError& error) {
         return error.diagnostics();
     }

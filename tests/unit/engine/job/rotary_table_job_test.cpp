@@ -13,6 +13,7 @@
 #include <set>
 #include <sstream>
 
+#include "engine/job/budget_job.h"
 #include "engine/job/input_codes.h"
 #include "tests/unit/engine/job/campaign.h"
 
@@ -27,6 +28,7 @@ using test::replace;
 using test::replace_all;
 using test::replace_line;
 using test::small_campaign;
+using test::small_layout;
 using test::texts;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -100,6 +102,12 @@ std::string row_text(const std::string& station, const std::string& reflector, c
     return station + "," + reflector + "," + pass + "," + direction + "," + angle + "," + length + "," + dead_path;
 }
 
+void with_fixture_budget(Files& files) {
+    replace(files.at("job.json"), "\"coordinates\"", "\"budget\": \"fixture_budget.json\", \"coordinates\"");
+    files["fixture_budget.json"] = test::small_fixture_budget();
+    files["fixture_points.csv"] = test::small_fixture_points();
+}
+
 const std::vector<BadInput>& bad_inputs() {
     static const std::vector<BadInput> list{
         // ---- the job file
@@ -136,8 +144,77 @@ const std::vector<BadInput>& bad_inputs() {
          "job.json#/coverage_probability (line 1, column 27)", "less than 1"},
         {"coverage_zero", with_key("\"coverage_probability\": 0"), k_number_out_of_range,
          "job.json#/coverage_probability (line 1, column 27)", "greater than 0"},
-        {"monte_carlo", with_key("\"monte_carlo\": {\"trials\": 1000000}"), k_no_monte_carlo,
-         "job.json#/monte_carlo (line 1, column 18)", "Monte Carlo is not available for it — remove \"monte_carlo\""},
+        {"few_trials", with_key("\"monte_carlo\": {\"trials\": 10}"), k_too_few_trials,
+         "job.json#/monte_carlo/trials (line 1, column 29)", "needs at least 100/(1 - p) = 2198 trials"},
+        {"monte_carlo_key", with_key("\"monte_carlo\": {\"trails\": 10}"), k_unknown_key,
+         "job.json#/monte_carlo/trails (line 1, column 29)", "did you mean \"trials\"?"},
+        {"resolution", with("job.json", "0.05", "0.05, \"resolution_um\": -0.1"), k_number_out_of_range,
+         "job.json#/length_uncertainty/resolution_um (line 7, column 67)", "-0.1 µm"},
+        {"shape_of_temperature",
+         with("job.json", "\"lengths\":", "\"temperature_distribution\": \"flat\", \"lengths\":"), k_unknown_choice,
+         "job.json#/observations/temperature_distribution (line 6, column 49)", "must be normal or uniform"},
+        {"fixture_budget_and_covariance",
+         [](Files& files) {
+             with_covariance([](std::size_t i, std::size_t j) { return i != j ? 0.0 : i == 1 ? 0.25 : 0.16; })(files);
+             with_fixture_budget(files);
+         },
+         k_fixture_keys_exclude, "job.json#/fixture/budget (line 9, column 15)",
+         "\"budget\" is given beside \"covariance\""},
+        {"source_paper_and_uniform",
+         with("job.json", "\"coordinates\"",
+              "\"uncertainty\": \"source_paper\", \"distribution\": \"uniform\", \"coordinates\""),
+         k_fixture_keys_exclude, "job.json#/fixture/distribution (line 9, column 52)",
+         "uniform distribution belongs to"},
+        {"fixture_budget_without_point",
+         [](Files& files) {
+             with_fixture_budget(files);
+             replace(files.at("fixture_points.csv"), "R2.y,28.25\n", "");
+         },
+         k_fixture_budget_points, "fixture_budget.json#/points", "the coordinate \"R2.y\" has no point"},
+        {"fixture_budget_with_unknown_point",
+         [](Files& files) {
+             with_fixture_budget(files);
+             files.at("fixture_points.csv") += "R5.x,3\n";
+         },
+         k_fixture_budget_points, "fixture_budget.json#/points", "the point \"R5.x\" is no coordinate"},
+        {"fixture_budget_without_points",
+         [](Files& files) {
+             with_fixture_budget(files);
+             replace(files.at("fixture_budget.json"), ",\n  \"points\": {\"file\": \"fixture_points.csv\"}", "");
+         },
+         k_fixture_budget_points, "fixture_budget.json#/points", "has no points"},
+        {"fixture_budget_of_another_kind",
+         [](Files& files) {
+             with_fixture_budget(files);
+             replace(files.at("fixture_budget.json"), "\"kind\": \"budget\"", "\"kind\": \"rotary_table\"");
+         },
+         k_wrong_kind, "fixture_budget.json#/kind (line 1, column 38)", "a job of kind \"budget\" is expected here"},
+        {"fixture_budget_refused",
+         [](Files& files) {
+             with_fixture_budget(files);
+             replace(files.at("fixture_budget.json"), "\"u\": 0.3", "\"u\": -0.3");
+         },
+         k_number_out_of_range, "fixture_budget.json#/inputs/d_cmm/u (line 3, column 42)", "must be greater than 0"},
+        {"simulation_outliers", with_key("\"simulation\": {\"outliers\": {\"size_um\": 3}}"), k_missing_key,
+         "job.json#/simulation/outliers (line 1, column 30)", "\"count\" is missing"},
+        {"simulation_angle_counts", with_key("\"simulation\": {\"angle_counts\": [12.5]}"), k_not_an_integer,
+         "job.json#/simulation/angle_counts (line 1, column 34)", "12.5 — must be whole numbers"},
+        {"plan_too_large", with_key("\"plan\": {\"angles_deg\": {\"first\": 0, \"step\": 0.01, \"count\": 100000}}"),
+         k_layout_too_large, "job.json#/plan (line 1, column 11)", "1200000 distances"},
+        {"planned_angle_twice", with_key("\"plan\": {\"angles_deg\": [0, 90, 0, 180]}"), k_repeated_angle,
+         "job.json#/plan/angles_deg (line 1, column 26)", "the angle 0° occurs twice"},
+        {"plan_without_home", with_key("\"plan\": {\"angles_deg\": [1, 90, 180]}"), k_home_not_measured,
+         "job.json#/plan (line 1, column 11)", "the home angle 0° (the default) is not among the angles of plan"},
+        {"plan_beyond_the_last_angle",
+         with_key("\"plan\": {\"angles_deg\": {\"first\": 0, \"step\": 90, \"count\": 1000}}"), k_number_out_of_range,
+         "job.json#/plan/angles_deg/count (line 1, column 60)", "the last angle is 89910°"},
+        {"region_reversed",
+         with_key("\"plan\": {\"station_region\": {\"x_mm\": [1, 0], \"y_mm\": [0, 1], \"z_mm\": [0, 1]}}"),
+         k_limits_reversed, "job.json#/plan/station_region/x_mm (line 1, column 39)", "from 1 mm to 0 mm"},
+        {"region_too_fine",
+         with_key("\"plan\": {\"station_region\": {\"x_mm\": [0, 1000], \"y_mm\": [0, 1000], \"z_mm\": [0, 1000], "
+                  "\"step_mm\": 10}}"),
+         k_layout_too_large, "job.json#/plan/station_region/step_mm (line 1, column 99)", "1030301 positions"},
         {"notes_type", with_key("\"notes\": 1"), k_wrong_type, "job.json#/notes (line 1, column 12)",
          "must be a string"},
         {"certificate_type", with_key("\"certificate\": 1"), k_wrong_type, "job.json#/certificate (line 1, column 18)",
@@ -435,6 +512,9 @@ TEST(RotaryTableJob, EveryCodeOfRotaryJobsHasABadInput) {
         covered.insert(bad.code.code);
     }
     covered.insert(k_too_many_reflectors.code);  // by a test of its own
+    covered.insert(k_layout_incomplete.code);    // by a test of its own
+    // By the tests of app/fixture_budget, where the budget is evaluated.
+    covered.insert({k_fixture_budget_output.code, k_fixture_budget_differs.code});
     for (const InputCode& code : k_input_codes) {
         if (code.code.starts_with("GC-INPUT-02")) {
             EXPECT_TRUE(covered.contains(code.code)) << code.code << " " << code.meaning;
@@ -899,6 +979,270 @@ TEST(RotaryTableJob, ReadsTheLargestCampaignQuickly) {
 #if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     EXPECT_LT(best, 20.0);
 #endif
+}
+
+// ---- the keys of simulation, plan and the fixture budget
+// --------------------------------------------------------------
+
+TEST(RotaryTableJob, ReadsMonteCarloResolutionAndShapes) {
+    Files files = small_campaign();
+    std::string& job = files.at("job.json");
+    with_key("\"monte_carlo\": {\"trials\": 300000, \"seed\": 5, \"validate\": true}")(files);
+    replace(job, "0.05", "0.05, \"resolution_um\": 0.02");
+    replace(job, "\"lengths\":", "\"temperature_distribution\": \"uniform\", \"lengths\":");
+    replace(job, "\"u\": 5e-7", "\"u\": 5e-7, \"distribution\": \"uniform\"");
+    replace(job, "\"coordinates\"",
+            "\"distribution\": \"uniform\", \"variance_component\": \"given\", \"coordinates\"");
+    const RotaryTableJob read_job = read(files);
+    ASSERT_TRUE(read_job.monte_carlo);
+    EXPECT_EQ(read_job.monte_carlo->trials, 300'000U);
+    EXPECT_EQ(read_job.monte_carlo->seed, 5U);
+    EXPECT_TRUE(read_job.monte_carlo->validate);
+    EXPECT_THAT(read_job.monte_carlo->where, HasSubstr("job.json#/monte_carlo"));
+    const RotaryTableMeasurement& m = read_job.measurement;
+    EXPECT_DOUBLE_EQ(m.length_uncertainty.resolution, 0.02e-6);
+    EXPECT_EQ(m.temperature_shape, InputShape::uniform);
+    EXPECT_EQ(m.expansion_shape, InputShape::uniform);
+    EXPECT_EQ(m.fixture_shape, InputShape::uniform);
+    EXPECT_EQ(m.fixture_component, FixtureComponent::given);
+    EXPECT_EQ(texts(read_job.warnings), "");
+
+    const RotaryTableMeasurement without = read(small_campaign()).measurement;
+    EXPECT_EQ(without.length_uncertainty.resolution, 0.0);
+    EXPECT_EQ(without.temperature_shape, InputShape::normal);
+    EXPECT_EQ(without.expansion_shape, InputShape::normal);
+    EXPECT_EQ(without.fixture_shape, InputShape::normal);
+    EXPECT_EQ(without.fixture_component, FixtureComponent::check);
+    EXPECT_FALSE(read(small_campaign()).monte_carlo);
+}
+
+TEST(RotaryTableJob, ReadsTheFixtureBudgetWithItsFiles) {
+    Files files = small_campaign();
+    with_fixture_budget(files);
+    const RotaryTableJob job = read(files);
+    ASSERT_TRUE(job.fixture_budget);
+    EXPECT_EQ(job.fixture_budget_file, "fixture_budget.json");
+    EXPECT_EQ(job.fixture_budget->points.size(), 12U);
+    EXPECT_THAT(job.files,
+                ElementsAre("job.json", "lengths.csv", "stations.csv", "environment.csv", "fixture.csv",
+                            "dial_indicator.csv", "dial_indicator.json", "fixture_budget.json", "fixture_points.csv"));
+    // The columns of the coordinates file have no part in the covariance, which the application fills in.
+    EXPECT_EQ(job.measurement.fixture_covariance.rows(), 12);
+    EXPECT_EQ(job.measurement.fixture_covariance.cwiseAbs().maxCoeff(), 0.0);
+    ASSERT_EQ(job.stated_fixture_u.size(), 12);
+    EXPECT_DOUBLE_EQ(job.stated_fixture_u(1), 0.5e-6);
+}
+
+TEST(RotaryTableJob, ReadsAFixtureBudgetOfAnotherFolder) {
+    Files files = small_campaign();
+    with_fixture_budget(files);
+    replace(files.at("job.json"), "fixture_budget.json", "fixture/budget.json");
+    files["fixture/budget.json"] = files.extract("fixture_budget.json").mapped();
+    files["fixture/fixture_points.csv"] = files.extract("fixture_points.csv").mapped();
+    const RotaryTableJob job = read(files);
+    EXPECT_THAT(job.files, testing::IsSupersetOf({"fixture/budget.json", "fixture/fixture_points.csv"}));
+    // Places of its problems have the folder, too.
+    replace(files.at("fixture/fixture_points.csv"), "28.25", "28,25");
+    const auto found = refusals(files);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_THAT(found[0].where, HasSubstr("fixture/fixture_points.csv"));
+}
+
+TEST(RotaryTableJob, TellsProblemsOfTheFixtureBudgetWithTheOthers) {
+    Files files = small_campaign();
+    with_fixture_budget(files);
+    replace(files.at("fixture_budget.json"), "\"u\": 0.3", "\"u\": -0.3");
+    replace(files.at("job.json"), "\"axis\": \"A\"", "\"axis\": \"X\"");
+    const auto found = refusals(files);
+    ASSERT_EQ(found.size(), 2U) << texts(found);
+    EXPECT_THAT(found[0].where, HasSubstr("job.json#/axis"));
+    EXPECT_THAT(found[1].where, HasSubstr("fixture_budget.json#/inputs/d_cmm/u"));
+    files.erase("fixture_points.csv");
+    EXPECT_THROW((void)read(files), gum::StorageError);
+    files.erase("fixture_budget.json");
+    EXPECT_THROW((void)read(files), gum::StorageError);
+}
+
+TEST(RotaryTableJob, NeedsNoColumnsOfUncertaintyBesideABudgetOrTheSourcePaper) {
+    Files files = small_campaign();
+    files.at("fixture.csv") =
+        "reflector,x_mm,y_mm,z_mm\nR1,33.25,136.5,5.25\nR2,85.5,28.25,72.0\n"
+        "R3,152.75,-99.5,117.25\nR4,35.75,-87.5,-0.75\n";
+    EXPECT_EQ(refusals(files).front().code, k_csv_missing_column.code);
+    Files budget = files;
+    with_fixture_budget(budget);
+    EXPECT_EQ(read(budget).stated_fixture_u.size(), 0);
+    replace(files.at("job.json"), "\"coordinates\"", "\"uncertainty\": \"source_paper\", \"coordinates\"");
+    const RotaryTableJob job = read(files);
+    EXPECT_TRUE(job.source_paper_fixture);
+    const Eigen::MatrixXd& V = job.measurement.fixture_covariance;
+    // Eq. (11) at L = 136 500 µm: sqrt(0.401² + 0.045318²) µm; computed with Python's decimal module.
+    EXPECT_NEAR(std::sqrt(V(1, 1)), 0.40355262e-6, 1e-14);
+    EXPECT_EQ(V(1, 0), 0.0);
+}
+
+TEST(RotaryTableJob, ComputesTheFixtureUncertaintyOfTheSourcePaper) {
+    // Eqs. (11) and (12) at the origin and at 1 m, where the terms are 0.401 µm and 0.332 µm.
+    EXPECT_DOUBLE_EQ(source_paper_fixture_uncertainty(0.0), 0.401e-6);
+    EXPECT_NEAR(source_paper_fixture_uncertainty(1.0), 0.52060061e-6, 1e-14);
+    EXPECT_NEAR(2.0 * source_paper_fixture_uncertainty(-1.0), 1.04120123e-6, 2e-14);
+}
+
+TEST(RotaryTableJob, ReadsSimulationAndPlan) {
+    Files files = small_campaign();
+    with_key(R"("simulation": {"runs": 20, "seed": 7, "set_up_offset_um": 5, "set_up_tilt_arcsec": 10,
+        "error_linear_um": 3, "error_angular_arcsec": 4, "outliers": {"count": 2, "size_um": 5},
+        "angle_counts": [12, 36], "table_repeatability": {"u_linear_um": 0.1, "u_axial_arcsec": 0, "u_tilt_arcsec": 0.3}},
+        "plan": {"angles_deg": [180, 0, 90], "senses": "both", "dead_paths": "reflector",
+        "targets": {"linear_um": 0.5, "angular_arcsec": 0.7}, "least_distance_mm": 300,
+        "station_region": {"x_mm": [0, 1000], "y_mm": [-500, 500], "z_mm": [0, 0], "step_mm": 100}})")(files);
+    const RotaryTableJob job = read(files);
+    ASSERT_TRUE(job.simulation);
+    const SimulationRequest& s = *job.simulation;
+    constexpr double k_arcsecond = std::numbers::pi / 180.0 / 3600.0;
+    EXPECT_EQ(s.runs, 20U);
+    EXPECT_EQ(s.seed, 7U);
+    EXPECT_DOUBLE_EQ(s.set_up_offset, 5e-6);
+    EXPECT_DOUBLE_EQ(s.set_up_tilt, 10.0 * k_arcsecond);
+    EXPECT_DOUBLE_EQ(s.error_linear, 3e-6);
+    EXPECT_DOUBLE_EQ(s.error_angular, 4.0 * k_arcsecond);
+    EXPECT_EQ(s.outliers, 2U);
+    EXPECT_DOUBLE_EQ(s.outlier_size, 5e-6);
+    EXPECT_THAT(s.angle_counts, ElementsAre(12, 36));
+    ASSERT_TRUE(s.table_repeatability);
+    EXPECT_EQ(s.table_repeatability->mode, RepeatabilityMode::given);
+    EXPECT_DOUBLE_EQ(s.table_repeatability->u_linear, 0.1e-6);
+    EXPECT_DOUBLE_EQ(s.table_repeatability->u_tilt, 0.3 * k_arcsecond);
+
+    ASSERT_TRUE(job.plan);
+    const PlanRequest& p = *job.plan;
+    EXPECT_THAT(p.angles_deg, ElementsAre(0, 90, 180));
+    EXPECT_TRUE(p.both_senses);
+    EXPECT_TRUE(p.dead_path_per_reflector);
+    EXPECT_DOUBLE_EQ(p.target_linear, 0.5e-6);
+    EXPECT_DOUBLE_EQ(p.target_angular, 0.7 * k_arcsecond);
+    EXPECT_DOUBLE_EQ(p.least_distance, 0.3);
+    EXPECT_DOUBLE_EQ(p.station_step, 0.1);
+    ASSERT_TRUE(p.station_region);
+    EXPECT_EQ((*p.station_region)[0], Eigen::Vector3d(0.0, -0.5, 0.0));
+    EXPECT_EQ((*p.station_region)[1], Eigen::Vector3d(1.0, 0.5, 0.0));
+    // A plan beside lengths changes nothing of the measurement.
+    EXPECT_EQ(job.measurement.angles.size(), 8U);
+    EXPECT_EQ(texts(job.warnings), "");
+}
+
+TEST(RotaryTableJob, TakesTheDefaultsOfSimulationAndPlan) {
+    Files files = small_campaign();
+    with_key(R"("simulation": {}, "plan": {})")(files);
+    const RotaryTableJob job = read(files);
+    EXPECT_EQ(job.simulation->runs, 100U);
+    EXPECT_DOUBLE_EQ(job.simulation->set_up_offset, 10e-6);
+    EXPECT_EQ(job.simulation->outliers, 0U);
+    EXPECT_FALSE(job.simulation->table_repeatability);
+    EXPECT_THAT(job.plan->angles_deg, IsEmpty());
+    EXPECT_FALSE(job.plan->both_senses);
+    EXPECT_FALSE(job.plan->station_region);
+}
+
+TEST(RotaryTableJob, ReadsALayoutWithoutLengths) {
+    for (const JobUse use : {JobUse::plan, JobUse::simulate}) {
+        const RotaryTableJob job = read(small_layout(), use);
+        EXPECT_FALSE(job.has_lengths);
+        EXPECT_EQ(texts(job.warnings), "");
+        const RotaryTableMeasurement& m = job.measurement;
+        EXPECT_THAT(m.stations, ElementsAre("P1", "P2", "P3"));
+        EXPECT_THAT(m.reflectors, ElementsAre("R1", "R2", "R3", "R4"));
+        ASSERT_EQ(m.angles.size(), 12U);
+        EXPECT_DOUBLE_EQ(m.angles_deg.front(), -90.0);
+        EXPECT_DOUBLE_EQ(m.angles_deg.back(), 240.0);
+        EXPECT_DOUBLE_EQ(m.angles.front(), -0.5 * std::numbers::pi);
+        EXPECT_EQ(m.home, 3U);
+        EXPECT_THAT(m.lengths, IsEmpty());
+        EXPECT_THAT(m.passes, IsEmpty());
+        EXPECT_THAT(m.dead_paths, IsEmpty());
+        ASSERT_EQ(m.station_start.size(), 3U);
+        EXPECT_TRUE(m.station_start[1].value().isApprox(Eigen::Vector3d(0.8, -0.7, 0.55), 1e-15));
+        EXPECT_DOUBLE_EQ(m.temperature_difference(2), -0.25);
+        EXPECT_EQ(job.air.size(), 3U);
+    }
+    // To evaluate it, lengths are needed.
+    const auto found = refusals(small_layout());
+    ASSERT_EQ(found.size(), 1U) << texts(found);
+    EXPECT_EQ(found[0].code, k_missing_key.code);
+    EXPECT_THAT(found[0].what, HasSubstr("\"lengths\""));
+    // With lengths, plan and simulate read what evaluate reads.
+    const RotaryTableJob measured = read(small_campaign(), JobUse::plan);
+    EXPECT_TRUE(measured.has_lengths);
+    EXPECT_EQ(measured.measurement.lengths.size(), 192U);
+}
+
+TEST(RotaryTableJob, ReadsALayoutWithoutEnvironment) {
+    Files files = small_layout();
+    replace(files.at("job.json"), ", \"environment\": \"environment.csv\"", "");
+    const RotaryTableJob job = read(files, JobUse::plan);
+    EXPECT_EQ(job.measurement.temperature_difference, Eigen::VectorXd::Zero(3));
+    EXPECT_EQ(job.measurement.u_temperature, Eigen::VectorXd::Zero(3));
+}
+
+TEST(RotaryTableJob, RefusesALayoutThatIsNotComplete) {
+    const auto one = [](const std::function<void(Files&)>& spoil, const InputCode& code, const std::string& message) {
+        Files files = small_layout();
+        spoil(files);
+        const auto found = refusals(files, JobUse::plan);
+        ASSERT_EQ(found.size(), 1U) << message << "\n" << texts(found);
+        EXPECT_EQ(found[0].code, code.code);
+        EXPECT_THAT(gum::message(found[0]), HasSubstr(message));
+    };
+    one(with("job.json", "\"stations\": \"stations.csv\", ", ""), k_layout_incomplete,
+        "neither lengths nor stations are given");
+    one(with("job.json", "\"plan\": { \"angles_deg\": {\"first\": -90, \"step\": 30, \"count\": 12} }",
+             "\"notes\": \"\""),
+        k_layout_incomplete, "neither lengths nor planned angles are given");
+    one(with("job.json", "\"angles_deg\": {\"first\": -90, \"step\": 30, \"count\": 12}", ""), k_layout_incomplete,
+        "neither lengths nor planned angles are given");
+    one(with("job.json", "\"count\": 12", "\"count\": 1.5"), k_not_an_integer, "must be a whole number");
+    one(with("job.json", "-90", "-80"), k_home_not_measured, "the home angle 0° (the default) is not planned");
+    one(with("job.json", "{\"first\": -90, \"step\": 30, \"count\": 12}",
+             "[0, 0.5235987756, 1.0471975512, 1.5707963268, 2.0943951024, 2.6179938780, 3.1415926536]"),
+        k_angles_in_radians, "taken as radians");
+    one(with("job.json", "\"count\": 12", "\"count\": 120000"), k_number_out_of_range, "100000");
+    one(with("job.json", "\"step\": 30, \"count\": 12", "\"step\": 0.001, \"count\": 100000"), k_layout_too_large,
+        "1200000 distances");
+    one(
+        [](Files& files) {
+            with_key("\"simulation\": {\"angle_counts\": [12, 36000]}")(files);
+            files.at("stations.csv") += "P4,1300,200,100,20\n";
+            files.at("environment.csv") += "P4,20,0.04,20.1,1010.0,51\n";
+        },
+        k_layout_too_large, "1152000 distances");
+    one(with_content("stations.csv", "station,x_mm,y_mm,z_mm\nP1,500,-800,-300\n"), k_too_few_at_angle,
+        "1 station and 4 reflectors");
+    one(with("environment.csv", "P3,", "P4,"), k_unknown_station, "the station \"P3\" has no row in environment.csv");
+}
+
+TEST(RotaryTableJob, WarnsOfKeysThatAreNotUsed) {
+    const auto only_warning = [](const std::function<void(Files&)>& change, const std::string& message) {
+        Files files = small_campaign();
+        change(files);
+        const RotaryTableJob job = read(files);
+        ASSERT_EQ(job.warnings.size(), 1U) << message << "\n" << texts(job.warnings);
+        EXPECT_EQ(job.warnings[0].code, k_warn_unused_value.code);
+        EXPECT_THAT(gum::message(job.warnings[0]), HasSubstr(message));
+    };
+    only_warning(with_key("\"plan\": {\"least_distance_mm\": 100}"), "least_distance_mm 100 mm is not used");
+    only_warning(with_key("\"simulation\": {\"outliers\": {\"count\": 0, \"size_um\": 5}}"),
+                 "size_um 5 µm is not used");
+    Files files = small_campaign();
+    replace(files.at("job.json"), "\"environment\": \"environment.csv\"", "\"temperature_distribution\": \"uniform\"");
+    EXPECT_THAT(texts(read(files).warnings), HasSubstr("temperature_distribution is not used"));
+}
+
+TEST(RotaryTableJob, WarnsOfAPlanBelowHalfATurn) {
+    Files files = small_layout();
+    replace(files.at("job.json"), "\"count\": 12", "\"count\": 5");
+    const RotaryTableJob job = read(files, JobUse::plan);
+    ASSERT_EQ(job.warnings.size(), 1U);
+    EXPECT_EQ(job.warnings[0].code, k_warn_angle_span.code);
 }
 
 }  // namespace

@@ -72,9 +72,158 @@ TEST(EvaluationRecord, HoldsTheKeysOfTheContract) {
     EXPECT_EQ(r["rotary"]["budget"][0]["shares"]["table repeatability"], 0.88);
     EXPECT_TRUE(r["rotary"]["budget"].back()["angle_deg"].is_null());
     EXPECT_EQ(r["rotary"]["covariance"]["file"], "covariance.csv");
-    EXPECT_EQ(r["rotary"]["reliability"][2]["flagged"], true);
+    EXPECT_EQ(r["rotary"]["reliability"][14]["flagged"], true);
     EXPECT_EQ(r["comparison"]["summary"]["all"]["points"], 108);
     EXPECT_EQ(r["comparison"]["points"][0]["printed"]["En"], test::sample_record().comparison->points[0].printed.En);
+}
+
+TEST(EvaluationRecord, PositioningHasTheFormOfTheContract) {
+    const json p = sample_json()["rotary"]["iso230_2"];
+    EXPECT_EQ(p["unit"], "arcsec");
+    for (const char* name : {"M", "E", "E_up", "E_down", "R", "R_up", "R_down", "B", "B_mean", "A", "A_up", "A_down"}) {
+        EXPECT_TRUE(p[name].is_number()) << name;
+        EXPECT_EQ(p["U"][name], 0.22) << name;
+    }
+    EXPECT_EQ(p["M"], 6.1);
+    EXPECT_EQ(p["parameters"][0]["name"], "M");
+    EXPECT_EQ(p["targets"][2]["mean_down"], 2.0 * std::sin(1.0) - 0.61);
+
+    EvaluationRecord one_direction = test::sample_record();
+    PositioningAccuracy& up = *one_direction.rotary->iso230_2;
+    std::erase_if(up.parameters, [](const TableParameter& x) { return !x.name.ends_with("_up"); });
+    up.runs_down = 0;
+    up.targets[0].mean_down.reset();
+    const std::string text = to_canonical_json(one_direction);
+    const json few = json::parse(text)["rotary"]["iso230_2"];
+    EXPECT_FALSE(few.contains("M"));
+    EXPECT_FALSE(few["U"].contains("E_down"));
+    EXPECT_TRUE(few.contains("R_up"));
+    EXPECT_TRUE(few["targets"][0]["mean_down"].is_null());
+    EXPECT_EQ(to_canonical_json(record_from_json(text, "x")), text);
+}
+
+TEST(EvaluationRecord, HoldsWhatTheAdjustmentSaysInDepth) {
+    const json r = sample_json()["rotary"];
+    EXPECT_EQ(r["errors"][3]["EXA"]["monte_carlo"]["validation"]["validated"], false);
+    EXPECT_EQ(r["errors"][3]["EYA"]["monte_carlo"]["validation"]["validated"], true);
+    EXPECT_EQ(r["ranges"][0]["monte_carlo"]["trials"], 100000);
+    EXPECT_EQ(r["stations"][0]["covariance_mm2"][1][2], 0.2e-6);
+    EXPECT_EQ(r["reflectors"][5]["u_cmm_mm"][0], 0.0004 + 6e-6);
+    EXPECT_EQ(r["reflectors"][5]["printed"]["U_cmm"][2], "0.0008");
+    EXPECT_EQ(r["adjustment"]["global_test"]["printed"]["upper"], "1137.5");
+    EXPECT_EQ(r["adjustment"]["variance_factor"]["reason"].get<std::string>().substr(0, 23), "The variance components");
+    EXPECT_EQ(r["variance_components"][0]["stated"], 0.05);
+    EXPECT_TRUE(r["variance_components"][1]["stated"].is_null());
+    EXPECT_EQ(r["variance_components"][3]["used"], false);
+    EXPECT_EQ(r["flagged"][0]["found_with"], "58.7 (3.89)");
+    EXPECT_EQ(r["fixture_reliability"][4]["coordinate"], "y");
+    EXPECT_EQ(r["external_reliability"].size(), 220U);
+    EXPECT_EQ(r["location_errors"][3]["name"], "EC0A");
+    EXPECT_EQ(r["monte_carlo"]["not_validated"], json({"EXA(30)", "EBA range", "EB0A"}));
+    EXPECT_EQ(r["fixture_budget"]["largest"][0]["u"], 0.24);
+}
+
+/// A record as the first release wrote it: without the keys that came later.
+json of_the_first_release() {
+    json r = sample_json();
+    json& rotary = r["rotary"];
+    for (const char* key : {"fixture_reliability", "external_reliability", "location_errors", "iso230_2", "monte_carlo",
+                            "fixture_budget"}) {
+        rotary.erase(key);
+    }
+    for (json& row : rotary["errors"]) {
+        for (json& item : row) {
+            if (item.is_object()) {
+                item.erase("monte_carlo");
+            }
+        }
+    }
+    for (const char* list : {"reversal", "ranges"}) {
+        for (json& item : rotary[list]) {
+            item.erase("monte_carlo");
+        }
+    }
+    for (json& item : rotary["ranges"]) {
+        item.erase("u");
+    }
+    for (json& item : rotary["stations"]) {
+        item.erase("covariance_mm2");
+    }
+    for (json& item : rotary["reflectors"]) {
+        for (const char* key : {"home_position_mm", "covariance_mm2", "cmm_mm", "u_cmm_mm"}) {
+            item.erase(key);
+        }
+        item["printed"].erase("cmm");
+        item["printed"].erase("U_cmm");
+    }
+    rotary["adjustment"].erase("global_test");
+    rotary["adjustment"]["variance_factor"].erase("reason");
+    for (json& item : rotary["variance_components"]) {
+        for (const char* key : {"stated", "degrees_of_freedom", "used", "printed_stated"}) {
+            item.erase(key);
+        }
+    }
+    for (json& item : rotary["flagged"]) {
+        for (const char* key : {"estimated_error_um", "found_with", "reason"}) {
+            item.erase(key);
+        }
+    }
+    return r;
+}
+
+TEST(EvaluationRecord, ARotaryRecordOfTheFirstReleaseIsRead) {
+    const json old = of_the_first_release();
+    EXPECT_EQ(refusal(old.dump()), "accepted");
+    const EvaluationRecord r = record_from_json(old.dump(), "x");
+    EXPECT_FALSE(r.rotary->iso230_2.has_value());
+    EXPECT_TRUE(r.rotary->variance_components[0].used);
+    EXPECT_TRUE(r.rotary->reflectors[0].printed_cmm.empty());
+    // What it said is said again, unchanged, beside the keys that came later.
+    const json again = json::parse(to_canonical_json(r));
+    const json patch = json::diff(old, again);
+    for (const json& step : patch) {
+        EXPECT_EQ(step["op"], "add") << step.dump();
+    }
+}
+
+TEST(EvaluationRecord, RefusesPartsOfTheRotaryTableThatDoNotFit) {
+    const auto refused = [](const std::function<void(json&)>& alter) {
+        json r = sample_json();
+        alter(r["rotary"]);
+        return refusal(r.dump());
+    };
+    EXPECT_THAT(refused([](json& r) { r["iso230_2"]["M"] = 6.2; }),
+                HasSubstr("GC-RECORD-0016 record.json#/rotary/iso230_2/M — 6.2 — must be 6.1, as the parameter"));
+    EXPECT_THAT(refused([](json& r) { r["iso230_2"].erase("M"); }), HasSubstr("/rotary/iso230_2/M — missing"));
+    EXPECT_THAT(refused([](json& r) { r["iso230_2"]["U"].erase("R_up"); }), HasSubstr("/iso230_2/U/R_up — missing"));
+    EXPECT_THAT(refused([](json& r) { r["iso230_2"]["U"]["X"] = 1; }), HasSubstr("/iso230_2/U/X — unknown key"));
+    EXPECT_THAT(refused([](json& r) { r["iso230_2"]["parameters"].erase(0); }), HasSubstr("/iso230_2/M — unknown key"));
+    EXPECT_THAT(refused([](json& r) {
+                    r["iso230_2"]["parameters"][0]["name"] = "P";
+                    r["iso230_2"]["P"] = r["iso230_2"]["M"];
+                    r["iso230_2"]["U"]["P"] = r["iso230_2"]["U"]["M"];
+                    r["iso230_2"].erase("M");
+                    r["iso230_2"]["U"].erase("M");
+                }),
+                HasSubstr("/iso230_2/parameters/0/name — \"P\" — must be a parameter of ISO 230-2"));
+    EXPECT_THAT(refused([](json& r) { r["location_errors"][1]["name"] = "EY0A"; }),
+                HasSubstr("/location_errors/1/name — \"EY0A\" — a parameter is listed once"));
+    EXPECT_THAT(refused([](json& r) { r["stations"][0]["covariance_mm2"][0][1] = 1; }),
+                HasSubstr("/stations/0/covariance_mm2/0/1"));
+    EXPECT_THAT(refused([](json& r) { r["stations"][0]["covariance_mm2"].erase(2); }),
+                HasSubstr("/stations/0/covariance_mm2 — 2 items — must be 3"));
+    EXPECT_THAT(refused([](json& r) { r["reflectors"][0]["printed"]["cmm"].erase(2); }),
+                HasSubstr("/reflectors/0/printed/cmm — 2 items"));
+    EXPECT_THAT(refused([](json& r) { r["adjustment"]["global_test"]["lower"] = 2000; }),
+                HasSubstr("/adjustment/global_test/lower"));
+    EXPECT_THAT(refused([](json& r) { r["monte_carlo"]["validated"] = 239; }), HasSubstr("/monte_carlo/validated"));
+    EXPECT_THAT(refused([](json& r) { r["errors"][2]["EXA"]["monte_carlo"]["shortest"][0] = 1e6; }),
+                HasSubstr("/rotary/errors/2/EXA/monte_carlo/shortest"));
+    EXPECT_THAT(refused([](json& r) { r["fixture_budget"]["method"] = "guess"; }), HasSubstr("/fixture_budget/method"));
+    EXPECT_THAT(refused([](json& r) { r["fixture_reliability"][0]["coordinate"] = "w"; }),
+                HasSubstr("/fixture_reliability/0/coordinate"));
+    EXPECT_THAT(refused([](json& r) { r["external_reliability"][0].erase("ratio_to_U"); }),
+                HasSubstr("/external_reliability/0/ratio_to_U — missing"));
 }
 
 TEST(EvaluationRecord, NumbersThatAreNotFiniteNeverReachAText) {

@@ -1,0 +1,126 @@
+#include "app/evaluate_rotary_table.h"
+
+#include <cmath>
+#include <utility>
+
+#include "app/document_units.h"
+#include "app/record_parts.h"
+#include "engine/contact_point_model.h"
+#include "engine/rotary_table_trials.h"
+#include "engine/sequential_evaluation.h"
+#include "gum/coverage.h"
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::app {
+
+namespace {
+
+using engine::RotaryTableJob;
+using Progress = std::function<void(const std::string&)>;
+
+constexpr double k_detection_power = 0.8;  // of the minimal detectable bias, as Baarda chose it
+
+/// Value, standard and expanded uncertainty that the law of propagation states for an output of Monte Carlo.
+struct Stated {
+    double value, u, U;
+};
+
+Stated stated(const RotaryTableResult& result, Eigen::Index output) {
+    const Eigen::Index reported = result.propagation.value.size();
+    const gum::Propagation& from = output < reported ? result.propagation : result.parameters;
+    const Eigen::Index index = output < reported ? output : output - reported;
+    return {from.value[index], from.standard_uncertainty[index], from.expanded_uncertainty[index]};
+}
+
+RotaryTableMonteCarlo run_monte_carlo(const RotaryTableJob& job, const RotaryTableResult& result, unsigned threads,
+                                      const Progress& progress) {
+    const engine::MonteCarloRequest& asked = *job.monte_carlo;
+    const auto joint = std::dynamic_pointer_cast<const engine::RotaryTableModel>(result.solution.model);
+    const engine::RotaryTableTrials trials(
+        *joint, {.fixture = result.fixture.model, .derived = result.parameter_model->parameters()});
+    gum::MonteCarloOptions options = monte_carlo_options(asked, threads);
+    options.coverage_probability = job.coverage_probability;
+    options.regions = false;
+    options.histogram = false;
+    if (progress) {
+        options.progress = [&progress](double done) {
+            progress("Monte Carlo, " + std::to_string(static_cast<int>(100.0 * done)) + " %");
+        };
+    }
+    RotaryTableMonteCarlo monte_carlo;
+    monte_carlo.result = gum::run_monte_carlo(trials, options);
+    monte_carlo.most_steps = trials.steps().most;
+    monte_carlo.mean_steps = trials.steps().mean();
+    for (std::size_t i = 0; i < monte_carlo.result.outputs.size(); ++i) {
+        const Stated law = stated(result, static_cast<Eigen::Index>(i));
+        std::optional<gum::Validation> validation;
+        if (asked.validate && law.u > 0.0) {
+            const double unit = unit_of(trials.outputs()[i]).si;
+            const auto scaled = [unit](double value) { return value / unit; };
+            validation = validation_in_unit(law.value, law.u, law.U, monte_carlo.result.outputs[i], {scaled, scaled},
+                                            asked.digits);
+        }
+        monte_carlo.validations.push_back(validation);
+    }
+    return monte_carlo;
+}
+
+}  // namespace
+
+engine::EvaluationOptions evaluation_options(const engine::RotaryTableMeasurement& measurement) {
+    engine::EvaluationOptions options;
+    options.critical_value = gum::two_sided_normal_critical_value(measurement.outliers.alpha);
+    options.non_centrality = options.critical_value + gum::standard_normal_quantile(k_detection_power);
+    options.student_critical_value = [alpha = measurement.outliers.alpha](double degrees_of_freedom) {
+        return gum::coverage_factor(1.0 - alpha, degrees_of_freedom);
+    };
+    options.chi_square_upper_tail = gum::chi_square_upper_tail;
+    return options;
+}
+
+RotaryTableResult evaluate_rotary_table(RotaryTableJob& job, unsigned threads, const Progress& progress) {
+    const engine::RotaryTableMeasurement& measurement = job.measurement;
+    const bool joint = measurement.method == engine::AdjustmentMethod::joint;
+    if (job.monte_carlo && !joint) {
+        throw gum::InputError(gum::Diagnostic{
+            "GC-INPUT-0201", job.files.front() + "#/monte_carlo", "Monte Carlo is asked for with the sequential method",
+            "Monte Carlo repeats the joint adjustment", "remove \"monte_carlo\", or choose \"method\": \"joint\"",
+            gum::Severity::error});
+    }
+    RotaryTableResult result;
+    result.fixture = apply_fixture_budget(job);
+    result.options = evaluation_options(measurement);
+    result.solution = joint ? engine::evaluate_jointly(measurement, result.options, progress)
+                            : engine::evaluate_sequentially(measurement, result.options, progress);
+    const auto report = [&](const char* text) {
+        if (progress) {
+            progress(text);
+        }
+    };
+    report("law of propagation");
+    result.propagation = gum::propagate(*result.solution.model, job.coverage_probability);
+    if (joint) {
+        const auto model = std::dynamic_pointer_cast<const engine::RotaryTableModel>(result.solution.model);
+        result.parameter_model = std::make_shared<engine::TableParameterModel>(model, result.solution.datum);
+    } else {
+        result.parameter_model =
+            std::make_shared<engine::TableParameterModel>(result.solution.model, measurement, result.solution.datum);
+    }
+    result.parameters = gum::propagate(*result.parameter_model, job.coverage_probability);
+    if (job.reference) {
+        const engine::ContactPointModel contact(result.solution.model, measurement, result.solution.datum,
+                                                job.reference->contact_point);
+        result.contact_point = gum::propagate(contact, job.coverage_probability);
+    }
+    if (job.monte_carlo) {
+        report("Monte Carlo");
+        result.monte_carlo = run_monte_carlo(job, result, threads, progress);
+        for (const std::optional<gum::Validation>& validation : result.monte_carlo->validations) {
+            result.validation_failed =
+                result.validation_failed || (validation && !(validation->validated && validation->precise_enough));
+        }
+    }
+    return result;
+}
+
+}  // namespace gumcert::app

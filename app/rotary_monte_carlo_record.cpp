@@ -1,0 +1,101 @@
+#include "app/rotary_monte_carlo_record.h"
+
+#include <string>
+
+#include "app/document_units.h"
+#include "app/record_parts.h"
+#include "gum/rounding.h"
+
+namespace gumcert::app {
+
+void fill_monte_carlo(reports::EvaluationRecord& record, const engine::RotaryTableJob& job,
+                      const RotaryTableResult& result) {
+    const RotaryTableMonteCarlo& monte_carlo = *result.monte_carlo;
+    reports::RotaryTable& rotary = *record.rotary;
+    const engine::ReportedQuantities& quantities = result.solution.quantities;
+    reports::RotaryMonteCarlo summary;
+    summary.trials = static_cast<std::int64_t>(monte_carlo.result.trials);
+    summary.seed = static_cast<std::int64_t>(monte_carlo.result.seed);
+    summary.most_steps = monte_carlo.most_steps;
+    summary.mean_steps = monte_carlo.mean_steps;
+    std::int64_t undecided = 0;
+
+    const auto of = [&](Eigen::Index output, const DocumentUnit& unit, const std::string& name) {
+        const auto at = static_cast<std::size_t>(output);
+        const auto scaled = [&unit](double value) { return value / unit.si; };
+        const std::optional<gum::Validation>& validation = monte_carlo.validations[at];
+        if (validation) {
+            ++summary.compared;
+            if (!validation->precise_enough) {
+                ++undecided;
+            } else if (validation->validated) {
+                ++summary.validated;
+            } else {
+                summary.not_validated.push_back(name);
+            }
+        }
+        return monte_carlo_summary(monte_carlo.result.outputs[at], *job.monte_carlo,
+                                   {monte_carlo.result.trials, monte_carlo.result.stabilised}, {scaled, scaled},
+                                   validation);
+    };
+
+    Eigen::Index next = quantities.errors;
+    for (reports::ErrorsAtAngle& row : rotary.errors) {
+        for (std::size_t c = 0; c < 6; ++c, ++next) {
+            row.errors[c].monte_carlo =
+                of(next, c < 3 ? k_um : k_arcsec, rotary.error_names[c] + " at " + row.printed_angle + "°");
+        }
+    }
+    for (std::size_t i = 0; i < record.results.size(); ++i) {
+        const Eigen::Index output = quantities.set_up + static_cast<Eigen::Index>(i);
+        record.results[i].monte_carlo =
+            of(output, unit_of(quantities.outputs[static_cast<std::size_t>(output)]), record.results[i].name);
+    }
+    for (std::size_t c = 0; c < rotary.reversal.size(); ++c) {
+        rotary.reversal[c].value.monte_carlo = of(quantities.reversal + static_cast<Eigen::Index>(c),
+                                                  c < 3 ? k_um : k_arcsec, "reversal of " + rotary.reversal[c].name);
+    }
+    const auto first = static_cast<Eigen::Index>(quantities.outputs.size());
+    const engine::TableParameterLayout& layout = result.parameter_model->parameters()->layout();
+    const auto parameter_unit = [&](const reports::TableParameter& parameter) -> const DocumentUnit& {
+        return parameter.unit == k_um.record ? k_um : k_arcsec;
+    };
+    for (std::size_t c = 0; c < rotary.ranges.size(); ++c) {
+        rotary.ranges[c].monte_carlo = of(first + layout.ranges + static_cast<Eigen::Index>(c), c < 3 ? k_um : k_arcsec,
+                                          "range of " + rotary.ranges[c].name);
+    }
+    for (std::size_t i = 0; i < rotary.location_errors.size(); ++i) {
+        reports::TableParameter& parameter = rotary.location_errors[i];
+        parameter.monte_carlo = of(first + layout.location_errors + static_cast<Eigen::Index>(i),
+                                   parameter_unit(parameter), parameter.name);
+    }
+    for (std::size_t i = 0; rotary.iso230_2 && i < rotary.iso230_2->parameters.size(); ++i) {
+        reports::TableParameter& parameter = rotary.iso230_2->parameters[i];
+        parameter.monte_carlo =
+            of(first + layout.positioning + static_cast<Eigen::Index>(i), parameter_unit(parameter), parameter.name);
+    }
+
+    summary.statement =
+        "Every input was drawn from its own distribution and the adjustment was solved again, with the exact "
+        "kinematics, in each of " +
+        std::to_string(summary.trials) + " trials; every trial converged, in " +
+        gum::round_to_quantum(summary.mean_steps, 1) + " steps on average and " + std::to_string(summary.most_steps) +
+        " at most.";
+    if (summary.compared > 0) {
+        const auto contradicted = static_cast<std::int64_t>(summary.not_validated.size());
+        summary.statement += " Of " + std::to_string(summary.compared) + " quantities the law of propagation is " +
+                             "validated for " + std::to_string(summary.validated) + " (JCGM 101:2008, clause 8)";
+        if (contradicted > 0) {
+            summary.statement +=
+                ", and not for " + std::to_string(contradicted) + ": their coverage interval is that of Monte Carlo";
+        }
+        if (undecided > 0) {
+            summary.statement += "; for " + std::to_string(undecided) +
+                                 " the trials are too few to decide at the stated number of digits";
+        }
+        summary.statement += ".";
+    }
+    rotary.monte_carlo = std::move(summary);
+}
+
+}  // namespace gumcert::app

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "app/evaluate_rotary_table.h"
+#include "reports/record/evaluation_record.h"
+
+namespace gumcert::app {
+
+/// What a record holds of the Monte Carlo of the whole measurement: beside every quantity of the law of propagation its
+/// mean, standard uncertainty, coverage intervals and validation, and what they say together.
+/// \param record  with everything of the law of propagation in it
+void fill_monte_carlo(reports::EvaluationRecord& record, const engine::RotaryTableJob& job,
+                      const RotaryTableResult& result);
+
+}  // namespace gumcert::app

@@ -1,0 +1,144 @@
+#include "app/table_parameter_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/document_units.h"
+#include "app/record_parts.h"
+#include "gum/rounding.h"
+
+namespace gumcert::app {
+
+namespace {
+
+// Runs of each sense that ISO 230-2 asks for; fewer give its parameters with less to rest on.
+constexpr std::size_t k_runs_of_the_standard = 5;
+
+reports::TableParameter parameter_of(const engine::TableParameters& parameters, const gum::Propagation& propagation,
+                                     Eigen::Index index) {
+    const auto at = static_cast<std::size_t>(index);
+    const DocumentUnit& unit = unit_of(parameters.outputs()[at]);
+    const Reported numbers = reported(propagation, index, unit);
+    return {.name = parameters.short_names()[at],
+            .description = parameters.descriptions()[at],
+            .unit = unit.record,
+            .value = numbers.value,
+            .u = numbers.u,
+            .U = numbers.U,
+            .k = numbers.k,
+            .nu_eff = numbers.nu_eff,
+            .printed = numbers.text,
+            .monte_carlo = {}};
+}
+
+/// Smallest and largest number of runs of one sense over the targets that have any.
+std::pair<std::size_t, std::size_t> run_counts(const std::vector<std::vector<Eigen::Index>>& runs) {
+    std::pair<std::size_t, std::size_t> counts{std::numeric_limits<std::size_t>::max(), 0};
+    for (const std::vector<Eigen::Index>& of_target : runs) {
+        counts.first = std::min(counts.first, of_target.size());
+        counts.second = std::max(counts.second, of_target.size());
+    }
+    return counts.second == 0 ? std::pair<std::size_t, std::size_t>{0, 0} : counts;
+}
+
+reports::PositioningTarget target_of(double angle_deg, const engine::PositioningTarget& from, double u) {
+    reports::PositioningTarget target;
+    target.angle_deg = angle_deg;
+    target.printed_angle = shortest(angle_deg);
+    const auto place = [&](const std::optional<double>& value, std::optional<double>& number, std::string& text) {
+        if (value) {
+            number = *value / k_arcsec.si;
+            // Digits down to those of the uncertainty of one deviation.
+            text = u > 0.0 ? gum::round_to_uncertainty(*number, u, 2).value : gum::round_significant(*number, 3);
+        }
+    };
+    place(from.mean_up, target.mean_up, target.printed_mean_up);
+    place(from.mean_down, target.mean_down, target.printed_mean_down);
+    place(from.s_up, target.s_up, target.printed_s_up);
+    place(from.s_down, target.s_down, target.printed_s_down);
+    place(from.reversal, target.reversal, target.printed_reversal);
+    return target;
+}
+
+reports::PositioningAccuracy positioning_of(const engine::TableParameterModel& model,
+                                            const engine::RotaryTableMeasurement& measurement,
+                                            const gum::Propagation& propagation) {
+    const engine::TableParameters& parameters = *model.parameters();
+    const engine::TableParameterLayout& layout = parameters.layout();
+    reports::PositioningAccuracy accuracy;
+    const auto [least_up, most_up] = run_counts(parameters.runs().up);
+    const auto [least_down, most_down] = run_counts(parameters.runs().down);
+    accuracy.runs_up = static_cast<std::int64_t>(least_up);
+    accuracy.runs_down = static_cast<std::int64_t>(least_down);
+    for (Eigen::Index i = 0; i < layout.positioning_count; ++i) {
+        accuracy.parameters.push_back(parameter_of(parameters, propagation, layout.positioning + i));
+    }
+    accuracy.u_deviation = model.rms_position_uncertainty() / k_arcsec.si;
+    accuracy.printed_u_deviation = gum::round_significant(accuracy.u_deviation, 2);
+    const engine::PositioningAccuracy positioning = model.positioning();
+    double squares = 0.0;
+    double count = 0.0;
+    for (std::size_t i = 0; i < positioning.targets.size(); ++i) {
+        const engine::PositioningTarget& from = positioning.targets[i];
+        accuracy.targets.push_back(target_of(measurement.angles_deg[i], from, accuracy.u_deviation));
+        for (const std::optional<double>& s : {from.s_up, from.s_down}) {
+            squares += s ? *s * *s : 0.0;
+            count += s ? 1.0 : 0.0;
+        }
+    }
+    accuracy.remarks.push_back(
+        "One pass of the table at one station is one run. The deviation of a run is the axial rotation of the table in "
+        "that run, found from the distances of the run with everything else as adjusted.");
+    if (count > 0.0) {
+        const double s = std::sqrt(squares / count) / k_arcsec.si;
+        accuracy.remarks.push_back(
+            "Standard uncertainty of one deviation: " + accuracy.printed_u_deviation +
+            " ″; standard deviation of the runs at one target (rms): " + gum::round_significant(s, 2) + " ″." +
+            (accuracy.u_deviation > 0.5 * s
+                 ? " The repeatability R and the accuracy A therefore hold a considerable part "
+                   "that comes from the measurement and not from the table; the table is not "
+                   "worse than they say."
+                 : ""));
+    }
+    const bool one_sense = most_up == 0 || most_down == 0;
+    if (one_sense) {
+        accuracy.remarks.push_back("The angles were approached in one sense only: there are no bidirectional values.");
+    }
+    const std::size_t least = one_sense ? std::max(least_up, least_down) : std::min(least_up, least_down);
+    if (least < k_runs_of_the_standard) {
+        accuracy.remarks.push_back("ISO 230-2 asks for five runs of each sense; there are " + std::to_string(least) +
+                                   " at the target with the fewest.");
+    }
+    return accuracy;
+}
+
+}  // namespace
+
+void fill_table_parameters(reports::RotaryTable& rotary, const engine::TableParameterModel& model,
+                           const engine::RotaryTableMeasurement& measurement, const gum::Propagation& parameters) {
+    const engine::TableParameters& from = *model.parameters();
+    const engine::TableParameterLayout& layout = from.layout();
+    for (std::size_t c = 0; c < 6; ++c) {
+        const Eigen::Index index = layout.ranges + static_cast<Eigen::Index>(c);
+        const Reported numbers = reported(parameters, index, unit_of(from.outputs()[static_cast<std::size_t>(index)]));
+        reports::RangeRow row;
+        row.name = rotary.error_names[c];
+        row.value = numbers.value;
+        row.u = numbers.u;
+        row.U = numbers.U;
+        row.printed = numbers.text;
+        rotary.ranges.push_back(std::move(row));
+    }
+    for (Eigen::Index i = 0; i < 4; ++i) {
+        rotary.location_errors.push_back(parameter_of(from, parameters, layout.location_errors + i));
+    }
+    if (layout.positioning_count > 0) {
+        rotary.iso230_2 = positioning_of(model, measurement, parameters);
+    }
+}
+
+}  // namespace gumcert::app

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "engine/job/job_kind.h"
+#include "engine/job/json_document.h"
+#include "engine/job/problem_list.h"
+#include "engine/job/rotary_table_job.h"
+
+namespace gumcert::engine {
+
+// The keys of a rotary_table job that ask for studies without or beside a measurement.
+
+/// The key `simulation`. \return nothing when it is absent
+[[nodiscard]] std::optional<SimulationRequest> read_simulation(const JsonObject& root, ProblemList& problems);
+
+/// The key `plan`. \return nothing when it is absent
+[[nodiscard]] std::optional<PlanRequest> read_plan(const JsonObject& root, ProblemList& problems);
+
+/// The keys of both, object by object.
+[[nodiscard]] std::span<const JobKeys> rotary_table_study_keys();
+
+}  // namespace gumcert::engine

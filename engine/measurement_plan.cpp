@@ -1,0 +1,708 @@
+#include "engine/measurement_plan.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/datum.h"
+#include "engine/geometry_check.h"
+#include "engine/reliability.h"
+#include "gum/quantity/units.h"
+
+namespace gumcert::engine {
+
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+// Where an evaluation starts that estimates the repeatability of the table: a good commercial table.
+constexpr double k_start_linear = 0.2 * gum::k_micrometre;
+constexpr double k_start_angular = 0.3 * gum::k_arcsecond;
+
+// Squared pivot of the scaled normal equations below which a parameter counts as not determined; as
+// SolverOptions::rank_tolerance.
+constexpr double k_pivot_tolerance = 1e-12;
+
+Eigen::Vector3d ideal_position(const RotaryTableMeasurement& measurement, std::size_t station, std::size_t reflector,
+                               std::size_t angle) {
+    const double stretch =
+        1.0 + measurement.expansion * measurement.temperature_difference[static_cast<Eigen::Index>(station)];
+    return nominal_rotation(measurement, angle) *
+           (stretch * measurement.fixture.row(static_cast<Eigen::Index>(reflector)).transpose());
+}
+
+StartValues ideal_values(const RotaryTableMeasurement& measurement) {
+    StartValues values;
+    for (const auto& position : measurement.station_start) {
+        values.stations.push_back(*position);
+    }
+    values.dead_paths = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(measurement.dead_paths.size()));
+    return values;
+}
+
+bool every_station_has_both_senses(const RotaryTableMeasurement& measurement) {
+    std::vector<std::array<bool, 2>> senses(measurement.stations.size(), {false, false});
+    for (const LengthObservation& length : measurement.lengths) {
+        senses[length.station][length.approach == Approach::positive ? 0 : 1] = true;
+    }
+    return std::all_of(senses.begin(), senses.end(), [](const auto& s) { return s[0] && s[1]; });
+}
+
+/// New index of everything that is kept; k_gone for the rest.
+constexpr std::size_t k_gone = static_cast<std::size_t>(-1);
+
+std::vector<std::size_t> renumbered(const std::vector<bool>& keep) {
+    std::vector<std::size_t> index(keep.size(), k_gone);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < keep.size(); ++i) {
+        if (keep[i]) {
+            index[i] = next++;
+        }
+    }
+    return index;
+}
+
+template <typename Value>
+std::vector<Value> kept(const std::vector<Value>& values, const std::vector<bool>& keep) {
+    std::vector<Value> result;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (keep[i]) {
+            result.push_back(values[i]);
+        }
+    }
+    return result;
+}
+
+std::vector<Eigen::Index> kept_indices(const std::vector<bool>& keep) {
+    std::vector<Eigen::Index> result;
+    for (std::size_t i = 0; i < keep.size(); ++i) {
+        if (keep[i]) {
+            result.push_back(static_cast<Eigen::Index>(i));
+        }
+    }
+    return result;
+}
+
+/// A part of a measurement; dead paths that no distance has any more are left out with it.
+RotaryTableMeasurement part_of(const RotaryTableMeasurement& from, const std::vector<bool>& stations,
+                               const std::vector<bool>& reflectors, const std::vector<bool>& angles) {
+    RotaryTableMeasurement result = from;
+    const auto station = renumbered(stations);
+    const auto reflector = renumbered(reflectors);
+    const auto angle = renumbered(angles);
+    std::vector<bool> paths(from.dead_paths.size(), false);
+    result.lengths.clear();
+    for (const LengthObservation& length : from.lengths) {
+        if (stations[length.station] && reflectors[length.reflector] && angles[length.angle]) {
+            paths[length.dead_path] = true;
+            result.lengths.push_back(length);
+        }
+    }
+    const auto path = renumbered(paths);
+    for (LengthObservation& length : result.lengths) {
+        length.station = station[length.station];
+        length.reflector = reflector[length.reflector];
+        length.angle = angle[length.angle];
+        length.dead_path = path[length.dead_path];
+    }
+    result.stations = kept(from.stations, stations);
+    result.station_start = kept(from.station_start, stations);
+    result.reflectors = kept(from.reflectors, reflectors);
+    result.angles = kept(from.angles, angles);
+    result.angles_deg = kept(from.angles_deg, angles);
+    result.home = angle[from.home];
+    result.dead_paths = kept(from.dead_paths, paths);
+    const auto station_rows = kept_indices(stations);
+    result.temperature_difference = from.temperature_difference(station_rows).eval();
+    result.u_temperature = from.u_temperature(station_rows).eval();
+    result.fixture = from.fixture(kept_indices(reflectors), Eigen::all).eval();
+    std::vector<Eigen::Index> coordinates;
+    for (const Eigen::Index m : kept_indices(reflectors)) {
+        coordinates.insert(coordinates.end(), {3 * m, 3 * m + 1, 3 * m + 2});
+    }
+    result.fixture_covariance = from.fixture_covariance(coordinates, coordinates).eval();
+    return result;
+}
+
+std::vector<bool> all_but(std::size_t size, std::size_t left_out) {
+    std::vector<bool> keep(size, true);
+    if (left_out < size) {
+        keep[left_out] = false;
+    }
+    return keep;
+}
+
+}  // namespace
+
+void predict_lengths(RotaryTableMeasurement& measurement) {
+    const auto stations = static_cast<Eigen::Index>(measurement.stations.size());
+    if (measurement.temperature_difference.size() == 0) {
+        measurement.temperature_difference = Eigen::VectorXd::Zero(stations);
+    }
+    if (measurement.u_temperature.size() == 0) {
+        measurement.u_temperature = Eigen::VectorXd::Zero(stations);
+    }
+    std::vector<gum::Diagnostic> problems;
+    for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
+        if (!measurement.station_start[j]) {
+            problems.push_back({"GC-PLAN-0001", "station " + measurement.stations[j], "has no position",
+                                "a plan needs the position of every station",
+                                "state it in the stations file, within a few centimetres", gum::Severity::error});
+        }
+    }
+    if (!problems.empty()) {
+        throw gum::InputError(std::move(problems));
+    }
+    for (LengthObservation& length : measurement.lengths) {
+        length.length = (ideal_position(measurement, length.station, length.reflector, length.angle) -
+                         *measurement.station_start[length.station])
+                            .norm();
+    }
+}
+
+StochasticModel planned_variances(const TableRepeatability& table) {
+    StochasticModel model;
+    if (table.mode == RepeatabilityMode::none) {
+        return model;
+    }
+    const bool guess = table.mode == RepeatabilityMode::estimate;
+    const auto square = [guess](double value, double start) {
+        const double used = guess && value <= 0.0 ? start : value;
+        return used * used;
+    };
+    model.variance_linear = square(table.u_linear, k_start_linear);
+    model.variance_axial = square(table.u_axial, k_start_angular);
+    model.variance_tilt = square(table.u_tilt, k_start_angular);
+    return model;
+}
+
+JointAdjustment planned_adjustment(const RotaryTableMeasurement& measurement, const StochasticModel& stochastic) {
+    return {measurement, std::vector<bool>(measurement.lengths.size(), true), RigidMotion{}, ideal_values(measurement),
+            stochastic};
+}
+
+std::optional<gum::Diagnostic> undetermined_by(const RotaryTableMeasurement& measurement,
+                                               const StochasticModel& stochastic, const SolverOptions& options) {
+    const RankReport rank =
+        planned_adjustment(measurement, stochastic).adjustment().linearise().rank(options.rank_tolerance);
+    if (!rank.deficient) {
+        return std::nullopt;
+    }
+    return undetermined(measurement, rank, ideal_values(measurement).stations);
+}
+
+ExpectedUncertainty expected_uncertainty(const RotaryTableMeasurement& measurement, const StochasticModel& stochastic,
+                                         const EvaluationOptions& options) {
+    require_enough_angles(measurement);
+    const JointAdjustment adjustment = planned_adjustment(measurement, stochastic);
+    const NormalEquations normal = adjustment.adjustment().linearise();
+    const RankReport rank = normal.rank(options.solver.rank_tolerance);
+    if (rank.deficient) {
+        refuse_undetermined(measurement, rank, ideal_values(measurement).stations);
+    }
+    const Eigen::MatrixXd covariance = normal.covariance();
+    const DatumSolution datum =
+        transform_to_datum(measurement, adjustment.poses(), adjustment.set_up(), measurement.datum);
+    const Eigen::MatrixXd map = reported_map(adjustment, normal, datum);
+
+    ExpectedUncertainty expected;
+    expected.quantities = reported_quantities(measurement, adjustment.has_reversal());
+    expected.covariance.noalias() = map * covariance * map.transpose();
+    for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
+        const auto block = adjustment.station_block(j);
+        PlannedStation station;
+        station.position = *measurement.station_start[j];
+        // The position in the frame of the datum: that of the solver, moved by the motion of the world.
+        const Eigen::Vector3d& q = station.position;
+        Eigen::Matrix<double, 3, 6> by_world;
+        by_world << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero();
+        by_world.rightCols<3>() << 0.0, q[2], -q[1], -q[2], 0.0, q[0], q[1], -q[0], 0.0;
+        const Eigen::MatrixXd by_pose = by_world * datum.world_map;
+        Eigen::MatrixXd by_parameter = Eigen::MatrixXd::Zero(3, normal.parameter_count());
+        for (int c = 0; c < 3; ++c) {
+            by_parameter.col(normal.column(block, c)) += Eigen::Vector3d::Unit(c);
+        }
+        for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
+            for (int c = 0; c < 6; ++c) {
+                if (const Eigen::Index column = normal.column(adjustment.pose_block(i), c); column >= 0) {
+                    by_parameter.col(column) += by_pose.col(6 * static_cast<Eigen::Index>(i) + c);
+                }
+            }
+        }
+        station.covariance = by_parameter * covariance * by_parameter.transpose();
+        expected.stations.push_back(station);
+    }
+    expected.observations = normal.observation_count();
+    expected.parameters = normal.parameter_count();
+    expected.degrees_of_freedom = expected.observations - expected.parameters;
+    expected.condition_number = normal.condition_number();
+    const std::vector<DistanceReliability> rows =
+        distance_reliability(adjustment, normal, covariance, stochastic, options.non_centrality);
+    for (const DistanceReliability& row : rows) {
+        expected.mean_redundancy += row.redundancy_number / static_cast<double>(rows.size());
+        expected.largest_minimal_detectable_bias =
+            std::max(expected.largest_minimal_detectable_bias, row.minimal_detectable_bias);
+        expected.uncontrolled_distances += row.minimal_detectable_bias > 0.0 ? 0U : 1U;
+    }
+    return expected;
+}
+
+RotaryTableMeasurement without_station(const RotaryTableMeasurement& measurement, std::size_t station) {
+    return part_of(measurement, all_but(measurement.stations.size(), station),
+                   all_but(measurement.reflectors.size(), k_gone), all_but(measurement.angles.size(), k_gone));
+}
+
+RotaryTableMeasurement without_reflector(const RotaryTableMeasurement& measurement, std::size_t reflector) {
+    return part_of(measurement, all_but(measurement.stations.size(), k_gone),
+                   all_but(measurement.reflectors.size(), reflector), all_but(measurement.angles.size(), k_gone));
+}
+
+RotaryTableMeasurement with_every_angle(const RotaryTableMeasurement& measurement, std::size_t stride) {
+    std::vector<bool> angles(measurement.angles.size());
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+        const std::size_t from_home = i > measurement.home ? i - measurement.home : measurement.home - i;
+        angles[i] = from_home % stride == 0;
+    }
+    return part_of(measurement, all_but(measurement.stations.size(), k_gone),
+                   all_but(measurement.reflectors.size(), k_gone), angles);
+}
+
+RotaryTableMeasurement with_twice_the_angles(const RotaryTableMeasurement& measurement) {
+    const std::size_t count = measurement.angles.size();
+    // A full turn has about the same step from its last angle to its first one as between the others.
+    const double step =
+        count > 1 ? (measurement.angles.back() - measurement.angles.front()) / static_cast<double>(count - 1) : 0.0;
+    const double gap = 2.0 * std::numbers::pi - (measurement.angles.back() - measurement.angles.front());
+    const bool closed = gap > 0.5 * step && gap < 1.5 * step;
+    RotaryTableMeasurement result = measurement;
+    result.angles.clear();
+    result.angles_deg.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+        result.angles.push_back(measurement.angles[i]);
+        result.angles_deg.push_back(measurement.angles_deg[i]);
+        if (i + 1 < count) {
+            result.angles.push_back(0.5 * (measurement.angles[i] + measurement.angles[i + 1]));
+            result.angles_deg.push_back(0.5 * (measurement.angles_deg[i] + measurement.angles_deg[i + 1]));
+        } else if (closed) {
+            result.angles.push_back(measurement.angles[i] + 0.5 * gap);
+            result.angles_deg.push_back(measurement.angles_deg[i] + 0.5 * gap / gum::k_degree);
+        }
+    }
+    result.home = 2 * measurement.home;
+    result.lengths.clear();
+    for (LengthObservation length : measurement.lengths) {
+        length.angle *= 2;
+        result.lengths.push_back(length);
+        if (length.angle + 1 < result.angles.size()) {
+            ++length.angle;
+            result.lengths.push_back(length);
+        }
+    }
+    predict_lengths(result);
+    return result;
+}
+
+// ---------------------------------------------------------------- variances of a layout, station by station
+
+LayoutVariances::~LayoutVariances() = default;
+
+LayoutVariances::LayoutVariances(const RotaryTableMeasurement& measurement, const StochasticModel& stochastic)
+    : measurement_(measurement), stochastic_(stochastic), has_reversal_(every_station_has_both_senses(measurement)) {
+    const LengthUncertainty& lengths = measurement_.length_uncertainty;
+    for (std::size_t j = 0; j < measurement_.stations.size(); ++j) {
+        border_.stations.push_back(border_.size);
+        border_.size += 3 + (lengths.scale_model == ScaleModel::fixed ? 0 : 1) +
+                        (measurement_.u_temperature[static_cast<Eigen::Index>(j)] > 0.0 ? 1 : 0);
+    }
+    for (std::size_t d = 0; d < measurement_.dead_paths.size(); ++d) {
+        border_.dead_paths.push_back(border_.size++);
+    }
+    border_.fixture = border_.size;
+    border_.size += 3 * measurement_.fixture.rows();
+    border_.expansion = border_.size;
+    border_.size += measurement_.u_expansion > 0.0 ? 1 : 0;
+    border_.reversal = border_.size;
+    border_.size += has_reversal_ ? 6 : 0;
+
+    const auto angles = static_cast<Eigen::Index>(measurement_.angles.size());
+    prior_.border = Eigen::MatrixXd::Zero(border_.size, border_.size);
+    prior_.poses = Eigen::MatrixXd::Zero(6 * angles, 6);
+    prior_.mixed = Eigen::MatrixXd::Zero(6 * angles, border_.size);
+    const std::unique_ptr<Observer> any = observer(0);
+    const NormalEquations normal = any->adjustment_->adjustment().linearise();
+    for (const std::size_t group_index : {any->adjustment_->fixture_prior(), any->adjustment_->expansion_prior()}) {
+        if (group_index == JointAdjustment::k_none) {
+            continue;
+        }
+        const LinearisedGroup& group = normal.groups()[group_index];
+        std::vector<Eigen::Index> columns;
+        for (const Eigen::Index column : group.columns) {
+            columns.push_back(any->places_[static_cast<std::size_t>(column)].index);
+        }
+        prior_.border(columns, columns) += group.jacobian.transpose() * group.jacobian;
+    }
+
+    const DatumSolution datum =
+        transform_to_datum(measurement_, Eigen::MatrixXd::Zero(6, angles), RigidMotion{}, measurement_.datum);
+    datum_part_.resize(10, 6 * angles);
+    datum_part_ << datum.world_map, datum.set_up_map;
+    motion_ = Eigen::MatrixXd::Zero(6 * angles, 10);
+    const auto across = across_axis(measurement_.axis);
+    for (Eigen::Index i = 0; i < angles; ++i) {
+        const Eigen::Matrix3d rotation = nominal_rotation(measurement_, static_cast<std::size_t>(i));
+        motion_.block<6, 6>(6 * i, 0).setIdentity();
+        for (int c = 0; c < 2; ++c) {
+            motion_.block<3, 1>(6 * i, 6 + c) = -rotation.col(across[static_cast<std::size_t>(c)]);
+            motion_.block<3, 1>(6 * i + 3, 8 + c) = -rotation.col(across[static_cast<std::size_t>(c)]);
+        }
+    }
+}
+
+std::unique_ptr<LayoutVariances::Observer> LayoutVariances::observer(std::size_t station) const {
+    return std::make_unique<Observer>(*this, station);
+}
+
+LayoutVariances::Observer::Observer(const LayoutVariances& layout, std::size_t station)
+    : stochastic_(layout.stochastic_), border_size_(layout.border_.size) {
+    const RotaryTableMeasurement& whole = layout.measurement_;
+    std::vector<bool> only(whole.stations.size(), false);
+    only[station] = true;
+    measurement_ = part_of(whole, only, all_but(whole.reflectors.size(), k_gone), all_but(whole.angles.size(), k_gone));
+    adjustment_ = std::make_unique<JointAdjustment>(planned_adjustment(measurement_, stochastic_));
+    for (int c = 0; c < 6 && adjustment_->has_reversal() && !layout.has_reversal_; ++c) {
+        adjustment_->adjustment().hold(adjustment_->reversal_block(), c);
+    }
+    for (const Visit& visit : adjustment_->visits()) {
+        Eigen::VectorXd observed(static_cast<Eigen::Index>(visit.observations.size()));
+        for (std::size_t k = 0; k < visit.observations.size(); ++k) {
+            observed[static_cast<Eigen::Index>(k)] = measurement_.lengths[visit.observations[k]].length;
+        }
+        observed_.push_back(std::move(observed));
+    }
+
+    // part_of() keeps the order of the dead paths.
+    std::vector<std::size_t> path_in_layout;
+    std::vector<bool> used(whole.dead_paths.size(), false);
+    for (const LengthObservation& length : whole.lengths) {
+        used[length.dead_path] = used[length.dead_path] || length.station == station;
+    }
+    for (std::size_t d = 0; d < used.size(); ++d) {
+        if (used[d]) {
+            path_in_layout.push_back(d);
+        }
+    }
+    const NormalEquations normal = adjustment_->adjustment().linearise();
+    places_.resize(static_cast<std::size_t>(normal.parameter_count()));
+    const auto place = [&](Adjustment::BlockId block, int size, Eigen::Index first, bool pose) {
+        for (int c = 0; c < size; ++c) {
+            if (const Eigen::Index column = normal.column(block, c); column >= 0) {
+                places_[static_cast<std::size_t>(column)] = {pose, first++};
+            } else if (pose) {
+                ++first;
+            }
+        }
+    };
+    const Border& border = layout.border_;
+    place(adjustment_->station_block(0), 5, border.stations[station], false);
+    for (std::size_t d = 0; d < path_in_layout.size(); ++d) {
+        place(adjustment_->dead_path_block(d), 1, border.dead_paths[path_in_layout[d]], false);
+    }
+    place(adjustment_->fixture_block(), static_cast<int>(3 * whole.fixture.rows()), border.fixture, false);
+    place(adjustment_->expansion_block(), 1, border.expansion, false);
+    place(adjustment_->reversal_block(), 6, border.reversal, false);
+    for (std::size_t i = 0; i < whole.angles.size(); ++i) {
+        place(adjustment_->pose_block(i), 6, 6 * static_cast<Eigen::Index>(i), true);
+    }
+}
+
+void LayoutVariances::Observer::information(const Eigen::Vector3d& position, Information& result) {
+    Adjustment& adjustment = adjustment_->adjustment();
+    Eigen::VectorXd station = adjustment.parameters(adjustment_->station_block(0));
+    station.head<3>() = position;
+    adjustment.set_parameters(adjustment_->station_block(0), station);
+    // The proportional part of the length noise goes with the distance.
+    const std::vector<Visit>& visits = adjustment_->visits();
+    for (std::size_t v = 0; v < visits.size(); ++v) {
+        const Eigen::VectorXd predicted = observed_[v] - adjustment.residual(v);
+        for (std::size_t k = 0; k < visits[v].observations.size(); ++k) {
+            measurement_.lengths[visits[v].observations[k]].length = predicted[static_cast<Eigen::Index>(k)];
+        }
+    }
+    adjustment_->set_weights(stochastic_);
+    const NormalEquations normal = adjustment.linearise();
+
+    const auto angles = static_cast<Eigen::Index>(measurement_.angles.size());
+    result.border.setZero(border_size_, border_size_);
+    result.poses.setZero(6 * angles, 6);
+    result.mixed.setZero(6 * angles, border_size_);
+    Eigen::MatrixXd product;
+    const auto add_group = [&](const LinearisedGroup& group) {
+        const auto size = static_cast<Eigen::Index>(group.columns.size());
+        product.noalias() = group.jacobian.transpose() * group.jacobian;
+        for (Eigen::Index j = 0; j < size; ++j) {
+            const Place right = places_[static_cast<std::size_t>(group.columns[static_cast<std::size_t>(j)])];
+            for (Eigen::Index i = 0; i < size; ++i) {
+                const Place left = places_[static_cast<std::size_t>(group.columns[static_cast<std::size_t>(i)])];
+                if (!left.pose && !right.pose) {
+                    result.border(left.index, right.index) += product(i, j);
+                } else if (left.pose && !right.pose) {
+                    result.mixed(left.index, right.index) += product(i, j);
+                } else if (left.pose) {
+                    result.poses(left.index, right.index % 6) += product(i, j);
+                }
+            }
+        }
+    };
+    for (std::size_t v = 0; v < visits.size(); ++v) {
+        add_group(normal.groups()[v]);
+    }
+    for (const std::size_t prior : {adjustment_->scale_prior(0), adjustment_->temperature_prior(0)}) {
+        if (prior != JointAdjustment::k_none) {
+            add_group(normal.groups()[prior]);
+        }
+    }
+}
+
+void add(LayoutVariances::Information& sum, const LayoutVariances::Information& part) {
+    sum.border += part.border;
+    sum.poses += part.poses;
+    sum.mixed += part.mixed;
+}
+
+std::optional<Eigen::VectorXd> LayoutVariances::variances(const Information& information) const {
+    const auto angles = static_cast<Eigen::Index>(measurement_.angles.size());
+    const Eigen::Index size = 6 * angles;
+    Eigen::MatrixXd reduced = information.border;
+    Eigen::MatrixXd gain = Eigen::MatrixXd::Zero(size, border_.size);  // F_i = D_i⁻¹ B_i; poses = −F · border
+    Eigen::MatrixXd own = Eigen::MatrixXd::Zero(size, 6);              // D_i⁻¹
+    Eigen::MatrixXd half(6, border_.size);
+    for (Eigen::Index i = 0; i < angles; ++i) {
+        if (static_cast<std::size_t>(i) == measurement_.home) {
+            continue;
+        }
+        const Matrix6 normal = information.poses.middleRows<6>(6 * i);
+        const Eigen::Matrix<double, 6, 1> diagonal = normal.diagonal();
+        if (!(diagonal.minCoeff() > 0.0)) {
+            return std::nullopt;
+        }
+        const Eigen::Matrix<double, 6, 1> scale = diagonal.cwiseSqrt().cwiseInverse();
+        const Matrix6 scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+        const Eigen::LLT<Matrix6> factor(scaled);
+        if (factor.info() != Eigen::Success ||
+            !(factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() > k_pivot_tolerance)) {
+            return std::nullopt;
+        }
+        half = scale.asDiagonal() * information.mixed.middleRows<6>(6 * i);
+        factor.matrixL().solveInPlace(half);
+        reduced.selfadjointView<Eigen::Lower>().rankUpdate(half.transpose(), -1.0);
+        factor.matrixU().solveInPlace(half);
+        gain.middleRows<6>(6 * i) = scale.asDiagonal() * half;
+        Matrix6 inverse = Matrix6::Identity();
+        factor.solveInPlace(inverse);
+        own.middleRows<6>(6 * i) = scale.asDiagonal() * inverse * scale.asDiagonal();
+    }
+    const Eigen::VectorXd diagonal = information.border.diagonal();
+    if (!(diagonal.minCoeff() > 0.0)) {
+        return std::nullopt;
+    }
+    const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
+    reduced = (scale.asDiagonal() * reduced * scale.asDiagonal()).eval();
+    const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor(reduced);
+    if (factor.info() != Eigen::Success ||
+        !(factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() > k_pivot_tolerance)) {
+        return std::nullopt;
+    }
+
+    // Covariance of the poses: block-diagonal `own` and F K Fᵀ. The error map is I + motion · datum part.
+    const Eigen::MatrixXd datum_gain = datum_part_ * gain;  // 10×b
+    Eigen::MatrixXd datum_own(10, size);                    // datum part · own
+    for (Eigen::Index i = 0; i < angles; ++i) {
+        datum_own.middleCols<6>(6 * i).noalias() = datum_part_.middleCols<6>(6 * i) * own.middleRows<6>(6 * i);
+    }
+    const Eigen::MatrixXd datum_covariance = datum_own * datum_part_.transpose();
+    Eigen::MatrixXd error_gain = gain;
+    error_gain.noalias() += motion_ * datum_gain;
+    Eigen::MatrixXd common = scale.asDiagonal() * error_gain.transpose();  // b×6N
+    factor.matrixL().solveInPlace(common);
+    Eigen::MatrixXd common_set_up = scale.asDiagonal() * datum_gain.bottomRows(4).transpose();
+    factor.matrixL().solveInPlace(common_set_up);
+
+    Eigen::VectorXd result(size + 4 + (has_reversal_ ? 6 : 0));
+    result.head(size) = common.colwise().squaredNorm().transpose();
+    for (Eigen::Index r = 0; r < size; ++r) {
+        const auto motion = motion_.row(r);
+        result[r] +=
+            own(r, r % 6) + 2.0 * motion.dot(datum_own.col(r)) + motion.dot(datum_covariance * motion.transpose());
+    }
+    if (measurement_.datum == Datum::home) {
+        result.segment<6>(6 * static_cast<Eigen::Index>(measurement_.home)).setZero();
+    }
+    result.segment<4>(size) = common_set_up.colwise().squaredNorm().transpose() + datum_covariance.diagonal().tail<4>();
+    if (has_reversal_) {
+        Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(border_.size, 6);
+        for (Eigen::Index c = 0; c < 6; ++c) {
+            unit(border_.reversal + c, c) = scale[border_.reversal + c];
+        }
+        factor.matrixL().solveInPlace(unit);
+        result.tail<6>() = unit.colwise().squaredNorm().transpose();
+    }
+    return result;
+}
+
+std::optional<Eigen::VectorXd> LayoutVariances::variances() const {
+    Information sum = prior_;
+    Information part;
+    for (std::size_t j = 0; j < measurement_.stations.size(); ++j) {
+        observer(j)->information(*measurement_.station_start[j], part);
+        add(sum, part);
+    }
+    return variances(sum);
+}
+
+// ---------------------------------------------------------------- proposal of stations
+
+double largest_ratio(const std::optional<Eigen::VectorXd>& variances, Eigen::Index angles,
+                     const std::array<double, 2>& wanted) {
+    if (!variances) {
+        return std::numeric_limits<double>::infinity();
+    }
+    double largest = 0.0;
+    for (Eigen::Index i = 0; i < 6 * angles; ++i) {
+        const double ratio = std::sqrt((*variances)[i]) / wanted[i % 6 < 3 ? 0 : 1];
+        if (!(ratio <= largest)) {
+            largest = std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio;
+        }
+    }
+    return largest;
+}
+
+StationCandidates station_candidates(const RotaryTableMeasurement& measurement, const StationRegion& region) {
+    std::vector<Eigen::Vector3d> reflectors;
+    for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
+        const Eigen::Matrix3d rotation = nominal_rotation(measurement, i);
+        for (Eigen::Index m = 0; m < measurement.fixture.rows(); ++m) {
+            reflectors.emplace_back(rotation * measurement.fixture.row(m).transpose());
+        }
+    }
+    const Eigen::Vector3d low = region.corners[0].cwiseMin(region.corners[1]);
+    const Eigen::Vector3d size = region.corners[0].cwiseMax(region.corners[1]) - low;
+    const auto across = across_axis(measurement.axis);
+    const auto count = [&](double step, int c) {
+        // A side that is a whole number of steps up to rounding has its far face on the grid.
+        return static_cast<std::size_t>(std::ceil(size[c] / step - 1e-9)) + 1;
+    };
+    StationCandidates candidates{{}, region.step};
+    while (static_cast<double>(count(candidates.step, 0)) * static_cast<double>(count(candidates.step, 1)) *
+               static_cast<double>(count(candidates.step, 2)) >
+           static_cast<double>(region.most_candidates)) {
+        candidates.step *= 1.1;
+    }
+    std::array<std::size_t, 3> counts{};
+    for (int c = 0; c < 3; ++c) {
+        counts[static_cast<std::size_t>(c)] = count(candidates.step, c);
+    }
+    for (std::size_t x = 0; x < counts[0]; ++x) {
+        for (std::size_t y = 0; y < counts[1]; ++y) {
+            for (std::size_t z = 0; z < counts[2]; ++z) {
+                const std::array<std::size_t, 3> at{x, y, z};
+                Eigen::Vector3d position = low;
+                for (int c = 0; c < 3; ++c) {
+                    const auto k = static_cast<std::size_t>(c);
+                    if (counts[k] > 1) {
+                        position[c] += size[c] * static_cast<double>(at[k]) / static_cast<double>(counts[k] - 1);
+                    }
+                }
+                const double from_axis = std::hypot(position[across[0]], position[across[1]]);
+                const bool free = std::all_of(reflectors.begin(), reflectors.end(), [&](const Eigen::Vector3d& p) {
+                    return (p - position).norm() >= region.least_distance;
+                });
+                if (free && from_axis >= region.least_axis_distance) {
+                    candidates.positions.push_back(position);
+                }
+            }
+        }
+    }
+    return candidates;
+}
+
+StationProposal propose_stations(const RotaryTableMeasurement& measurement, const StochasticModel& stochastic,
+                                 const std::vector<Eigen::Vector3d>& candidates, const std::array<double, 2>& wanted,
+                                 const ParallelTasks& parallel, const Progress& progress, double least_gain) {
+    // Two instruments, or one at two times, do not stand in one place: such a layout is a repetition, not a position.
+    constexpr double k_same_place = 0.05;  // [m]
+    constexpr std::size_t k_most_exchanges = 200;
+    const LayoutVariances layout(measurement, stochastic);
+    const std::size_t stations = measurement.stations.size();
+    const auto angles = static_cast<Eigen::Index>(measurement.angles.size());
+
+    struct Worker {
+        std::vector<std::unique_ptr<LayoutVariances::Observer>> observers;
+        LayoutVariances::Information part, sum;
+    };
+    std::vector<Worker> workers(parallel.workers);
+    for (Worker& worker : workers) {
+        worker.observers.resize(stations);
+    }
+
+    StationProposal proposal;
+    std::vector<LayoutVariances::Information> parts(stations);
+    LayoutVariances::Information all = layout.prior();
+    for (std::size_t j = 0; j < stations; ++j) {
+        proposal.positions.push_back(*measurement.station_start[j]);
+        layout.observer(j)->information(proposal.positions[j], parts[j]);
+        add(all, parts[j]);
+    }
+    proposal.ratio_before = largest_ratio(layout.variances(all), angles, wanted);
+    proposal.ratio_after = proposal.ratio_before;
+
+    std::vector<double> ratios(stations * candidates.size());
+    std::vector<LayoutVariances::Information> others(stations);
+    while (!candidates.empty() && proposal.exchanges.size() < k_most_exchanges) {
+        for (std::size_t j = 0; j < stations; ++j) {
+            others[j] = layout.prior();
+            for (std::size_t k = 0; k < stations; ++k) {
+                if (k != j) {
+                    add(others[j], parts[k]);
+                }
+            }
+        }
+        parallel.run(ratios.size(), [&](unsigned worker_number, std::size_t task) {
+            const std::size_t j = task / candidates.size();
+            const Eigen::Vector3d& position = candidates[task % candidates.size()];
+            ratios[task] = std::numeric_limits<double>::infinity();
+            for (std::size_t k = 0; k < stations; ++k) {
+                if ((proposal.positions[k] - position).norm() < k_same_place) {
+                    return;
+                }
+            }
+            Worker& worker = workers[worker_number];
+            if (!worker.observers[j]) {
+                worker.observers[j] = layout.observer(j);
+            }
+            worker.observers[j]->information(position, worker.part);
+            worker.sum = others[j];
+            add(worker.sum, worker.part);
+            ratios[task] = largest_ratio(layout.variances(worker.sum), angles, wanted);
+        });
+        proposal.layouts += ratios.size();
+        const auto best = static_cast<std::size_t>(std::min_element(ratios.begin(), ratios.end()) - ratios.begin());
+        if (!(ratios[best] < (1.0 - least_gain) * proposal.ratio_after)) {
+            break;
+        }
+        const std::size_t j = best / candidates.size();
+        const Eigen::Vector3d& position = candidates[best % candidates.size()];
+        proposal.exchanges.push_back({j, proposal.positions[j], position, ratios[best]});
+        proposal.positions[j] = position;
+        proposal.ratio_after = ratios[best];
+        layout.observer(j)->information(position, parts[j]);
+        if (progress) {
+            progress("station " + measurement.stations[j] + " moved, exchange " +
+                     std::to_string(proposal.exchanges.size()));
+        }
+    }
+    return proposal;
+}
+
+}  // namespace gumcert::engine

@@ -1,0 +1,212 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/joint_adjustment.h"
+#include "engine/rotary_table_evaluation.h"
+#include "engine/rotary_table_model.h"
+
+namespace gumcert::engine {
+
+// What a layout will give before anything is measured. The covariance of a least-squares estimate depends on the
+// geometry and on the variances of the observations, not on the observations themselves: linearised at an ideal table
+// (E = 0), a fixture without set-up errors (T_s = identity) and dead paths of zero it is that of the later evaluation,
+// up to set-up errors and error motions of micrometres against distances of decimetres.
+
+/// Replaces every length by the one that an ideal table would show: dead paths zero, no set-up errors, the fixture at
+/// its stated temperature. `station_start` must be there for every station; empty temperature vectors become zeros.
+/// \throws gum::InputError  GC-PLAN-0001 with every station that has no position
+void predict_lengths(RotaryTableMeasurement& measurement);
+
+/// Variances that a plan rests on: those stated for the lengths, and the repeatability of the table as given. Where the
+/// job wants it estimated, its start values, or those that an evaluation starts from.
+[[nodiscard]] StochasticModel planned_variances(const TableRepeatability& table);
+
+/// Adjustment of a planned measurement at the ideal values. The measurement must outlive it.
+[[nodiscard]] JointAdjustment planned_adjustment(const RotaryTableMeasurement& measurement,
+                                                 const StochasticModel& stochastic);
+
+/// Nothing when the layout determines every parameter; else what it does not determine, and the cure (GC-RANK-0001).
+/// \param measurement  with predicted lengths
+[[nodiscard]] std::optional<gum::Diagnostic> undetermined_by(const RotaryTableMeasurement& measurement,
+                                                             const StochasticModel& stochastic,
+                                                             const SolverOptions& options);
+
+struct PlannedStation {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< in T, [m]
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the estimated position in the datum, [m²]
+};
+
+/// What the evaluation of a planned measurement will state, coherent SI, without estimated variance components.
+struct ExpectedUncertainty {
+    ReportedQuantities quantities;
+    Eigen::MatrixXd covariance;  ///< of the reported quantities in the datum of the measurement
+    std::vector<PlannedStation> stations;
+    Eigen::Index observations = 0, parameters = 0, degrees_of_freedom = 0;
+    double condition_number = 0.0;
+    double mean_redundancy = 0.0;                  ///< mean of the redundancy numbers of the distances
+    double largest_minimal_detectable_bias = 0.0;  ///< of the distances that others control, [m]
+    std::size_t uncontrolled_distances = 0;        ///< distances whose bias nothing would show
+};
+
+/// \param measurement  with predicted lengths
+/// \throws gum::NoResultError  as evaluate_jointly where the layout leaves parameters undetermined (geometry_check.h)
+[[nodiscard]] ExpectedUncertainty expected_uncertainty(const RotaryTableMeasurement& measurement,
+                                                       const StochasticModel& stochastic,
+                                                       const EvaluationOptions& options);
+
+// Layouts that differ in one thing. Dead paths that no distance has any more are left out with it.
+[[nodiscard]] RotaryTableMeasurement without_station(const RotaryTableMeasurement& measurement, std::size_t station);
+[[nodiscard]] RotaryTableMeasurement without_reflector(const RotaryTableMeasurement& measurement,
+                                                       std::size_t reflector);
+/// Every `stride`-th angle, counted from the home angle in both directions.
+[[nodiscard]] RotaryTableMeasurement with_every_angle(const RotaryTableMeasurement& measurement, std::size_t stride);
+/// One angle more in the middle between two neighbours; on a full turn also between the last and the first. It is
+/// measured as the lower neighbour is.
+[[nodiscard]] RotaryTableMeasurement with_twice_the_angles(const RotaryTableMeasurement& measurement);
+
+/// Variances of the reported quantities of a layout by station: normal equations add up station by station, so a
+/// station that moves replaces its own part only.
+///
+/// The poses are eliminated angle by angle, and the S-transformation to the datum has ten dimensions: one layout costs
+/// time proportional to its angles, and no covariance matrix is formed. The observation equations are those of
+/// JointAdjustment.
+class LayoutVariances {
+public:
+    /// \param measurement  with predicted lengths; copied
+    LayoutVariances(const RotaryTableMeasurement& measurement, const StochasticModel& stochastic);
+    ~LayoutVariances();
+    LayoutVariances(const LayoutVariances&) = delete;
+    LayoutVariances& operator=(const LayoutVariances&) = delete;
+
+    /// Information (inverse covariance) about poses and all other parameters (the border), of one or more stations.
+    struct Information {
+        Eigen::MatrixXd border;  ///< b×b
+        Eigen::MatrixXd poses;   ///< 6N×6, the blocks of the angles one below the other; of the home angle zero
+        Eigen::MatrixXd mixed;   ///< 6N×b
+    };
+
+    /// What a station tells from a position; has a state of its own, so use one a thread.
+    class Observer;
+    [[nodiscard]] std::unique_ptr<Observer> observer(std::size_t station) const;
+
+    /// What is known without any distance: fixture coordinates, expansion.
+    [[nodiscard]] const Information& prior() const { return prior_; }
+
+    /// Variances in the order of ReportedQuantities, [m²] and [rad²]; nothing where a parameter is not determined.
+    [[nodiscard]] std::optional<Eigen::VectorXd> variances(const Information& information) const;
+
+    /// The same with all stations where the measurement has them.
+    [[nodiscard]] std::optional<Eigen::VectorXd> variances() const;
+
+    [[nodiscard]] const RotaryTableMeasurement& measurement() const { return measurement_; }
+
+private:
+    struct Border {
+        std::vector<Eigen::Index> stations;    ///< first column of each station
+        std::vector<Eigen::Index> dead_paths;  ///< column of each dead path
+        Eigen::Index fixture = 0, expansion = 0, reversal = 0, size = 0;
+    };
+
+    RotaryTableMeasurement measurement_;
+    StochasticModel stochastic_;
+    bool has_reversal_ = false;
+    Border border_;
+    Information prior_;
+    Eigen::MatrixXd motion_;      ///< 6N×10, world motions and set-up errors in the poses
+    Eigen::MatrixXd datum_part_;  ///< 10×6N, ∂(world motion, set-up)/∂poses: the error map is I + motion · datum part
+};
+
+/// Adds what one station (or prior knowledge) tells.
+void add(LayoutVariances::Information& sum, const LayoutVariances::Information& part);
+
+class LayoutVariances::Observer {
+public:
+    Observer(const LayoutVariances& layout, std::size_t station);
+    Observer(const Observer&) = delete;
+    Observer& operator=(const Observer&) = delete;
+
+    /// \param position  of the station in T, [m]
+    void information(const Eigen::Vector3d& position, Information& result);
+
+private:
+    friend class LayoutVariances;
+    /// Where a free parameter of the adjustment of this station stands in the layout.
+    struct Place {
+        bool pose = false;
+        Eigen::Index index = 0;  ///< row of the poses, or column of the border
+    };
+
+    StochasticModel stochastic_;
+    Eigen::Index border_size_;
+    RotaryTableMeasurement measurement_;  ///< of this station alone
+    std::unique_ptr<JointAdjustment> adjustment_;
+    std::vector<Eigen::VectorXd> observed_;  ///< of every visit, as the adjustment was made
+    std::vector<Place> places_;
+};
+
+/// Largest standard uncertainty of the error motions, each in units of the one wanted; infinite where not determined.
+/// \param wanted  of the three linear and the three angular error motions, [m] and [rad]
+[[nodiscard]] double largest_ratio(const std::optional<Eigen::VectorXd>& variances, Eigen::Index angles,
+                                   const std::array<double, 2>& wanted);
+
+/// Box and rules for where stations may stand.
+struct StationRegion {
+    std::array<Eigen::Vector3d, 2> corners;  ///< opposite, in T, [m]
+    double step = 0.2;                       ///< [m]
+    double least_distance = 0.2;             ///< from every reflector at every angle, [m]
+    /// From the rotary axis, [m]: from the axis itself a ring of reflectors is seen on a cone.
+    double least_axis_distance = 0.02;
+    std::size_t most_candidates = 2000;
+};
+
+struct StationCandidates {
+    std::vector<Eigen::Vector3d> positions;  ///< x slowest, z fastest
+    double step = 0.0;                       ///< of the grid that was used, coarser where there were too many, [m]
+};
+
+/// Grid in the box that begins and ends at its faces, without the positions that the rules forbid.
+[[nodiscard]] StationCandidates station_candidates(const RotaryTableMeasurement& measurement,
+                                                   const StationRegion& region);
+
+/// Runs numbered tasks, each once, on any number of threads; `worker` is below `workers`.
+struct ParallelTasks {
+    unsigned workers = 1;
+    std::function<void(std::size_t tasks, const std::function<void(unsigned worker, std::size_t task)>& work)> run;
+};
+
+struct StationExchange {
+    std::size_t station = 0;
+    Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();  ///< [m]
+    double ratio = 0.0;                                                            ///< largest ratio after it
+};
+
+struct StationProposal {
+    std::vector<Eigen::Vector3d> positions;  ///< in the order of the stations, [m]
+    double ratio_before = 0.0, ratio_after = 0.0;
+    std::vector<StationExchange> exchanges;  ///< in order
+    std::size_t layouts = 0;                 ///< that were compared
+};
+
+/// Stations that make the largest expected uncertainty smaller, by greedy exchange: each round tries every station at
+/// every candidate and makes the one exchange that lowers the largest ratio most, until none lowers it by more than
+/// `least_gain`. Equal exchanges: the first station and the first candidate win, so the result is the same for any
+/// number of threads. It is a local optimum of single moves, not proved to be the best layout.
+///
+/// \param wanted  see largest_ratio
+[[nodiscard]] StationProposal propose_stations(const RotaryTableMeasurement& measurement,
+                                               const StochasticModel& stochastic,
+                                               const std::vector<Eigen::Vector3d>& candidates,
+                                               const std::array<double, 2>& wanted, const ParallelTasks& parallel,
+                                               const Progress& progress = {}, double least_gain = 0.005);
+
+}  // namespace gumcert::engine
