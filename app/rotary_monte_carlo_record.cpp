@@ -4,6 +4,7 @@
 
 #include "app/document_units.h"
 #include "app/record_parts.h"
+#include "app/table_parameter_record.h"
 #include "gum/rounding.h"
 
 namespace gumcert::app {
@@ -71,6 +72,9 @@ void fill_monte_carlo(reports::EvaluationRecord& record, const engine::RotaryTab
     }
     for (std::size_t i = 0; rotary.iso230_2 && i < rotary.iso230_2->parameters.size(); ++i) {
         reports::TableParameter& parameter = rotary.iso230_2->parameters[i];
+        if (rests_on_scatter(parameter.name)) {
+            continue;
+        }
         parameter.monte_carlo =
             of(first + layout.positioning + static_cast<Eigen::Index>(i), parameter_unit(parameter), parameter.name);
     }
@@ -84,7 +88,9 @@ void fill_monte_carlo(reports::EvaluationRecord& record, const engine::RotaryTab
     if (summary.compared > 0) {
         const auto contradicted = static_cast<std::int64_t>(summary.not_validated.size());
         summary.statement += " Of " + std::to_string(summary.compared) + " quantities the law of propagation is " +
-                             "validated for " + std::to_string(summary.validated) + " (JCGM 101:2008, clause 8)";
+                             "validated for " + std::to_string(summary.validated) + " (JCGM 101:2008, clause 8, to " +
+                             (job.monte_carlo->digits == 1 ? "one significant digit" : "two significant digits") +
+                             " of u)";
         if (contradicted > 0) {
             summary.statement +=
                 ", and not for " + std::to_string(contradicted) + ": their coverage interval is that of Monte Carlo";

@@ -104,6 +104,9 @@ reports::PositioningAccuracy positioning_of(const engine::TableParameterModel& m
                    "worse than they say."
                  : ""));
     }
+    accuracy.remarks.push_back(
+        "R and A rest on standard deviations of runs, which hold the scatter of the measurement. Monte Carlo would add "
+        "that scatter a second time; it is not stated for them.");
     const bool one_sense = most_up == 0 || most_down == 0;
     if (one_sense) {
         accuracy.remarks.push_back("The angles were approached in one sense only: there are no bidirectional values.");
@@ -117,6 +120,10 @@ reports::PositioningAccuracy positioning_of(const engine::TableParameterModel& m
 }
 
 }  // namespace
+
+bool rests_on_scatter(const std::string& short_name) {
+    return short_name.starts_with('R') || short_name.starts_with('A');
+}
 
 void fill_table_parameters(reports::RotaryTable& rotary, const engine::TableParameterModel& model,
                            const engine::RotaryTableMeasurement& measurement, const gum::Propagation& parameters) {

@@ -407,7 +407,8 @@ void rotary_monte_carlo(CertificateBuilder& builder, const Wording& words, const
         }
         ++found->compared;
         ++(!v.precise_enough ? found->not_precise : v.validated ? found->validated : found->not_validated);
-        if (v.precise_enough && v.validated) {
+        // Where the trials are too few to say, the count says so; hundreds of rows without an answer help nobody.
+        if (!v.precise_enough || v.validated) {
             continue;
         }
         if (exceptions.size() == k_most_listed) {
@@ -434,8 +435,14 @@ void rotary_monte_carlo(CertificateBuilder& builder, const Wording& words, const
                    {words("value", "verdict", "not_validated"), "", true},
                    {words("value", "verdict", "not_precise"), "", true}},
                   rows);
+    const bool undecided = std::any_of(groups.begin(), groups.end(), [](const Counts& g) { return g.not_precise > 0; });
+    if (undecided) {
+        builder.paragraph(words("sentence", "monte_carlo_undecided"));
+    }
     if (exceptions.empty()) {
-        builder.paragraph(words("sentence", "all_validated"));
+        if (!undecided) {
+            builder.paragraph(words("sentence", "all_validated"));
+        }
         return;
     }
     builder.table("monte-carlo-exceptions", words.fill("monte_carlo_exceptions", {{"p", record.printed_coverage}}),

@@ -80,7 +80,7 @@ private:
         for (const BudgetOutput& output : job_.outputs) {
             p = std::max(p, output.coverage_probability.value_or(p));
         }
-        job_.monte_carlo = read_monte_carlo(*root, p, *problems_);
+        job_.monte_carlo = read_monte_carlo(*root, p, 2, *problems_);
         check_model(*root, inputs);
         job_.certificate = files_.certificate(*root);
     }

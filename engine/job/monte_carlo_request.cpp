@@ -32,7 +32,7 @@ void check_trials(const JsonObject& object, double count, double p, ProblemList&
 
 }  // namespace
 
-std::optional<MonteCarloRequest> read_monte_carlo(const JsonObject& root, double coverage_probability,
+std::optional<MonteCarloRequest> read_monte_carlo(const JsonObject& root, double coverage_probability, int usual_digits,
                                                   ProblemList& problems) {
     const auto object = root.optional_object("monte_carlo", k_monte_carlo_keys);
     if (!object) {
@@ -44,7 +44,7 @@ std::optional<MonteCarloRequest> read_monte_carlo(const JsonObject& root, double
     const NumberRange trials{
         .low = 1.0, .high = k_most_trials, .hint = "a job has at most 10000000000 trials; 1000000 is usual"};
     const auto digits = object->optional_integer("digits", between(1.0, 2.0, ""));
-    request.digits = static_cast<int>(digits.value_or(2));
+    request.digits = static_cast<int>(digits.value_or(usual_digits));
     request.seed =
         static_cast<std::uint64_t>(object->optional_integer("seed", between(0.0, k_largest_seed, "")).value_or(1));
     request.validate = object->optional_boolean("validate").value_or(false);

@@ -28,8 +28,9 @@ inline constexpr double k_largest_seed = 9007199254740992.0;  ///< 2^53: up to i
 
 /// The key `monte_carlo` of a job.
 /// \param coverage_probability  the largest one that the job asks for: coverage intervals need more trials for it
+/// \param digits                of u that count where the job does not say
 /// \return nothing when the job does not ask for Monte Carlo
 [[nodiscard]] std::optional<MonteCarloRequest> read_monte_carlo(const JsonObject& root, double coverage_probability,
-                                                                ProblemList& problems);
+                                                                int digits, ProblemList& problems);
 
 }  // namespace gumcert::engine

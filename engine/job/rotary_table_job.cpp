@@ -117,6 +117,8 @@ constexpr std::array<Choice<bool>, 2> k_fixture_uncertainties{{{"stated", false}
 // ---- limits of what a campaign can be -------------------------------------------------------------------------------
 
 constexpr double k_same_angle_deg = 1e-9;
+// With two digits of u some of the hundreds of quantities would need millions of trials to be decided.
+constexpr int k_validated_digits = 1;
 constexpr std::size_t k_least_at_angle = 6;     // a pose has six unknowns
 constexpr std::size_t k_least_of_station = 4;   // a station has x, y, z and a dead path
 constexpr std::size_t k_least_reflectors = 3;   // three points fix a rigid body
@@ -328,7 +330,7 @@ private:
                                       .hint = "state a probability, not a percentage, such as 0.9545"};
         job_.coverage_probability = root.optional_number("coverage_probability", probability).value_or(0.9545);
         (void)root.optional_string("notes");
-        job_.monte_carlo = read_monte_carlo(root, job_.coverage_probability, *problems_);
+        job_.monte_carlo = read_monte_carlo(root, job_.coverage_probability, k_validated_digits, *problems_);
         job_.simulation = read_simulation(root, *problems_);
         job_.plan = read_plan(root, *problems_);
     }
