@@ -49,6 +49,10 @@ RotaryTableMonteCarlo run_monte_carlo(const RotaryTableJob& job, const RotaryTab
         };
     }
     const std::vector<std::string>& names = result.parameter_model->parameters()->short_names();
+    const PositioningScope scope = positioning_scope(*result.parameter_model);
+    const auto reported = static_cast<std::size_t>(result.propagation.value.size());
+    const std::size_t positioning =
+        reported + static_cast<std::size_t>(result.parameter_model->parameters()->layout().positioning);
     RotaryTableMonteCarlo monte_carlo;
     monte_carlo.result = gum::run_monte_carlo(trials, options);
     monte_carlo.most_steps = trials.steps().most;
@@ -56,9 +60,10 @@ RotaryTableMonteCarlo run_monte_carlo(const RotaryTableJob& job, const RotaryTab
     for (std::size_t i = 0; i < monte_carlo.result.outputs.size(); ++i) {
         const Stated law = stated(result, static_cast<Eigen::Index>(i));
         std::optional<gum::Validation> validation;
-        const auto reported = static_cast<std::size_t>(result.propagation.value.size());
-        const bool scatter = i >= reported && rests_on_scatter(names[i - reported]);
-        if (asked.validate && law.u > 0.0 && !scatter) {
+        // Of the parameters of ISO 230-2, those that are stated and that Monte Carlo can speak of.
+        const bool compared =
+            i < positioning || (scope.states(names[i - reported]) && !rests_on_scatter(names[i - reported]));
+        if (asked.validate && law.u > 0.0 && compared) {
             const double unit = unit_of(trials.outputs()[i]).si;
             const auto scaled = [unit](double value) { return value / unit; };
             validation = validation_in_unit(law.value, law.u, law.U, monte_carlo.result.outputs[i], {scaled, scaled},

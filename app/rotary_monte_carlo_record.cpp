@@ -1,6 +1,8 @@
 #include "app/rotary_monte_carlo_record.h"
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "app/document_units.h"
 #include "app/record_parts.h"
@@ -70,13 +72,13 @@ void fill_monte_carlo(reports::EvaluationRecord& record, const engine::RotaryTab
         parameter.monte_carlo = of(first + layout.location_errors + static_cast<Eigen::Index>(i),
                                    parameter_unit(parameter), parameter.name);
     }
+    const std::vector<std::string>& names = result.parameter_model->parameters()->short_names();
     for (std::size_t i = 0; rotary.iso230_2 && i < rotary.iso230_2->parameters.size(); ++i) {
         reports::TableParameter& parameter = rotary.iso230_2->parameters[i];
-        if (rests_on_scatter(parameter.name)) {
-            continue;
+        if (!rests_on_scatter(parameter.name)) {
+            const auto found = std::find(names.begin() + layout.positioning, names.end(), parameter.name);
+            parameter.monte_carlo = of(first + (found - names.begin()), parameter_unit(parameter), parameter.name);
         }
-        parameter.monte_carlo =
-            of(first + layout.positioning + static_cast<Eigen::Index>(i), parameter_unit(parameter), parameter.name);
     }
 
     summary.statement =
@@ -100,6 +102,17 @@ void fill_monte_carlo(reports::EvaluationRecord& record, const engine::RotaryTab
                                  " the trials are too few to decide at the stated number of digits";
         }
         summary.statement += ".";
+    }
+    if (result.validation_failed) {
+        const auto contradicted = summary.not_validated.size();
+        record.diagnostics.push_back(
+            {"GC-VALIDATION-0001", "validation of the law of propagation",
+             "not validated for " + std::to_string(contradicted) + " of " + std::to_string(summary.compared) +
+                 " quantities, and not decided for " + std::to_string(undecided),
+             "the job demands that Monte Carlo confirms every expanded uncertainty (JCGM 101:2008, clause 8)",
+             undecided > 0 ? "state more trials; use the Monte Carlo intervals of the quantities that are not validated"
+                           : "use the Monte Carlo intervals of the quantities that are not validated",
+             gum::Severity::warning});
     }
     rotary.monte_carlo = std::move(summary);
 }

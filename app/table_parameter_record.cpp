@@ -74,39 +74,44 @@ reports::PositioningAccuracy positioning_of(const engine::TableParameterModel& m
     const auto [least_down, most_down] = run_counts(parameters.runs().down);
     accuracy.runs_up = static_cast<std::int64_t>(least_up);
     accuracy.runs_down = static_cast<std::int64_t>(least_down);
-    for (Eigen::Index i = 0; i < layout.positioning_count; ++i) {
-        accuracy.parameters.push_back(parameter_of(parameters, propagation, layout.positioning + i));
+    const PositioningScope scope = positioning_scope(model);
+    for (Eigen::Index i = layout.positioning; i < layout.positioning + layout.positioning_count; ++i) {
+        if (scope.states(parameters.short_names()[static_cast<std::size_t>(i)])) {
+            accuracy.parameters.push_back(parameter_of(parameters, propagation, i));
+        }
     }
-    accuracy.u_deviation = model.rms_position_uncertainty() / k_arcsec.si;
+    accuracy.u_deviation = scope.u_deviation / k_arcsec.si;
     accuracy.printed_u_deviation = gum::round_significant(accuracy.u_deviation, 2);
     const engine::PositioningAccuracy positioning = model.positioning();
-    double squares = 0.0;
-    double count = 0.0;
     for (std::size_t i = 0; i < positioning.targets.size(); ++i) {
         const engine::PositioningTarget& from = positioning.targets[i];
         accuracy.targets.push_back(target_of(measurement.angles_deg[i], from, accuracy.u_deviation));
-        for (const std::optional<double>& s : {from.s_up, from.s_down}) {
-            squares += s ? *s * *s : 0.0;
-            count += s ? 1.0 : 0.0;
-        }
     }
     accuracy.remarks.push_back(
         "One pass of the table at one station is one run. The deviation of a run is the axial rotation of the table in "
         "that run, found from the distances of the run with everything else as adjusted.");
-    if (count > 0.0) {
-        const double s = std::sqrt(squares / count) / k_arcsec.si;
-        accuracy.remarks.push_back(
-            "Standard uncertainty of one deviation: " + accuracy.printed_u_deviation +
-            " ″; standard deviation of the runs at one target (rms): " + gum::round_significant(s, 2) + " ″." +
-            (accuracy.u_deviation > 0.5 * s
-                 ? " The repeatability R and the accuracy A therefore hold a considerable part "
-                   "that comes from the measurement and not from the table; the table is not "
-                   "worse than they say."
-                 : ""));
+    const double share = scope.s_runs > 0.0 ? std::pow(scope.u_deviation / scope.s_runs, 2) : 0.0;
+    if (scope.s_runs > 0.0) {
+        accuracy.remarks.push_back("Standard uncertainty of one deviation: " + accuracy.printed_u_deviation +
+                                   " ″; standard deviation of the runs at one target (rms): " +
+                                   gum::round_significant(scope.s_runs / k_arcsec.si, 2) + " ″.");
     }
-    accuracy.remarks.push_back(
-        "R and A rest on standard deviations of runs, which hold the scatter of the measurement. Monte Carlo would add "
-        "that scatter a second time; it is not stated for them.");
+    if (!scope.stated) {
+        accuracy.remarks.push_back(
+            "No parameter is stated: the uncertainty of one deviation is more than " +
+            gum::percent(scope.largest_ratio) +
+            " % of the range of the mean deviations, and the largest of many uncertain deviations says nothing of the "
+            "table. Measure several reflectors at every visit of an angle.");
+    } else if (!scope.scatter_stated) {
+        accuracy.remarks.push_back("R and A are not stated: " + gum::percent(std::min(share, 1.0)) +
+                                   " % of the variance of the runs comes from the measurement and not from the table. "
+                                   "The variance components state the repeatability of the table.");
+    } else if (scope.s_runs > 0.0) {
+        accuracy.remarks.push_back(
+            "R and A hold the scatter of the measurement, " + gum::percent(share) +
+            " % of the variance of the runs: the table is not worse than they say. Monte Carlo would add that scatter "
+            "a second time; it is not stated for them.");
+    }
     const bool one_sense = most_up == 0 || most_down == 0;
     if (one_sense) {
         accuracy.remarks.push_back("The angles were approached in one sense only: there are no bidirectional values.");
@@ -123,6 +128,36 @@ reports::PositioningAccuracy positioning_of(const engine::TableParameterModel& m
 
 bool rests_on_scatter(const std::string& short_name) {
     return short_name.starts_with('R') || short_name.starts_with('A');
+}
+
+PositioningScope positioning_scope(const engine::TableParameterModel& model) {
+    // With 60 % of the variance from the measurement a standard deviation is 1.6 times that of the table, and R still
+    // within its expanded uncertainty; with more it is not.
+    constexpr double k_largest_share = 0.6;
+    constexpr double k_largest_ratio = 0.25;
+    const engine::PositioningAccuracy positioning = model.positioning();
+    PositioningScope scope;
+    scope.largest_share = k_largest_share;
+    scope.largest_ratio = k_largest_ratio;
+    scope.u_deviation = model.rms_position_uncertainty();
+    double squares = 0.0;
+    double count = 0.0;
+    for (const engine::PositioningTarget& target : positioning.targets) {
+        for (const std::optional<double>& s : {target.s_up, target.s_down}) {
+            squares += s ? *s * *s : 0.0;
+            count += s ? 1.0 : 0.0;
+        }
+    }
+    scope.s_runs = count > 0.0 ? std::sqrt(squares / count) : 0.0;
+    using engine::PositioningParameter;
+    double range = 0.0;
+    for (const PositioningParameter parameter : {PositioningParameter::systematic, PositioningParameter::systematic_up,
+                                                 PositioningParameter::systematic_down}) {
+        range = std::max(range, positioning[parameter].value_or(0.0));
+    }
+    scope.stated = scope.u_deviation <= k_largest_ratio * range;
+    scope.scatter_stated = std::pow(scope.u_deviation, 2) <= k_largest_share * std::pow(scope.s_runs, 2);
+    return scope;
 }
 
 void fill_table_parameters(reports::RotaryTable& rotary, const engine::TableParameterModel& model,

@@ -18,4 +18,21 @@ void fill_table_parameters(reports::RotaryTable& rotary, const engine::TablePara
 /// the noise of the distances a second time to deviations that hold it already, and make them larger than they are.
 [[nodiscard]] bool rests_on_scatter(const std::string& short_name);
 
+/// Which parameters of ISO 230-2 the deviations of the runs can carry.
+///
+/// The deviations hold the noise of the measurement besides that of the table, and what is a maximum or rests on a
+/// standard deviation grows with it: beyond the limits here, a parameter would lie outside its own uncertainty.
+struct PositioningScope {
+    bool stated = false;          ///< any at all
+    bool scatter_stated = false;  ///< those that rest on standard deviations of runs
+    double u_deviation = 0.0;     ///< standard uncertainty of one deviation, rms over the runs, [rad]
+    double s_runs = 0.0;          ///< standard deviation of the runs at a target, rms over the targets, [rad]
+    double largest_share = 0.0;   ///< share of the measurement in s_runs² that is still accepted
+    double largest_ratio = 0.0;   ///< u_deviation against E that is still accepted
+    [[nodiscard]] bool states(const std::string& short_name) const {
+        return stated && (scatter_stated || !rests_on_scatter(short_name));
+    }
+};
+[[nodiscard]] PositioningScope positioning_scope(const engine::TableParameterModel& model);
+
 }  // namespace gumcert::app

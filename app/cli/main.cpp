@@ -242,6 +242,9 @@ void print_summary(const reports::EvaluationRecord& record) {
         }
         fmt::print("Outlying distances: {} found, {} left out (listed in the certificate)\n", rotary.flagged.size(),
                    removed);
+        if (rotary.monte_carlo) {
+            fmt::print("\nMonte Carlo: {}\n", rotary.monte_carlo->statement);
+        }
     }
     if (record.kind == "budget") {
         print_results(record);
@@ -280,10 +283,10 @@ void write_to_stdout(const std::string& bytes) {
 bool run_job(const fs::path& job, const std::string& output, const std::string& share, const CommonOptions& common) {
     const fs::path folder = output.empty() ? job.parent_path() / (job.stem().string() + "-out") : fs::path(output);
     app::require_writable(folder / "record.json");
+    const reports::RenderAssets with = assets(share, "en");
     ProgressLine progress(!common.quiet);
     const app::Evaluation evaluation = app::evaluate_job(job, "covariance.csv", static_cast<unsigned>(common.threads),
                                                          [&](const std::string& text) { progress(text); });
-    const reports::RenderAssets with = assets(share, "en");
     progress("documents");
     std::vector<app::OutputFile> files{{folder / "record.json", reports::to_canonical_json(evaluation.record)}};
     if (!evaluation.covariance_csv.empty()) {
@@ -486,13 +489,14 @@ int dispatch(int argc, char** argv, CommonOptions& common) {
     render_command->footer("Example: gumcert render record.json --format pdf -o certificate.pdf");
 
     std::optional<std::size_t> runs;
-    std::optional<std::uint64_t> seed;
+    std::optional<std::int64_t> seed;
     CLI::App* simulate_command = program.add_subcommand(
         "simulate", "Simulate measurements of a rotary-table job with a known truth, and evaluate them");
     simulate_command->add_option("JOB", job, "Job file (JSON) of kind rotary_table")->required();
     simulate_command->add_option("--runs", runs, "Simulated campaigns; default: as the job says, else 100")
-        ->check(CLI::Range(2, 1'000'000));
-    simulate_command->add_option("--seed", seed, "Seed of the random numbers; default: as the job says, else 1");
+        ->check(CLI::Range(1, 1'000'000));
+    simulate_command->add_option("--seed", seed, "Seed of the random numbers; default: as the job says, else 1")
+        ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53));
     simulate_command->footer(
         "Example: gumcert simulate examples/rotary_table/simulation.json --runs 20 -o study.html\n"
         "Says how far evaluated set-up and error motions are from the simulated truth, how much of that is the choice\n"
@@ -535,8 +539,10 @@ int dispatch(int argc, char** argv, CommonOptions& common) {
         ProgressLine progress(!common.quiet);
         const auto report = [&](const std::string& text) { progress(text); };
         const auto threads = static_cast<unsigned>(common.threads);
+        const auto unsigned_seed =
+            seed ? std::optional<std::uint64_t>(static_cast<std::uint64_t>(*seed)) : std::nullopt;
         const reports::StudyDocument study = simulate_command->parsed()
-                                                 ? app::simulate_job(job, runs, seed, threads, report)
+                                                 ? app::simulate_job(job, runs, unsigned_seed, threads, report)
                                                  : app::plan_job(job, threads, report);
         progress.clear();
         write_study(study, to, job, share, common);

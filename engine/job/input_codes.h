@@ -163,6 +163,7 @@ inline constexpr InputCode k_warn_few_trials{"GC-WARN-0010", "fewer Monte Carlo 
 inline constexpr InputCode k_warn_equal_observations{"GC-WARN-0011", "observations that are all equal"};
 inline constexpr InputCode k_warn_fixture_u_differs{"GC-WARN-0012",
                                                     "u columns of the fixture that are not used, and are far off"};
+inline constexpr InputCode k_warn_same_position{"GC-WARN-0013", "two angles that are one position of the table"};
 
 /// The whole table, in the order of the codes.
 inline constexpr std::array k_input_codes{k_file_too_large,
@@ -286,6 +287,7 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_warn_same_but_case,
                                           k_warn_few_trials,
                                           k_warn_equal_observations,
-                                          k_warn_fixture_u_differs};
+                                          k_warn_fixture_u_differs,
+                                          k_warn_same_position};
 
 }  // namespace gumcert::engine

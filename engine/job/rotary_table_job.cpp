@@ -117,6 +117,8 @@ constexpr std::array<Choice<bool>, 2> k_fixture_uncertainties{{{"stated", false}
 // ---- limits of what a campaign can be -------------------------------------------------------------------------------
 
 constexpr double k_same_angle_deg = 1e-9;
+constexpr double k_least_u = 1e-6;  // of a length, [µm]: a millionth of what the best interferometers reach
+constexpr double k_most_u = 1e5;    // [µm] and [µm/m]
 // With two digits of u some of the hundreds of quantities would need millions of trials to be decided.
 constexpr int k_validated_digits = 1;
 constexpr std::size_t k_least_at_angle = 6;     // a pose has six unknowns
@@ -369,14 +371,15 @@ private:
 
     void read_length_uncertainty(const JsonObject& object) {
         LengthUncertainty& uncertainty = job_.measurement.length_uncertainty;
-        const auto constant = object.required_number("u_constant_um", not_negative("µm"));
-        const auto proportional = object.optional_number("u_proportional_um_per_m", not_negative("µm/m"));
+        const auto constant = object.required_number("u_constant_um", between(0.0, k_most_u, "µm"));
+        const auto proportional = object.optional_number("u_proportional_um_per_m", between(0.0, k_most_u, "µm/m"));
         const bool proportional_is_zero =
             !object.has("u_proportional_um_per_m") || (proportional && *proportional == 0.0);
-        if (constant && *constant == 0.0 && proportional_is_zero) {
+        if (constant && *constant < k_least_u && proportional_is_zero) {
             object.refuse(k_no_length_uncertainty, "u_constant_um",
-                          "u_constant_um is 0 µm, and u_proportional_um_per_m is 0 µm/m",
-                          "the standard uncertainty of a length must be greater than 0",
+                          "u_constant_um is " + shortest(*constant) + " µm, and u_proportional_um_per_m is 0 µm/m",
+                          "the standard uncertainty of a length must be greater than 0, and at least " +
+                              shortest(k_least_u) + " µm where it does not grow with the distance",
                           "state the standard uncertainty of a length");
         }
         uncertainty.u_constant = constant.value_or(0.0) * k_micrometre;
@@ -967,6 +970,7 @@ private:
                 "below half a turn, set-up errors and the first harmonics of the error motions are poorly separated",
                 "measure over a full turn if the table allows it");
         }
+        warn_of_same_positions(angles_deg_, printable(problems.file()), problems);
         if (home_angle_deg_ && !angle_index(*home_angle_deg_)) {
             const bool measured = job_.has_lengths;
             root.refuse(k_home_not_measured, "home_angle_deg",

@@ -170,6 +170,23 @@ void read_region(const JsonObject& plan, PlanRequest& request) {
 
 }  // namespace
 
+void warn_of_same_positions(const std::vector<double>& angles_deg, const std::string& where, ProblemList& problems) {
+    constexpr double k_turn = 360.0;  // [°]
+    for (std::size_t i = 1; i < angles_deg.size(); ++i) {
+        for (double below = angles_deg[i] - k_turn; below >= angles_deg.front() - k_same_angle_deg; below -= k_turn) {
+            const auto found = std::lower_bound(angles_deg.begin(), angles_deg.end(), below - k_same_angle_deg);
+            if (found != angles_deg.end() && std::abs(*found - below) <= k_same_angle_deg) {
+                problems.warn(k_warn_same_position, where,
+                              "the angles " + shortest(*found) + "° and " + shortest(angles_deg[i]) +
+                                  "° are one position of the table",
+                              "each has error motions of its own, and means over the angles count the position twice",
+                              "leave one of them out unless the turn is to be compared with itself");
+                return;
+            }
+        }
+    }
+}
+
 std::optional<SimulationRequest> read_simulation(const JsonObject& root, ProblemList& problems) {
     const auto object = root.optional_object("simulation", k_simulation_keys);
     if (!object) {
@@ -225,13 +242,14 @@ std::optional<PlanRequest> read_plan(const JsonObject& root, ProblemList& proble
     constexpr std::array<std::pair<std::string_view, bool>, 2> k_dead_paths{{{"station", false}, {"reflector", true}}};
     PlanRequest request;
     read_angles(*object, request.angles_deg);
+    warn_of_same_positions(request.angles_deg, object->where("angles_deg"), problems);
     request.both_senses = object->optional_choice("senses", k_senses).value_or(false);
     request.dead_path_per_reflector = object->optional_choice("dead_paths", k_dead_paths).value_or(false);
     if (const auto targets = object->optional_object("targets", k_targets_keys)) {
-        if (const auto linear = targets->optional_number("linear_um", above_zero("µm"))) {
+        if (const auto linear = targets->optional_number("linear_um", between(1e-6, 1e6, "µm"))) {
             request.target_linear = *linear * k_micrometre;
         }
-        if (const auto angular = targets->optional_number("angular_arcsec", above_zero("″"))) {
+        if (const auto angular = targets->optional_number("angular_arcsec", between(1e-6, 1e6, "″"))) {
             request.target_angular = *angular * k_arcsecond;
         }
     }

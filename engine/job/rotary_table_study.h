@@ -2,6 +2,8 @@
 
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "engine/job/job_kind.h"
 #include "engine/job/json_document.h"
@@ -17,6 +19,10 @@ namespace gumcert::engine {
 
 /// The key `plan`. \return nothing when it is absent
 [[nodiscard]] std::optional<PlanRequest> read_plan(const JsonObject& root, ProblemList& problems);
+
+/// Warns of angles that differ by full turns: 0° and 360° each get a pose of their own.
+/// \param angles_deg  ascending
+void warn_of_same_positions(const std::vector<double>& angles_deg, const std::string& where, ProblemList& problems);
 
 /// The keys of both, object by object.
 [[nodiscard]] std::span<const JobKeys> rotary_table_study_keys();
