@@ -96,6 +96,7 @@ RotaryTableResult evaluate_rotary_table(RotaryTableJob& job, unsigned threads, c
             "Monte Carlo repeats the joint adjustment", "remove \"monte_carlo\", or choose \"method\": \"joint\"",
             gum::Severity::error});
     }
+    engine::require_evaluable_size(measurement);
     RotaryTableResult result;
     result.fixture = apply_fixture_budget(job);
     result.options = evaluation_options(measurement);

@@ -7,6 +7,7 @@
 #include "app/document_units.h"
 #include "app/record_parts.h"
 #include "app/table_parameter_record.h"
+#include "engine/rotary_table_trials.h"
 #include "gum/rounding.h"
 
 namespace gumcert::app {
@@ -87,6 +88,14 @@ void fill_monte_carlo(reports::EvaluationRecord& record, const engine::RotaryTab
         std::to_string(summary.trials) + " trials; every trial converged, in " +
         gum::round_to_quantum(summary.mean_steps, 1) + " steps on average and " + std::to_string(summary.most_steps) +
         " at most.";
+    for (const engine::VarianceComponent& component : result.solution.components) {
+        if (component.used && component.estimated &&
+            component.degrees_of_freedom <= engine::RotaryTableTrials::k_least_degrees_of_freedom) {
+            summary.statement += " The component \"" + component.name +
+                                 "\" is too small for its variance to be told from the residuals; it was drawn as "
+                                 "normal with its estimate.";
+        }
+    }
     if (summary.compared > 0) {
         const auto contradicted = static_cast<std::int64_t>(summary.not_validated.size());
         summary.statement += " Of " + std::to_string(summary.compared) + " quantities the law of propagation is " +

@@ -133,7 +133,7 @@ nlohmann::json options_json(const RotaryTableJob& job, const engine::EvaluationO
              {{"test", measurement.outliers.test == engine::OutlierTest::data_snooping ? "data_snooping" : "none"},
               {"alpha", measurement.outliers.alpha},
               {"action", action_name(measurement.outliers.action)},
-              {"critical_value", options.critical_value},
+              {"critical_value_of_normal_distribution", options.critical_value},
               {"non_centrality", options.non_centrality}}}};
 }
 
@@ -225,6 +225,21 @@ void fill_budget(reports::RotaryTable& rotary, const RotaryTableSolution& soluti
         const gum::OutputQuantity& quantity = solution.quantities.outputs[static_cast<std::size_t>(i)];
         summary(quantity.name, unit_of(quantity).record, unit_of(quantity).si, {i});
     }
+}
+
+/// What a reader must know of outlying distances before the numbers.
+void note_outliers(reports::EvaluationRecord& record, const engine::OutlierOptions& options) {
+    const std::size_t found = record.rotary->flagged.size();
+    if (found == 0) {
+        return;
+    }
+    const bool removed = options.action == engine::OutlierAction::remove;
+    record.diagnostics.push_back({removed ? "GC-OUTLIER-0005" : "GC-OUTLIER-0004", "outlying distances",
+                                  std::to_string(found) + (found == 1 ? " distance is" : " distances are") +
+                                      " outlying, and " + (removed ? "left out of the result" : "used in the result"),
+                                  "the largest test value above the critical one marks a distance, one at a time",
+                                  removed ? "" : "look for their cause, or set outliers.action to \"remove\"",
+                                  removed ? gum::Severity::note : gum::Severity::warning});
 }
 
 }  // namespace
@@ -327,6 +342,7 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const R
     rotary.fixture_budget = result.fixture.record;
     record.rotary = std::move(rotary);
     record.diagnostics.insert(record.diagnostics.end(), result.fixture.notes.begin(), result.fixture.notes.end());
+    note_outliers(record, measurement.outliers);
     if (result.contact_point) {
         record.comparison = reference_comparison(job, *result.contact_point);
     }

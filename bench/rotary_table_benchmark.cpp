@@ -17,6 +17,7 @@
 #include <string>
 #include <string_view>
 
+#include "engine/reported_covariance.h"
 #include "engine/rotary_table_evaluation.h"
 #include "engine/rotary_table_trials.h"
 #include "gum/monte_carlo.h"
@@ -81,8 +82,7 @@ Eigen::MatrixXd reported_covariance(const JointAdjustment& adjustment) {
     const NormalEquations normal = adjustment.adjustment().linearise();
     const DatumSolution datum = transform_to_datum(adjustment.measurement(), adjustment.poses(), adjustment.set_up(),
                                                    adjustment.measurement().datum);
-    const Eigen::MatrixXd map = reported_map(adjustment, normal, datum);
-    return map * normal.covariance() * map.transpose();
+    return ReportedCovariance(adjustment, normal, normal.bordered_covariance(), datum).dense();
 }
 
 void start_values(benchmark::State& state) {
@@ -123,7 +123,7 @@ void covariance_of_errors(benchmark::State& state) {
 void variance_component_step(benchmark::State& state) {
     const JointAdjustment adjustment = solved(stated_weights());
     const NormalEquations normal = adjustment.adjustment().linearise();
-    const Eigen::MatrixXd covariance = normal.covariance();
+    const BorderedCovariance covariance = normal.bordered_covariance();
     const StochasticModel present = weights_of(stated_weights().measurement);
     for (auto _ : state) {
         benchmark::DoNotOptimize(estimate_variance_components(adjustment, normal, covariance, present, {true, true}));
@@ -161,9 +161,26 @@ Campaign with_repeatability(int angles) {
     return simulate(plan);
 }
 
+/// Both senses of approach, scale with a prior, uncertain expansion and temperatures: as many unknowns as in a real
+/// job.
+Campaign with_temperatures() {
+    CampaignPlan plan;
+    plan.table_linear = 0.3e-6;
+    plan.table_axial = 5e-6;
+    plan.table_tilt = 1.7e-6;
+    plan.both_senses = true;
+    plan.scale_model = ScaleModel::prior;
+    plan.u_scale = 1.5e-7;
+    plan.temperature_difference = 1.2;
+    plan.u_temperature = 0.05;
+    plan.expansion = 11.5e-6;
+    plan.u_expansion = 0.5e-6;
+    return simulate(plan);
+}
+
 /// The Monte Carlo method with all its statistics: every trial solves the whole adjustment again.
-void monte_carlo(benchmark::State& state) {
-    const RotaryTableSolution solution = evaluate_jointly(with_repeatability(36).measurement, EvaluationOptions{});
+void run_trials(benchmark::State& state, const Campaign& campaign) {
+    const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
     const RotaryTableTrials trials(dynamic_cast<const RotaryTableModel&>(*solution.model));
     gum::MonteCarloOptions options;
     options.trials = 100'000;
@@ -176,8 +193,29 @@ void monte_carlo(benchmark::State& state) {
     state.counters["steps"] = trials.steps().mean();
 }
 
+void monte_carlo(benchmark::State& state) {
+    run_trials(state, with_repeatability(36));
+}
+
+void monte_carlo_with_temperatures(benchmark::State& state) {
+    run_trials(state, with_temperatures());
+}
+
+/// Standard uncertainties of the same and the 6×6 covariance of every angle, without a matrix of all quantities.
+double reported_uncertainties(const JointAdjustment& adjustment) {
+    const NormalEquations normal = adjustment.adjustment().linearise();
+    const DatumSolution datum = transform_to_datum(adjustment.measurement(), adjustment.poses(), adjustment.set_up(),
+                                                   adjustment.measurement().datum);
+    const ReportedCovariance covariance(adjustment, normal, normal.bordered_covariance(), datum);
+    double sum = covariance.diagonal().cwiseSqrt().sum();
+    for (std::size_t i = 0; i < adjustment.measurement().angles.size(); ++i) {
+        sum += covariance.of_angle(static_cast<Eigen::Index>(i)).sum();
+    }
+    return sum;
+}
+
 // Growth with the number of angles. Everything but the covariance of all reported quantities grows in proportion: that
-// one has (6N)² elements.
+// one has (6N)² elements, and its time grows with their number.
 
 void growth_solve(benchmark::State& state) {
     const Campaign campaign = with_repeatability(static_cast<int>(state.range(0)));
@@ -190,6 +228,16 @@ void growth_solve(benchmark::State& state) {
             state.SkipWithError("not converged");
             break;
         }
+    }
+    state.counters["s/angle"] = benchmark::Counter(static_cast<double>(state.iterations() * state.range(0)),
+                                                   benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void growth_uncertainties(benchmark::State& state) {
+    const Campaign campaign = with_repeatability(static_cast<int>(state.range(0)));
+    const JointAdjustment adjustment = solved(campaign);
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(reported_uncertainties(adjustment));
     }
     state.counters["s/angle"] = benchmark::Counter(static_cast<double>(state.iterations() * state.range(0)),
                                                    benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
@@ -234,8 +282,15 @@ BENCHMARK(evaluate_stated_weights)->Unit(benchmark::kMillisecond);
 BENCHMARK(evaluate_estimated_weights)->Unit(benchmark::kMillisecond);
 BENCHMARK(propagate)->Unit(benchmark::kMillisecond);
 BENCHMARK(monte_carlo)->Arg(1)->Arg(2)->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(monte_carlo_with_temperatures)
+    ->Arg(1)
+    ->Arg(2)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(growth_solve)->Arg(36)->Arg(360)->Arg(3600)->Unit(benchmark::kMillisecond);
-BENCHMARK(growth_covariance)->Arg(36)->Arg(360)->Unit(benchmark::kMillisecond);
+BENCHMARK(growth_uncertainties)->Arg(36)->Arg(360)->Arg(3600)->Unit(benchmark::kMillisecond);
+BENCHMARK(growth_covariance)->Arg(36)->Arg(360)->Arg(720)->Unit(benchmark::kMillisecond);
 BENCHMARK(growth_trials)->Arg(36)->Arg(360)->Arg(3600)->Unit(benchmark::kMillisecond);
 
 /// One number of the campaign, by what it is and where: i, j and k are explained in scipy_rotary_table.py.

@@ -8,8 +8,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "gum/quantity/diagnostic.h"
 
@@ -343,14 +347,14 @@ RankReport NormalEquations::rank(double tolerance) const {
     return report;
 }
 
-Eigen::MatrixXd NormalEquations::covariance() const {
-    const Eigen::Index p = parameter_count();
+BorderedCovariance NormalEquations::bordered_covariance() const {
+    BorderedCovariance result;
     std::vector<Eigen::MatrixXd> elimination;
     const Eigen::MatrixXd reduced = reduced_normal(&elimination);
-    Eigen::MatrixXd covariance(p, p);
-    // Scaled to a unit diagonal first: metres, radians and scales differ by many powers of ten.
-    Eigen::MatrixXd border_covariance(border_, border_);
+    result.border_covariance_.resize(border_, border_);
+    result.border_root_.resize(border_, border_);
     if (border_ > 0) {
+        // Scaled to a unit diagonal first: metres, radians and scales differ by many powers of ten.
         const Eigen::VectorXd scale = reduced.diagonal().cwiseSqrt().cwiseInverse();
         const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * reduced * scale.asDiagonal());
         if (factor.info() != Eigen::Success) {
@@ -359,25 +363,102 @@ Eigen::MatrixXd NormalEquations::covariance() const {
                                 "a covariance exists only where the observations determine every parameter",
                                 "check the rank report, add stations, reflectors or angles", gum::Severity::error});
         }
-        border_covariance = factor.solve(Eigen::MatrixXd::Identity(border_, border_));
-        border_covariance = (scale.asDiagonal() * border_covariance * scale.asDiagonal()).eval();
-        border_covariance = (0.5 * (border_covariance + border_covariance.transpose())).eval();
+        Eigen::MatrixXd& covariance = result.border_covariance_;
+        covariance = factor.solve(Eigen::MatrixXd::Identity(border_, border_));
+        covariance = (scale.asDiagonal() * covariance * scale.asDiagonal()).eval();
+        covariance = (0.5 * (covariance + covariance.transpose())).eval();
+        const Eigen::MatrixXd root = factor.matrixU().solve(Eigen::MatrixXd::Identity(border_, border_));
+        result.border_root_ = scale.asDiagonal() * root;
     }
-    covariance.topLeftCorner(border_, border_) = border_covariance;
-
-    const Eigen::Index q = p - border_;
-    Eigen::MatrixXd stacked(q, border_);
+    const Eigen::Index q = parameter_count() - border_;
+    result.elimination_.resize(q, border_);
+    result.own_of_.resize(static_cast<std::size_t>(q));
     for (std::size_t e = 0; e < blocks_.size(); ++e) {
-        stacked.middleRows(blocks_[e].first - border_, elimination[e].rows()) = elimination[e];
+        const Eigen::Index size = blocks_[e].normal.rows();
+        const Eigen::Index first = blocks_[e].first - border_;
+        result.elimination_.middleRows(first, size) = -elimination[e];
+        result.own_.push_back({blocks_[e].first, blocks_[e].normal.llt().solve(Eigen::MatrixXd::Identity(size, size))});
+        std::fill_n(result.own_of_.begin() + first, size, e);
     }
-    const Eigen::MatrixXd cross = -stacked * border_covariance;
-    covariance.bottomLeftCorner(q, border_) = cross;
-    covariance.topRightCorner(border_, q) = cross.transpose();
-    covariance.bottomRightCorner(q, q).noalias() = -cross * stacked.transpose();
-    for (const EliminatedBlock& block : blocks_) {
-        const Eigen::Index size = block.normal.rows();
-        covariance.block(block.first, block.first, size, size) +=
-            block.normal.llt().solve(Eigen::MatrixXd::Identity(size, size));
+    result.cross_ = result.elimination_ * result.border_covariance_;
+    return result;
+}
+
+const Eigen::MatrixXd& BorderedCovariance::own(Eigen::Index parameter) const {
+    return own_[own_of_[static_cast<std::size_t>(parameter - border())]].covariance;
+}
+
+Eigen::Index BorderedCovariance::first_of(Eigen::Index parameter) const {
+    return own_[own_of_[static_cast<std::size_t>(parameter - border())]].first;
+}
+
+double BorderedCovariance::operator()(Eigen::Index row, Eigen::Index column) const {
+    const Eigen::Index b = border();
+    if (row < b && column < b) {
+        return border_covariance_(row, column);
+    }
+    if (row < b || column < b) {
+        return cross_(std::max(row, column) - b, std::min(row, column));
+    }
+    const auto [low, high] = std::minmax(row, column);  // the same bits above and below the diagonal
+    double value = cross_.row(high - b).dot(elimination_.row(low - b));
+    if (own_of_[static_cast<std::size_t>(high - b)] == own_of_[static_cast<std::size_t>(low - b)]) {
+        value += own(high)(high - first_of(high), low - first_of(high));
+    }
+    return value;
+}
+
+Eigen::MatrixXd BorderedCovariance::operator()(const Indices& rows, const Indices& columns) const {
+    Eigen::MatrixXd result(rows.size(), columns.size());
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = (*this)(rows[i], columns[j]);
+        }
+    }
+    return result;
+}
+
+Eigen::MatrixXd BorderedCovariance::times_left(const Eigen::Ref<const Eigen::MatrixXd>& rows) const {
+    const Eigen::Index b = border();
+    const Eigen::Index q = elimination_.rows();
+    Eigen::MatrixXd to_border = rows.leftCols(b);
+    to_border.noalias() += rows.rightCols(q) * elimination_;
+    Eigen::MatrixXd result(rows.rows(), b + q);
+    result.leftCols(b).noalias() = to_border * border_covariance_;
+    result.rightCols(q).noalias() = to_border * cross_.transpose();
+    for (const Own& block : own_) {
+        const Eigen::Index size = block.covariance.rows();
+        result.middleCols(block.first, size).noalias() += rows.middleCols(block.first, size) * block.covariance;
+    }
+    return result;
+}
+
+Eigen::VectorXd BorderedCovariance::times(const Eigen::Ref<const Eigen::VectorXd>& vector) const {
+    const Eigen::Index b = border();
+    const Eigen::Index q = elimination_.rows();
+    Eigen::VectorXd to_border = vector.head(b);
+    to_border.noalias() += elimination_.transpose() * vector.tail(q);
+    Eigen::VectorXd result(b + q);
+    result.head(b).noalias() = border_covariance_ * to_border;
+    result.tail(q).noalias() = cross_ * to_border;
+    for (const Own& block : own_) {
+        const Eigen::Index size = block.covariance.rows();
+        result.segment(block.first, size).noalias() += block.covariance * vector.segment(block.first, size);
+    }
+    return result;
+}
+
+Eigen::MatrixXd BorderedCovariance::dense() const {
+    const Eigen::Index b = border();
+    const Eigen::Index q = elimination_.rows();
+    Eigen::MatrixXd covariance(b + q, b + q);
+    covariance.topLeftCorner(b, b) = border_covariance_;
+    covariance.bottomLeftCorner(q, b) = cross_;
+    covariance.topRightCorner(b, q) = cross_.transpose();
+    covariance.bottomRightCorner(q, q).noalias() = cross_ * elimination_.transpose();
+    for (const Own& block : own_) {
+        const Eigen::Index size = block.covariance.rows();
+        covariance.block(block.first, block.first, size, size) += block.covariance;
     }
     return covariance;
 }
@@ -410,21 +491,96 @@ Eigen::VectorXd NormalEquations::step() const {
     return step;
 }
 
-double NormalEquations::condition_number() const {
-    const Eigen::Index p = parameter_count();
-    Eigen::MatrixXd full = Eigen::MatrixXd::Zero(p, p);
-    full.topLeftCorner(border_, border_) = border_normal_;
+Eigen::VectorXd NormalEquations::times(const Eigen::VectorXd& vector) const {
+    Eigen::VectorXd result(vector.size());
+    result.head(border_).noalias() = border_normal_ * vector.head(border_);
     for (const EliminatedBlock& block : blocks_) {
         const Eigen::Index size = block.normal.rows();
-        full.block(block.first, block.first, size, size) = block.normal;
-        full.block(block.first, 0, size, border_) = block.border;
-        full.block(0, block.first, border_, size) = block.border.transpose();
+        const auto part = vector.segment(block.first, size);
+        result.segment(block.first, size).noalias() = block.border * vector.head(border_) + block.normal * part;
+        result.head(border_).noalias() += block.border.transpose() * part;
     }
-    const Eigen::VectorXd scale = full.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * full * scale.asDiagonal(),
-                                                               Eigen::EigenvaluesOnly);
-    const double smallest = eigen.eigenvalues()[0];
-    return smallest > 0.0 ? std::sqrt(eigen.eigenvalues()[p - 1] / smallest) : std::numeric_limits<double>::infinity();
+    return result;
+}
+
+namespace {
+
+/// Largest eigenvalue of a symmetric positive definite operator on vectors of `size` elements.
+///
+/// Lanczos iteration with full reorthogonalisation. The error of an eigenvalue is below the residual of its vector
+/// (here to 1e-8 of it), and near the square of that where it stands apart from the next one.
+template <typename Operator>
+double largest_eigenvalue(const Operator& apply, Eigen::Index size) {
+    constexpr Eigen::Index k_most_steps = 400;
+    constexpr double k_residual = 1e-8;
+    const Eigen::Index most = std::min(size, k_most_steps);
+    std::vector<Eigen::VectorXd> basis;
+    Eigen::VectorXd diagonal(most);
+    Eigen::VectorXd beside(most);
+    // A start that is not orthogonal to anything on purpose, and the same every time.
+    Eigen::VectorXd next(size);
+    std::uint64_t state = 1;
+    for (Eigen::Index i = 0; i < size; ++i) {
+        state = state * 6364136223846793005U + 1442695040888963407U;
+        next[i] = 0.5 + static_cast<double>(state >> 11U) * 0x1p-53;
+        next[i] = (state & (std::uint64_t{1} << 63U)) != 0 ? next[i] : -next[i];
+    }
+    next.normalize();
+    double largest = 0.0;
+    for (Eigen::Index k = 0; k < most; ++k) {
+        basis.push_back(next);
+        next = apply(basis.back());
+        diagonal[k] = basis.back().dot(next);
+        for (int repeat = 0; repeat < 2; ++repeat) {
+            for (const Eigen::VectorXd& earlier : basis) {
+                next -= earlier.dot(next) * earlier;
+            }
+        }
+        const double length = next.norm();
+        beside[k] = length;
+        const bool last = k + 1 == most || !(length > 0.0);
+        if (last || k % 5 == 4) {
+            Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
+            eigen.computeFromTridiagonal(diagonal.head(k + 1), beside.head(k));
+            largest = eigen.eigenvalues()[k];
+            if (last || length * std::abs(eigen.eigenvectors()(k, k)) < k_residual * largest) {
+                break;
+            }
+        }
+        next /= length;
+    }
+    return largest;
+}
+
+}  // namespace
+
+double NormalEquations::condition_number() const {
+    const Eigen::Index p = parameter_count();
+    Eigen::VectorXd scale(p);
+    scale.head(border_) = border_normal_.diagonal().cwiseSqrt().cwiseInverse();
+    for (const EliminatedBlock& block : blocks_) {
+        scale.segment(block.first, block.normal.rows()) = block.normal.diagonal().cwiseSqrt().cwiseInverse();
+    }
+    if (!scale.allFinite()) {
+        return std::numeric_limits<double>::infinity();
+    }
+    std::optional<BorderedCovariance> covariance;
+    try {
+        covariance = bordered_covariance();
+    } catch (const gum::NoResultError&) {
+        return std::numeric_limits<double>::infinity();
+    }
+    const Eigen::VectorXd inverse_scale = scale.cwiseInverse();
+    const double largest = largest_eigenvalue(
+        [&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return scale.cwiseProduct(times(scale.cwiseProduct(v))); },
+        p);
+    const double inverse_smallest = largest_eigenvalue(
+        [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
+            return inverse_scale.cwiseProduct(covariance->times(inverse_scale.cwiseProduct(v)));
+        },
+        p);
+    const double square = largest * inverse_smallest;
+    return square > 0.0 && std::isfinite(square) ? std::sqrt(square) : std::numeric_limits<double>::infinity();
 }
 
 double NormalEquations::chi_square() const {

@@ -59,6 +59,47 @@ struct RankReport {
     std::vector<std::string> parameters;  ///< names of the parameters that take part in the undetermined combination
 };
 
+/// (Jᵀ V⁻¹ J)⁻¹ of bordered block-diagonal normal equations, in a form whose size is proportional to the parameters.
+///
+/// With the covariance C of the border, F = ∂(eliminated)/∂border and the covariance W of every eliminated block at a
+/// known border: covariance of the border C, across F C, of the eliminated F C Fᵀ + W.
+class BorderedCovariance {
+public:
+    using Indices = std::vector<Eigen::Index>;
+
+    [[nodiscard]] Eigen::Index size() const { return border_covariance_.rows() + elimination_.rows(); }
+    [[nodiscard]] Eigen::Index border() const { return border_covariance_.rows(); }
+    /// C, b×b.
+    [[nodiscard]] const Eigen::MatrixXd& border_covariance() const { return border_covariance_; }
+    /// A root R of C = R Rᵀ, b×b.
+    [[nodiscard]] const Eigen::MatrixXd& border_root() const { return border_root_; }
+    /// F, (p-b)×b, row i for parameter b + i.
+    [[nodiscard]] const Eigen::MatrixXd& elimination() const { return elimination_; }
+    /// W of the eliminated block that a parameter i ≥ b is in, and the first parameter of that block.
+    [[nodiscard]] const Eigen::MatrixXd& own(Eigen::Index parameter) const;
+    [[nodiscard]] Eigen::Index first_of(Eigen::Index parameter) const;
+
+    [[nodiscard]] double operator()(Eigen::Index row, Eigen::Index column) const;
+    [[nodiscard]] Eigen::MatrixXd operator()(const Indices& rows, const Indices& columns) const;
+    /// X times the covariance, k×p, for k×p; its costs are proportional to k p.
+    [[nodiscard]] Eigen::MatrixXd times_left(const Eigen::Ref<const Eigen::MatrixXd>& rows) const;
+    /// The covariance times v, p.
+    [[nodiscard]] Eigen::VectorXd times(const Eigen::Ref<const Eigen::VectorXd>& vector) const;
+    /// All p×p elements.
+    [[nodiscard]] Eigen::MatrixXd dense() const;
+
+private:
+    friend class NormalEquations;
+    struct Own {
+        Eigen::Index first = 0;  ///< parameter
+        Eigen::MatrixXd covariance;
+    };
+    Eigen::MatrixXd border_covariance_, border_root_, elimination_;
+    Eigen::MatrixXd cross_;  ///< F C
+    std::vector<Own> own_;
+    std::vector<std::size_t> own_of_;  ///< by eliminated parameter
+};
+
 /// Normal equations of a linearised adjustment, kept in their bordered block-diagonal form.
 ///
 /// Parameters are ordered border first, then the eliminated blocks one after the other; no observation group touches
@@ -73,11 +114,15 @@ public:
     [[nodiscard]] Eigen::Index column(std::size_t block, int component) const;
 
     [[nodiscard]] RankReport rank(double tolerance) const;
-    /// (Jᵀ V⁻¹ J)⁻¹, p×p, order of `parameters()`; requires full rank.
-    [[nodiscard]] Eigen::MatrixXd covariance() const;
+    /// (Jᵀ V⁻¹ J)⁻¹, order of `parameters()`; requires full rank.
+    [[nodiscard]] BorderedCovariance bordered_covariance() const;
+    /// The same with all its p×p elements.
+    [[nodiscard]] Eigen::MatrixXd covariance() const { return bordered_covariance().dense(); }
     /// Gauss-Newton step (Jᵀ V⁻¹ J)⁻¹ Jᵀ V⁻¹ (observed - predicted), p.
     [[nodiscard]] Eigen::VectorXd step() const;
-    /// Ratio of the largest to the smallest singular value of the whitened Jacobian with columns of unit length.
+    /// Ratio of the largest to the smallest singular value of the whitened Jacobian with columns of unit length; by
+    /// Lanczos iteration, whose costs are proportional to the parameters. Accuracy: relative error about 1e-16 times
+    /// its square, as of any method on normal equations.
     [[nodiscard]] double condition_number() const;
     [[nodiscard]] double chi_square() const;
     [[nodiscard]] Eigen::Index observation_count() const;
@@ -91,6 +136,8 @@ private:
     };
     void accumulate();
     [[nodiscard]] Eigen::MatrixXd reduced_normal(std::vector<Eigen::MatrixXd>* elimination) const;
+    /// (Jᵀ V⁻¹ J) v.
+    [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& vector) const;
 
     std::vector<FreeParameter> parameters_;
     std::vector<std::vector<Eigen::Index>> column_of_;  ///< per block and component

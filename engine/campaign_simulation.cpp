@@ -97,10 +97,14 @@ DatumView seen_in_datum(const RotaryTableMeasurement& measurement, const Eigen::
     DatumView view;
     view.values = values;
     view.values.head(size + 4) = reported_order(measurement, solution.errors, solution.set_up, nullptr);
-    Eigen::MatrixXd map = Eigen::MatrixXd::Identity(values.size(), values.size());
-    map.topLeftCorner(size, size) = solution.error_map;
-    map.block(size, 0, 4, size) = solution.set_up_map;
-    view.covariance.noalias() = map * covariance * map.transpose();
+    // Both sides of the covariance by the maps of the datum: the set-up changes by what the error motions give up.
+    const auto carry = [&](const Eigen::MatrixXd& rows) {
+        Eigen::MatrixXd result = rows;
+        result.topRows(size) = solution.carried(rows.topRows(size));
+        result.middleRows<4>(size).noalias() += solution.set_up_map * rows.topRows(size);
+        return result;
+    };
+    view.covariance = carry(carry(covariance).transpose());
     return view;
 }
 

@@ -9,10 +9,11 @@ ContactPointModel::ContactPointModel(std::shared_ptr<const gum::MeasurementModel
     const Eigen::Index angles = datum.errors.cols();
     const DatumSolution average =
         transform_to_datum(measurement, datum.errors, rigid_motion(datum.set_up), Datum::axis_average_line);
-    const Eigen::Matrix<double, 3, 6> displacement = point_displacement(contact_point_);
-    map_.resize(3 * angles, 6 * angles);
+    displacement_ = point_displacement(contact_point_);
+    change_map_ = average.change_map();
+    motion_map_.resize(3 * angles, 10);
     for (Eigen::Index i = 0; i < angles; ++i) {
-        map_.middleRows<3>(3 * i) = displacement * average.error_map.middleRows<6>(6 * i);
+        motion_map_.middleRows<3>(3 * i).noalias() = displacement_ * average.motion_map.middleRows<6>(6 * i);
         for (int k = 0; k < 3; ++k) {
             outputs_.push_back(
                 {std::string("displacement ") + "xyz"[k] + " at angle number " + std::to_string(i + 1), "m"});
@@ -42,7 +43,15 @@ Eigen::VectorXd ContactPointModel::evaluate(const Eigen::VectorXd& x) const {
 }
 
 Eigen::MatrixXd ContactPointModel::jacobian(const Eigen::VectorXd& x) const {
-    return map_ * table_->jacobian(x).topRows(map_.cols());
+    const Eigen::Index size = change_map_.cols();
+    const Eigen::MatrixXd table = table_->jacobian(x);
+    const Eigen::MatrixXd change = change_map_ * table.topRows(size);
+    Eigen::MatrixXd result(motion_map_.rows(), table.cols());
+    result.noalias() = motion_map_ * change;
+    for (Eigen::Index i = 0; i < size / 6; ++i) {
+        result.middleRows<3>(3 * i).noalias() += displacement_ * table.middleRows<6>(6 * i);
+    }
+    return result;
 }
 
 }  // namespace gumcert::engine

@@ -33,7 +33,10 @@ private:
     std::shared_ptr<const gum::MeasurementModel> table_;
     const RotaryTableMeasurement& measurement_;
     Eigen::Vector3d contact_point_;
-    Eigen::MatrixXd map_;  ///< ∂D/∂(reported error motions), 3N×6N
+    // ∂D/∂(reported error motions) = blocks of the displacement on the diagonal + motion · change.
+    Eigen::Matrix<double, 3, 6> displacement_;
+    Eigen::MatrixXd motion_map_;  ///< 3N×10
+    Eigen::MatrixXd change_map_;  ///< 10×6N
     std::vector<gum::OutputQuantity> outputs_;
 };
 

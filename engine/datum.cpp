@@ -24,6 +24,32 @@ Eigen::Matrix<double, 6, 4> turned_set_up(const Eigen::Matrix3d& rotation, const
 
 }  // namespace
 
+Eigen::MatrixXd DatumSolution::change_map() const {
+    Eigen::MatrixXd map(10, world_map.cols());
+    map << world_map, set_up_map;
+    return map;
+}
+
+Eigen::MatrixXd DatumSolution::carried(const Eigen::Ref<const Eigen::MatrixXd>& by_pose) const {
+    const Eigen::MatrixXd change = change_map() * by_pose;
+    Eigen::MatrixXd result = by_pose;
+    result.noalias() += motion_map * change;
+    if (zero_angle) {
+        result.middleRows<6>(6 * *zero_angle).setZero();
+    }
+    return result;
+}
+
+Eigen::MatrixXd DatumSolution::pulled_back(const Eigen::Ref<const Eigen::MatrixXd>& by_error) const {
+    Eigen::MatrixXd result = by_error;
+    if (zero_angle) {
+        result.middleCols<6>(6 * *zero_angle).setZero();
+    }
+    const Eigen::MatrixXd by_change = result * motion_map;
+    result.noalias() += by_change * change_map();
+    return result;
+}
+
 DatumSolution transform_to_datum(const RotaryTableMeasurement& measurement, const Eigen::MatrixXd& poses,
                                  const RigidMotion& set_up, Datum datum) {
     const auto angles = static_cast<Eigen::Index>(measurement.angles.size());
@@ -64,7 +90,7 @@ DatumSolution transform_to_datum(const RotaryTableMeasurement& measurement, cons
         -(row_scale.asDiagonal() * square).fullPivLu().solve(row_scale.asDiagonal() * condition);  // c = map e'
 
     DatumSolution solution;
-    solution.error_map = Eigen::MatrixXd::Identity(size, size) + motion * change_map;
+    solution.motion_map = motion;
     solution.world_map = change_map.topRows(6);
     solution.set_up_map = change_map.bottomRows(4);
 
@@ -95,7 +121,8 @@ DatumSolution transform_to_datum(const RotaryTableMeasurement& measurement, cons
         // Zero by definition, not by rounding: neither a value nor an uncertainty is stated at home.
         const auto home = static_cast<Eigen::Index>(measurement.home);
         solution.errors.col(home).setZero();
-        solution.error_map.middleRows<6>(6 * home).setZero();
+        solution.motion_map.middleRows<6>(6 * home).setZero();
+        solution.zero_angle = home;
     }
     return solution;
 }

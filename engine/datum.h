@@ -2,6 +2,9 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <optional>
+
 #include "engine/rotary_table_measurement.h"
 #include "engine/rotation.h"
 
@@ -14,13 +17,24 @@ namespace gumcert::engine {
 /// the set-up minimises the residual positions of the reflectors. `axis_average_line`: the means of all six error
 /// motions are zero, and what turns with θ in the two translations and tilts across the axis belongs to the set-up
 /// (ISO 230-7: the axis average line).
+///
+/// The S-transformation has ten dimensions, ∂errors/∂poses = I + D K: it is held as D and K, whose size is proportional
+/// to the angles. At the home angle of the datum `home` the error motions are zero by definition, and so is their map.
 struct DatumSolution {
     Eigen::MatrixXd errors;              ///< 6×angles, [m] and [rad]
     Eigen::Matrix<double, 6, 1> set_up;  ///< O and S of T_s, zero along the axis, [m] and [rad]
     RigidMotion world;                   ///< new table frame from the solver's table frame
-    Eigen::MatrixXd error_map;           ///< 6N×6N, ∂errors/∂poses, angle by angle (S-transformation)
-    Eigen::MatrixXd set_up_map;          ///< 4×6N, ∂(O, O, S, S)/∂poses, the two across the axis of each
-    Eigen::MatrixXd world_map;           ///< 6×6N, ∂(parameters of `world`)/∂poses
+    Eigen::MatrixXd motion_map;  ///< D, 6N×10: ∂errors/∂(parameters of `world`, O, O, S, S), angle by angle
+    Eigen::MatrixXd set_up_map;  ///< 4×6N, ∂(O, O, S, S)/∂poses, the two across the axis of each
+    Eigen::MatrixXd world_map;   ///< 6×6N, ∂(parameters of `world`)/∂poses; K is this above `set_up_map`
+    std::optional<Eigen::Index> zero_angle = std::nullopt;  ///< angle whose error motions are zero by definition
+
+    /// K, 10×6N.
+    [[nodiscard]] Eigen::MatrixXd change_map() const;
+    /// (∂errors/∂poses) X for any X with a row for each component of the poses, 6N×k.
+    [[nodiscard]] Eigen::MatrixXd carried(const Eigen::Ref<const Eigen::MatrixXd>& by_pose) const;
+    /// Y (∂errors/∂poses) for any Y with a column for each component of the errors, k×6N.
+    [[nodiscard]] Eigen::MatrixXd pulled_back(const Eigen::Ref<const Eigen::MatrixXd>& by_error) const;
 };
 
 /// \param poses   6×angles, error motions with respect to `set_up`, with zero at home

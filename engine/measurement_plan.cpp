@@ -202,14 +202,13 @@ ExpectedUncertainty expected_uncertainty(const RotaryTableMeasurement& measureme
     if (rank.deficient) {
         refuse_undetermined(measurement, rank, ideal_values(measurement).stations);
     }
-    const Eigen::MatrixXd covariance = normal.covariance();
+    const BorderedCovariance covariance = normal.bordered_covariance();
     const DatumSolution datum =
         transform_to_datum(measurement, adjustment.poses(), adjustment.set_up(), measurement.datum);
-    const Eigen::MatrixXd map = reported_map(adjustment, normal, datum);
 
     ExpectedUncertainty expected;
     expected.quantities = reported_quantities(measurement, adjustment.has_reversal());
-    expected.covariance.noalias() = map * covariance * map.transpose();
+    expected.covariance = ReportedCovariance(adjustment, normal, covariance, datum);
     for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
         const auto block = adjustment.station_block(j);
         PlannedStation station;
@@ -231,7 +230,7 @@ ExpectedUncertainty expected_uncertainty(const RotaryTableMeasurement& measureme
                 }
             }
         }
-        station.covariance = by_parameter * covariance * by_parameter.transpose();
+        station.covariance = covariance.times_left(by_parameter) * by_parameter.transpose();
         expected.stations.push_back(station);
     }
     expected.observations = normal.observation_count();
@@ -344,20 +343,7 @@ LayoutVariances::LayoutVariances(const RotaryTableMeasurement& measurement, cons
         prior_.border(columns, columns) += group.jacobian.transpose() * group.jacobian;
     }
 
-    const DatumSolution datum =
-        transform_to_datum(measurement_, Eigen::MatrixXd::Zero(6, angles), RigidMotion{}, measurement_.datum);
-    datum_part_.resize(10, 6 * angles);
-    datum_part_ << datum.world_map, datum.set_up_map;
-    motion_ = Eigen::MatrixXd::Zero(6 * angles, 10);
-    const auto across = across_axis(measurement_.axis);
-    for (Eigen::Index i = 0; i < angles; ++i) {
-        const Eigen::Matrix3d rotation = nominal_rotation(measurement_, static_cast<std::size_t>(i));
-        motion_.block<6, 6>(6 * i, 0).setIdentity();
-        for (int c = 0; c < 2; ++c) {
-            motion_.block<3, 1>(6 * i, 6 + c) = -rotation.col(across[static_cast<std::size_t>(c)]);
-            motion_.block<3, 1>(6 * i + 3, 8 + c) = -rotation.col(across[static_cast<std::size_t>(c)]);
-        }
-    }
+    datum_ = transform_to_datum(measurement_, Eigen::MatrixXd::Zero(6, angles), RigidMotion{}, measurement_.datum);
 }
 
 std::unique_ptr<LayoutVariances::Observer> LayoutVariances::observer(std::size_t station) const {
@@ -515,40 +501,12 @@ std::optional<Eigen::VectorXd> LayoutVariances::variances(const Information& inf
         return std::nullopt;
     }
 
-    // Covariance of the poses: block-diagonal `own` and F K Fᵀ. The error map is I + motion · datum part.
-    const Eigen::MatrixXd datum_gain = datum_part_ * gain;  // 10×b
-    Eigen::MatrixXd datum_own(10, size);                    // datum part · own
-    for (Eigen::Index i = 0; i < angles; ++i) {
-        datum_own.middleCols<6>(6 * i).noalias() = datum_part_.middleCols<6>(6 * i) * own.middleRows<6>(6 * i);
-    }
-    const Eigen::MatrixXd datum_covariance = datum_own * datum_part_.transpose();
-    Eigen::MatrixXd error_gain = gain;
-    error_gain.noalias() += motion_ * datum_gain;
-    Eigen::MatrixXd common = scale.asDiagonal() * error_gain.transpose();  // b×6N
-    factor.matrixL().solveInPlace(common);
-    Eigen::MatrixXd common_set_up = scale.asDiagonal() * datum_gain.bottomRows(4).transpose();
-    factor.matrixL().solveInPlace(common_set_up);
-
-    Eigen::VectorXd result(size + 4 + (has_reversal_ ? 6 : 0));
-    result.head(size) = common.colwise().squaredNorm().transpose();
-    for (Eigen::Index r = 0; r < size; ++r) {
-        const auto motion = motion_.row(r);
-        result[r] +=
-            own(r, r % 6) + 2.0 * motion.dot(datum_own.col(r)) + motion.dot(datum_covariance * motion.transpose());
-    }
-    if (measurement_.datum == Datum::home) {
-        result.segment<6>(6 * static_cast<Eigen::Index>(measurement_.home)).setZero();
-    }
-    result.segment<4>(size) = common_set_up.colwise().squaredNorm().transpose() + datum_covariance.diagonal().tail<4>();
-    if (has_reversal_) {
-        Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(border_.size, 6);
-        for (Eigen::Index c = 0; c < 6; ++c) {
-            unit(border_.reversal + c, c) = scale[border_.reversal + c];
-        }
-        factor.matrixL().solveInPlace(unit);
-        result.tail<6>() = unit.colwise().squaredNorm().transpose();
-    }
-    return result;
+    Eigen::MatrixXd root = Eigen::MatrixXd::Identity(border_.size, border_.size);  // of the covariance of the border
+    factor.matrixU().solveInPlace(root);
+    root = (scale.asDiagonal() * root).eval();
+    return ReportedCovariance(own, -gain, root,
+                              has_reversal_ ? std::optional<Eigen::Index>(border_.reversal) : std::nullopt, datum_)
+        .diagonal();
 }
 
 std::optional<Eigen::VectorXd> LayoutVariances::variances() const {

@@ -11,7 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/datum.h"
 #include "engine/joint_adjustment.h"
+#include "engine/reported_covariance.h"
 #include "engine/rotary_table_evaluation.h"
 #include "engine/rotary_table_model.h"
 
@@ -49,7 +51,7 @@ struct PlannedStation {
 /// What the evaluation of a planned measurement will state, coherent SI, without estimated variance components.
 struct ExpectedUncertainty {
     ReportedQuantities quantities;
-    Eigen::MatrixXd covariance;  ///< of the reported quantities in the datum of the measurement
+    ReportedCovariance covariance;  ///< of the reported quantities in the datum of the measurement
     std::vector<PlannedStation> stations;
     Eigen::Index observations = 0, parameters = 0, degrees_of_freedom = 0;
     double condition_number = 0.0;
@@ -122,8 +124,7 @@ private:
     bool has_reversal_ = false;
     Border border_;
     Information prior_;
-    Eigen::MatrixXd motion_;      ///< 6N×10, world motions and set-up errors in the poses
-    Eigen::MatrixXd datum_part_;  ///< 10×6N, ∂(world motion, set-up)/∂poses: the error map is I + motion · datum part
+    DatumSolution datum_;  ///< of the ideal table
 };
 
 /// Adds what one station (or prior knowledge) tells.

@@ -23,7 +23,7 @@ struct GroupReliability {
     std::vector<bool> is_uncontrolled;  ///< by any other observation
 };
 
-GroupReliability reliability_of(const LinearisedGroup& group, const Eigen::MatrixXd& covariance) {
+GroupReliability reliability_of(const LinearisedGroup& group, const BorderedCovariance& covariance) {
     const Eigen::Index n = group.residual.size();
     const Eigen::MatrixXd cofactor =  // Q̃_v = I - J̃ C J̃ᵀ
         Eigen::MatrixXd::Identity(n, n) -
@@ -45,7 +45,7 @@ GroupReliability reliability_of(const LinearisedGroup& group, const Eigen::Matri
 }  // namespace
 
 std::vector<DistanceReliability> distance_reliability(const JointAdjustment& adjustment, const NormalEquations& normal,
-                                                      const Eigen::MatrixXd& covariance,
+                                                      const BorderedCovariance& covariance,
                                                       const StochasticModel& stochastic, double non_centrality) {
     const RotaryTableMeasurement& measurement = adjustment.measurement();
     const std::vector<bool>& active = adjustment.active();
@@ -127,7 +127,7 @@ std::vector<DistanceReliability> distance_reliability(const JointAdjustment& adj
 }
 
 std::vector<CoordinateReliability> fixture_reliability(const JointAdjustment& adjustment, const NormalEquations& normal,
-                                                       const Eigen::MatrixXd& covariance, double non_centrality) {
+                                                       const BorderedCovariance& covariance, double non_centrality) {
     const GroupReliability group = reliability_of(normal.groups()[adjustment.fixture_prior()], covariance);
     std::vector<CoordinateReliability> rows(static_cast<std::size_t>(group.residual.size()));
     for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -174,7 +174,7 @@ double tau_critical_value(double student_critical_value, double degrees_of_freed
 }
 
 OneAtATime::OneAtATime(const JointAdjustment& adjustment, const NormalEquations& normal,
-                       const Eigen::MatrixXd& covariance)
+                       const BorderedCovariance& covariance)
     : normal_(normal), covariance_(covariance), place_of_(adjustment.measurement().lengths.size(), 0) {
     Eigen::Index count = 0;
     for (std::size_t v = 0; v < adjustment.visits().size(); ++v) {
@@ -231,8 +231,9 @@ Eigen::VectorXd OneAtATime::column(const Place& place) const {
     const LinearisedGroup& own = normal_.groups()[place.visit];
     Eigen::VectorXd whitened = Eigen::VectorXd::Unit(own.residual.size(), place.row);
     own.cholesky.triangularView<Eigen::Lower>().solveInPlace(whitened);
-    const Eigen::VectorXd shift =
-        covariance_(Eigen::all, own.columns) * (own.jacobian.transpose() * whitened);  // of the parameters
+    Eigen::VectorXd pull = Eigen::VectorXd::Zero(covariance_.size());
+    pull(own.columns) = own.jacobian.transpose() * whitened;
+    const Eigen::VectorXd shift = covariance_.times(pull);  // of the parameters
     Eigen::VectorXd result(weighted_.size());
     for (std::size_t v = 0; v < first_.size(); ++v) {
         const LinearisedGroup& group = normal_.groups()[v];

@@ -43,14 +43,14 @@ struct ExternalReliability {
 /// A distance that is left out is judged by its deviation from the prediction that the others of its visit allow.
 [[nodiscard]] std::vector<DistanceReliability> distance_reliability(const JointAdjustment& adjustment,
                                                                     const NormalEquations& normal,
-                                                                    const Eigen::MatrixXd& covariance,
+                                                                    const BorderedCovariance& covariance,
                                                                     const StochasticModel& stochastic,
                                                                     double non_centrality);
 
 /// The same for the coordinates of the fixture, order x1 y1 z1 x2 …
 [[nodiscard]] std::vector<CoordinateReliability> fixture_reliability(const JointAdjustment& adjustment,
                                                                      const NormalEquations& normal,
-                                                                     const Eigen::MatrixXd& covariance,
+                                                                     const BorderedCovariance& covariance,
                                                                      double non_centrality);
 
 /// One row a reported quantity that depends on a distance at all, by the gain of the joint estimator: dead paths,
@@ -85,7 +85,7 @@ public:
     };
 
     /// All three must outlive this.
-    OneAtATime(const JointAdjustment& adjustment, const NormalEquations& normal, const Eigen::MatrixXd& covariance);
+    OneAtATime(const JointAdjustment& adjustment, const NormalEquations& normal, const BorderedCovariance& covariance);
 
     /// The distance with the largest |w|, where that is above `critical`.
     [[nodiscard]] std::optional<Suspect> largest(double critical) const;
@@ -104,7 +104,7 @@ private:
     [[nodiscard]] Eigen::VectorXd column(const Place& place) const;
 
     const NormalEquations& normal_;
-    const Eigen::MatrixXd& covariance_;
+    const BorderedCovariance& covariance_;
     std::vector<Place> places_;          ///< of the active distances
     std::vector<std::size_t> lengths_;   ///< index of each active distance in the measurement
     std::vector<std::size_t> place_of_;  ///< by length

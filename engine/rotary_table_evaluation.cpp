@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "engine/geometry_check.h"
+#include "engine/reported_covariance.h"
 #include "gum/quantity/units.h"
 
 namespace gumcert::engine {
@@ -165,7 +166,7 @@ public:
     [[nodiscard]] bool any_estimated() const { return estimated_.length || estimated_.table || estimated_.fixture; }
 
     std::optional<NormalEquations> normal;
-    Eigen::MatrixXd covariance;
+    BorderedCovariance covariance;
     VarianceComponentStep step;
     int iterations = 0;
     int component_iterations = 0;
@@ -178,7 +179,7 @@ private:
         require_convergence(summary);
         iterations += summary.iterations;
         normal.emplace(adjustment.adjustment().linearise());
-        covariance = normal->covariance();
+        covariance = normal->bordered_covariance();
     }
 
     void drop_fixture(StochasticModel& stochastic) {
@@ -498,13 +499,11 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
 
     RotaryTableSolution solution;
     const NormalEquations& normal = *iteration.normal;
-    const Eigen::MatrixXd& covariance = iteration.covariance;
+    const BorderedCovariance& covariance = iteration.covariance;
     solution.datum = transform_to_datum(measurement, adjustment.poses(), adjustment.set_up(), measurement.datum);
     solution.quantities = reported_quantities(measurement, adjustment.has_reversal());
     solution.values = reported_values(adjustment, solution.datum);
-    const Eigen::MatrixXd map = reported_map(adjustment, normal, solution.datum);
-    const Eigen::MatrixXd gain = map * covariance;
-    solution.covariance.noalias() = gain * map.transpose();
+    solution.covariance = ReportedCovariance(adjustment, normal, covariance, solution.datum).dense();
 
     const auto pose_columns = [&](Eigen::MatrixXd& rows_of, const Eigen::MatrixXd& by_pose) {
         for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
@@ -527,7 +526,7 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
             by_parameter.col(normal.column(block, c)) += Eigen::Vector3d::Unit(c);
         }
         pose_columns(by_parameter, by_world * solution.datum.world_map);
-        station.covariance = by_parameter * covariance * by_parameter.transpose();
+        station.covariance = covariance.times_left(by_parameter) * by_parameter.transpose();
         station.u = station.covariance.diagonal().cwiseSqrt();
         station.scale_deviation = value[3];
         if (const Eigen::Index column = normal.column(block, 3); column >= 0) {
@@ -574,7 +573,9 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
     const TestLimits fixture_limits = test_limits(options, solution.components[fixture_cmm]);
     solution.fixture_reliability = fixture_reliability(adjustment, normal, covariance, fixture_limits.non_centrality);
     solution.fixture_critical_value = fixture_limits.critical_value;
-    solution.external_reliability = external_reliability(adjustment, normal, gain, solution.reliability);
+    solution.external_reliability = external_reliability(
+        adjustment, normal, covariance.times_left(reported_map(adjustment, normal, solution.datum)),
+        solution.reliability);
     solution.outliers = std::move(found);
     solution.critical_value = limits.critical_value;
     solution.critical_value_degrees_of_freedom = limits.degrees_of_freedom;

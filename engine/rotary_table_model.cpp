@@ -74,14 +74,18 @@ Eigen::MatrixXd reported_map(const JointAdjustment& adjustment, const NormalEqua
                              const DatumSolution& datum) {
     const auto angles = static_cast<Eigen::Index>(adjustment.measurement().angles.size());
     const Eigen::Index errors = 6 * angles;
+    const Eigen::MatrixXd change = datum.change_map();
     Eigen::MatrixXd map =
         Eigen::MatrixXd::Zero(errors + 4 + (adjustment.has_reversal() ? 6 : 0), normal.parameter_count());
     for (Eigen::Index i = 0; i < angles; ++i) {
         for (int c = 0; c < 6; ++c) {
             const Eigen::Index column = normal.column(adjustment.pose_block(static_cast<std::size_t>(i)), c);
             if (column >= 0) {
-                map.col(column).head(errors) = datum.error_map.col(6 * i + c);
+                map.col(column).head(errors).noalias() = datum.motion_map * change.col(6 * i + c);
                 map.col(column).segment<4>(errors) = datum.set_up_map.col(6 * i + c);
+                if (datum.zero_angle != i) {
+                    map(6 * i + c, column) += 1.0;
+                }
             }
         }
     }
@@ -89,6 +93,45 @@ Eigen::MatrixXd reported_map(const JointAdjustment& adjustment, const NormalEqua
         map(errors + 4 + c, normal.column(adjustment.reversal_block(), c)) = 1.0;
     }
     return map;
+}
+
+double sensitivity_coefficient_count(const RotaryTableMeasurement& measurement) {
+    std::vector<std::array<bool, 2>> senses(measurement.stations.size(), {false, false});
+    for (const LengthObservation& length : measurement.lengths) {
+        senses[length.station][length.approach == Approach::positive ? 0 : 1] = true;
+    }
+    const bool has_reversal = std::all_of(senses.begin(), senses.end(), [](const auto& s) { return s[0] && s[1]; });
+    const auto lengths = static_cast<double>(measurement.lengths.size());
+    const auto visits =
+        static_cast<double>(visits_of(measurement, std::vector<bool>(measurement.lengths.size(), true)).size());
+    const auto stations = static_cast<double>(measurement.stations.size());
+    const LengthUncertainty& u = measurement.length_uncertainty;
+    const double inputs = (u.resolution > 0.0 ? 2.0 : 1.0) * lengths + 6.0 * visits +
+                          (u.scale_model == ScaleModel::prior ? stations : 0.0) +
+                          static_cast<double>(measurement.dead_paths.size()) +
+                          3.0 * static_cast<double>(measurement.fixture.rows()) +
+                          static_cast<double>((measurement.u_temperature.array() > 0.0).count()) +
+                          (measurement.u_expansion > 0.0 ? 1.0 : 0.0);
+    const double outputs = 6.0 * static_cast<double>(measurement.angles.size()) + 4.0 + (has_reversal ? 6.0 : 0.0);
+    return outputs * inputs;
+}
+
+void require_evaluable_size(const RotaryTableMeasurement& measurement) {
+    const double count = sensitivity_coefficient_count(measurement);
+    if (count <= k_most_sensitivity_coefficients) {
+        return;
+    }
+    const auto angles = static_cast<double>(measurement.angles.size());
+    const auto millions = [](double number) { return std::to_string(std::llround(number / 1e6)) + " million"; };
+    const auto possible = static_cast<long long>(angles * std::sqrt(k_most_sensitivity_coefficients / count));
+    throw gum::NoResultError(gum::Diagnostic{
+        "GC-ADJUST-0008", "law of propagation",
+        std::to_string(measurement.angles.size()) + " angles with " + std::to_string(measurement.lengths.size()) +
+            " distances have " + millions(count) + " sensitivity coefficients",
+        "an evaluation holds at most " + millions(k_most_sensitivity_coefficients) +
+            " of them; they grow with the square of the angles",
+        "evaluate fewer angles a job, about " + std::to_string(possible) + " with these stations and reflectors",
+        gum::Severity::error});
 }
 
 RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const JointAdjustment& solved,
@@ -101,7 +144,7 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
     nominal_.copy_parameters_from(solved);
     nominal_.set_weights(stochastic);
     const NormalEquations joint = nominal_.adjustment().linearise();
-    const Eigen::MatrixXd covariance = joint.covariance();
+    const BorderedCovariance covariance = joint.bordered_covariance();
     const auto paths = static_cast<Eigen::Index>(measurement_.dead_paths.size());
 
     const std::vector<Visit>& visits = nominal_.visits();
@@ -350,9 +393,9 @@ Eigen::MatrixXd RotaryTableModel::input_sensitivity(const JointAdjustment& adjus
             }
             first += n;
         }
-        gain.noalias() = combined * normal.covariance();
+        gain = normal.bordered_covariance().times_left(combined);
     } else {
-        gain.noalias() = by_parameter * normal.covariance();
+        gain = normal.bordered_covariance().times_left(by_parameter);
     }
 
     // ∂y/∂l of one group through x̂: gain J̃ᵀ L⁻¹ over the columns of the group.

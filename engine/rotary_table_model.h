@@ -57,6 +57,18 @@ struct RotaryTableInputs {
     Eigen::Index size = 0;         ///< of all inputs
 };
 
+/// Most sensitivity coefficients of the reported quantities that are held at a time: two such matrices, as the law of
+/// propagation needs them, take 3.2 GB.
+constexpr double k_most_sensitivity_coefficients = 2e8;
+
+/// Number of the sensitivity coefficients of the reported quantities of a measurement by all its inputs: grows with the
+/// square of the angles. An upper bound where distances are left out.
+[[nodiscard]] double sensitivity_coefficient_count(const RotaryTableMeasurement& measurement);
+
+/// Refuses, before anything is computed, a measurement whose sensitivity coefficients cannot be held.
+/// 	hrows gum::NoResultError  GC-ADJUST-0008 with the number of angles that can be evaluated
+void require_evaluable_size(const RotaryTableMeasurement& measurement);
+
 /// The adjustment of a rotary table as a measurement model for the GUM layer.
 ///
 /// Inputs: the measured lengths, the deviation of the table at every visit (zero, with its repeatability), the scale of

@@ -10,20 +10,14 @@
 #include "engine/joint_adjustment.h"
 #include "engine/rotary_table_model.h"
 #include "engine/table_parameters.h"
+#include "engine/trial_solution.h"
 #include "gum/quantity/measurement_model.h"
 
 namespace gumcert::engine {
 
+struct TrialBatch;
+struct TrialDatum;
 struct TrialNetwork;
-struct TrialWork;
-
-/// When the solution of one trial counts as found.
-struct TrialOptions {
-    /// A trial has converged when the last step of every parameter was below this fraction of its standard uncertainty.
-    /// The steps shrink by a factor of hundreds and more, so that what is left is far below it.
-    double step_tolerance = 1e-4;
-    int most_steps = 20;  ///< a trial that needs more is solved alone, with new normal equations at every step
-};
 
 /// How many steps the trials took. Trials that are evaluated twice count twice.
 struct TrialSteps {
@@ -66,13 +60,19 @@ struct TrialExtras {
 /// inputs: every trial finds them again, as the measurement did.
 ///
 /// A trial minimises vᵀ V⁻¹ v with the exact kinematics and the weights of the solution (held): steps N⁻¹ Jᵀ V⁻¹ v with
-/// N of the solution and J, v of the trial, until they are negligible (`TrialOptions`). A trial for which N is too far
-/// off gets its own by Adjustment::refine(), whose minimum is the same in any case. A trial is computed with 15 others
-/// at a time, but none depends on another: how trials are cut into parts changes no bit.
+/// N of the solution and J, v of the trial, until they are negligible (`TrialOptions`). Expansion and temperatures,
+/// whose products act on the lengths, are no part of N: every step finds their own minimum (TrialNetwork). A trial for
+/// which N is too far off gets its own by Adjustment::refine(), whose minimum is the same in any case. A trial is
+/// computed with 15 others at a time, but none depends on another: how trials are cut into parts changes no bit.
 ///
 /// Outputs: `ReportedQuantities`, then the derived quantities if there are any.
 class RotaryTableTrials final : public gum::MeasurementModel {
 public:
+    /// A variance estimated with no more degrees of freedom than these is drawn as known: it says that a component is
+    /// too small to be seen, and a t-distribution without a fourth moment would draw deviations thousands of times
+    /// larger than any of the measurement. The law of propagation takes the same standard uncertainty.
+    static constexpr double k_least_degrees_of_freedom = 4.0;
+
     /// \param solved      converged, at its final weights, which are held; is not referred to afterwards
     /// \param stochastic  of these weights
     /// \throws gum::NoResultError  if the normal equations are singular
@@ -109,8 +109,8 @@ private:
     void add_inputs(const JointAdjustment& solved, const StochasticModel& stochastic,
                     const SourceDegreesOfFreedom& degrees_of_freedom);
     void draw_in(const Eigen::Ref<const Eigen::MatrixXd>& x, const Eigen::MatrixXd& coordinates, Eigen::Index first,
-                 Eigen::Index count, TrialWork& work) const;
-    void write_derived(Eigen::Index first, Eigen::Index count, const TrialWork& work,
+                 Eigen::Index count, TrialBatch& batch) const;
+    void write_derived(Eigen::Index first, Eigen::Index count, const TrialBatch& batch,
                        Eigen::Ref<Eigen::MatrixXd> y) const;
 
     TrialExtras extras_;
@@ -124,6 +124,7 @@ private:
     Eigen::VectorXd temperature_;      ///< estimates of the inputs, [K]
     double expansion_ = 0.0;           ///< estimate, [1/K]
     std::unique_ptr<const TrialNetwork> network_;
+    std::unique_ptr<const TrialDatum> datum_;
     mutable std::atomic<std::uint64_t> trials_{0}, steps_{0}, alone_{0}, not_converged_{0};
     mutable std::atomic<int> most_steps_{0};
 };

@@ -385,7 +385,7 @@ Stages SequentialModel::solve(const Inputs& in) const {
         const Eigen::Index size = stages.errors.size();
         stages.datum.errors = stages.errors;
         stages.datum.set_up = stages.set_up;
-        stages.datum.error_map = Eigen::MatrixXd::Identity(size, size);
+        stages.datum.motion_map = Eigen::MatrixXd::Zero(size, 10);
         stages.datum.set_up_map = Eigen::MatrixXd::Zero(4, size);
         stages.datum.world_map = Eigen::MatrixXd::Zero(6, size);
     } else {
@@ -549,7 +549,7 @@ Eigen::MatrixXd SequentialModel::reported_derivatives(const Stages& stages, cons
         by_error.middleRows<6>(6 * static_cast<Eigen::Index>(i)) = pose_normal.ldlt().solve(pose_right);
     }
     Eigen::MatrixXd result(by_error.rows() + 4, columns);
-    result.topRows(by_error.rows()) = stages.datum.error_map * by_error;
+    result.topRows(by_error.rows()) = stages.datum.carried(by_error);
     result.bottomRows<4>() = by_set_up + stages.datum.set_up_map * by_error;
     return result;
 }

@@ -390,7 +390,7 @@ double TableParameterModel::rms_position_uncertainty() const {
     const JointAdjustment& solved = joint_->solved();
     const StochasticModel& stochastic = joint_->stochastic();
     const NormalEquations normal = solved.adjustment().linearise();
-    const Eigen::MatrixXd covariance = normal.covariance();
+    const BorderedCovariance covariance = normal.bordered_covariance();
     const DatumSolution datum = transform_to_datum(measurement, solved.poses(), solved.set_up(), measurement.datum);
     const Eigen::MatrixXd map = reported_map(solved, normal, datum);
     const auto angles = static_cast<Eigen::Index>(measurement.angles.size());
@@ -402,7 +402,7 @@ double TableParameterModel::rms_position_uncertainty() const {
     if (solved.has_reversal()) {
         by_parameter.row(angles) = map.row(6 * angles + 4 + axial);
     }
-    const Eigen::MatrixXd spread = by_parameter * covariance;  // h'Q
+    const Eigen::MatrixXd spread = covariance.times_left(by_parameter);  // h'Q
 
     const std::vector<Visit>& visits = solved.visits();
     const auto paths = static_cast<Eigen::Index>(measurement.dead_paths.size());
@@ -420,7 +420,7 @@ double TableParameterModel::rms_position_uncertainty() const {
             by_path.row(group.columns[c]) += right.row(static_cast<Eigen::Index>(c));
         }
     }
-    by_path = covariance * by_path;
+    by_path = covariance.times_left(by_path.transpose()).transpose().eval();
     Eigen::MatrixXd path_covariance;
     for (const gum::InputGroup& group : joint_->inputs()) {
         if (group.source == "dead path") {

@@ -48,60 +48,101 @@ std::array<Eigen::Index, k_visit_components + 1> root_columns(Eigen::Index n) {
     return {0, n, n + 3, n + 4, n + 6};
 }
 
-/// C A for a symmetric A that has the form of the normal equations: a border, and a block for each eliminated pose.
-class BorderedProduct {
+/// A symmetric A in the form of the normal equations, with a border and a block for every eliminated pose, and what the
+/// traces of its products with the covariance H C Hᵀ + W of the parameters are made of (BorderedCovariance; H = (I,
+/// F)).
+///
+/// tr(Q A Q A') = tr(C S C S') + 2 tr(C T'ᵀ W T) + tr(W A W A') with S = Hᵀ A H, and T = A H of the poses: proportional
+/// to the parameters, where the product Q A would have p² elements.
+class BorderedForm {
 public:
-    BorderedProduct(const JointAdjustment& adjustment, const NormalEquations& normal)
-        : border_(normal.parameter_count()) {
-        for (std::size_t i = 0; i < adjustment.measurement().angles.size(); ++i) {
-            std::pair<Eigen::Index, Eigen::Index> pose{0, 0};
-            for (int c = 5; c >= 0; --c) {
-                if (const Eigen::Index column = normal.column(adjustment.pose_block(i), c); column >= 0) {
-                    pose = {column, pose.second + 1};
+    explicit BorderedForm(const BorderedCovariance& covariance)
+        : border_(Eigen::MatrixXd::Zero(covariance.border(), covariance.border())),
+          cross_(Eigen::MatrixXd::Zero(covariance.size() - covariance.border(), covariance.border())),
+          own_(Eigen::MatrixXd::Zero(covariance.size() - covariance.border(), k_pose)) {}
+
+    /// \param local  part of A over the parameters `columns`, of which those of poses are in one pose
+    void add(const BorderedCovariance& covariance, const std::vector<Eigen::Index>& columns,
+             const Eigen::MatrixXd& local) {
+        const Eigen::Index b = covariance.border();
+        for (std::size_t j = 0; j < columns.size(); ++j) {
+            for (std::size_t i = 0; i < columns.size(); ++i) {
+                const double value = local(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+                if (columns[i] < b && columns[j] < b) {
+                    border_(columns[i], columns[j]) += value;
+                } else if (columns[i] >= b && columns[j] < b) {
+                    cross_(columns[i] - b, columns[j]) += value;
+                } else if (columns[i] >= b) {
+                    own_(columns[i] - b, columns[j] - covariance.first_of(columns[j])) += value;
                 }
-            }
-            if (pose.second > 0) {
-                poses_.push_back(pose);
-                border_ = std::min(border_, pose.first);
             }
         }
     }
 
-    [[nodiscard]] Eigen::MatrixXd operator()(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& bordered) const {
-        const Eigen::Index p = covariance.rows();
-        Eigen::MatrixXd product(p, p);
-        product.leftCols(border_).noalias() = covariance * bordered.leftCols(border_);
-        product.rightCols(p - border_).noalias() =
-            covariance.leftCols(border_) * bordered.topRightCorner(border_, p - border_);
-        for (const auto& [first, size] : poses_) {
-            product.middleCols(first, size).noalias() +=
-                covariance.middleCols(first, size) * bordered.block(first, first, size, size);
+    /// Once everything is added.
+    void complete(const BorderedCovariance& covariance) {
+        const Eigen::MatrixXd& elimination = covariance.elimination();
+        const Eigen::Index b = covariance.border();
+        Eigen::MatrixXd by_border = cross_;  // T
+        weighted_.resize(cross_.rows(), b);
+        weighted_own_ = Eigen::MatrixXd::Zero(own_.rows(), k_pose);
+        for (Eigen::Index i = 0; i < own_.rows();) {
+            const Eigen::MatrixXd& spread = covariance.own(b + i);  // W
+            const Eigen::Index size = spread.rows();
+            by_border.middleRows(i, size).noalias() += own_.block(i, 0, size, size) * elimination.middleRows(i, size);
+            weighted_.middleRows(i, size).noalias() = spread * by_border.middleRows(i, size);
+            weighted_own_.block(i, 0, size, size).noalias() = spread * own_.block(i, 0, size, size);
+            own_sizes_.push_back(size);
+            i += size;
         }
-        return product;
+        Eigen::MatrixXd reduced = border_;  // S
+        reduced.noalias() += elimination.transpose() * by_border;
+        reduced.noalias() += cross_.transpose() * elimination;
+        spread_border_.noalias() = covariance.border_covariance() * reduced;
+        spread_.noalias() = by_border * covariance.border_covariance();
+    }
+
+    /// tr(Q A Q A').
+    [[nodiscard]] double trace_with(const BorderedForm& other) const {
+        double sum = spread_border_.cwiseProduct(other.spread_border_.transpose()).sum() +
+                     2.0 * other.spread_.cwiseProduct(weighted_).sum();
+        Eigen::Index first = 0;
+        for (const Eigen::Index size : own_sizes_) {
+            sum += weighted_own_.block(first, 0, size, size)
+                       .cwiseProduct(other.weighted_own_.block(first, 0, size, size).transpose())
+                       .sum();
+            first += size;
+        }
+        return sum;
+    }
+
+    /// tr(Q A Q A') for an A' that is in the border only.
+    /// \param spread  C A', b×b
+    [[nodiscard]] double trace_with_border(const Eigen::MatrixXd& spread) const {
+        return spread_border_.cwiseProduct(spread.transpose()).sum();
     }
 
 private:
-    Eigen::Index border_;
-    std::vector<std::pair<Eigen::Index, Eigen::Index>> poses_;  ///< first column of each that is not held, and size
+    static constexpr Eigen::Index k_pose = 6;
+    Eigen::MatrixXd border_, cross_, own_;  ///< A: b×b, (p-b)×b, and the blocks one below the other
+    Eigen::MatrixXd spread_border_;         ///< C S
+    Eigen::MatrixXd spread_;                ///< T C
+    Eigen::MatrixXd weighted_;              ///< W T
+    Eigen::MatrixXd weighted_own_;          ///< W A, the blocks one below the other
+    std::vector<Eigen::Index> own_sizes_;
 };
 
 }  // namespace
 
 VarianceComponentStep estimate_variance_components(const JointAdjustment& adjustment, const NormalEquations& normal,
-                                                   const Eigen::MatrixXd& covariance, const StochasticModel& present,
+                                                   const BorderedCovariance& covariance, const StochasticModel& present,
                                                    const EstimatedComponents& estimated) {
-    const Eigen::Index p = normal.parameter_count();
     const std::array<bool, k_visit_components> needed{estimated.length, estimated.table, estimated.table,
                                                       estimated.table};
-    std::array<Eigen::MatrixXd, k_visit_components> inner;  // J̃ᵀ Ũ_k J̃ of the estimated components
-    for (std::size_t k = 0; k < k_visit_components; ++k) {
-        if (needed[k]) {
-            inner[k] = Eigen::MatrixXd::Zero(p, p);
-        }
-    }
-    Vector5 quadratic = Vector5::Zero();  // ṽᵀ Ũ_k ṽ
-    Vector5 trace = Vector5::Zero();      // tr(R V_k)
-    Matrix5 fisher = Matrix5::Zero();     // tr(R V_k R V_l)
+    std::vector<BorderedForm> inner(k_visit_components, BorderedForm(covariance));  // J̃ᵀ Ũ_k J̃ of the estimated ones
+    Vector5 quadratic = Vector5::Zero();                                            // ṽᵀ Ũ_k ṽ
+    Vector5 trace = Vector5::Zero();                                                // tr(R V_k)
+    Matrix5 fisher = Matrix5::Zero();                                               // tr(R V_k R V_l)
     bool any_shared_visit = false;
     double mean_stated = 0.0;  // of the lengths, [m²]
     double length_count = 0.0;
@@ -137,25 +178,18 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
             }
             const auto rows = root_jacobian.middleRows(first[k], rank);
             const Eigen::MatrixXd local = rows.transpose() * rows;
-            for (std::size_t j = 0; j < group.columns.size(); ++j) {
-                for (std::size_t i = 0; i < group.columns.size(); ++i) {
-                    inner[k](group.columns[i], group.columns[j]) +=
-                        local(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-                }
-            }
+            inner[k].add(covariance, group.columns, local);
         }
     }
     mean_stated /= length_count;
-    const BorderedProduct times(adjustment, normal);
-    std::array<Eigen::MatrixXd, k_visit_components> outer;  // C J̃ᵀ Ũ_k J̃
     for (std::size_t k = 0; k < k_visit_components; ++k) {
         if (!needed[k]) {
             continue;
         }
-        outer[k] = times(covariance, inner[k]);
+        inner[k].complete(covariance);
         for (std::size_t l = 0; l <= k; ++l) {
             if (needed[l]) {
-                const double sum = outer[k].cwiseProduct(outer[l].transpose()).sum();
+                const double sum = inner[k].trace_with(inner[l]);
                 const auto row = static_cast<Eigen::Index>(k);
                 const auto column = static_cast<Eigen::Index>(l);
                 fisher(row, column) += sum;
@@ -180,16 +214,15 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
         (Eigen::MatrixXd::Identity(coordinates, coordinates) - fixture_cofactor).squaredNorm() /
         (fixture_factor * fixture_factor);
     if (estimated.fixture) {
-        const Eigen::MatrixXd outer_fixture = covariance(Eigen::all, fixture.columns) *
-                                              (fixture.jacobian.transpose() * fixture.jacobian) / fixture_factor;
+        Eigen::MatrixXd fixture_normal = Eigen::MatrixXd::Zero(covariance.border(), covariance.border());
+        fixture_normal(fixture.columns, fixture.columns) =
+            fixture.jacobian.transpose() * fixture.jacobian / fixture_factor;
+        const Eigen::MatrixXd spread_fixture = covariance.border_covariance() * fixture_normal;
         for (std::size_t k = 0; k < k_visit_components; ++k) {
             if (!needed[k]) {
                 continue;
             }
-            double sum = 0.0;
-            for (Eigen::Index j = 0; j < outer_fixture.cols(); ++j) {
-                sum += outer[k].row(fixture.columns[static_cast<std::size_t>(j)]).dot(outer_fixture.col(j));
-            }
+            const double sum = inner[k].trace_with_border(spread_fixture);
             fisher(static_cast<Eigen::Index>(k), k_fixture) = sum;
             fisher(k_fixture, static_cast<Eigen::Index>(k)) = sum;
         }
@@ -316,7 +349,7 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
 }
 
 double fixture_redundancy(const JointAdjustment& adjustment, const NormalEquations& normal,
-                          const Eigen::MatrixXd& covariance) {
+                          const BorderedCovariance& covariance) {
     const LinearisedGroup& fixture = normal.groups()[adjustment.fixture_prior()];
     return static_cast<double>(fixture.residual.size()) -
            (fixture.jacobian * covariance(fixture.columns, fixture.columns) * fixture.jacobian.transpose()).trace();

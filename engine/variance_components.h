@@ -63,12 +63,12 @@ struct VarianceComponentStep {
 /// \param present     the weights
 [[nodiscard]] VarianceComponentStep estimate_variance_components(const JointAdjustment& adjustment,
                                                                  const NormalEquations& normal,
-                                                                 const Eigen::MatrixXd& covariance,
+                                                                 const BorderedCovariance& covariance,
                                                                  const StochasticModel& present,
                                                                  const EstimatedComponents& estimated);
 
 /// Redundancy of the coordinates of the fixture, Σ (Q_v V⁻¹)_ii.
 [[nodiscard]] double fixture_redundancy(const JointAdjustment& adjustment, const NormalEquations& normal,
-                                        const Eigen::MatrixXd& covariance);
+                                        const BorderedCovariance& covariance);
 
 }  // namespace gumcert::engine

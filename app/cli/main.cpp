@@ -283,10 +283,10 @@ void write_to_stdout(const std::string& bytes) {
 bool run_job(const fs::path& job, const std::string& output, const std::string& share, const CommonOptions& common) {
     const fs::path folder = output.empty() ? job.parent_path() / (job.stem().string() + "-out") : fs::path(output);
     app::require_writable(folder / "record.json");
-    const reports::RenderAssets with = assets(share, "en");
     ProgressLine progress(!common.quiet);
     const app::Evaluation evaluation = app::evaluate_job(job, "covariance.csv", static_cast<unsigned>(common.threads),
                                                          [&](const std::string& text) { progress(text); });
+    const reports::RenderAssets with = assets(share, "en");
     progress("documents");
     std::vector<app::OutputFile> files{{folder / "record.json", reports::to_canonical_json(evaluation.record)}};
     if (!evaluation.covariance_csv.empty()) {

@@ -74,5 +74,54 @@ TEST_F(Determinism, FolderAndItsNameChangeNoByte) {
     expect_first((long_name / "job.json").string(), {});
 }
 
+/// Monte Carlo of a rotary table, and both studies: random numbers go by trial and by campaign, not by thread.
+TEST_F(Determinism, TrialsAndStudiesOfARotaryTable) {
+    const fs::path job = folder() / "job" / "drawn.json";
+    nlohmann::json document = nlohmann::json::parse(bytes_of(folder() / "job" / "job.json"));
+    document.erase("reference_method");
+    document["fixture"]["budget"] = "fixture_budget.json";
+    document["length_uncertainty"]["resolution_um"] = 0.01;
+    document["monte_carlo"] = {{"trials", 2201}, {"seed", 5}, {"validate", true}};  // no multiple of any block
+    document["simulation"] = {{"runs", 3}, {"angle_counts", {6}}};
+    document["plan"] = {
+        {"angles_deg", {{"first", 0}, {"step", 60}, {"count", 6}}},
+        {"senses", "both"},
+        {"station_region", {{"x_mm", {400, 1300}}, {"y_mm", {-800, 800}}, {"z_mm", {-600, 600}}, {"step_mm", 600}}}};
+    write_bytes(job, document.dump(1));
+    std::string lengths;
+    for (const std::string& line : lines_of(bytes_of(folder() / "job" / "lengths.csv"))) {
+        static const std::regex multiple_of_60("(?:[^,]*,){4}(0|60|120|180|240|300)\\.0+,.*");
+        if (lengths.empty() || std::regex_match(line, multiple_of_60)) {
+            lengths += line + "\n";
+        }
+    }
+    write_bytes(folder() / "job" / "lengths.csv", lengths);
+
+    const auto written = [&](const std::string& threads, const std::map<std::string, std::string>& environment) {
+        for (const char* const command : {"evaluate", "simulate", "plan"}) {
+            const Ended ended =
+                gumcert({command, "drawn.json", "-o", std::string("out/") + command + ".json", "--threads", threads},
+                        {.working_folder = folder() / "job", .environment = environment, .out = {}});
+            // 2201 trials decide for few quantities: validation was demanded, and is not there.
+            EXPECT_EQ(ended.code, std::string(command) == "evaluate" ? 1 : 0) << ended.err;
+        }
+        const std::map<std::string, std::string> result = contents_of(folder() / "job" / "out");
+        fs::remove_all(folder() / "job" / "out");
+        return result;
+    };
+    const auto first = written("1", {});
+    EXPECT_EQ(first.size(), 4U) << "record, covariance, simulation, plan";
+    const std::vector<std::pair<std::string, std::map<std::string, std::string>>> others{
+        {"2", {{"LC_ALL", "de_DE.UTF-8"}, {"TZ", "Pacific/Chatham"}, {"OMP_NUM_THREADS", "2"}}},
+        {"3", {{"LC_ALL", "C"}, {"OMP_NUM_THREADS", "1"}}},
+        {"1", {}}};
+    for (const auto& [threads, environment] : others) {
+        const auto other = written(threads, environment);
+        for (const auto& [name, bytes] : first) {
+            EXPECT_TRUE(other.contains(name) && other.at(name) == bytes) << name << " with --threads " << threads;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::cli

@@ -241,8 +241,8 @@ TEST_P(RotaryTableTruth, HomeDatumIsTheSameResultSeenFromHome) {
     // Carried to the axis average line, both are one solution: values and uncertainties.
     const engine::DatumSolution average = engine::transform_to_datum(
         measurement, home.datum.errors, engine::rigid_motion(home.datum.set_up), engine::Datum::axis_average_line);
-    const Eigen::MatrixXd covariance =
-        average.error_map * home.covariance.topLeftCorner(6 * angles, 6 * angles) * average.error_map.transpose();
+    const Eigen::MatrixXd carried = average.carried(home.covariance.topLeftCorner(6 * angles, 6 * angles));
+    const Eigen::MatrixXd covariance = average.carried(carried.transpose());
     for (Eigen::Index i = 0; i < 6 * angles; ++i) {
         const double u = set_->propagation.standard_uncertainty[i];
         EXPECT_NEAR(average.errors.reshaped()[i], set_->propagation.value[i], 1e-3 * u);

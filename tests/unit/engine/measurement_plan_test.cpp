@@ -342,8 +342,8 @@ TEST(MeasurementPlan, AnglesAreHalvedAndDoubledAboutHome) {
     // Every second one of them is the layout that it was made from.
     const RotaryTableMeasurement again = with_every_angle(twice, 2);
     ASSERT_EQ(again.lengths.size(), measurement.lengths.size());
-    EXPECT_LT((expected(again).covariance - expected(measurement).covariance).cwiseAbs().maxCoeff(),
-              1e-8 * expected(measurement).covariance.cwiseAbs().maxCoeff());
+    EXPECT_LT((expected(again).covariance.dense() - expected(measurement).covariance.dense()).cwiseAbs().maxCoeff(),
+              1e-8 * expected(measurement).covariance.dense().cwiseAbs().maxCoeff());
 
     plan.angles_deg = synthetic::partial_turn(90.0, 10);
     plan.home = 0;

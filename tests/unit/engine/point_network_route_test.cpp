@@ -205,7 +205,7 @@ TEST_P(PointNetworkRoute, GivesThePosesAndCovariancesOfTheJointAdjustment) {
     Eigen::MatrixXd pose_covariance = Eigen::MatrixXd::Zero(6 * k_angles, 6 * k_angles);
     pose_covariance.bottomRightCorner(6 * (k_angles - 1), 6 * (k_angles - 1)) =
         rigid.covariance.topLeftCorner(6 * (k_angles - 1), 6 * (k_angles - 1));
-    const Eigen::MatrixXd by_network = datum.error_map * pose_covariance * datum.error_map.transpose();
+    const Eigen::MatrixXd by_network = datum.carried(datum.carried(pose_covariance).transpose());
     for (Eigen::Index c = 6; c < 6 * k_angles; ++c) {
         const double sd = std::sqrt(evaluated.covariance(c, c));
         EXPECT_NEAR(datum.errors.reshaped()[c], evaluated.values[c], 1e-4 * sd) << c;

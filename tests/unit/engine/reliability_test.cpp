@@ -34,7 +34,7 @@ struct Solved {
         adjustment.set_weights(stochastic);
         EXPECT_TRUE(adjustment.adjustment().refine(SolverOptions{}).converged);
         normal = adjustment.adjustment().linearise();
-        covariance = normal.covariance();
+        covariance = normal.bordered_covariance();
     }
 
     [[nodiscard]] std::vector<DistanceReliability> rows(double non_centrality) const {
@@ -52,7 +52,7 @@ struct Solved {
     StochasticModel stochastic;
     JointAdjustment adjustment;
     NormalEquations normal;
-    Eigen::MatrixXd covariance;
+    BorderedCovariance covariance;
 };
 
 StochasticModel weights(const CampaignPlan& plan) {

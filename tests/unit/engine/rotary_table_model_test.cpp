@@ -9,6 +9,7 @@
 #include <string>
 
 #include "engine/rotary_table_evaluation.h"
+#include "gum/quantity/diagnostic.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {
@@ -159,6 +160,35 @@ JointAdjustment solution_with_free_dead_paths(const Campaign& campaign, const Jo
     result.set_weights(stochastic);
     EXPECT_TRUE(result.adjustment().refine(SolverOptions{}).converged);
     return result;
+}
+
+TEST_P(ModelOfTheTable, SensitivityCoefficientsAreCountedBeforehand) {
+    const auto outputs = static_cast<double>(solution_.model->outputs().size());
+    const auto inputs = static_cast<double>(gum::input_estimates(*solution_.model).size());
+    EXPECT_EQ(sensitivity_coefficient_count(campaign_.measurement), outputs * inputs);
+    RotaryTableMeasurement finite = campaign_.measurement;
+    finite.length_uncertainty.resolution = 1e-8;
+    EXPECT_EQ(sensitivity_coefficient_count(finite), outputs * (inputs + static_cast<double>(finite.lengths.size())));
+}
+
+TEST(RotaryTableModel, MoreSensitivityCoefficientsThanCanBeHeldAreRefused) {
+    CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(600);
+    EXPECT_NO_THROW(require_evaluable_size(simulate(plan).measurement));
+    plan.angles_deg = synthetic::full_turn(1000);
+    const RotaryTableMeasurement measurement = simulate(plan).measurement;
+    try {
+        require_evaluable_size(measurement);
+        FAIL() << "accepted";
+    } catch (const gum::NoResultError& error) {
+        ASSERT_EQ(error.diagnostics().size(), 1U);
+        const gum::Diagnostic& problem = error.diagnostics().front();
+        EXPECT_EQ(problem.code, "GC-ADJUST-0008");
+        // 6004 outputs by 36 000 lengths, 36 000 deviations of the table, 6 dead paths and 18 coordinates.
+        EXPECT_EQ(problem.what, "1000 angles with 36000 distances have 432 million sensitivity coefficients");
+        EXPECT_NE(problem.rule.find("200 million"), std::string::npos);
+        EXPECT_NE(problem.action.find("about 680"), std::string::npos) << problem.action;
+    }
 }
 
 TEST(RotaryTableModel, EveryGroupNamesItsSource) {

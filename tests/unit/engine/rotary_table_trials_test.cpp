@@ -226,6 +226,12 @@ std::vector<Case> cases() {
     single.angles_deg = synthetic::full_turn(12);
     all.push_back({"AxisCOneReflectorAVisit", single});
     all.push_back({"AxisBEverything", full_plan()});
+    CampaignPlan expansion = full_plan();
+    expansion.u_temperature = 0.0;
+    all.push_back({"ExpansionUncertain", expansion});
+    CampaignPlan temperature = full_plan();
+    temperature.u_expansion = 0.0;
+    all.push_back({"TemperaturesUncertain", temperature});
     CampaignPlan pairs;
     pairs.dead_paths = synthetic::DeadPaths::per_station_and_reflector;
     pairs.start_values = true;
@@ -310,12 +316,29 @@ TEST(RotaryTableTrials, FarSetUpIsCarriedToTheDatumAsAnywhere) {
     }
 }
 
-TEST(RotaryTableTrials, TooFarForTheNormalEquationsOfTheSolutionIsSolvedAlone) {
-    CampaignPlan plan = full_plan();
-    plan.u_expansion = 4e-6;  // a third of its value: temperatures act twice as strongly or hardly at all
-    const Solved solved(plan);
-    EXPECT_LT(largest_difference(solved, 3.0, 6, 8), 1e-4);
-    EXPECT_GT(solved.trials->steps().alone, 0U);
+TEST(RotaryTableTrials, ExpansionTimesTemperatureCostsNoSteps) {
+    // At 4 µm/(m K), a third of the expansion, the product of the two is far from linear, and
+    // what the last step leaves is larger (1.1e-5 u seen at 8 K).
+    for (const double u_expansion : {1e-6, 4e-6}) {
+        for (const double difference : {0.0, 1.2, 8.0}) {
+            CampaignPlan plan = full_plan();
+            plan.u_expansion = u_expansion;
+            plan.temperature_difference = difference;
+            const Solved solved(plan);
+            const double bound = u_expansion > 1e-6 ? 1e-4 : 1e-5;
+            EXPECT_LT(largest_difference(solved, 2.0, 16, 8), bound) << u_expansion << ", " << difference;
+            EXPECT_LE(solved.trials->steps().mean(), 3.0) << u_expansion << ", " << difference;
+            EXPECT_EQ(solved.trials->steps().alone, 0U) << u_expansion << ", " << difference;
+        }
+    }
+}
+
+TEST(RotaryTableTrials, ThatNeedsMoreStepsIsSolvedAlone) {
+    Solved solved(full_plan());
+    solved.trials = std::make_unique<RotaryTableTrials>(*solved.joint, solved.stochastic, k_stated,
+                                                        TrialExtras{.options = {.most_steps = 1}});
+    EXPECT_LT(largest_difference(solved, 3.0, 6, 8), 1e-5);
+    EXPECT_EQ(solved.trials->steps().alone, 6U);
     EXPECT_EQ(solved.trials->steps().not_converged, 0U);
 }
 

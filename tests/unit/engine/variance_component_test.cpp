@@ -90,7 +90,7 @@ TEST(VarianceComponents, ComponentsAreAFixedPoint) {
     ASSERT_TRUE(adjustment.adjustment().refine(SolverOptions{}).converged);
     const NormalEquations normal = adjustment.adjustment().linearise();
     const VarianceComponentStep step =
-        estimate_variance_components(adjustment, normal, normal.covariance(), solution.stochastic, {});
+        estimate_variance_components(adjustment, normal, normal.bordered_covariance(), solution.stochastic, {});
     EXPECT_LT(step.relative_change, 1e-4);
     EXPECT_NEAR(step.stochastic.length_factor / solution.stochastic.length_factor, 1.0, 1e-5);
     EXPECT_NEAR(step.stochastic.variance_linear / solution.stochastic.variance_linear, 1.0, 1e-4);
@@ -101,8 +101,8 @@ TEST(VarianceComponents, ComponentsAreAFixedPoint) {
     for (const VarianceComponent& component : step.components) {
         redundancy += component.redundancy;
     }
-    EXPECT_NEAR(step.components[fixture_cmm].redundancy, fixture_redundancy(adjustment, normal, normal.covariance()),
-                1e-9);
+    EXPECT_NEAR(step.components[fixture_cmm].redundancy,
+                fixture_redundancy(adjustment, normal, normal.bordered_covariance()), 1e-9);
     EXPECT_NEAR(redundancy, static_cast<double>(solution.degrees_of_freedom), 1e-3);
 }
 

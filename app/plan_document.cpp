@@ -1,0 +1,396 @@
+#include "app/plan_document.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/plan_data.h"
+#include "app/plan_figures.h"
+#include "app/plan_texts.h"
+#include "engine/geometry_check.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/rounding.h"
+
+namespace gumcert::app::plan {
+
+namespace {
+
+using engine::RotaryTableMeasurement;
+using engine::StochasticModel;
+using reports::StudySection;
+using reports::StudyTable;
+
+std::string angle_text(const RotaryTableMeasurement& layout, std::size_t angle) {
+    return plain(layout.angles_deg[angle]) + "°";
+}
+
+/// How many of the targets a layout meets.
+std::string targets_sentence(const Setting& setting, const std::array<Motion, 6>& motions) {
+    std::size_t missed = 0;
+    for (std::size_t c = 0; c < 6; ++c) {
+        missed += motions[c].largest > target_of(setting, c) ? 1U : 0U;
+    }
+    return missed == 0 ? "The layout meets the targets of all six error motions."
+                       : "The layout misses the target of " + std::to_string(missed) + " of the six error motions.";
+}
+
+StudyTable expected_table(const Setting& setting, const Expected& expected) {
+    StudyTable table{"Expected expanded uncertainty of the six error motions over the angles",
+                     {{"quantity", "", false},
+                      {"unit", "", false},
+                      {"U, root mean square", "", true},
+                      {"U, largest", "", true},
+                      {"at angle", "", true},
+                      {"target", "", true},
+                      {"target met", "", false}},
+                     {}};
+    for (std::size_t c = 0; c < 6; ++c) {
+        const Motion& motion = expected.motions[c];
+        const DocumentUnit& unit = unit_of_motion(c);
+        table.rows.push_back({setting.names[c], unit.print, U_text(motion.rms, unit), U_text(motion.largest, unit),
+                              angle_text(setting.layout, motion.worst_angle), plain(target_of(setting, c) / unit.si),
+                              motion.largest <= target_of(setting, c) ? "yes" : "no"});
+    }
+    return table;
+}
+
+StudyTable other_quantities_table(const Setting& setting, const engine::ExpectedUncertainty& uncertainty) {
+    StudyTable table{"Expected expanded uncertainty of the set-up errors of the fixture" +
+                         std::string(uncertainty.quantities.has_reversal ? " and of the reversals" : ""),
+                     {{"quantity", "", false}, {"unit", "", false}, {"U", "", true}},
+                     {}};
+    for (Eigen::Index i = uncertainty.quantities.set_up; i < uncertainty.covariance.rows(); ++i) {
+        const gum::OutputQuantity& quantity = uncertainty.quantities.outputs[static_cast<std::size_t>(i)];
+        const DocumentUnit& unit = unit_of(quantity);
+        table.rows.push_back(
+            {quantity.name, unit.print, U_text(setting.k * std::sqrt(uncertainty.covariance(i, i)), unit)});
+    }
+    return table;
+}
+
+StudyTable budget_table(const Setting& setting, const Expected& expected, const SourceShares& shares) {
+    StudyTable table{"Shares of the sources in the variance, at the angle of the largest U of each error motion, in %",
+                     {{"quantity", "", false}, {"at angle", "", true}},
+                     {}};
+    for (const char* source : k_sources) {
+        table.columns.push_back({source, "", true});
+    }
+    for (std::size_t c = 0; c < 6; ++c) {
+        std::vector<std::string> row{setting.names[c], angle_text(setting.layout, expected.motions[c].worst_angle)};
+        for (const double share : shares.of_motion[c]) {
+            row.push_back(gum::percent(share));
+        }
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+StudyTable sensitivity_table(const Setting& setting, const std::vector<Variant>& variants) {
+    StudyTable table{"Largest U of each error motion when one thing changes", {{"change", "", false}}, {}};
+    for (std::size_t c = 0; c < 6; ++c) {
+        table.columns.push_back({setting.names[c], unit_of_motion(c).print, true});
+    }
+    table.columns.push_back({"largest U / target", "", true});
+    for (const Variant& variant : variants) {
+        std::vector<std::string> row{variant.label};
+        for (std::size_t c = 0; c < 6; ++c) {
+            row.push_back(variant.motions ? U_text((*variant.motions)[c].largest, unit_of_motion(c)) : "");
+        }
+        row.push_back(ratio_text(variant.ratio));
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+/// The change that helps most; nothing where none helps by a per cent, which nobody would pay for.
+const Variant* best_change(const std::vector<Variant>& variants) {
+    const Variant* best = nullptr;
+    for (const Variant& variant : variants) {
+        const bool a_gain = variant.change == Change::twice_angles || variant.change == Change::half_noise ||
+                            variant.change == Change::half_repeatability;
+        if (a_gain && variant.ratio < 0.99 * (best == nullptr ? variants.front().ratio : best->ratio / 0.99)) {
+            best = &variant;
+        }
+    }
+    return best;
+}
+
+std::vector<std::string> sensitivity_sentences(const std::vector<Variant>& variants) {
+    const double planned = variants.front().ratio;
+    const Variant* best = best_change(variants);
+    const Variant* costly = nullptr;
+    const Variant* cheap = nullptr;
+    for (const Variant& variant : variants) {
+        if (variant.change == Change::without_station) {
+            costly = costly == nullptr || variant.ratio > costly->ratio ? &variant : costly;
+            cheap = cheap == nullptr || variant.ratio < cheap->ratio ? &variant : cheap;
+        }
+    }
+    std::vector<std::string> sentences;
+    if (best != nullptr) {
+        sentences.push_back("Of the changes studied, " + best->label +
+                            " helps most: the largest U in units of its target goes from " + ratio_text(planned) +
+                            " to " + ratio_text(best->ratio) + ".");
+    } else {
+        sentences.emplace_back("None of the changes studied lowers the largest U by more than 1 %.");
+    }
+    const auto fewer = std::find_if(variants.begin(), variants.end(),
+                                    [](const Variant& variant) { return variant.change == Change::half_angles; });
+    if (fewer != variants.end() && fewer->ratio < planned) {
+        sentences.emplace_back(
+            "Fewer angles do not measure better: the datum takes what all angles share and what turns with them out of "
+            "the "
+            "error motions, and the fewer angles there are, the more of the noise goes with them.");
+    }
+    if (costly != nullptr) {
+        sentences.push_back("The station that is missed most is " + costly->subject + " (" + ratio_text(costly->ratio) +
+                            " without it), the one that is missed least is " + cheap->subject + " (" +
+                            ratio_text(cheap->ratio) + ").");
+    }
+    for (const Variant& variant : variants) {
+        if (variant.why) {
+            sentences.push_back(variant.label + ": " + gum::message(*variant.why) + ".");
+        }
+    }
+    return sentences;
+}
+
+void add_proposal(const Setting& setting, const Expected& now, const Proposal& proposal, StudySection& section) {
+    const RotaryTableMeasurement& before = setting.layout;
+    const std::vector<engine::StationExchange>& exchanges = proposal.stations.exchanges;
+    section.paragraphs.push_back(
+        "Every station was tried at each of " + counted(proposal.candidates.positions.size(), "position") +
+        " of the region of the job, and the one exchange that lowers the largest U in units of its target most was "
+        "made, again and again, until none lowered it by more than 0.5 % (greedy exchange). This finds a good layout, "
+        "not provably the best one.");
+    if (exchanges.empty()) {
+        section.paragraphs.emplace_back("No exchange of one station improves the planned layout: it stays as it is.");
+    } else {
+        section.paragraphs.push_back("With the proposed stations the largest U in units of its target goes from " +
+                                     ratio_text(now.ratio) + " to " + ratio_text(proposal.expected.ratio) +
+                                     ": better by a factor of " + ratio_text(now.ratio / proposal.expected.ratio) +
+                                     ".");
+    }
+    StudyTable positions{"Stations before and after, in the frame of the table",
+                         {{"station", "", false},
+                          {"x before", "mm", true},
+                          {"y before", "mm", true},
+                          {"z before", "mm", true},
+                          {"x after", "mm", true},
+                          {"y after", "mm", true},
+                          {"z after", "mm", true},
+                          {"moved", "", false}},
+                         {}};
+    StudyTable csv{"The proposed stations as a stations file: copy the lines into stations.csv",
+                   {{"station,x_mm,y_mm,z_mm", "", false}},
+                   {}};
+    for (std::size_t j = 0; j < before.stations.size(); ++j) {
+        const Eigen::Vector3d& from = *before.station_start[j];
+        const Eigen::Vector3d& to = proposal.stations.positions[j];
+        std::vector<std::string> row{before.stations[j]};
+        const auto texts = coordinates(to);
+        for (const auto& list : {coordinates(from), texts}) {
+            row.insert(row.end(), list.begin(), list.end());
+        }
+        row.emplace_back(from == to ? "no" : "yes");
+        positions.rows.push_back(std::move(row));
+        csv.rows.push_back({before.stations[j] + "," + texts[0] + "," + texts[1] + "," + texts[2]});
+    }
+    StudyTable gains{"Expected U before and after",
+                     {{"quantity", "", false},
+                      {"unit", "", false},
+                      {"largest U before", "", true},
+                      {"largest U after", "", true},
+                      {"before / after", "", true},
+                      {"target", "", true},
+                      {"target met", "", false}},
+                     {}};
+    for (std::size_t c = 0; c < 6; ++c) {
+        const DocumentUnit& unit = unit_of_motion(c);
+        const double from = now.motions[c].largest;
+        const double to = proposal.expected.motions[c].largest;
+        gains.rows.push_back({setting.names[c], unit.print, U_text(from, unit), U_text(to, unit), ratio_text(from / to),
+                              plain(target_of(setting, c) / unit.si), to <= target_of(setting, c) ? "yes" : "no"});
+    }
+    section.tables = {std::move(positions), std::move(gains)};
+    if (!exchanges.empty()) {
+        StudyTable steps{"Exchanges in their order",
+                         {{"no.", "", true},
+                          {"station", "", false},
+                          {"from x, y, z", "mm", false},
+                          {"to x, y, z", "mm", false},
+                          {"largest U / target after it", "", true}},
+                         {}};
+        for (std::size_t e = 0; e < exchanges.size(); ++e) {
+            steps.rows.push_back({std::to_string(e + 1), before.stations[exchanges[e].station],
+                                  place_text(exchanges[e].from), place_text(exchanges[e].to),
+                                  ratio_text(exchanges[e].ratio)});
+        }
+        section.tables.push_back(std::move(steps));
+        section.tables.push_back(std::move(csv));
+    }
+}
+
+StudyTable layout_table(const Setting& setting, const Expected& now) {
+    const RotaryTableMeasurement& layout = setting.layout;
+    StudyTable table{"Planned stations, with the standard uncertainty with which the measurement will find them",
+                     {{"station", "", false},
+                      {"x", "mm", true},
+                      {"y", "mm", true},
+                      {"z", "mm", true},
+                      {"u(x)", "µm", true},
+                      {"u(y)", "µm", true},
+                      {"u(z)", "µm", true}},
+                     {}};
+    for (std::size_t j = 0; j < layout.stations.size(); ++j) {
+        const engine::PlannedStation& station = now.uncertainty.stations[j];
+        std::vector<std::string> row{layout.stations[j]};
+        const auto texts = coordinates(station.position);
+        row.insert(row.end(), texts.begin(), texts.end());
+        for (int c = 0; c < 3; ++c) {
+            row.push_back(gum::round_significant(std::sqrt(station.covariance(c, c)) / k_um.si, 2));
+        }
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+std::vector<std::pair<std::string, std::string>> facts_of(const Setting& setting, const std::string& job_name,
+                                                          const Expected& now) {
+    const RotaryTableMeasurement& layout = setting.layout;
+    const engine::ExpectedUncertainty& uncertainty = now.uncertainty;
+    const engine::LengthUncertainty& noise = layout.length_uncertainty;
+    const auto um = [](double value) { return gum::round_significant(value / k_um.si, 3) + " µm"; };
+    std::vector<std::pair<std::string, std::string>> facts{
+        {"Job", job_name},
+        {"Axis", axis_letter(layout)},
+        {"Datum", layout.datum == engine::Datum::home ? "home" : "axis average line"},
+        {"Layout", counted(layout.stations.size(), "station") + ", " + counted(layout.reflectors.size(), "reflector") +
+                       ", " + counted(layout.angles.size(), "angle")},
+        {"Distances", std::to_string(layout.lengths.size()) + ": " + setting.distances_from},
+        {"Dead paths", std::to_string(layout.dead_paths.size())},
+        {"Length noise, standard uncertainty",
+         um(noise.u_constant) + " and " + um(noise.u_proportional) + " per metre, added in squares"}};
+    if (noise.resolution > 0.0) {
+        facts.emplace_back("Resolution of the lengths", um(noise.resolution));
+    }
+    const StochasticModel& variances = setting.stochastic;
+    facts.emplace_back("Table repeatability, standard deviation",
+                       um(std::sqrt(variances.variance_linear)) + ", " +
+                           gum::round_significant(std::sqrt(variances.variance_axial) / k_arcsec.si, 3) +
+                           "″ about the axis, " +
+                           gum::round_significant(std::sqrt(variances.variance_tilt) / k_arcsec.si, 3) + "″ across it");
+    facts.insert(facts.end(),
+                 {{"Coverage", gum::round_significant(100.0 * setting.job.coverage_probability, 4) +
+                                   " %, k = " + gum::round_significant(setting.k, 3) + ", infinite degrees of freedom"},
+                  {"Targets", plain(setting.request.target_linear / k_um.si) + " µm and " +
+                                  plain(setting.request.target_angular / k_arcsec.si) + "″"},
+                  {"Observations, parameters, degrees of freedom", std::to_string(uncertainty.observations) + ", " +
+                                                                       std::to_string(uncertainty.parameters) + ", " +
+                                                                       std::to_string(uncertainty.degrees_of_freedom)},
+                  {"Condition number", gum::round_significant(uncertainty.condition_number, 2)},
+                  {"Mean redundancy number of the distances", gum::round_significant(uncertainty.mean_redundancy, 2)},
+                  {"Largest minimal detectable bias of a distance (false alarm " +
+                       plain(100.0 * layout.outliers.alpha) + " %, power 80 %)",
+                   um(uncertainty.largest_minimal_detectable_bias)}});
+    if (uncertainty.uncontrolled_distances > 0) {
+        facts.emplace_back("Distances that no other controls", std::to_string(uncertainty.uncontrolled_distances));
+    }
+    return facts;
+}
+
+/// What a reader who reads no further must know.
+std::string found_text(const Setting& setting, const Expected& now, const std::vector<Variant>& variants,
+                       const std::optional<Proposal>& proposal) {
+    std::string text = "Of this layout, U of at most ";
+    for (const std::size_t first : {std::size_t{0}, std::size_t{3}}) {
+        std::size_t worst = first;
+        for (std::size_t c = first; c < first + 3; ++c) {
+            worst = now.motions[c].largest > now.motions[worst].largest ? c : worst;
+        }
+        const DocumentUnit& unit = unit_of_motion(worst);
+        const std::string gap = first == 0 ? " " : "";
+        text += (first == 0 ? "" : ", and at most ") + U_text(now.motions[worst].largest, unit) + gap + unit.print +
+                " is to be expected for the " + (first == 0 ? "linear" : "angular") + " error motions (target " +
+                plain(target_of(setting, worst) / unit.si) + gap + unit.print + ")";
+    }
+    text += ". " + targets_sentence(setting, now.motions);
+    if (proposal && !proposal->stations.exchanges.empty()) {
+        text += " With the proposed stations the largest U in units of its target would go from " +
+                ratio_text(now.ratio) + " to " + ratio_text(proposal->expected.ratio) + ".";
+    } else if (const Variant* best = best_change(variants)) {
+        text += " Of the changes studied, " + best->label + " would help most.";
+    }
+    return text;
+}
+
+void add_standing_notes(Setting& setting) {
+    std::vector<Eigen::Vector3d> positions;
+    for (const auto& position : setting.layout.station_start) {
+        positions.push_back(*position);
+    }
+    for (const gum::Diagnostic& note : engine::geometry_notes(setting.layout, positions)) {
+        setting.notes.push_back(gum::message(note));
+    }
+    for (const gum::Diagnostic& warning : setting.job.warnings) {
+        setting.notes.push_back(gum::message(warning));
+    }
+    setting.notes.emplace_back(
+        "The plan is the covariance of the joint adjustment at an ideal table, with the variances stated. Set-up "
+        "errors "
+        "and error motions of micrometres change it by less than it is printed with.");
+    setting.notes.emplace_back(
+        "An evaluation that estimates variances states finite degrees of freedom and hence a somewhat larger coverage "
+        "factor; distances that it leaves out as outlying are missing there.");
+    setting.notes.emplace_back(
+        "Lines of sight are not examined: whether the table, the fixture or another reflector is in the way of a beam, "
+        "and whether a reflector faces it, is for the planner to see.");
+}
+
+}  // namespace
+
+reports::StudyDocument document_of(Setting setting, const std::string& job_name, const Expected& now,
+                                   const std::optional<SourceShares>& shares, const std::vector<Variant>& variants,
+                                   const std::optional<Proposal>& proposal) {
+    add_standing_notes(setting);
+
+    reports::StudyDocument document;
+    document.kind = "plan";
+    document.title = setting.job.title.empty() ? job_name : setting.job.title;
+    document.subtitle = found_text(setting, now, variants, proposal);
+    document.facts = facts_of(setting, job_name, now);
+
+    document.sections.push_back(
+        {.heading = "What to expect",
+         .paragraphs = {"The largest U in units of its target is " + ratio_text(now.ratio) +
+                        "; it is what this plan compares layouts by. U is rounded up to two digits."},
+         .tables = {expected_table(setting, now), other_quantities_table(setting, now.uncertainty)},
+         .figures = {bars_figure(setting, now, proposal)}});
+    document.sections.push_back({.heading = "Layout",
+                                 .paragraphs = {},
+                                 .tables = {layout_table(setting, now)},
+                                 .figures = {layout_figure(setting, now, proposal)}});
+    if (shares) {
+        document.sections.push_back({.heading = "What the uncertainties are made of",
+                                     .paragraphs = {},
+                                     .tables = {budget_table(setting, now, *shares)},
+                                     .figures = {}});
+    } else {
+        setting.notes.emplace_back("The budget by source is left out: it is made for smaller numbers of distances.");
+    }
+    document.sections.push_back({.heading = "What each part of the layout is worth",
+                                 .paragraphs = sensitivity_sentences(variants),
+                                 .tables = {sensitivity_table(setting, variants)},
+                                 .figures = {}});
+    if (proposal) {
+        StudySection section{.heading = "Proposed stations", .paragraphs = {}, .tables = {}, .figures = {}};
+        add_proposal(setting, now, *proposal, section);
+        document.sections.push_back(std::move(section));
+    }
+    document.sections.push_back(
+        {.heading = "What this rests on", .paragraphs = setting.notes, .tables = {}, .figures = {}});
+    document.data_json = data_json(setting, job_name, now, shares, variants, proposal);
+    return document;
+}
+
+}  // namespace gumcert::app::plan
