@@ -113,7 +113,7 @@ reports::GlobalTest global_test(const RotaryTableSolution& solution) {
     test.accepted = test.lower <= solution.chi_square && solution.chi_square <= test.upper;
     test.printed_lower = gum::round_to_quantum(test.lower, 1);
     test.printed_upper = gum::round_to_quantum(test.upper, 1);
-    if (solution.variance_factor_used == engine::VarianceFactorUsed::a_posteriori) {
+    if (solution.variance_basis == engine::VarianceBasis::estimated) {
         test.meaning =
             "Variance components were estimated from the same residuals, so that chi-square is near its degrees of "
             "freedom by construction: the test confirms the adjustment, not the stated uncertainties.";
@@ -140,9 +140,8 @@ void fill_test(reports::RotaryTable& rotary, const RotaryTableSolution& solution
     const auto nu = static_cast<double>(solution.degrees_of_freedom);
     adjustment.p_value = nu > 0.0 ? gum::chi_square_upper_tail(solution.chi_square, nu) : 1.0;
     adjustment.condition_number = solution.condition_number;
-    const bool estimated = solution.variance_factor_used == engine::VarianceFactorUsed::a_posteriori;
-    adjustment.variance_factor = {1.0, solution.variance_factor, estimated ? "a_posteriori" : "a_priori",
-                                  solution.variance_factor_reason};
+    // Estimated components are in the weights; nothing is multiplied by chi-square per degree of freedom.
+    adjustment.variance_factor = {1.0, solution.variance_factor, "a_priori", solution.variance_factor_reason};
     if (solution.degrees_of_freedom > 0) {
         adjustment.global_test = global_test(solution);
     }

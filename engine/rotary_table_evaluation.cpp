@@ -291,16 +291,16 @@ void fill_variance_factor(RotaryTableSolution& solution) {
         }
     }
     if (names.empty()) {
-        solution.variance_factor_used = VarianceFactorUsed::a_priori;
+        solution.variance_basis = VarianceBasis::stated;
         solution.variance_factor_reason =
             "All variances are as stated. Chi-square per degree of freedom tests them; no uncertainty is multiplied by "
             "it.";
     } else {
-        solution.variance_factor_used = VarianceFactorUsed::a_posteriori;
+        solution.variance_basis = VarianceBasis::estimated;
         solution.variance_factor_reason =
-            "Estimated from the residuals: " + names +
-            ". The uncertainties contain these estimates, and chi-square per degree of freedom is near 1 by "
-            "construction.";
+            "Variance components estimated from the residuals are in the weights: " + names +
+            ". The uncertainties contain them and are not multiplied by a factor; chi-square per degree of freedom "
+            "is near 1 by construction.";
     }
 }
 

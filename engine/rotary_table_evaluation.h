@@ -59,9 +59,9 @@ struct OutlierFinding {
     bool removed = false;            ///< it is not in the result
 };
 
-enum class VarianceFactorUsed {
-    a_priori,      ///< all variances as stated
-    a_posteriori,  ///< variance components estimated from the residuals are in the weights and the uncertainties
+enum class VarianceBasis {
+    stated,     ///< all variances as stated
+    estimated,  ///< variance components estimated from the residuals are in the weights and the uncertainties
 };
 
 /// Everything that the adjustment knows of one rotary-table measurement, coherent SI.
@@ -80,8 +80,8 @@ struct RotaryTableSolution {
     int iterations = 0;
     double chi_square = 0.0;
     double variance_factor = 1.0;  ///< chi-square per degree of freedom; 1 without redundancy
-    VarianceFactorUsed variance_factor_used = VarianceFactorUsed::a_priori;
-    std::string variance_factor_reason;  ///< a sentence for people
+    VarianceBasis variance_basis = VarianceBasis::stated;
+    std::string variance_factor_reason;  ///< for people: why no uncertainty is multiplied by the factor
     double condition_number = 0.0;
 
     StochasticModel stochastic;

@@ -195,7 +195,7 @@ TEST_P(RotaryTableTruth, LengthNoiseOfTheSimulationIsFoundAndTestedWithTau) {
     EXPECT_NEAR(*set_->solution.critical_value_degrees_of_freedom, component.redundancy, 1e-3);
     EXPECT_LT(set_->solution.critical_value,
               gum::two_sided_normal_critical_value(set_->job.measurement.outliers.alpha));
-    EXPECT_EQ(set_->solution.variance_factor_used, engine::VarianceFactorUsed::a_posteriori);
+    EXPECT_EQ(set_->solution.variance_basis, engine::VarianceBasis::estimated);
 }
 
 TEST_P(RotaryTableTruth, FixtureIsAsStated) {

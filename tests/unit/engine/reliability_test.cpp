@@ -415,7 +415,7 @@ TEST(Reliability, EstimatedLengthNoiseIsTestedWithTau) {
     const RotaryTableSolution given = evaluate_jointly(campaign.measurement, options);
     EXPECT_FALSE(given.critical_value_degrees_of_freedom.has_value());
     EXPECT_EQ(given.critical_value, options.critical_value);
-    EXPECT_EQ(given.variance_factor_used, VarianceFactorUsed::a_priori);
+    EXPECT_EQ(given.variance_basis, VarianceBasis::stated);
 }
 
 TEST(Reliability, LogTellsWhatWasFoundInWhichOrderAndWhy) {

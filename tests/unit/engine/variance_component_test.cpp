@@ -209,7 +209,7 @@ TEST(VarianceComponents, TracerAndCmmHaveTheInformationOfTheNote) {
                     std::sqrt(solution.stochastic.fixture_factor), 1e-6);
         // Every component estimated: restricted maximum likelihood fills the degrees of freedom exactly.
         EXPECT_NEAR(solution.chi_square / static_cast<double>(solution.degrees_of_freedom), 1.0, 1e-5);
-        EXPECT_EQ(solution.variance_factor_used, VarianceFactorUsed::a_posteriori);
+        EXPECT_EQ(solution.variance_basis, VarianceBasis::estimated);
     }
     EXPECT_NEAR(tracer, 0.022, 0.001);
     EXPECT_NEAR(cmm, 0.21, 0.015);
