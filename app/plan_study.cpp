@@ -10,6 +10,7 @@
 #include "engine/campaign_layout.h"
 #include "engine/geometry_check.h"
 #include "engine/start_values.h"
+#include "engine/variance_components.h"
 #include "gum/coverage.h"
 #include "gum/propagation.h"
 #include "gum/rounding.h"
@@ -138,7 +139,7 @@ Setting setting_of(const std::filesystem::path& job_file, const Progress& progre
         setting.distances_from = "every station to every reflector at every planned angle";
     }
     engine::predict_lengths(layout);
-    setting.stochastic = engine::planned_variances(layout.table_repeatability);
+    setting.stochastic = engine::start_variances(layout.table_repeatability);
     setting.k = gum::coverage_factor(setting.job.coverage_probability, k_infinite);
     setting.wanted = {setting.request.target_linear / setting.k, setting.request.target_angular / setting.k};
     setting.names = engine::error_motion_names(layout.axis);

@@ -17,10 +17,6 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-// Where an evaluation starts that estimates the repeatability of the table: a good commercial table.
-constexpr double k_start_linear = 0.2 * gum::k_micrometre;
-constexpr double k_start_angular = 0.3 * gum::k_arcsecond;
-
 // Squared pivot of the scaled normal equations below which a parameter counts as not determined; as
 // SolverOptions::rank_tolerance.
 constexpr double k_pivot_tolerance = 1e-12;
@@ -162,22 +158,6 @@ void predict_lengths(RotaryTableMeasurement& measurement) {
     }
 }
 
-StochasticModel planned_variances(const TableRepeatability& table) {
-    StochasticModel model;
-    if (table.mode == RepeatabilityMode::none) {
-        return model;
-    }
-    const bool guess = table.mode == RepeatabilityMode::estimate;
-    const auto square = [guess](double value, double start) {
-        const double used = guess && value <= 0.0 ? start : value;
-        return used * used;
-    };
-    model.variance_linear = square(table.u_linear, k_start_linear);
-    model.variance_axial = square(table.u_axial, k_start_angular);
-    model.variance_tilt = square(table.u_tilt, k_start_angular);
-    return model;
-}
-
 JointAdjustment planned_adjustment(const RotaryTableMeasurement& measurement, const StochasticModel& stochastic) {
     return {measurement, std::vector<bool>(measurement.lengths.size(), true), RigidMotion{}, ideal_values(measurement),
             stochastic};
@@ -210,27 +190,9 @@ ExpectedUncertainty expected_uncertainty(const RotaryTableMeasurement& measureme
     expected.quantities = reported_quantities(measurement, adjustment.has_reversal());
     expected.covariance = ReportedCovariance(adjustment, normal, covariance, datum);
     for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
-        const auto block = adjustment.station_block(j);
         PlannedStation station;
         station.position = *measurement.station_start[j];
-        // The position in the frame of the datum: that of the solver, moved by the motion of the world.
-        const Eigen::Vector3d& q = station.position;
-        Eigen::Matrix<double, 3, 6> by_world;
-        by_world << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero();
-        by_world.rightCols<3>() << 0.0, q[2], -q[1], -q[2], 0.0, q[0], q[1], -q[0], 0.0;
-        const Eigen::MatrixXd by_pose = by_world * datum.world_map;
-        Eigen::MatrixXd by_parameter = Eigen::MatrixXd::Zero(3, normal.parameter_count());
-        for (int c = 0; c < 3; ++c) {
-            by_parameter.col(normal.column(block, c)) += Eigen::Vector3d::Unit(c);
-        }
-        for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
-            for (int c = 0; c < 6; ++c) {
-                if (const Eigen::Index column = normal.column(adjustment.pose_block(i), c); column >= 0) {
-                    by_parameter.col(column) += by_pose.col(6 * static_cast<Eigen::Index>(i) + c);
-                }
-            }
-        }
-        station.covariance = covariance.times_left(by_parameter) * by_parameter.transpose();
+        station.covariance = station_covariance(adjustment, normal, covariance, datum, j);
         expected.stations.push_back(station);
     }
     expected.observations = normal.observation_count();

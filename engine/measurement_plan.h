@@ -29,10 +29,6 @@ namespace gumcert::engine {
 /// \throws gum::InputError  GC-PLAN-0001 with every station that has no position
 void predict_lengths(RotaryTableMeasurement& measurement);
 
-/// Variances that a plan rests on: those stated for the lengths, and the repeatability of the table as given. Where the
-/// job wants it estimated, its start values, or those that an evaluation starts from.
-[[nodiscard]] StochasticModel planned_variances(const TableRepeatability& table);
-
 /// Adjustment of a planned measurement at the ideal values. The measurement must outlive it.
 [[nodiscard]] JointAdjustment planned_adjustment(const RotaryTableMeasurement& measurement,
                                                  const StochasticModel& stochastic);

@@ -1,5 +1,7 @@
 #include "engine/reported_covariance.h"
 
+#include "engine/rotation.h"
+
 #include <utility>
 
 namespace gumcert::engine {
@@ -126,6 +128,27 @@ Eigen::MatrixXd ReportedCovariance::dense() const {
     }
     result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
     return result;
+}
+
+Eigen::Matrix3d station_covariance(const JointAdjustment& adjustment, const NormalEquations& normal,
+                                   const BorderedCovariance& covariance, const DatumSolution& datum,
+                                   std::size_t station) {
+    const auto block = adjustment.station_block(station);
+    const Eigen::Vector3d position = adjustment.adjustment().parameters(block).head<3>();
+    const Eigen::MatrixXd by_pose = point_displacement(position) * datum.world_map;
+    Eigen::MatrixXd by_parameter = Eigen::MatrixXd::Zero(3, normal.parameter_count());
+    for (int c = 0; c < 3; ++c) {
+        by_parameter.col(normal.column(block, c)) += Eigen::Vector3d::Unit(c);
+    }
+    for (Eigen::Index i = 0; i < by_pose.cols() / 6; ++i) {
+        for (int c = 0; c < 6; ++c) {
+            const Eigen::Index column = normal.column(adjustment.pose_block(static_cast<std::size_t>(i)), c);
+            if (column >= 0) {
+                by_parameter.col(column) += by_pose.col(6 * i + c);
+            }
+        }
+    }
+    return covariance.times_left(by_parameter) * by_parameter.transpose();
 }
 
 }  // namespace gumcert::engine

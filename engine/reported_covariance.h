@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <optional>
 
 #include "engine/adjustment.h"
@@ -55,5 +56,11 @@ private:
     Eigen::MatrixXd half_;    ///< U, m×10
     Eigen::MatrixXd own_;     ///< W in the datum, 6N×6
 };
+
+/// Covariance of the position of a station in the frame of the datum, [m²]: the position of the solver, moved by the
+/// motion of the world that the datum makes of the poses.
+[[nodiscard]] Eigen::Matrix3d station_covariance(const JointAdjustment& adjustment, const NormalEquations& normal,
+                                                 const BorderedCovariance& covariance, const DatumSolution& datum,
+                                                 std::size_t station);
 
 }  // namespace gumcert::engine

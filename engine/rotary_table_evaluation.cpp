@@ -20,26 +20,6 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-// Where the iteration of the variance components starts when the job gives no idea: a good commercial table.
-constexpr double k_start_linear = 0.2 * gum::k_micrometre;
-constexpr double k_start_angular = 0.3 * gum::k_arcsecond;
-
-StochasticModel start_model(const TableRepeatability& table) {
-    StochasticModel model;
-    if (table.mode == RepeatabilityMode::none) {
-        return model;
-    }
-    const bool guess = table.mode == RepeatabilityMode::estimate;
-    const auto square = [guess](double value, double start) {
-        const double used = guess && value <= 0.0 ? start : value;
-        return used * used;
-    };
-    model.variance_linear = square(table.u_linear, k_start_linear);
-    model.variance_axial = square(table.u_axial, k_start_angular);
-    model.variance_tilt = square(table.u_tilt, k_start_angular);
-    return model;
-}
-
 /// Kept in, they would carry the solution away from every other distance.
 [[noreturn]] void refuse_gross_errors(const RotaryTableMeasurement& measurement,
                                       const std::vector<std::size_t>& gross) {
@@ -351,7 +331,7 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
                                         measurement.table_repeatability.mode == RepeatabilityMode::estimate,
                                         fixture_component == FixtureComponent::estimate};
     Iteration iteration(estimated, progress);
-    StochasticModel stochastic = start_model(measurement.table_repeatability);
+    StochasticModel stochastic = start_variances(measurement.table_repeatability);
     const OutlierOptions& outliers = measurement.outliers;
     const bool snooping = outliers.test == OutlierTest::data_snooping;
 
@@ -505,28 +485,12 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
     solution.values = reported_values(adjustment, solution.datum);
     solution.covariance = ReportedCovariance(adjustment, normal, covariance, solution.datum).dense();
 
-    const auto pose_columns = [&](Eigen::MatrixXd& rows_of, const Eigen::MatrixXd& by_pose) {
-        for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
-            for (int c = 0; c < 6; ++c) {
-                const Eigen::Index column = normal.column(adjustment.pose_block(i), c);
-                if (column >= 0) {
-                    rows_of.col(column) += by_pose.col(6 * static_cast<Eigen::Index>(i) + c);
-                }
-            }
-        }
-    };
     for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
         const auto block = adjustment.station_block(j);
         const Eigen::VectorXd& value = adjustment.adjustment().parameters(block);
         StationEstimate station;
         station.position = solution.datum.world * value.head<3>();
-        const Eigen::Matrix<double, 3, 6> by_world = point_displacement(value.head<3>());  // of a motion of the world
-        Eigen::MatrixXd by_parameter = Eigen::MatrixXd::Zero(3, normal.parameter_count());
-        for (int c = 0; c < 3; ++c) {
-            by_parameter.col(normal.column(block, c)) += Eigen::Vector3d::Unit(c);
-        }
-        pose_columns(by_parameter, by_world * solution.datum.world_map);
-        station.covariance = covariance.times_left(by_parameter) * by_parameter.transpose();
+        station.covariance = station_covariance(adjustment, normal, covariance, solution.datum, j);
         station.u = station.covariance.diagonal().cwiseSqrt();
         station.scale_deviation = value[3];
         if (const Eigen::Index column = normal.column(block, 3); column >= 0) {

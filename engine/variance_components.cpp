@@ -9,9 +9,15 @@
 #include <limits>
 #include <utility>
 
+#include "gum/quantity/units.h"
+
 namespace gumcert::engine {
 
 namespace {
+
+// Where the iteration starts when the job gives no idea: a good commercial table.
+constexpr double k_start_linear = 0.2 * gum::k_micrometre;
+constexpr double k_start_angular = 0.3 * gum::k_arcsecond;
 
 constexpr std::size_t k_visit_components = 4;  // whose derivatives live in the visits; the fixture has its own group
 constexpr std::size_t k_components = 5;
@@ -133,6 +139,22 @@ private:
 };
 
 }  // namespace
+
+StochasticModel start_variances(const TableRepeatability& table) {
+    StochasticModel model;
+    if (table.mode == RepeatabilityMode::none) {
+        return model;
+    }
+    const bool guess = table.mode == RepeatabilityMode::estimate;
+    const auto square = [guess](double value, double start) {
+        const double used = guess && value <= 0.0 ? start : value;
+        return used * used;
+    };
+    model.variance_linear = square(table.u_linear, k_start_linear);
+    model.variance_axial = square(table.u_axial, k_start_angular);
+    model.variance_tilt = square(table.u_tilt, k_start_angular);
+    return model;
+}
 
 VarianceComponentStep estimate_variance_components(const JointAdjustment& adjustment, const NormalEquations& normal,
                                                    const BorderedCovariance& covariance, const StochasticModel& present,

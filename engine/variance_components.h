@@ -41,6 +41,10 @@ enum ComponentRow : std::size_t { length_noise, table_linear, table_axial, table
 /// Redundancy of a component below which the residuals say nothing of it.
 constexpr double k_least_component_redundancy = 2.0;
 
+/// The weights that a job asks for, before anything is estimated: what it states of the table, and where it asks for an
+/// estimate without an idea of it, what a good commercial table has.
+[[nodiscard]] StochasticModel start_variances(const TableRepeatability& table);
+
 struct VarianceComponentStep {
     StochasticModel stochastic;                 ///< after the step
     double relative_change = 0.0;               ///< largest change of a variance against its standard uncertainty

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <thread>
 
+#include "engine/variance_components.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/support/synthetic_campaign.h"
 
@@ -30,7 +31,7 @@ RotaryTableMeasurement layout_of(CampaignPlan plan) {
 }
 
 ExpectedUncertainty expected(const RotaryTableMeasurement& measurement) {
-    return expected_uncertainty(measurement, planned_variances(measurement.table_repeatability), EvaluationOptions{});
+    return expected_uncertainty(measurement, start_variances(measurement.table_repeatability), EvaluationOptions{});
 }
 
 /// Root mean square of the standard uncertainties over the angles, [µm] and [µrad].
@@ -244,7 +245,7 @@ TEST(MeasurementPlan, LayoutVariancesAreTheDiagonalOfTheFullCovariance) {
                 plan.dead_paths = both_senses ? DeadPaths::per_station : DeadPaths::per_station_and_reflector;
                 const RotaryTableMeasurement measurement = layout_of(plan);
                 const ExpectedUncertainty full = expected(measurement);
-                const LayoutVariances lean(measurement, planned_variances(measurement.table_repeatability));
+                const LayoutVariances lean(measurement, start_variances(measurement.table_repeatability));
                 const std::optional<Eigen::VectorXd> variances = lean.variances();
                 ASSERT_TRUE(variances.has_value());
                 ASSERT_EQ(variances->size(), full.covariance.rows());
@@ -264,7 +265,7 @@ TEST(MeasurementPlan, AStationInOneSenseOnlyLeavesTheReversalOut) {
     });
     const ExpectedUncertainty full = expected(measurement);
     const std::optional<Eigen::VectorXd> lean =
-        LayoutVariances(measurement, planned_variances(measurement.table_repeatability)).variances();
+        LayoutVariances(measurement, start_variances(measurement.table_repeatability)).variances();
     ASSERT_TRUE(lean.has_value());
     ASSERT_EQ(lean->size(), full.covariance.rows());
     EXPECT_FALSE(full.quantities.has_reversal);
@@ -278,7 +279,7 @@ TEST(MeasurementPlan, AMovedStationReplacesItsPartOnly) {
     const RotaryTableMeasurement before = layout_of(plan);
     plan.stations[1] = {0.3, 0.9, -0.4};
     const RotaryTableMeasurement after = layout_of(plan);
-    const StochasticModel stochastic = planned_variances(before.table_repeatability);
+    const StochasticModel stochastic = start_variances(before.table_repeatability);
     const LayoutVariances layout(before, stochastic);
     LayoutVariances::Information sum = layout.prior();
     LayoutVariances::Information part;
@@ -300,7 +301,7 @@ TEST(MeasurementPlan, LayoutsThatDetermineNothingAreNamed) {
     for (std::size_t left_out = 5; left_out > 0; --left_out) {
         measurement = without_station(measurement, left_out);
     }
-    const StochasticModel stochastic = planned_variances(measurement.table_repeatability);
+    const StochasticModel stochastic = start_variances(measurement.table_repeatability);
     measurement = without_reflector(measurement, 0);
     EXPECT_FALSE(LayoutVariances(measurement, stochastic).variances().has_value());
     const std::optional<gum::Diagnostic> why = undetermined_by(measurement, stochastic, SolverOptions{});
@@ -413,7 +414,7 @@ TEST(StationProposal, ANarrowConeBecomesAboutAsGoodAsTheBestOfManyLayouts) {
     plan.angles_deg = synthetic::full_turn(12);
     plan.stations = narrow_cone();
     const RotaryTableMeasurement measurement = layout_of(plan);
-    const StochasticModel stochastic = planned_variances(measurement.table_repeatability);
+    const StochasticModel stochastic = start_variances(measurement.table_repeatability);
     const std::vector<Eigen::Vector3d> candidates = station_candidates(measurement, front_box()).positions;
     const StationProposal proposal = propose_stations(measurement, stochastic, candidates, k_wanted, threads(1));
 
@@ -449,7 +450,7 @@ TEST(StationProposal, IsTheSameForAnyNumberOfThreads) {
     plan.angles_deg = synthetic::full_turn(8);
     plan.stations = narrow_cone();
     const RotaryTableMeasurement measurement = layout_of(plan);
-    const StochasticModel stochastic = planned_variances(measurement.table_repeatability);
+    const StochasticModel stochastic = start_variances(measurement.table_repeatability);
     const std::vector<Eigen::Vector3d> candidates = station_candidates(measurement, front_box()).positions;
     const StationProposal one = propose_stations(measurement, stochastic, candidates, k_wanted, threads(1));
     const StationProposal three = propose_stations(measurement, stochastic, candidates, k_wanted, threads(3));
@@ -465,7 +466,7 @@ TEST(StationProposal, IsTheSameForAnyNumberOfThreads) {
 TEST(StationProposal, NothingToChooseFromChangesNothing) {
     const RotaryTableMeasurement measurement = layout_of(note_layout());
     const StationProposal proposal =
-        propose_stations(measurement, planned_variances(measurement.table_repeatability), {}, k_wanted, threads(1));
+        propose_stations(measurement, start_variances(measurement.table_repeatability), {}, k_wanted, threads(1));
     EXPECT_TRUE(proposal.exchanges.empty());
     EXPECT_EQ(proposal.ratio_before, proposal.ratio_after);
     EXPECT_EQ(proposal.positions[2], *measurement.station_start[2]);
