@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t k_cells = std::size_t{1} << 15U;
 constexpr double k_domination = 0.3;
 constexpr double k_tail_beyond_grid = 1e-9;  // probability of a term outside the grid, of those without limits
+constexpr double k_negligible_cell = 1e-15;  // of a probability; what Fourier transforms leave behind is smaller
 constexpr double k_widest_grid = 60.0;       // in standard deviations of the sum
 
 /// The distribution of c (X − x), scale alone.
@@ -52,10 +53,8 @@ std::vector<double> cell_probabilities(const Distribution& distribution, double 
     return cells;
 }
 
-}  // namespace
-
-double convolution_half_width(std::span<const ConvolutionTerm> terms, double coverage_probability) {
-    require_probability(coverage_probability, "coverage probability");
+/// The distributions of c_i (X_i − x_i), all normal ones as one.
+std::vector<Distribution> centred_distributions(std::span<const ConvolutionTerm> terms) {
     std::vector<Distribution> distributions;
     double normal_variance = 0.0;
     for (const ConvolutionTerm& term : terms) {
@@ -90,7 +89,16 @@ double convolution_half_width(std::span<const ConvolutionTerm> terms, double cov
                                     .rule = "a sum of distributions needs at least one",
                                     .action = "State the uncertainty of at least one input."});
     }
+    return distributions;
+}
 
+/// Probabilities of a sum in the cells (k ± ½) h, those with k < 0 at the end of the array.
+struct CellSum {
+    double h = 0.0;
+    std::vector<double> cells;
+};
+
+CellSum convolve(std::span<const Distribution> distributions) {
     double variance = 0.0;
     double reach = 0.0;  // nothing lies further out, but for the tails of the terms without limits
     for (const Distribution& distribution : distributions) {
@@ -117,6 +125,16 @@ double convolution_half_width(std::span<const ConvolutionTerm> terms, double cov
     }
     std::vector<double> sum;
     transform.inv(sum, product);
+    return {h, std::move(sum)};
+}
+
+}  // namespace
+
+double convolution_half_width(std::span<const ConvolutionTerm> terms, double coverage_probability) {
+    require_probability(coverage_probability, "coverage probability");
+    const CellSum convolved = convolve(centred_distributions(terms));
+    const double h = convolved.h;
+    const std::vector<double>& sum = convolved.cells;
 
     // Probability inside ±(k + ½) h grows by two cells a step; inside a cell it is taken as linear.
     double inside = sum[0];
@@ -133,6 +151,57 @@ double convolution_half_width(std::span<const ConvolutionTerm> terms, double cov
         edge += h;
     }
     return edge;
+}
+
+struct ConvolutionDistribution::Table {
+    Distribution widest;
+    std::vector<std::pair<double, double>> others;  // where the sum of the other terms is, and how probably
+};
+
+ConvolutionDistribution::ConvolutionDistribution(std::span<const ConvolutionTerm> terms) {
+    std::vector<Distribution> distributions = centred_distributions(terms);
+    const auto widest =
+        std::max_element(distributions.begin(), distributions.end(),
+                         [](const Distribution& a, const Distribution& b) { return width(a) < width(b); });
+    Table table;
+    table.widest = *widest;
+    distributions.erase(widest);
+    if (distributions.empty()) {
+        table.others.emplace_back(0.0, 1.0);
+    } else {
+        const CellSum sum = convolve(distributions);
+        double total = 0.0;
+        for (std::size_t i = 0; i < k_cells; ++i) {
+            if (sum.cells[i] > k_negligible_cell) {
+                const double k = static_cast<double>(i) - (i > k_cells / 2 ? static_cast<double>(k_cells) : 0.0);
+                table.others.emplace_back(k * sum.h, sum.cells[i]);
+                total += sum.cells[i];
+            }
+        }
+        for (auto& [where, probability] : table.others) {
+            probability /= total;
+        }
+    }
+    table_ = std::make_shared<const Table>(std::move(table));
+}
+
+double ConvolutionDistribution::operator()(double x) const {
+    double probability = 0.0;
+    if (table_->widest.kind == DistributionKind::uniform) {  // the usual case by far, so without a call for each cell
+        const double a = table_->widest.scale;
+        for (const auto& [where, weight] : table_->others) {
+            probability += weight * std::clamp(0.5 + 0.5 * (x - where) / a, 0.0, 1.0);
+        }
+    } else {
+        for (const auto& [where, weight] : table_->others) {
+            probability += weight * lower_tail_probability(table_->widest, x - where);
+        }
+    }
+    return std::clamp(probability, 0.0, 1.0);
+}
+
+double convolution_distribution(std::span<const ConvolutionTerm> terms, double x) {
+    return ConvolutionDistribution(terms)(x);
 }
 
 std::optional<DominatedOutput> expand_dominated_output(const MeasurementModel& model, const Propagation& propagation,
@@ -188,6 +257,7 @@ std::optional<DominatedOutput> expand_dominated_output(const MeasurementModel& m
     }
     result.expanded_uncertainty = convolution_half_width(terms, propagation.coverage_probability);
     result.coverage_factor = result.expanded_uncertainty / u;
+    result.terms = std::move(terms);
     return result;
 }
 

@@ -97,6 +97,78 @@ TEST(ConvolutionHalfWidth, RefusesWhatItCannotAdd) {
               "GC-GUM-0004");
 }
 
+double normal_cdf(double z) {
+    return 0.5 * std::erfc(-z / std::sqrt(2.0));
+}
+
+TEST(ConvolutionDistribution, RectangularAndNormal) {
+    // F(x) = s/(2a) [g((x + a)/s) − g((x − a)/s)], g(z) = z Φ(z) + φ(z); the ratios include ones below a cell of a
+    // grid.
+    const double a = 0.7;
+    const auto g = [](double z) {
+        return z * normal_cdf(z) + std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::acos(-1.0));
+    };
+    for (const double s : {1e-7, 1e-5, 1e-3, 0.05, 0.3, 0.7, 2.0, 30.0}) {
+        const ConvolutionDistribution distribution(std::vector<ConvolutionTerm>{
+            {-1.0, Distribution::uniform(3.0, a)}, {0.5, Distribution::normal(1.0, 2.0 * s)}});
+        for (double x = -1.5 * a - 5.0 * s; x < 1.5 * a + 5.0 * s; x += (a + s) / 9.0) {
+            EXPECT_NEAR(distribution(x), s / (2.0 * a) * (g((x + a) / s) - g((x - a) / s)), 1e-6) << s << ' ' << x;
+        }
+        EXPECT_NEAR(distribution(a), s / (2.0 * a) * (g(2.0 * a / s) - g(0.0)), 1e-6) << s;
+        EXPECT_NEAR(distribution(0.0), 0.5, 1e-9) << s;
+    }
+}
+
+TEST(ConvolutionDistribution, KnownSums) {
+    // Two rectangular ones: a symmetric trapezoid; four of them: the cubic spline of Irwin and Hall.
+    const ConvolutionDistribution two(
+        std::vector<ConvolutionTerm>{{1.0, Distribution::uniform(0.0, 2.0)}, {1.0, Distribution::uniform(0.0, 1.0)}});
+    EXPECT_NEAR(two(-2.0), 1.0 / 16.0, 1e-6);
+    EXPECT_NEAR(two(-1.0), 0.25, 1e-6);
+    EXPECT_NEAR(two(2.0), 15.0 / 16.0, 1e-6);
+    EXPECT_EQ(two(-3.1), 0.0);
+    EXPECT_NEAR(two(3.1), 1.0, 1e-15);
+    const ConvolutionDistribution four(std::vector<ConvolutionTerm>(4, {1.0, Distribution::uniform(9.0, 0.5)}));
+    EXPECT_NEAR(four(-1.0), 1.0 / 24.0, 1e-6);
+    EXPECT_NEAR(four(1.5), 1.0 - 0.0625 / 24.0, 1e-6);
+    // A single term, and normal ones: exactly.
+    EXPECT_TRUE(agrees(convolution_distribution(std::vector<ConvolutionTerm>{{3.0, Distribution::normal(0.0, 1.0)},
+                                                                             {2.0, Distribution::normal(0.0, 2.0)}},
+                                                -15.0),
+                       normal_cdf(-3.0), 1e-13));
+    const Distribution arcsine{.kind = DistributionKind::arcsine, .location = 3.0, .scale = 2.0};
+    EXPECT_NEAR(convolution_distribution(std::vector<ConvolutionTerm>{{1.0, arcsine}}, 1.0), 2.0 / 3.0, 1e-14);
+}
+
+TEST(ConvolutionDistribution, AgreesWithTheHalfWidth) {
+    const Distribution triangular{.kind = DistributionKind::triangular, .location = 3.0, .scale = 2.0};
+    const Distribution arcsine{.kind = DistributionKind::arcsine, .location = 0.0, .scale = 1.0};
+    const std::vector<ConvolutionTerm> terms{{1.0, triangular},
+                                             {2.0, arcsine},
+                                             {1.0, Distribution::student_t(0.0, 0.3, 6.0)},
+                                             {-0.5, Distribution::uniform(0.0, 2.0)}};
+    const ConvolutionDistribution distribution(terms);
+    for (const double p : {0.5, 0.9, 0.9545, 0.999}) {
+        const double U = convolution_half_width(terms, p);
+        EXPECT_NEAR(distribution(U) - distribution(-U), p, 2e-6) << p;
+    }
+    double last = 0.0;
+    for (double x = -8.0; x < 8.0; x += 0.5) {
+        EXPECT_GE(distribution(x), last) << x;
+        EXPECT_NEAR(distribution(x) + distribution(-x), 1.0, 1e-8) << x;
+        last = distribution(x);
+    }
+}
+
+TEST(ConvolutionDistribution, RefusesWhatItCannotAdd) {
+    EXPECT_EQ(code_of<InputError>([] { (void)convolution_distribution({}, 0.0); }), "GC-GUM-0060");
+    const Distribution skewed{.kind = DistributionKind::exponential, .location = 0.0, .scale = 1.0};
+    EXPECT_EQ(code_of<InputError>([&] {
+                  (void)convolution_distribution(std::vector<ConvolutionTerm>{{1.0, skewed}}, 0.0);
+              }),
+              "GC-GUM-0060");
+}
+
 /// y = Σ x_i with one group an input.
 class SumModel final : public MeasurementModel {
 public:
@@ -135,6 +207,7 @@ TEST(DominatedOutput, FollowsTheCriterion) {
     ASSERT_TRUE(one);
     EXPECT_TRUE(prints_as(one->coverage_factor, "1.748"));
     EXPECT_EQ(one->dominating, std::vector<std::size_t>{1});
+    EXPECT_NEAR(convolution_distribution(one->terms, one->expanded_uncertainty), 0.5 + 0.5 * 0.9545, 1e-6);
     EXPECT_FALSE(dominated({Distribution::normal(0.0, 0.301), rectangular}));
     const std::optional<DominatedOutput> two = dominated({rectangular, Distribution::uniform(0.0, 1.0)});
     ASSERT_TRUE(two);

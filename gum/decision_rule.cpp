@@ -1,0 +1,340 @@
+#include "gum/decision_rule.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+
+#include "gum/argument_check.h"
+#include "gum/global_risk.h"
+
+namespace gumcert::gum {
+namespace {
+
+constexpr std::size_t k_rules = 13;
+
+constexpr std::array<std::string_view, 8> k_methods = {"1", "2", "3", "4", "5", "6", "rds", "rp10"};
+
+bool is_method(const std::string& method) {
+    for (const std::string_view known : k_methods) {
+        if (method == known) {
+            return true;
+        }
+    }
+    return false;
+}
+bool rests_on_population(const std::string& method) {
+    return method == "1" || method == "2" || method == "3" || method == "4";
+}
+bool rests_on_ratio(const std::string& method) {
+    return method == "6" || method == "rds" || method == "rp10";
+}
+
+/// The parameters that a rule looks at.
+struct Uses {
+    bool factor = false, band = false, probability = false, ratio = false, largest_U = false, alternative = false,
+         method = false;
+};
+Uses uses_of(DecisionRule rule) {
+    switch (rule) {
+        case DecisionRule::simple_acceptance_with_ratio:
+            return {.ratio = true, .largest_U = true, .alternative = true};
+        case DecisionRule::guard_band_factor:
+            return {.factor = true};
+        case DecisionRule::non_binary:
+        case DecisionRule::agreed:
+            return {.factor = true, .band = true};
+        case DecisionRule::specific_risk:
+            return {.probability = true};
+        case DecisionRule::iso_14253_1:
+            return {.factor = true, .probability = true};
+        case DecisionRule::z540_3:
+            return {.probability = true, .ratio = true, .alternative = true, .method = true};
+        case DecisionRule::b89_7_3_1:
+            return {.factor = true, .ratio = true, .alternative = true};
+        case DecisionRule::simple_acceptance:
+        case DecisionRule::guard_band_u:
+        case DecisionRule::three_way:
+        case DecisionRule::relaxed:
+        case DecisionRule::prescribed:
+            return {};
+    }
+    return {};
+}
+
+/// Collects sentences about one rule.
+class Check {
+public:
+    Check(DecisionRule rule, const DecisionRuleParameters& parameters, const ToleranceLimits& limits)
+        : rule_(rule), id_(decision_rule_id(rule)), p_(parameters), limits_(limits) {}
+
+    std::vector<std::string> run();
+
+private:
+    void say(const std::string& sentence) { sentences_.push_back(sentence); }
+    void ranges();
+    void range(bool fine, const char* key, const std::optional<double>& value, const char* rule);
+    void unused();
+    void needs();
+    void z540_3();
+    void population();
+    void alternative();
+
+    DecisionRule rule_;
+    std::string id_;
+    const DecisionRuleParameters& p_;
+    const ToleranceLimits& limits_;
+    std::vector<std::string> sentences_;
+};
+
+void Check::range(bool fine, const char* key, const std::optional<double>& value, const char* rule) {
+    if (value && !(std::isfinite(*value) && fine)) {
+        say(std::string(key) + " is " + number_text(*value) + "; it must be " + rule + ".");
+    }
+}
+
+void Check::ranges() {
+    const auto may_be_outwards = [](DecisionRule rule) {
+        return rule == DecisionRule::agreed || rule == DecisionRule::b89_7_3_1;
+    };
+    const bool outwards = may_be_outwards(rule_) || (p_.alternative && may_be_outwards(*p_.alternative));
+    range(outwards || p_.guard_factor.value_or(0.0) >= 0.0, "guard_factor", p_.guard_factor,
+          outwards ? "finite" : "finite and not negative");
+    range(outwards || p_.guard_band.value_or(0.0) >= 0.0, "guard_band", p_.guard_band,
+          outwards ? "finite" : "finite and not negative");
+    range(p_.test_uncertainty_ratio.value_or(1.0) > 0.0, "test_uncertainty_ratio", p_.test_uncertainty_ratio,
+          "finite and greater than 0");
+    range(p_.largest_U.value_or(1.0) > 0.0, "largest_U", p_.largest_U, "finite and greater than 0");
+    range(p_.population_deviation.value_or(1.0) > 0.0, "population_deviation", p_.population_deviation,
+          "finite and greater than 0");
+    range(true, "population_centre", p_.population_centre, "finite");
+    const double reliability = p_.population_reliability.value_or(0.5);
+    range(reliability > 0.0 && reliability < 1.0, "population_reliability", p_.population_reliability,
+          "greater than 0 and less than 1");
+    if (!p_.probability) {
+        return;
+    }
+    const double probability = *p_.probability;
+    switch (rule_) {
+        case DecisionRule::specific_risk:
+            range(probability > 0.0 && probability <= 0.5, "probability", p_.probability,
+                  "the largest risk, greater than 0 and not above 0.5");
+            break;
+        case DecisionRule::iso_14253_1:
+            range(probability > 0.5 && probability < 1.0, "probability", p_.probability,
+                  "the probability to prove, above 0.5 and below 1");
+            break;
+        case DecisionRule::z540_3:
+            range(probability > 0.0 && probability <= 0.5, "probability", p_.probability,
+                  "the largest risk, greater than 0 and not above 0.5");
+            break;
+        default:
+            range(probability > 0.0 && probability < 1.0, "probability", p_.probability,
+                  "greater than 0 and less than 1");
+    }
+}
+
+void Check::unused() {
+    const Uses own = uses_of(rule_);
+    const Uses other = p_.alternative && own.alternative ? uses_of(*p_.alternative) : Uses{};
+    const auto refuse_unused = [&](bool stated, bool used, const char* key) {
+        if (stated && !used) {
+            say(std::string(key) + " is stated, but " + id_ + " does not use it.");
+        }
+    };
+    refuse_unused(p_.guard_factor.has_value(), own.factor || other.factor, "guard_factor");
+    refuse_unused(p_.guard_band.has_value(), own.band || other.band, "guard_band");
+    refuse_unused(p_.probability.has_value(), own.probability || other.probability, "probability");
+    refuse_unused(p_.test_uncertainty_ratio.has_value(), own.ratio, "test_uncertainty_ratio");
+    refuse_unused(p_.largest_U.has_value(), own.largest_U, "largest_U");
+    refuse_unused(p_.alternative.has_value(), own.alternative, "alternative");
+    refuse_unused(!p_.method.empty(), own.method || other.method, "method");
+}
+
+void Check::needs() {
+    if (p_.test_uncertainty_ratio && uses_of(rule_).ratio && !limits_.two_sided()) {
+        say("test_uncertainty_ratio is stated, but with one limit alone there is no such ratio.");
+    }
+    switch (rule_) {
+        case DecisionRule::simple_acceptance_with_ratio:
+            if (!p_.test_uncertainty_ratio && !p_.largest_U) {
+                say("DR-02 needs test_uncertainty_ratio (the least ratio) or largest_U.");
+            }
+            break;
+        case DecisionRule::guard_band_factor:
+            if (!p_.guard_factor) {
+                say("DR-04 needs guard_factor, the r of w = r·U.");
+            }
+            break;
+        case DecisionRule::non_binary:
+            if (p_.guard_factor && p_.guard_band) {
+                say("guard_factor and guard_band are both stated; DR-05 takes one of them, or none for w = U.");
+            }
+            break;
+        case DecisionRule::specific_risk:
+            if (!p_.probability) {
+                say("DR-07 needs probability, the largest risk that is accepted.");
+            }
+            break;
+        case DecisionRule::iso_14253_1:
+            if (p_.guard_factor && p_.probability) {
+                say("guard_factor and probability are both stated; the one follows from the other in DR-08.");
+            }
+            if (p_.guard_factor && *p_.guard_factor == 0.0) {
+                say("guard_factor is 0; in DR-08 it must be greater than 0.");
+            }
+            break;
+        case DecisionRule::z540_3:
+            z540_3();
+            break;
+        case DecisionRule::b89_7_3_1:
+            if (!p_.guard_factor && !p_.test_uncertainty_ratio) {
+                say("DR-10 needs guard_factor (the guard band as a part of U), test_uncertainty_ratio, or both.");
+            }
+            break;
+        case DecisionRule::agreed:
+            if (p_.guard_factor.has_value() == p_.guard_band.has_value()) {
+                say("DR-13 needs guard_factor or guard_band, and not both.");
+            }
+            break;
+        default:
+            break;
+    }
+}
+
+void Check::z540_3() {
+    if (p_.method.empty()) {
+        if (!p_.test_uncertainty_ratio) {
+            say("DR-09 needs method (1 to 6, rds or rp10), or test_uncertainty_ratio where a risk is impracticable.");
+        }
+        if (p_.probability && !(p_.alternative && uses_of(*p_.alternative).probability)) {
+            say("probability is stated, but without a method no risk is calculated.");
+        }
+        return;
+    }
+    if (!is_method(p_.method)) {
+        say("method is \"" + p_.method + "\"; it must be 1, 2, 3, 4, 5, 6, rds or rp10.");
+        return;
+    }
+    if (p_.test_uncertainty_ratio) {
+        say("method and test_uncertainty_ratio are both stated; the ratio stands in the place of a method.");
+    }
+    if (rests_on_population(p_.method)) {
+        if (!p_.population_reliability && !p_.population_deviation) {
+            say("Method " + p_.method + " of DR-09 needs population_reliability or population_deviation.");
+        }
+    } else if (p_.probability && *p_.probability != 0.02 && !p_.alternative) {
+        say("Method " + p_.method + " of DR-09 has a guard band of its own; a probability other than 0.02 cannot be " +
+            "kept by it.");
+    }
+    if (rests_on_ratio(p_.method) && !limits_.two_sided()) {
+        say("Method " + p_.method + " of DR-09 needs two limits.");
+    }
+}
+
+void Check::population() {
+    if (p_.population_reliability && p_.population_deviation) {
+        say("population_reliability and population_deviation are both stated; the one follows from the other.");
+        return;
+    }
+    if (!p_.population_reliability && !p_.population_deviation) {
+        if (p_.population_centre) {
+            say("population_centre is stated without population_reliability or population_deviation.");
+        }
+        return;
+    }
+    if (!limits_.two_sided() && !p_.population_centre) {
+        say("A population needs two limits, between which it is centred, or population_centre.");
+        return;
+    }
+    if (sentences_.empty() && !stated_population(p_, limits_)) {
+        say("No population with this population_centre has this population_reliability.");
+    }
+}
+
+void Check::alternative() {
+    if (!p_.alternative || !uses_of(rule_).alternative) {
+        return;
+    }
+    if (*p_.alternative == rule_) {
+        say("The alternative of " + id_ + " is the same rule again.");
+        return;
+    }
+    for (const std::string& sentence : check_decision_rule(*p_.alternative, parameters_of_alternative(p_), limits_)) {
+        say("Alternative: " + sentence);
+    }
+}
+
+std::vector<std::string> Check::run() {
+    if (const std::string problem = limits_problem(limits_); !problem.empty()) {
+        return {"The limits cannot be used: " + problem + "."};
+    }
+    ranges();
+    unused();
+    needs();
+    population();
+    if (sentences_.empty()) {
+        alternative();
+    }
+    return std::move(sentences_);
+}
+
+}  // namespace
+
+std::string decision_rule_id(DecisionRule rule) {
+    const std::size_t number = static_cast<std::size_t>(rule) + 1;
+    return (number < 10 ? "DR-0" : "DR-") + std::to_string(number);
+}
+
+std::optional<DecisionRule> decision_rule_from_id(const std::string& id) {
+    for (std::size_t i = 0; i < k_rules; ++i) {
+        if (const auto rule = static_cast<DecisionRule>(i); decision_rule_id(rule) == id) {
+            return rule;
+        }
+    }
+    return std::nullopt;
+}
+
+DecisionRuleParameters parameters_of_alternative(const DecisionRuleParameters& parameters) {
+    DecisionRuleParameters others = parameters;
+    others.test_uncertainty_ratio.reset();
+    others.largest_U.reset();
+    others.alternative.reset();
+    const Uses uses = parameters.alternative ? uses_of(*parameters.alternative) : Uses{};
+    if (!uses.factor) {
+        others.guard_factor.reset();
+    }
+    if (!uses.band) {
+        others.guard_band.reset();
+    }
+    if (!uses.probability) {
+        others.probability.reset();
+    }
+    if (!uses.method) {
+        others.method.clear();
+    }
+    return others;
+}
+
+std::optional<Population> stated_population(const DecisionRuleParameters& parameters, const ToleranceLimits& limits) {
+    if (!parameters.population_centre && !limits.two_sided()) {
+        return std::nullopt;
+    }
+    const double centre = parameters.population_centre ? *parameters.population_centre
+                                                       : *limits.lower + 0.5 * (*limits.upper - *limits.lower);
+    if (parameters.population_deviation) {
+        return Population{centre, *parameters.population_deviation};
+    }
+    if (!parameters.population_reliability) {
+        return std::nullopt;
+    }
+    const std::optional<double> deviation = population_deviation(limits, centre, *parameters.population_reliability);
+    return deviation ? std::optional(Population{centre, *deviation}) : std::nullopt;
+}
+
+std::vector<std::string> check_decision_rule(DecisionRule rule, const DecisionRuleParameters& parameters,
+                                             const ToleranceLimits& limits) {
+    return Check(rule, parameters, limits).run();
+}
+
+}  // namespace gumcert::gum
