@@ -5,39 +5,53 @@
 # A new arrow is one line here and an ADR. Keep each entry in the form set(NAME word word ...): the scanner reads it.
 
 # The layers from the foundation upwards. An edge may only point to a layer further left, so there are no cycles.
-set(GUMCERT_LAYER_FOLDERS gum/quantity gum/expression gum engine engine/job reports/record reports app app/cli)
+set(GUMCERT_LAYER_FOLDERS encoding gum/quantity gum/expression gum certificate engine engine/job reports/record reports
+                          reports/dcc signing app app/cli)
 
 # Our own layers whose headers a layer may include and whose library it may link.
+set(GUMCERT_EDGES_encoding)
 set(GUMCERT_EDGES_gum_quantity)
 set(GUMCERT_EDGES_gum_expression gum/quantity)
 set(GUMCERT_EDGES_gum            gum/quantity)
+set(GUMCERT_EDGES_certificate    gum/quantity gum/expression gum)
 set(GUMCERT_EDGES_engine         gum/quantity)
-set(GUMCERT_EDGES_engine_job     gum/quantity gum/expression gum engine)
-set(GUMCERT_EDGES_reports_record gum/quantity gum)
-set(GUMCERT_EDGES_reports        gum/quantity gum reports/record)
-set(GUMCERT_EDGES_app            gum/quantity gum/expression gum engine engine/job reports/record reports)
-set(GUMCERT_EDGES_app_cli        gum/quantity reports/record reports app)
+set(GUMCERT_EDGES_engine_job     encoding gum/quantity gum/expression gum certificate engine)
+set(GUMCERT_EDGES_reports_record gum/quantity gum certificate)
+set(GUMCERT_EDGES_reports        gum/quantity gum certificate reports/record)
+set(GUMCERT_EDGES_reports_dcc    encoding gum/quantity gum certificate reports/record reports)
+set(GUMCERT_EDGES_signing        encoding gum/quantity)
+set(GUMCERT_EDGES_app            encoding gum/quantity gum/expression gum certificate engine engine/job reports/record reports
+                                 reports/dcc signing)
+set(GUMCERT_EDGES_app_cli        encoding gum/quantity certificate reports/record reports signing app)
 
 # Headers from outside that a layer may include: a first folder (Eigen) or one file (udunits2.h). The standard library is
 # free for all; what a layer may not do with it is in tests/lint/check_includes.py. Headers of POSIX count as foreign.
+set(GUMCERT_THIRD_PARTY_encoding       openssl)
 set(GUMCERT_THIRD_PARTY_gum_quantity   Eigen udunits2.h)
 set(GUMCERT_THIRD_PARTY_gum_expression Eigen)
 set(GUMCERT_THIRD_PARTY_gum            Eigen unsupported boost Random123)
 set(GUMCERT_THIRD_PARTY_engine         Eigen ceres glog cholmod.h umfpack.h SuiteSparseQR.hpp suitesparse)
 set(GUMCERT_THIRD_PARTY_engine_job     Eigen nlohmann valijson)
+set(GUMCERT_THIRD_PARTY_certificate    Eigen)
 set(GUMCERT_THIRD_PARTY_reports_record nlohmann)
-set(GUMCERT_THIRD_PARTY_reports        fmt kainjow nlohmann libxml xmlsec qpdf
-                                       fcntl.h spawn.h sys/wait.h unistd.h)  # the PDF step is a program of its own
-set(GUMCERT_THIRD_PARTY_app            Eigen fmt gumcert_build_info.h nlohmann openssl fcntl.h unistd.h)
+set(GUMCERT_THIRD_PARTY_reports        fmt kainjow nlohmann qpdf
+                                       fcntl.h poll.h spawn.h sys/wait.h unistd.h)  # PDF is set by a program of its own
+set(GUMCERT_THIRD_PARTY_reports_dcc    libxml nlohmann)
+set(GUMCERT_THIRD_PARTY_signing        libxml nlohmann openssl qpdf xmlsec
+                                       fcntl.h poll.h spawn.h sys/wait.h unistd.h)  # a signer may be a program
+set(GUMCERT_THIRD_PARTY_app            Eigen fmt gumcert_build_info.h nlohmann fcntl.h unistd.h)
 set(GUMCERT_THIRD_PARTY_app_cli        CLI fmt glog gumcert_build_info.h nlohmann unistd.h)
 
 # Layers that may open files; the others are handed what they need and hand back what they made.
-set(GUMCERT_MAY_TOUCH_FILES engine/job reports app app/cli)
+set(GUMCERT_MAY_TOUCH_FILES engine/job reports signing app app/cli)
 
 # Never in a header of any layer: what they bring must stay behind the layer's own types.
 set(GUMCERT_NOT_IN_HEADERS boost ceres sqlite3.h)
 # Headers of ours that only their own layer may include. They are not installed, and the line above leaves them alone.
-set(GUMCERT_PRIVATE_HEADERS)
+set(GUMCERT_PRIVATE_HEADERS reports/qpdf_objects.h signing/certificates.h signing/checked_signature.h signing/cms.h
+                            signing/document_verification.h signing/external_program.h
+                            signing/openssl_handles.h signing/qpdf_objects.h signing/signing_files.h signing/time_texts.h
+                            signing/xml_tree.h)
 
 foreach(layer IN LISTS GUMCERT_LAYER_FOLDERS)
     string(REPLACE "/" "_" name ${layer})

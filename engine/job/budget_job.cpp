@@ -11,6 +11,7 @@
 #include "engine/job/budget_fit_statement.h"
 #include "engine/job/budget_inputs.h"
 #include "engine/job/budget_statement.h"
+#include "engine/job/certificate_statement.h"
 #include "engine/job/job_files.h"
 #include "engine/job/json_document.h"
 
@@ -82,7 +83,7 @@ private:
         }
         job_.monte_carlo = read_monte_carlo(*root, p, 2, *problems_);
         check_model(*root, inputs);
-        job_.certificate = files_.certificate(*root);
+        job_.certificate = read_certificate(files_, *document_, *problems_);
     }
 
     bool is_budget() {

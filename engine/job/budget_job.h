@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "certificate/certificate_data.h"
 #include "engine/job/file_source.h"
 #include "engine/job/job_kind.h"
 #include "engine/job/monte_carlo_request.h"
@@ -128,8 +129,8 @@ struct BudgetJob {
     std::vector<BudgetPoint> points;    ///< empty: one evaluation
     std::optional<MonteCarloRequest> monte_carlo;
     nlohmann::json document;
-    nlohmann::json certificate;
-    std::vector<std::string> files;  ///< names as the job gives them, each once, the job first
+    std::optional<certificate::CertificateData> certificate;  ///< from the job or a file of its own
+    std::vector<std::string> files;                           ///< names as the job gives them, each once, the job first
     std::vector<gum::Diagnostic> warnings;
 };
 

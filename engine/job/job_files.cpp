@@ -69,33 +69,6 @@ void JobFiles::add(const gum::StorageError& error) {
     not_readable_.insert(not_readable_.end(), error.diagnostics().begin(), error.diagnostics().end());
 }
 
-nlohmann::json JobFiles::certificate(const JsonObject& root) {
-    const nlohmann::json* certificate = root.find("certificate");
-    if (certificate == nullptr) {
-        return nullptr;
-    }
-    if (certificate->is_object()) {
-        return *certificate;
-    }
-    if (!certificate->is_string()) {
-        root.refuse(k_wrong_type, "certificate", described(*certificate), "must be an object or the name of a file",
-                    "correct the value");
-        return nullptr;
-    }
-    const std::optional<std::string> name = file_name(root, "certificate", false);
-    const std::optional<File> file = name ? open(*name) : std::nullopt;
-    std::optional<JsonDocument> document = file ? read_json_document(file->bytes, *file->problems) : std::nullopt;
-    if (!document) {
-        return nullptr;
-    }
-    if (!document->value.is_object()) {
-        file->problems->refuse(k_wrong_type, document->where(""), "the document is " + described(document->value),
-                               "must be an object", "write { \"key\": value, … }");
-        return nullptr;
-    }
-    return std::move(document->value);
-}
-
 void JobFiles::refuse_if_needed() const {
     std::vector<gum::Diagnostic> refused = not_readable_;
     for (const ProblemList& list : problems_) {

@@ -42,9 +42,6 @@ public:
     void add(const gum::InputError& error);
     void add(const gum::StorageError& error);
 
-    /// The key `certificate`: an object, or the name of a file with one; null without.
-    [[nodiscard]] nlohmann::json certificate(const JsonObject& root);
-
     /// \throws StorageError  if a file could not be read; with the problems of the other files after it
     /// \throws InputError    with every problem of every file, those of the job first
     void refuse_if_needed() const;

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "engine/job/budget_job.h"
+#include "engine/job/certificate_statement.h"
 #include "engine/job/csv_table.h"
 #include "engine/job/job_files.h"
 #include "engine/job/json_document.h"
@@ -316,7 +317,7 @@ private:
                 read_indicator(*description, method);
             }
         }
-        job_.certificate = files_.certificate(*root);
+        job_.certificate = read_certificate(files_, *document, problems);
         read_fixture_budget(budget_name);
         job_.document = std::move(document->value);
     }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "certificate/certificate_data.h"
 #include "engine/job/file_source.h"
 #include "engine/job/job_kind.h"
 #include "engine/job/monte_carlo_request.h"
@@ -83,7 +84,7 @@ struct RotaryTableJob {
     std::vector<StationAir> air;               ///< per station; empty without an environment file
     double reference_temperature_degC = 20.0;  ///< of the fixture coordinates
     nlohmann::json document;                   ///< the job file as read
-    nlohmann::json certificate;                ///< the object, from the job or from a file of its own; null without
+    std::optional<certificate::CertificateData> certificate;  ///< from the job or a file of its own
     /// Names as the job gives them, each once: the job file, lengths, stations, environment, fixture coordinates,
     /// fixture covariance, readings and description of the reference method, certificate, fixture budget with its
     /// files.

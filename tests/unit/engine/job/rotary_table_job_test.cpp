@@ -529,7 +529,7 @@ TEST(RotaryTableJob, ReadsTheSmallCampaignInSi) {
     EXPECT_THAT(job.files, ElementsAre("job.json", "lengths.csv", "stations.csv", "environment.csv", "fixture.csv",
                                        "dial_indicator.csv", "dial_indicator.json"));
     EXPECT_EQ(texts(job.warnings), "");
-    EXPECT_TRUE(job.certificate.is_null());
+    EXPECT_FALSE(job.certificate.has_value());
     EXPECT_EQ(job.document.at("axis"), "A");
 
     const RotaryTableMeasurement& m = job.measurement;
@@ -627,7 +627,8 @@ TEST(RotaryTableJob, ReadsEveryOption) {
     EXPECT_EQ(m.datum, Datum::home);
     EXPECT_EQ(m.method, AdjustmentMethod::sequential);
     EXPECT_EQ(job.coverage_probability, 0.99);
-    EXPECT_EQ(job.certificate.at("customer").at("name"), "A");
+    ASSERT_TRUE(job.certificate.has_value());
+    EXPECT_EQ(job.certificate->customer.name.plain, "A");
     EXPECT_EQ(m.table_repeatability.mode, RepeatabilityMode::given);
     EXPECT_DOUBLE_EQ(m.table_repeatability.u_linear, 3e-7);
     EXPECT_DOUBLE_EQ(m.table_repeatability.u_axial, 0.2 * std::numbers::pi / 648000.0);
@@ -690,7 +691,8 @@ TEST(RotaryTableJob, ReadsTheCertificateFromAFile) {
     with_key("\"certificate\": \"certificate.json\"")(files);
     files["certificate.json"] = "// persons\n{\"laboratory\": {\"name\": \"Lab\"}}";
     const RotaryTableJob job = read(files);
-    EXPECT_EQ(job.certificate.at("laboratory").at("name"), "Lab");
+    ASSERT_TRUE(job.certificate.has_value());
+    EXPECT_EQ(job.certificate->laboratory.name.plain, "Lab");
     EXPECT_EQ(job.document.at("certificate"), "certificate.json");
     EXPECT_EQ(job.files.back(), "certificate.json");
     files["certificate.json"] = "[]";

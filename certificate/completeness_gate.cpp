@@ -1,0 +1,392 @@
+#include <algorithm>
+#include <string>
+
+#include "certificate/dates.h"
+#include "certificate/finding_list.h"
+#include "certificate/gates.h"
+#include "certificate/result_names.h"
+
+namespace gumcert::certificate {
+
+namespace {
+
+constexpr FindingSeverity k_critical = FindingSeverity::critical;
+constexpr FindingSeverity k_major = FindingSeverity::major;
+
+/// The last day of the performance.
+const std::string& last_day(const Dates& dates) {
+    return dates.performed_to.empty() ? dates.performed_from : dates.performed_to;
+}
+
+bool is_blank(const Address& address) {
+    return std::all_of(address.lines.begin(), address.lines.end(),
+                       [](const std::string& line) { return line.empty(); });
+}
+
+void laboratory_and_customer(FindingList& found, const CertificateData& data) {
+    if (data.laboratory.name.empty()) {
+        found.item(k_critical, 'b', "/laboratory/name", "the name of the laboratory is missing",
+                   "State it as the accreditation does.");
+    }
+    if (is_blank(data.laboratory.address)) {
+        found.item(k_critical, 'b', "/laboratory/address", "the address of the laboratory is missing", "State it.");
+    }
+    if (data.place.kind != "laboratory" && is_blank(data.place.address)) {
+        found.item(k_critical, 'c', "/place/address", "the place where the work was done is missing",
+                   "State its address: the work was not done in the laboratory.");
+    }
+    if (data.number.empty()) {
+        found.item(k_critical, 'd', "/number", "the number of the certificate is missing",
+                   "Give it a number that no other certificate has.");
+    }
+    if (data.customer.name.empty()) {
+        found.item(k_critical, 'e', "/customer/name", "the name of the customer is missing", "State it.");
+    }
+    if (is_blank(data.customer.address) && data.customer.contact.empty() && data.customer.email.empty()) {
+        found.item(k_critical, 'e', "/customer/address", "the contact information of the customer is missing",
+                   "State an address, a contact or an e-mail address.");
+    }
+}
+
+void method(FindingList& found, const CertificateData& data) {
+    const Method& m = data.method;
+    if (m.identification.empty()) {
+        found.item(k_critical, 'f', "/method/identification", "the method is not identified",
+                   "State the identification of the procedure.");
+    }
+    if (m.version.empty()) {
+        found.item(k_major, 'f', "/method/version", "the version of the method is missing", "State it.");
+    }
+    if (m.deviations.empty() && !m.no_deviations) {
+        found.item(k_major, 'n', "/method/deviations",
+                   "nothing is said of additions to, deviations or exclusions from the method",
+                   "List them, or state \"no_deviations\": true.");
+    }
+    const std::string& last = last_day(data.dates);
+    if (!last.empty() && (!is_within(data.dates.performed_from, m.valid_from, m.valid_to) ||
+                          !is_within(last, m.valid_from, m.valid_to))) {
+        found.major("P08", iso_17025("7.2.1"), "/method/valid_from",
+                    "version " + m.version + " of the method is not valid on the dates of performance (valid " +
+                        (m.valid_from.empty() ? "" : "from " + m.valid_from + " ") +
+                        (m.valid_to.empty() ? "" : "to " + m.valid_to) + ")",
+                    "State the version that was used, or correct the dates.");
+    }
+}
+
+void item(FindingList& found, const CertificateData& data, const Profile& profile) {
+    if (data.item.description.empty()) {
+        found.item(k_critical, 'g', "/item/description", "the description of the item is missing", "State it.");
+    }
+    if (data.item.serial_number.empty() && data.item.identification.empty()) {
+        found.item(k_critical, 'g', "/item/serial_number", "the item is not identified",
+                   "State a serial number, or an identification that customer or laboratory assigned.");
+    }
+    if (data.item.condition.empty()) {
+        found.item(k_critical, 'g', "/item/condition", "the condition of the item on receipt is missing",
+                   "State it; \"no damage seen\" is a condition.");
+    }
+    if (data.dates.received.empty() && profile.receipt_date_mandatory) {
+        found.item(k_major, 'h', "/dates/received",
+                   "the date of receipt is missing, which the profile " + profile.id + " demands", "State it.");
+    }
+}
+
+/// Two days of a certificate that cannot stand in this order.
+void order(FindingList& found, const std::string& earlier, const std::string& later, const std::string& where,
+           const std::string& what) {
+    if (is_after(earlier, later)) {
+        found.critical("P05", iso_17025("7.5.1"), where, what + " (" + earlier + ", " + later + ")",
+                       "Correct the dates.");
+    }
+}
+
+void dates(FindingList& found, const CertificateData& data) {
+    const Dates& d = data.dates;
+    if (d.performed_from.empty()) {
+        found.item(k_critical, 'i', "/dates/performed_from", "the date of performance is missing", "State it.");
+    }
+    if (d.issued.empty()) {
+        found.item(k_critical, 'j', "/dates/issued", "the date of issue is missing", "State it.");
+    }
+    order(found, d.received, d.performed_from, "/dates/received", "the item was received after the work began");
+    order(found, d.performed_from, d.performed_to, "/dates/performed_to", "the work ended before it began");
+    order(found, last_day(d), d.authorised, "/dates/authorised", "the results were authorised before the work ended");
+    order(found, d.authorised, d.issued, "/dates/issued", "the certificate was issued before it was authorised");
+    order(found, last_day(d), d.issued, "/dates/issued", "the certificate was issued before the work ended");
+}
+
+void persons(FindingList& found, const CertificateData& data, const Profile& profile) {
+    const auto& [performed_by, reviewed_by, authorised_by] = data.persons;
+    if (!authorised_by || authorised_by->name.empty()) {
+        found.item(k_critical, 'o', "/persons/authorised_by", "nobody is named who authorises the certificate",
+                   "State name and function.");
+    } else if (authorised_by->function.empty()) {
+        found.item(FindingSeverity::minor, 'o', "/persons/authorised_by/function",
+                   "the function of the person who authorises the certificate is missing", "State it.");
+    }
+    const auto check = [&](const std::optional<Person>& person, const std::string& key, const std::string& day) {
+        if (person && !day.empty() && !is_within(day, person->authorised_from, person->authorised_to)) {
+            found.critical("P03", iso_17025("6.2.6"), "/persons/" + key,
+                           person->name + " was not authorised for this work on " + day,
+                           "Let an authorised person do it, or correct the dates of the authorisation.");
+        }
+    };
+    const std::string& authorised = data.dates.authorised.empty() ? data.dates.issued : data.dates.authorised;
+    check(performed_by, "performed_by", data.dates.performed_from);
+    check(reviewed_by, "reviewed_by", authorised);
+    check(authorised_by, "authorised_by", authorised);
+    if (profile.reviewer_may_be_performer) {
+        return;
+    }
+    if (!reviewed_by || !performed_by) {
+        found.major("P04", iso_17025("7.8.1.1"), reviewed_by ? "/persons/performed_by" : "/persons/reviewed_by",
+                    "the profile " + profile.id +
+                        " demands a reviewer who did not do the work, and it is not stated who did which",
+                    "State who performed and who reviewed.");
+    } else if (reviewed_by->name == performed_by->name) {
+        found.major(
+            "P04", iso_17025("7.8.1.1"), "/persons/reviewed_by",
+            reviewed_by->name + " reviewed work of his or her own, which the profile " + profile.id + " forbids",
+            "Let another person review.");
+    }
+}
+
+bool has_named_result(const Certificate& certificate, const std::vector<std::string>& patterns) {
+    return std::any_of(certificate.tables.begin(), certificate.tables.end(), [&](const CertifiedTable& table) {
+        return std::any_of(table.columns.begin(), table.columns.end(),
+                           [&](const CertifiedColumn& column) { return is_named(patterns, column.result); });
+    });
+}
+
+void results(FindingList& found, const Certificate& certificate) {
+    bool any = false;
+    for (const CertifiedTable& table : certificate.tables) {
+        for (const CertifiedColumn& column : table.columns) {
+            any = any || !column.values.empty();
+            if (column.unit.empty()) {
+                found.item(k_critical, 'm', column.result, "the result has no unit", "State its unit.");
+            }
+            const bool without = std::any_of(column.values.begin(), column.values.end(), [](const CertifiedValue& v) {
+                return v.u > 0.0 && v.printed_U.empty() && !v.interval && !v.external;
+            });
+            if (without) {
+                found.critical("R07-4a", iso_17025("7.8.4.1 a"), column.result,
+                               "no expanded uncertainty and no coverage interval is stated",
+                               "See why in the remarks of the result; Monte Carlo in the job gives an interval.");
+            }
+        }
+    }
+    if (!any) {
+        found.item(k_critical, 'm', "results", "there are no results", "Evaluate a job that has some.");
+    }
+    const CertificateData& data = certificate.data;
+    for (std::size_t i = 0; i < data.external_results.size(); ++i) {
+        const ExternalResults& external = data.external_results[i];
+        if (external.provider.empty()) {
+            found.item(k_critical, 'p', place_in("/external_results", i, "provider"),
+                       "the laboratory that provided results is not named", "Name it.");
+        }
+        if (!has_named_result(certificate, external.results)) {
+            found.major("R09", iso_17025("7.8.2.1 p"), place_in("/external_results", i, "results"),
+                        "no result of the certificate has one of these names, so that nothing is marked",
+                        "Correct the names.");
+        }
+    }
+}
+
+void conditions(FindingList& found, const CertificateData& data) {
+    if (data.conditions.empty()) {
+        found.critical("R07-4b", iso_17025("7.8.4.1 b"), "/conditions",
+                       "the conditions that influence the results are missing", "State them as observed.");
+    }
+    for (std::size_t i = 0; i < data.conditions.size(); ++i) {
+        const Condition& c = data.conditions[i];
+        const bool outside =
+            (c.lower_limit && c.minimum < *c.lower_limit) || (c.upper_limit && c.maximum > *c.upper_limit);
+        if (outside && data.method.deviations.empty()) {
+            found.critical("E01", iso_17025("7.8.2.1 n"), place_in("/conditions", i),
+                           "\"" + c.quantity.in("en") + "\" left the limits of the method, and no deviation is stated",
+                           "State the deviation from the method and what it does to the results, or repeat the work.");
+        }
+    }
+}
+
+void standard(FindingList& found, const StandardUsed& s, std::size_t i, const Dates& dates) {
+    const auto where = [&](const char* key) { return place_in("/standards", i, key); };
+    const std::string name = "the standard \"" + s.name.in("en") + "\"";
+    if (s.identification.empty() || s.certificate.empty() || s.issuer.empty()) {
+        found.major("R07-4c", iso_17025("7.8.4.1 c"), where(""),
+                    name + " has no identification, no certificate or no issuer",
+                    "State all three: the statement of traceability rests on them.");
+    }
+    if (!s.U && !s.conformity_statement_only) {
+        found.critical("T04", iso_17025("6.5"), where("U"), "the certificate of " + name + " states no uncertainty",
+                       "State U and k of the certificate, or \"conformity_statement_only\": true where its limits of "
+                       "error stand in the budget.");
+    } else if (s.U && !s.k) {
+        found.major("T04", iso_17025("6.5"), where("k"), "the coverage factor of " + name + " is missing", "State it.");
+    }
+    const std::string& last = last_day(dates);
+    if (is_after(last, s.valid_to)) {
+        found.critical("T01", iso_17025("6.4"), where("valid_to"),
+                       "the calibration of " + name + " was valid to " + s.valid_to + ", and the work ended on " + last,
+                       "Use a standard with a valid calibration, or correct the dates.");
+    }
+    if (is_after(s.calibrated, dates.performed_from)) {
+        found.critical(
+            "T02", iso_17025("6.5"), where("calibrated"),
+            name + " was calibrated on " + s.calibrated + ", after the work began on " + dates.performed_from,
+            "State the certificate that was valid during the work.");
+    }
+}
+
+void traceability(FindingList& found, const CertificateData& data) {
+    if (data.standards.empty()) {
+        found.critical("R07-4c", iso_17025("7.8.4.1 c"), "/standards",
+                       "it is not said how the results are traceable: no standard is named",
+                       "List the standards with their certificates.");
+    }
+    for (std::size_t i = 0; i < data.standards.size(); ++i) {
+        standard(found, data.standards[i], i, data.dates);
+    }
+}
+
+void adjustment(FindingList& found, const CertificateData& data) {
+    if (!data.adjustment) {
+        found.critical("R07-4d", iso_17025("7.8.4.1 d"), "/adjustment", "it is not said whether the item was adjusted",
+                       "State \"adjusted\": true or false.");
+    } else if (data.adjustment->adjusted && data.adjustment->as_found.empty()) {
+        found.critical("R07-4d", iso_17025("7.8.4.1 d"), "/adjustment/as_found",
+                       "the item was adjusted, and it is not said where the results before the adjustment are",
+                       "Say where they stand, or why there are none.");
+    }
+}
+
+void specification(FindingList& found, const Certificate& certificate, std::size_t i) {
+    const AgreedSpecification& s = certificate.data.specifications[i];
+    const auto where = [&](const char* key) { return place_in("/specifications", i, key); };
+    const std::string name = "the specification \"" + s.id + "\"";
+    if (s.rule.id.empty()) {
+        found.critical("D01", iso_17025("7.8.6.2 c"), where("rule/id"), name + " has no decision rule",
+                       "State the rule that was agreed (DR-01 to DR-13).");
+    }
+    if (s.agreed_on.empty() && s.rule.prescribed_by.empty()) {
+        found.major("D02", iso_17025("7.1.3"), where("agreed_on"), "it is not said when " + name + " was agreed on",
+                    "State the date of the agreement, or who prescribes the rule.");
+    }
+    if (is_after(s.agreed_on, certificate.data.dates.performed_from)) {
+        found.major("D02", iso_17025("7.1.3"), where("agreed_on"),
+                    name + " was agreed on " + s.agreed_on + ", after the work began on " +
+                        certificate.data.dates.performed_from,
+                    "Agree on specification and rule before the work.");
+    }
+    if (s.document.empty() || s.edition.empty()) {
+        found.major("D03", iso_17025("7.8.6.2 b"), where(s.document.empty() ? "document" : "edition"),
+                    name + " has no document or no edition", "State both.");
+    }
+    if (!s.lower && !s.upper) {
+        found.major("D03", iso_17025("7.8.6.2 b"), where("upper"), name + " has no limit", "State the limit values.");
+    }
+    if (!certificate.tables.empty() && !has_named_result(certificate, s.results)) {
+        found.major("D07", iso_17025("7.8.6.2 a"), where("results"),
+                    name + " names no result of the certificate, so that nothing is decided by it",
+                    "Correct the names of the results.");
+    }
+}
+
+void opinions(FindingList& found, const CertificateData& data) {
+    for (std::size_t i = 0; i < data.opinions.size(); ++i) {
+        const Opinion& o = data.opinions[i];
+        if (o.author.name.empty()) {
+            found.critical("R14", iso_17025("7.8.7.1"), place_in("/opinions", i, "author"), "the opinion has no author",
+                           "Name the authorised person who gives it.");
+        } else if (!data.dates.issued.empty() &&
+                   !is_within(data.dates.issued, o.author.authorised_from, o.author.authorised_to)) {
+            found.critical("R14", iso_17025("7.8.7.1"), place_in("/opinions", i, "author"),
+                           o.author.name + " was not authorised to give opinions on " + data.dates.issued,
+                           "Let an authorised person give it.");
+        }
+        if (o.text.empty() || o.basis.empty()) {
+            found.major("R14", iso_17025("7.8.7.1"), place_in("/opinions", i, o.text.empty() ? "text" : "basis"),
+                        "the opinion has no text, or the basis on which it was made is not documented", "State both.");
+        }
+    }
+}
+
+void amendment(FindingList& found, const CertificateData& data) {
+    if (!data.amendment) {
+        return;
+    }
+    const Amendment& a = *data.amendment;
+    const bool replaced = a.kind == "replaced";
+    if (a.number.empty()) {
+        found.critical("R12", iso_17025(replaced ? "7.8.8.3" : "7.8.8.2"), "/amendment/number",
+                       "the certificate that this one amends or replaces is not named", "State its number.");
+    } else if (a.number == data.number) {
+        found.critical("R12", iso_17025(replaced ? "7.8.8.3" : "7.8.8.2"), "/amendment/number",
+                       "the certificate has the number of the one that it amends or replaces",
+                       "Give it a number of its own.");
+    }
+    if (a.changes.empty()) {
+        found.critical("R12", iso_17025("7.8.8.1"), "/amendment/changes", "the changed information is not identified",
+                       "List the changes.");
+    }
+    if (a.reason.empty()) {
+        found.major("R12", iso_17025("7.8.8.1"), "/amendment/reason", "the reason of the change is missing",
+                    "State it.");
+    }
+}
+
+void languages(FindingList& found, const CertificateData& data, const Profile& profile) {
+    for (const std::string& language : profile.required_languages) {
+        if (std::find(data.languages.begin(), data.languages.end(), language) == data.languages.end()) {
+            found.major("R13", "profile " + profile.id, "/languages",
+                        "the certificate is not given in \"" + language + "\", which the profile demands", "Add it.");
+        }
+    }
+}
+
+void omissions(FindingList& found, const CertificateData& data) {
+    for (std::size_t i = 0; i < data.omissions.size(); ++i) {
+        const Omission& o = data.omissions[i];
+        if (!o.clause.starts_with("7.8.2.1 ")) {
+            found.major("R16", iso_17025(o.clause), place_in("/omissions", i),
+                        "the item of " + o.clause + " cannot be left out for a reason: only those of 7.8.2.1 can",
+                        "Give the item; the omission has no effect.");
+        } else if (o.reason.empty()) {
+            found.major("R16", iso_17025(o.clause), place_in("/omissions", i, "reason"),
+                        "the reason why the item is left out is missing", "State it.");
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<Finding> completeness_findings(const Certificate& certificate) {
+    const CertificateData& data = certificate.data;
+    FindingList found(data);
+    laboratory_and_customer(found, data);
+    method(found, data);
+    item(found, data, certificate.profile);
+    dates(found, data);
+    persons(found, data, certificate.profile);
+    results(found, certificate);
+    conditions(found, data);
+    traceability(found, data);
+    adjustment(found, data);
+    for (std::size_t i = 0; i < data.specifications.size(); ++i) {
+        specification(found, certificate, i);
+    }
+    opinions(found, data);
+    amendment(found, data);
+    languages(found, data, certificate.profile);
+    omissions(found, data);
+    if (!data.recalibration_date.empty() && data.recalibration_agreement.empty()) {
+        found.critical("R08", iso_17025("7.8.4.3"), "/recalibration_date",
+                       "a date of recalibration is stated without an agreement with the customer",
+                       "State the agreement (\"recalibration_agreement\"), or leave the date out.");
+    }
+    return found.take();
+}
+
+}  // namespace gumcert::certificate

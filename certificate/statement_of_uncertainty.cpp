@@ -1,0 +1,145 @@
+#include "certificate/statement_of_uncertainty.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace gumcert::certificate {
+
+namespace {
+
+constexpr int k_trusted_digits = 12;     // of a number that a unit was converted of
+constexpr int k_digits_of_raised_U = 2;  // as scopes state capabilities
+constexpr int k_most_digits_of_a_scope = 4;
+constexpr double k_least_printed = 1e-4;  // of a risk
+constexpr double k_noise = 1e-12;         // 3.999…9 degrees of freedom are 4
+
+/// The number without the noise of a conversion.
+double trusted(double number) {
+    return number_of(gum::round_significant(number, k_trusted_digits)).value_or(number);
+}
+
+bool below(const std::string& printed, double capability) {
+    return number_of(printed).value_or(0.0) < trusted(capability);
+}
+
+/// Decimals of a number as it was stated: without the zeros at its end and the noise of a conversion.
+int own_decimals(double number) {
+    const std::string text = gum::round_significant(number, k_trusted_digits);
+    const std::string mantissa = text.substr(0, text.find('E'));
+    const std::size_t last = mantissa.find_last_not_of('0');
+    if (mantissa.find('.') == std::string::npos || last == std::string::npos) {
+        return decimals_of(text);
+    }
+    const std::size_t zeros = mantissa.size() - 1 - last;
+    return decimals_of(text) - static_cast<int>(zeros);
+}
+
+StatedPair raised_to(double value, double capability) {
+    const gum::RoundedPair floor =
+        gum::round_to_uncertainty(value, capability, k_digits_of_raised_U, gum::RoundingMode::up);
+    return {.value = floor.value, .U = floor.U, .raised = true};
+}
+
+}  // namespace
+
+PrintRule print_rule(const Profile& profile) {
+    return {.digits = profile.digits,
+            .rounding = profile.rounding == "up" ? gum::RoundingMode::up : gum::RoundingMode::half_even};
+}
+
+StatedPair state_uncertainty(double value, double U, std::optional<double> capability, const PrintRule& rule,
+                             bool raise) {
+    if (U == 0.0 && capability) {
+        return raise ? raised_to(value, *capability)
+                     : StatedPair{.value = gum::round_to_uncertainty(value, *capability, rule.digits).value,
+                                  .U = "0",
+                                  .below = true};
+    }
+    const gum::RoundedPair plain = gum::round_to_uncertainty(value, U, rule.digits, rule.rounding);
+    if (!capability || !below(plain.U, *capability)) {
+        return {.value = plain.value, .U = plain.U};
+    }
+    if (trusted(U) >= trusted(*capability)) {
+        const gum::RoundedPair upwards = gum::round_to_uncertainty(value, U, rule.digits, gum::RoundingMode::up);
+        return {.value = upwards.value, .U = upwards.U};
+    }
+    return raise ? raised_to(value, *capability) : StatedPair{.value = plain.value, .U = plain.U, .below = true};
+}
+
+std::string printed_coverage_factor(double k) {
+    return gum::round_to_quantum(k, 2);
+}
+
+std::string printed_degrees_of_freedom(std::optional<double> nu_eff) {
+    if (!nu_eff) {
+        return "∞";
+    }
+    if (*nu_eff >= 10000.0) {
+        return ">9999";
+    }
+    if (*nu_eff >= 100.0) {
+        return gum::round_to_quantum(std::floor(*nu_eff * (1.0 + k_noise)), 0);
+    }
+    const std::string text = gum::round_to_quantum(*nu_eff, 1);
+    return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
+}
+
+std::string printed_risk(double probability) {
+    return probability < k_least_printed ? "<0.01" : gum::round_significant(100.0 * probability, 2);
+}
+
+std::string printed_conformance(double probability) {
+    const double complement = 1.0 - probability;
+    if (complement < k_least_printed) {
+        return ">99.99";
+    }
+    if (probability < complement) {
+        return printed_risk(probability);
+    }
+    return gum::round_to_quantum(100.0 * probability, decimals_of(gum::round_significant(100.0 * complement, 2)));
+}
+
+int decimals_of(const std::string& printed) {
+    const std::size_t exponent_at = printed.find('E');
+    const std::string digits = printed.substr(0, exponent_at);
+    const std::size_t point = digits.find('.');
+    int decimals = point == std::string::npos ? 0 : static_cast<int>(digits.size() - point - 1);
+    if (exponent_at != std::string::npos) {
+        const std::size_t first = exponent_at + (printed.compare(exponent_at + 1, 1, "+") == 0 ? 2U : 1U);
+        int exponent = 0;
+        std::from_chars(printed.data() + std::min(first, printed.size()), printed.data() + printed.size(), exponent);
+        decimals -= exponent;
+    }
+    return decimals;
+}
+
+std::optional<double> number_of(const std::string& printed) {
+    double number = 0.0;
+    const char* const end = printed.data() + printed.size();
+    const auto [last, error] = std::from_chars(printed.data(), end, number);
+    return error == std::errc() && last == end ? std::optional(number) : std::nullopt;
+}
+
+int significant_digits(const std::string& printed) {
+    const std::string number = printed.substr(0, printed.find('E'));
+    const std::size_t first = number.find_first_of("123456789");
+    if (first == std::string::npos) {
+        return 1;
+    }
+    return static_cast<int>(std::count_if(number.begin() + static_cast<std::ptrdiff_t>(first), number.end(),
+                                          [](char c) { return c >= '0' && c <= '9'; }));
+}
+
+std::string printed_limit(double limit, int decimals) {
+    return gum::round_to_quantum(limit, std::max({own_decimals(limit), decimals, 0}));
+}
+
+std::string printed_capability(double capability) {
+    std::string text = gum::round_to_quantum(capability, std::max(own_decimals(capability), 0));
+    return significant_digits(text) <= k_most_digits_of_a_scope
+               ? text
+               : gum::round_to_uncertainty(0.0, capability, k_digits_of_raised_U, gum::RoundingMode::up).U;
+}
+
+}  // namespace gumcert::certificate

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "certificate/profile.h"
+#include "gum/rounding.h"
+
+namespace gumcert::certificate {
+
+// How numbers stand on a certificate (ILAC-P14:09/2020; JCGM 100:2008, 7.2.6). Every form of the document prints these
+// texts. All rounding is done by gum/rounding.
+
+/// How a profile wants uncertainties rounded.
+struct PrintRule {
+    int digits = 2;  ///< significant digits of U
+    gum::RoundingMode rounding = gum::RoundingMode::half_even;
+};
+[[nodiscard]] PrintRule print_rule(const Profile& profile);
+
+/// A value and its expanded uncertainty as a certificate states them, ending at the same decimal place.
+struct StatedPair {
+    std::string value, U;
+    bool below = false;   ///< U as printed is smaller than the capability (only without raising)
+    bool raised = false;  ///< `U` is the capability, because U as printed would be smaller
+};
+
+/// Rounds U, and then holds the capability against what is printed: the floor of ILAC-P14 is applied after rounding.
+///
+/// The capability is taken as the scope states it: U is below it if the printed number is, so 1450 printed as 1.4E+3 is
+/// below 1.45E+3. If U itself is not below, it is rounded upwards. If it is, the capability is printed in its place, to
+/// two significant digits and never less than it is (1.45E+3 gives 1.5E+3; 0.50 gives 0.50).
+/// \param value       finite
+/// \param U           greater than 0, in the unit of the value; with a capability also 0
+/// \param capability  in the same unit; differences in and after the 13th significant digit are noise of a conversion
+/// \param raise       false: U is printed as it is, and `below` says that it is too small
+/// \throws gum::InputError  GC-GUM-0001, -0003 or -0040
+[[nodiscard]] StatedPair state_uncertainty(double value, double U, std::optional<double> capability,
+                                           const PrintRule& rule, bool raise = true);
+
+/// k with two decimals.
+[[nodiscard]] std::string printed_coverage_factor(double k);
+/// Effective degrees of freedom with one decimal below 100, so that k can be looked up for them, else the next lower
+/// whole number, and ">9999"; "∞" for none (infinite).
+[[nodiscard]] std::string printed_degrees_of_freedom(std::optional<double> nu_eff);
+
+/// A capability as the scope states it; with two significant digits, and not less than it is, where it was computed and
+/// has more than four.
+[[nodiscard]] std::string printed_capability(double capability);
+
+/// A probability in percent with two significant digits: 0.02275 gives "2.3"; "<0.01" below 0.01 %, where it rests on
+/// the tail of an assumed distribution.
+[[nodiscard]] std::string printed_risk(double probability);
+/// A probability near one, to the decimal place of its complement: 0.97725 gives "97.7"; ">99.99" above 99.99 %.
+[[nodiscard]] std::string printed_conformance(double probability);
+
+/// Decimal place at which a printed number ends: "1.23" 2, "50" 0, "1.2E+3" −2.
+[[nodiscard]] int decimals_of(const std::string& printed);
+/// The number that a text of gum/rounding stands for; nothing for another text.
+[[nodiscard]] std::optional<double> number_of(const std::string& printed);
+/// Significant digits of a text of gum/rounding: "0.10" has 2.
+[[nodiscard]] int significant_digits(const std::string& printed);
+/// Shortest text of a limit as it was stated, noise of a unit conversion left out, and not fewer decimals than asked.
+[[nodiscard]] std::string printed_limit(double limit, int decimals);
+
+}  // namespace gumcert::certificate

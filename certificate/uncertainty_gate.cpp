@@ -1,0 +1,85 @@
+#include <algorithm>
+#include <string>
+
+#include "certificate/finding_list.h"
+#include "certificate/gates.h"
+#include "certificate/statement_of_uncertainty.h"
+
+namespace gumcert::certificate {
+
+namespace {
+
+constexpr const char* k_p14 = "ILAC-P14:09/2020";
+
+bool is_negative_zero(const std::string& printed) {
+    return printed.starts_with('-') && printed.find_first_of("123456789") == std::string::npos;
+}
+
+/// "EXA", or "EXA, angle 30" where one row of a table is meant.
+std::string name_of(const CertifiedTable& table, const CertifiedColumn& column, std::size_t row) {
+    if (!table.argument || row >= table.argument->printed.size()) {
+        return column.result;
+    }
+    return column.result + ", " + table.argument->name + " " + table.argument->printed[row];
+}
+
+void digits(FindingList& found, const std::string& where, const CertifiedValue& value, int most) {
+    if (is_negative_zero(value.printed_value)) {
+        found.add(FindingSeverity::minor, "R06", k_p14, where, "the value is printed as " + value.printed_value,
+                  "Zero has no sign.");
+    }
+    if (value.printed_U.empty() || value.printed_U == "0") {
+        return;
+    }
+    if (significant_digits(value.printed_U) > most) {
+        found.major(
+            "R01", k_p14, where,
+            "U is printed as " + value.printed_U + ", with more than " + std::to_string(most) + " significant digits",
+            "State U with two significant digits at most.");
+    }
+    if (decimals_of(value.printed_value) != decimals_of(value.printed_U)) {
+        found.major("R02", k_p14, where,
+                    "value " + value.printed_value + " and U " + value.printed_U + " end at different decimal places",
+                    "Round the value to the last place of U.");
+    }
+    if (value.printed_k.empty() && value.coverage != "monte_carlo") {
+        found.critical("R04", k_p14, where, "U is stated without its coverage factor", "State k.");
+    }
+}
+
+void verdict(FindingList& found, const std::string& where, const Verdict& v) {
+    if (v.verdict == "not_applicable") {
+        found.major("D05", iso_17025("7.8.6.1"), where,
+                    "conformity with \"" + v.specification + "\" by " + v.rule + " cannot be decided: " + v.note,
+                    "Agree with the customer on another rule, or leave the statement out.");
+    }
+    if (v.verdict != v.verdict_from_printed) {
+        found.critical("D04", iso_17025("7.8.6.1"), where,
+                       "the verdict is \"" + v.verdict + "\" with the unrounded numbers and \"" +
+                           v.verdict_from_printed + "\" with the printed ones",
+                       "The value lies at the acceptance limit within rounding. Agree with the customer how such a "
+                       "value is decided, or leave the statement of conformity out.");
+    }
+}
+
+}  // namespace
+
+std::vector<Finding> uncertainty_findings(const Certificate& certificate) {
+    FindingList found(certificate.data);
+    for (const CertifiedTable& table : certificate.tables) {
+        for (const CertifiedColumn& column : table.columns) {
+            for (std::size_t row = 0; row < column.values.size(); ++row) {
+                const CertifiedValue& value = column.values[row];
+                const std::string where = name_of(table, column, row);
+                // A capability that replaces U keeps the two digits of the scope.
+                digits(found, where, value, value.raised ? 2 : std::min(2, certificate.profile.digits));
+                if (value.verdict) {
+                    verdict(found, where, *value.verdict);
+                }
+            }
+        }
+    }
+    return found.take();
+}
+
+}  // namespace gumcert::certificate

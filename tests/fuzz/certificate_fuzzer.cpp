@@ -1,0 +1,11 @@
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "tests/fuzz/certificate_target.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string bytes(data, data + size);
+    (void)gumcert::engine::fuzz::certificate_data(bytes);
+    return 0;
+}

@@ -1,0 +1,294 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/unit/certificate/passed_certificate.h"
+
+namespace gumcert::certificate {
+namespace {
+
+constexpr FindingSeverity k_critical = FindingSeverity::critical;
+constexpr FindingSeverity k_major = FindingSeverity::major;
+constexpr FindingSeverity k_minor = FindingSeverity::minor;
+
+TEST(CompletenessGate, HasNothingToSayOfCompleteData) {
+    EXPECT_THAT(ids(completeness_findings(passed_certificate())), testing::IsEmpty());
+}
+
+/// One thing that is taken away or spoilt, and the one finding that must follow.
+struct Spoilt {
+    std::string name;
+    std::function<void(Certificate&)> spoil;
+    std::string id, clause;
+    FindingSeverity severity;
+    std::string where;
+};
+
+std::string iso(const std::string& clause) {
+    return "ISO/IEC 17025:2017, " + clause;
+}
+
+std::vector<Spoilt> missing_items() {
+    return {
+        {"laboratory name", [](Certificate& c) { c.data.laboratory.name = {}; }, "R07-b", iso("7.8.2.1 b"), k_critical,
+         "/laboratory/name"},
+        {"laboratory address", [](Certificate& c) { c.data.laboratory.address = {}; }, "R07-b", iso("7.8.2.1 b"),
+         k_critical, "/laboratory/address"},
+        {"place", [](Certificate& c) { c.data.place.kind = "customer_site"; }, "R07-c", iso("7.8.2.1 c"), k_critical,
+         "/place/address"},
+        {"number", [](Certificate& c) { c.data.number.clear(); }, "R07-d", iso("7.8.2.1 d"), k_critical, "/number"},
+        {"customer", [](Certificate& c) { c.data.customer.name = {}; }, "R07-e", iso("7.8.2.1 e"), k_critical,
+         "/customer/name"},
+        {"contact",
+         [](Certificate& c) {
+             c.data.customer.address = {};
+             c.data.customer.contact.clear();
+             c.data.customer.email.clear();
+         },
+         "R07-e", iso("7.8.2.1 e"), k_critical, "/customer/address"},
+        {"method", [](Certificate& c) { c.data.method.identification.clear(); }, "R07-f", iso("7.8.2.1 f"), k_critical,
+         "/method/identification"},
+        {"method version", [](Certificate& c) { c.data.method.version.clear(); }, "R07-f", iso("7.8.2.1 f"), k_major,
+         "/method/version"},
+        {"item", [](Certificate& c) { c.data.item.description = {}; }, "R07-g", iso("7.8.2.1 g"), k_critical,
+         "/item/description"},
+        {"item identification",
+         [](Certificate& c) {
+             c.data.item.serial_number.clear();
+             c.data.item.identification.clear();
+         },
+         "R07-g", iso("7.8.2.1 g"), k_critical, "/item/serial_number"},
+        {"condition of the item", [](Certificate& c) { c.data.item.condition = {}; }, "R07-g", iso("7.8.2.1 g"),
+         k_critical, "/item/condition"},
+        {"date of receipt",
+         [](Certificate& c) {
+             c.profile.receipt_date_mandatory = true;
+             c.data.dates.received.clear();
+         },
+         "R07-h", iso("7.8.2.1 h"), k_major, "/dates/received"},
+        {"date of performance", [](Certificate& c) { c.data.dates.performed_from = c.data.dates.performed_to = ""; },
+         "R07-i", iso("7.8.2.1 i"), k_critical, "/dates/performed_from"},
+        {"date of issue", [](Certificate& c) { c.data.dates.issued.clear(); }, "R07-j", iso("7.8.2.1 j"), k_critical,
+         "/dates/issued"},
+        {"unit", [](Certificate& c) { c.tables[0].columns[0].unit.clear(); }, "R07-m", iso("7.8.2.1 m"), k_critical,
+         "l"},
+        {"deviations", [](Certificate& c) { c.data.method.no_deviations = false; }, "R07-n", iso("7.8.2.1 n"), k_major,
+         "/method/deviations"},
+        {"authorisation", [](Certificate& c) { c.data.persons.authorised_by.reset(); }, "R07-o", iso("7.8.2.1 o"),
+         k_critical, "/persons/authorised_by"},
+        {"function", [](Certificate& c) { c.data.persons.authorised_by->function = {}; }, "R07-o", iso("7.8.2.1 o"),
+         k_minor, "/persons/authorised_by/function"},
+        {"provider", [](Certificate& c) { c.data.external_results = {{.results = {"EAA"}, .provider = {}}}; }, "R07-p",
+         iso("7.8.2.1 p"), k_critical, "/external_results/0/provider"},
+        {"external result",
+         [](Certificate& c) { c.data.external_results = {{.results = {"EXC"}, .provider = "Other"}}; }, "R09",
+         iso("7.8.2.1 p"), k_major, "/external_results/0/results"},
+        {"U", [](Certificate& c) { c.tables[0].columns[1].values[0].printed_U.clear(); }, "R07-4a", iso("7.8.4.1 a"),
+         k_critical, "EAA"},
+        {"conditions", [](Certificate& c) { c.data.conditions.clear(); }, "R07-4b", iso("7.8.4.1 b"), k_critical,
+         "/conditions"},
+        {"standards", [](Certificate& c) { c.data.standards.clear(); }, "R07-4c", iso("7.8.4.1 c"), k_critical,
+         "/standards"},
+        {"certificate of a standard", [](Certificate& c) { c.data.standards[0].certificate.clear(); }, "R07-4c",
+         iso("7.8.4.1 c"), k_major, "/standards/0"},
+        {"adjustment", [](Certificate& c) { c.data.adjustment.reset(); }, "R07-4d", iso("7.8.4.1 d"), k_critical,
+         "/adjustment"},
+        {"as found", [](Certificate& c) { c.data.adjustment->adjusted = true; }, "R07-4d", iso("7.8.4.1 d"), k_critical,
+         "/adjustment/as_found"},
+        {"U of a standard", [](Certificate& c) { c.data.standards[0].U.reset(); }, "T04", iso("6.5"), k_critical,
+         "/standards/0/U"},
+        {"k of a standard", [](Certificate& c) { c.data.standards[0].k.reset(); }, "T04", iso("6.5"), k_major,
+         "/standards/0/k"},
+        {"decision rule", [](Certificate& c) { c.data.specifications[0].rule.id.clear(); }, "D01", iso("7.8.6.2 c"),
+         k_critical, "/specifications/0/rule/id"},
+        {"date of agreement", [](Certificate& c) { c.data.specifications[1].agreed_on.clear(); }, "D02", iso("7.1.3"),
+         k_major, "/specifications/1/agreed_on"},
+        {"edition", [](Certificate& c) { c.data.specifications[0].edition.clear(); }, "D03", iso("7.8.6.2 b"), k_major,
+         "/specifications/0/edition"},
+        {"limits",
+         [](Certificate& c) {
+             c.data.specifications[0].lower.reset();
+             c.data.specifications[0].upper.reset();
+         },
+         "D03", iso("7.8.6.2 b"), k_major, "/specifications/0/upper"},
+        {"specified result", [](Certificate& c) { c.data.specifications[0].results = {"m"}; }, "D07", iso("7.8.6.2 a"),
+         k_major, "/specifications/0/results"},
+        {"language", [](Certificate& c) { c.profile.required_languages = {"es"}; }, "R13", "profile ilac", k_major,
+         "/languages"},
+        {"agreement on recalibration", [](Certificate& c) { c.data.recalibration_date = "2027-11-21"; }, "R08",
+         iso("7.8.4.3"), k_critical, "/recalibration_date"},
+    };
+}
+
+TEST(CompletenessGate, FindsEachItemThatIsMissing) {
+    for (const Spoilt& spoilt : missing_items()) {
+        SCOPED_TRACE(spoilt.name);
+        Certificate c = passed_certificate();
+        spoilt.spoil(c);
+        expect_finding(only(completeness_findings(c)), spoilt.id, spoilt.clause, spoilt.severity, spoilt.where);
+    }
+}
+
+TEST(CompletenessGate, FindsThatThereAreNoResults) {
+    Certificate c = passed_certificate();
+    c.tables.clear();
+    expect_finding(only(completeness_findings(c)), "R07-m", iso("7.8.2.1 m"), k_critical, "results");
+}
+
+TEST(CompletenessGate, FindsDatesThatCannotStandInThisOrder) {
+    const std::vector<Spoilt> orders = {
+        {"received", [](Certificate& c) { c.data.dates.received = "2026-11-19"; }, "P05", iso("7.5.1"), k_critical,
+         "/dates/received"},
+        {"performed", [](Certificate& c) { c.data.dates.performed_to = "2026-11-17"; }, "P05", iso("7.5.1"), k_critical,
+         "/dates/performed_to"},
+        {"authorised", [](Certificate& c) { c.data.dates.authorised = "2026-11-18"; }, "P05", iso("7.5.1"), k_critical,
+         "/dates/authorised"},
+        {"issued", [](Certificate& c) { c.data.dates.issued = "2026-11-19"; }, "P05", iso("7.5.1"), k_critical,
+         "/dates/issued"},
+        {"standard expired", [](Certificate& c) { c.data.standards[0].valid_to = "2026-11-18"; }, "T01", iso("6.4"),
+         k_critical, "/standards/0/valid_to"},
+        {"standard too young", [](Certificate& c) { c.data.standards[0].calibrated = "2026-11-19"; }, "T02", iso("6.5"),
+         k_critical, "/standards/0/calibrated"},
+        {"rule agreed late", [](Certificate& c) { c.data.specifications[0].agreed_on = "2026-11-19"; }, "D02",
+         iso("7.1.3"), k_major, "/specifications/0/agreed_on"},
+        {"method not yet valid", [](Certificate& c) { c.data.method.valid_from = "2026-11-19"; }, "P08", iso("7.2.1"),
+         k_major, "/method/valid_from"},
+        {"method no longer valid", [](Certificate& c) { c.data.method.valid_to = "2026-11-18"; }, "P08", iso("7.2.1"),
+         k_major, "/method/valid_from"},
+        {"operator", [](Certificate& c) { c.data.persons.performed_by->authorised_to = "2026-11-17"; }, "P03",
+         iso("6.2.6"), k_critical, "/persons/performed_by"},
+        {"signatory", [](Certificate& c) { c.data.persons.authorised_by->authorised_from = "2026-11-21"; }, "P03",
+         iso("6.2.6"), k_critical, "/persons/authorised_by"},
+    };
+    for (const Spoilt& spoilt : orders) {
+        SCOPED_TRACE(spoilt.name);
+        Certificate c = passed_certificate();
+        spoilt.spoil(c);
+        expect_finding(only(completeness_findings(c)), spoilt.id, spoilt.clause, spoilt.severity, spoilt.where);
+    }
+}
+
+TEST(CompletenessGate, AcceptsTheLimitsOfEveryPeriod) {
+    Certificate c = passed_certificate();
+    c.data.dates = {.received = "2026-11-18",
+                    .performed_from = "2026-11-18",
+                    .performed_to = "2026-11-18",
+                    .authorised = "2026-11-18",
+                    .issued = "2026-11-18"};
+    c.data.standards[0].valid_to = c.data.standards[0].calibrated = "2026-11-18";
+    c.data.method.valid_from = c.data.method.valid_to = "2026-11-18";
+    c.data.specifications[0].agreed_on = "2026-11-18";
+    EXPECT_THAT(ids(completeness_findings(c)), testing::IsEmpty());
+    c.data.dates.performed_to.clear();  // one day
+    EXPECT_THAT(ids(completeness_findings(c)), testing::IsEmpty());
+}
+
+TEST(CompletenessGate, TakesAStoredReasonForAnItemOf7_8_2_1) {
+    Certificate c = passed_certificate();
+    c.data.item.condition = {};
+    c.data.omissions = {{.clause = "7.8.2.1 g", .reason = "The item stays installed."}};
+    const Finding found = only(completeness_findings(c));
+    expect_finding(found, "R07-g", iso("7.8.2.1 g"), FindingSeverity::information, "/item/condition");
+    EXPECT_THAT(found.what, testing::HasSubstr("The item stays installed."));
+}
+
+TEST(CompletenessGate, TakesNoReasonForAnotherItem) {
+    Certificate c = passed_certificate();
+    c.data.conditions.clear();
+    c.data.omissions = {{.clause = "7.8.4.1 b", .reason = "not recorded"}};
+    EXPECT_THAT(ids(completeness_findings(c)), testing::ElementsAre("R07-4b", "R16"));
+    c = passed_certificate();
+    c.data.number.clear();
+    c.data.omissions = {{.clause = "7.8.2.1 d", .reason = {}}};
+    EXPECT_THAT(ids(completeness_findings(c)), testing::ElementsAre("R07-d", "R16"));
+}
+
+TEST(CompletenessGate, WantsADeviationWhereConditionsLeftTheLimits) {
+    Certificate c = passed_certificate();
+    c.data.conditions[0].maximum = 21.2;
+    expect_finding(only(completeness_findings(c)), "E01", iso("7.8.2.1 n"), k_critical, "/conditions/0");
+    c.data.method.deviations = {"The air was up to 21.2 °C; u of the temperature is enlarged."};
+    c.data.method.no_deviations = false;
+    EXPECT_THAT(ids(completeness_findings(c)), testing::IsEmpty());
+    c.data.conditions[0].maximum = 21.0;
+    c.data.method.deviations.clear();
+    c.data.method.no_deviations = true;
+    EXPECT_THAT(ids(completeness_findings(c)), testing::IsEmpty());
+}
+
+TEST(CompletenessGate, WantsAReviewerWhoDidNotDoTheWorkWhereTheProfileDoes) {
+    Certificate c = passed_certificate();
+    c.data.persons.reviewed_by->name = c.data.persons.performed_by->name;
+    EXPECT_THAT(ids(completeness_findings(c)), testing::IsEmpty());
+    c.profile.reviewer_may_be_performer = false;
+    expect_finding(only(completeness_findings(c)), "P04", iso("7.8.1.1"), k_major, "/persons/reviewed_by");
+    c.data.persons.reviewed_by.reset();
+    expect_finding(only(completeness_findings(c)), "P04", iso("7.8.1.1"), k_major, "/persons/reviewed_by");
+}
+
+TEST(CompletenessGate, TakesARuleThatIsPrescribedWithoutADate) {
+    Certificate c = passed_certificate();
+    c.data.specifications[0].agreed_on.clear();
+    c.data.specifications[0].rule.prescribed_by = "ISO 3650";
+    EXPECT_THAT(ids(completeness_findings(c)), testing::IsEmpty());
+}
+
+TEST(CompletenessGate, TakesAStandardThatOnlyHasAStatementOfConformity) {
+    Certificate c = passed_certificate();
+    c.data.standards[0].U.reset();
+    c.data.standards[0].conformity_statement_only = true;
+    EXPECT_THAT(ids(completeness_findings(c)), testing::IsEmpty());
+}
+
+TEST(CompletenessGate, TakesAnIntervalInPlaceOfU) {
+    Certificate c = passed_certificate();
+    CertifiedValue& v = c.tables[0].columns[1].values[0];
+    v.printed_U.clear();
+    v.U.reset();
+    v.interval = {0.6, 2.1};
+    EXPECT_THAT(ids(completeness_findings(c)), testing::IsEmpty());
+}
+
+TEST(CompletenessGate, WantsAuthorAndBasisOfAnOpinion) {
+    Certificate c = passed_certificate();
+    c.data.opinions = {test::sample_opinion()};
+    EXPECT_THAT(ids(completeness_findings(c)), testing::IsEmpty());
+    c.data.opinions[0].basis = {};
+    expect_finding(only(completeness_findings(c)), "R14", iso("7.8.7.1"), k_major, "/opinions/0/basis");
+    c.data.opinions = {test::sample_opinion()};
+    c.data.opinions[0].author.name.clear();
+    expect_finding(only(completeness_findings(c)), "R14", iso("7.8.7.1"), k_critical, "/opinions/0/author");
+    c.data.opinions = {test::sample_opinion()};
+    c.data.opinions[0].author.authorised_to = "2026-11-20";
+    expect_finding(only(completeness_findings(c)), "R14", iso("7.8.7.1"), k_critical, "/opinions/0/author");
+}
+
+TEST(CompletenessGate, WantsNumberReasonAndChangesOfAnAmendment) {
+    Certificate c = passed_certificate();
+    const Amendment amendment{.kind = "replaced",
+                              .number = "EX-2026-0041",
+                              .sha256 = {},
+                              .reason = "Wrong serial number",
+                              .changes = {"Serial number"}};
+    c.data.amendment = amendment;
+    EXPECT_THAT(ids(completeness_findings(c)), testing::IsEmpty());
+    c.data.amendment->number.clear();
+    expect_finding(only(completeness_findings(c)), "R12", iso("7.8.8.3"), k_critical, "/amendment/number");
+    c.data.amendment->kind = "amended";
+    expect_finding(only(completeness_findings(c)), "R12", iso("7.8.8.2"), k_critical, "/amendment/number");
+    c.data.amendment = amendment;
+    c.data.amendment->number = c.data.number;
+    expect_finding(only(completeness_findings(c)), "R12", iso("7.8.8.3"), k_critical, "/amendment/number");
+    c.data.amendment = amendment;
+    c.data.amendment->changes.clear();
+    expect_finding(only(completeness_findings(c)), "R12", iso("7.8.8.1"), k_critical, "/amendment/changes");
+    c.data.amendment = amendment;
+    c.data.amendment->reason = {};
+    expect_finding(only(completeness_findings(c)), "R12", iso("7.8.8.1"), k_major, "/amendment/reason");
+}
+
+}  // namespace
+}  // namespace gumcert::certificate

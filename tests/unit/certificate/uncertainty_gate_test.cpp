@@ -1,0 +1,80 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/certificate/passed_certificate.h"
+
+namespace gumcert::certificate {
+namespace {
+
+constexpr const char* k_p14 = "ILAC-P14:09/2020";
+
+CertifiedValue& length(Certificate& c) {
+    return c.tables[0].columns[0].values[0];
+}
+
+TEST(UncertaintyGate, HasNothingToSayOfAGoodStatement) {
+    EXPECT_THAT(ids(uncertainty_findings(passed_certificate())), testing::IsEmpty());
+}
+
+TEST(UncertaintyGate, CountsTheDigitsOfU) {
+    Certificate c = passed_certificate();
+    length(c).printed_value = "50000838.0";
+    length(c).printed_U = "92.6";
+    expect_finding(only(uncertainty_findings(c)), "R01", k_p14, FindingSeverity::major, "l");
+    length(c).printed_value = "5.0001E+7";
+    length(c).printed_U = "1.4E+3";  // ends at the hundreds, the value at the thousands
+    expect_finding(only(uncertainty_findings(c)), "R02", k_p14, FindingSeverity::major, "l");
+}
+
+TEST(UncertaintyGate, HoldsTheProfileToOneDigit) {
+    Certificate c = passed_certificate();
+    c.profile.digits = 1;
+    EXPECT_THAT(ids(uncertainty_findings(c)), testing::ElementsAre("R01", "R01"));
+    for (CertifiedColumn& column : c.tables[0].columns) {
+        column.values[0].raised = true;  // a capability keeps its two digits
+    }
+    EXPECT_THAT(ids(uncertainty_findings(c)), testing::IsEmpty());
+}
+
+TEST(UncertaintyGate, WantsTheCoverageFactor) {
+    Certificate c = passed_certificate();
+    length(c).printed_k.clear();
+    expect_finding(only(uncertainty_findings(c)), "R04", k_p14, FindingSeverity::critical, "l");
+    length(c).coverage = "monte_carlo";
+    EXPECT_THAT(ids(uncertainty_findings(c)), testing::IsEmpty());
+}
+
+TEST(UncertaintyGate, FindsANegativeZero) {
+    Certificate c = passed_certificate();
+    c.tables[0].columns[1].values[0].printed_value = "-0.00";
+    expect_finding(only(uncertainty_findings(c)), "R06", k_p14, FindingSeverity::minor, "EAA");
+}
+
+TEST(UncertaintyGate, FindsAVerdictThatThePrintedNumbersDoNotGive) {
+    Certificate c = passed_certificate();
+    length(c).verdict->verdict_from_printed = "fail";
+    const Finding found = only(uncertainty_findings(c));
+    expect_finding(found, "D04", "ISO/IEC 17025:2017, 7.8.6.1", FindingSeverity::critical, "l");
+    EXPECT_THAT(found.what, testing::HasSubstr("\"pass\""));
+}
+
+TEST(UncertaintyGate, FindsARuleThatCannotBeApplied) {
+    Certificate c = passed_certificate();
+    length(c).verdict->verdict = length(c).verdict->verdict_from_printed = "not_applicable";
+    length(c).verdict->note = "the ratio is 1.2";
+    const Finding found = only(uncertainty_findings(c));
+    expect_finding(found, "D05", "ISO/IEC 17025:2017, 7.8.6.1", FindingSeverity::major, "l");
+    EXPECT_THAT(found.what, testing::HasSubstr("the ratio is 1.2"));
+}
+
+TEST(UncertaintyGate, NamesTheRow) {
+    Certificate c = passed_certificate();
+    CertifiedTable& table = c.tables[0];
+    table.argument = CertifiedTable::Argument{
+        .name = "angle", .unit = "deg", .printed_unit = "°", .values = {30.0}, .printed = {"30"}};
+    length(c).printed_k.clear();
+    EXPECT_EQ(only(uncertainty_findings(c)).where, "l, angle 30");
+}
+
+}  // namespace
+}  // namespace gumcert::certificate
