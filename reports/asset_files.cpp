@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <fstream>
 #include <sstream>
 
@@ -26,16 +27,19 @@ std::string read_asset(const std::filesystem::path& file) {
     return text;
 }
 
-nlohmann::json read_wording(const RenderAssets& assets) {
+namespace {
+
+/// \throws gum::StorageError if there is no wording of this language
+nlohmann::json wording_of(const std::string& language, const RenderAssets& assets) {
     // The language becomes part of a file name: letters and hyphens only.
-    const bool plain = !assets.language.empty() &&
-                       std::all_of(assets.language.begin(), assets.language.end(),
-                                   [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-'; });
-    const std::filesystem::path file = assets.templates / "wording" / (assets.language + ".json");
+    const bool plain = !language.empty() && std::all_of(language.begin(), language.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-';
+    });
+    const std::filesystem::path file = assets.templates / "wording" / (language + ".json");
     if (!plain || !std::filesystem::is_regular_file(file)) {
         throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0002",
                                                 .where = "language",
-                                                .what = '"' + assets.language + '"',
+                                                .what = '"' + language + '"',
                                                 .rule = "a document is printed in a language of templates/wording",
                                                 .action = "choose another language, e.g. en"});
     }
@@ -48,6 +52,42 @@ nlohmann::json read_wording(const RenderAssets& assets) {
                                                 .action = "take the templates of this release"});
     }
     return wording;
+}
+
+nlohmann::json wording_of(const std::vector<std::string>& languages, const RenderAssets& assets) {
+    if (languages.size() > 2) {
+        throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0002",
+                                                .where = "language",
+                                                .what = std::to_string(languages.size()) + " languages",
+                                                .rule = "at most two languages stand side by side on a document",
+                                                .action = "choose one or two, the binding one first"});
+    }
+    nlohmann::json all = nlohmann::json::array();
+    for (const std::string& language : languages) {
+        if (language != languages.front() || all.empty()) {
+            all.push_back(wording_of(language, assets));
+        }
+    }
+    return all;
+}
+
+}  // namespace
+
+std::vector<std::string> languages_of(const EvaluationRecord& record, const RenderAssets& assets) {
+    std::vector<std::string> languages = assets.languages;
+    if (languages.empty() && record.certificate) {
+        languages = record.certificate->data.languages;
+        languages.resize(std::min<std::size_t>(languages.size(), 2));
+    }
+    return languages.empty() ? std::vector<std::string>{"en"} : languages;
+}
+
+nlohmann::json read_wording(const RenderAssets& assets, const EvaluationRecord& record) {
+    return wording_of(languages_of(record, assets), assets);
+}
+
+nlohmann::json read_wording(const RenderAssets& assets) {
+    return wording_of(assets.languages.empty() ? std::vector<std::string>{"en"} : assets.languages, assets);
 }
 
 }  // namespace gumcert::reports

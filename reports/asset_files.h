@@ -6,13 +6,21 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace gumcert::reports {
 
 /// The whole of a file of the product. \throws gum::StorageError if it cannot be read
 [[nodiscard]] std::string read_asset(const std::filesystem::path& file);
 
-/// The wording of the language that the assets ask for. \throws gum::StorageError if there is none
+/// Languages that a document is printed in, the binding one first: those that the assets ask for, else the first two of
+/// the certificate data, else English.
+[[nodiscard]] std::vector<std::string> languages_of(const EvaluationRecord& record, const RenderAssets& assets);
+
+/// The wording of a document as certificate_view() takes it.
+/// \throws gum::StorageError if there is none of a language, or there are more than two languages
+[[nodiscard]] nlohmann::json read_wording(const RenderAssets& assets, const EvaluationRecord& record);
+/// The wording of the languages that the assets ask for, else of English.
 [[nodiscard]] nlohmann::json read_wording(const RenderAssets& assets);
 
 }  // namespace gumcert::reports

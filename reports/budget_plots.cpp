@@ -63,21 +63,22 @@ BarPlot share_plot(const Result& result, const Wording& words, const std::string
     constexpr std::size_t k_most_bars = 12;
     constexpr std::size_t k_label = 32;
     BarPlot plot{.id = id,
-                 .title = printable(words.filled("plot", "shares_title", {{"name", result.name}})),
+                 .title = printable(words.filled("plot", "shares_title", {{"name", result.name}}).first()),
                  .description = "",
-                 .x_label = words("plot", "shares_axis"),
+                 .x_label = words("plot", "shares_axis").first(),
                  .bars = {}};
     for (const BudgetRow& row : result.budget) {
-        plot.bars.push_back({shortened(printable(row.input), k_label), 100.0 * row.share, row.printed.share});
+        plot.bars.push_back(
+            {shortened(printable(row.input), k_label), 100.0 * row.share, words.number(row.printed.share).first()});
     }
     if (result.correlation) {
-        plot.bars.push_back(
-            {words("label", "correlation"), 100.0 * result.correlation->share, result.correlation->printed.share});
+        plot.bars.push_back({words("label", "correlation").first(), 100.0 * result.correlation->share,
+                             words.number(result.correlation->printed.share).first()});
     }
     std::stable_sort(plot.bars.begin(), plot.bars.end(),
                      [](const ShareBar& a, const ShareBar& b) { return std::abs(a.share) > std::abs(b.share); });
     if (plot.bars.size() > k_most_bars) {
-        ShareBar others{.label = words("plot", "others"), .share = 0.0, .text = ""};
+        ShareBar others{.label = words("plot", "others").first(), .share = 0.0, .text = ""};
         for (std::size_t i = k_most_bars - 1; i < plot.bars.size(); ++i) {
             others.share += plot.bars[i].share;
         }
@@ -90,7 +91,8 @@ BarPlot share_plot(const Result& result, const Wording& words, const std::string
             all += (all.empty() ? "" : ", ") + bar.label + " " + bar.text + " %";
         }
     }
-    plot.description = printable(words.filled("plot", "shares_description", {{"name", result.name}, {"shares", all}}));
+    plot.description =
+        printable(words.filled("plot", "shares_description", {{"name", result.name}, {"shares", all}}).first());
     return plot;
 }
 
@@ -100,23 +102,25 @@ DensityPlot monte_carlo_plot(const Result& result, const Wording& words, const s
     const double nu = by_t ? *result.nu_eff : std::numeric_limits<double>::infinity();
     DensityPlot plot;
     plot.id = id;
-    plot.title = printable(words.filled("plot", "monte_carlo_title", {{"name", result.name}}));
-    plot.description = printable(words.filled("plot", "monte_carlo_description",
-                                              {{"name", result.name},
-                                               {"trials", m.printed.trials},
-                                               {"low", m.printed.symmetric[0]},
-                                               {"high", m.printed.symmetric[1]},
-                                               {"unit", gum::unit_for_people(result.unit)}}));
-    plot.y_label = words("plot", "density_axis");
-    plot.cells_label = words("plot", "trials_key");
-    plot.curve_label = words("plot", by_t ? "t_key" : "normal_key");
+    plot.title = printable(words.filled("plot", "monte_carlo_title", {{"name", result.name}}).first());
+    plot.description = printable(words
+                                     .filled("plot", "monte_carlo_description",
+                                             {{"name", result.name},
+                                              {"trials", words.number(m.printed.trials)},
+                                              {"low", words.number(m.printed.symmetric[0])},
+                                              {"high", words.number(m.printed.symmetric[1])},
+                                              {"unit", gum::unit_for_people(result.unit)}})
+                                     .first());
+    plot.y_label = words("plot", "density_axis").first();
+    plot.cells_label = words("plot", "trials_key").first();
+    plot.curve_label = words("plot", by_t ? "t_key" : "normal_key").first();
 
     // The value is taken off, so that the ticks of a long number differ.
     plot.intervals = {
-        {words("plot", "shortest_interval"), m.shortest[0] - result.value, m.shortest[1] - result.value},
-        {words("plot", "symmetric_interval"), m.symmetric[0] - result.value, m.symmetric[1] - result.value}};
+        {words("plot", "shortest_interval").first(), m.shortest[0] - result.value, m.shortest[1] - result.value},
+        {words("plot", "symmetric_interval").first(), m.symmetric[0] - result.value, m.symmetric[1] - result.value}};
     if (result.U) {
-        plot.intervals.insert(plot.intervals.begin(), {words("plot", "U_interval"), -*result.U, *result.U});
+        plot.intervals.insert(plot.intervals.begin(), {words("plot", "U_interval").first(), -*result.U, *result.U});
     }
     double low = plot.intervals.front().low;
     double high = plot.intervals.front().high;
@@ -136,8 +140,9 @@ DensityPlot monte_carlo_plot(const Result& result, const Wording& words, const s
     }
     plot.low = scale(low);
     plot.high = scale(high);
-    plot.x_label = axis_label(words.filled("plot", "deviation_axis", {{"name", shortened(printable(result.name), 40)}}),
-                              result.unit, scale);
+    plot.x_label =
+        axis_label(words.filled("plot", "deviation_axis", {{"name", shortened(printable(result.name), 40)}}).first(),
+                   result.unit, scale);
 
     const double width = (m.histogram_high - m.histogram_low) / static_cast<double>(m.histogram.size());
     const double unit_area = static_cast<double>(m.trials) * scale(width);
@@ -165,8 +170,8 @@ DensityPlot monte_carlo_plot(const Result& result, const Wording& words, const s
 Plot residual_plot(const FitSummary& fit, const Wording& words, const std::string& id) {
     const bool numbered = fit.x_name.empty();
     Plot plot{.id = id,
-              .title = printable(words.filled("plot", "residuals_title", {{"name", fit.name}})),
-              .description = printable(words.filled("plot", "residuals_description", {{"name", fit.name}})),
+              .title = printable(words.filled("plot", "residuals_title", {{"name", fit.name}}).first()),
+              .description = printable(words.filled("plot", "residuals_description", {{"name", fit.name}}).first()),
               .x_label = "",
               .panels = {},
               .columns = 1,
@@ -185,11 +190,12 @@ Plot residual_plot(const FitSummary& fit, const Wording& words, const std::strin
         series.points.push_back(
             {.x = numbered ? static_cast<double>(i + 1) : scale_x(fit.x[i]), .y = scale_y(fit.residual[i]), .U = 0.0});
     }
-    plot.x_label = numbered ? words("plot", "observation_axis") : axis_label(fit.x_name, fit.x_unit, scale_x);
-    plot.panels.push_back({.heading = "",
-                           .y_label = shortened(axis_label(words("label", "residual"), fit.y_unit, scale_y), 30),
-                           .series = {series},
-                           .limits = {}});
+    plot.x_label = numbered ? words("plot", "observation_axis").first() : axis_label(fit.x_name, fit.x_unit, scale_x);
+    plot.panels.push_back(
+        {.heading = "",
+         .y_label = shortened(axis_label(words("label", "residual").first(), fit.y_unit, scale_y), 30),
+         .series = {series},
+         .limits = {}});
     return plot;
 }
 

@@ -25,7 +25,8 @@ constexpr std::size_t k_most_plots = 4;
 constexpr std::size_t k_most_names = 6;
 constexpr std::size_t k_most_correlated = 8;  // more columns of a matrix do not fit on a page
 
-using Rows = std::vector<std::vector<std::string>>;
+using Rows = std::vector<std::vector<Text>>;
+using Facts = std::vector<std::pair<Text, Text>>;  // label and value
 
 /// A number that has no printed form in the record, with two significant digits.
 std::string rounded(double v) {
@@ -64,18 +65,18 @@ std::string percent_text(double probability) {
     return text + " %";
 }
 
-std::string nu_text(const std::optional<double>& nu, const Wording& words) {
-    return nu ? degrees_of_freedom(*nu) : words("document", "infinite");
+Text nu_text(const std::optional<double>& nu, const Wording& words) {
+    return nu ? words.number(degrees_of_freedom(*nu)) : words("document", "infinite");
 }
 
 /// "a, b and 3 more"
-std::string listed(const std::vector<std::string>& names, const Wording& words) {
+Text listed(const std::vector<std::string>& names, const Wording& words) {
     std::string text;
     for (std::size_t i = 0; i < std::min(names.size(), k_most_names); ++i) {
         text += (i == 0 ? "" : ", ") + names[i];
     }
     return names.size() <= k_most_names
-               ? text
+               ? Text(text)
                : words.fill("and_more", {{"names", text}, {"count", std::to_string(names.size() - k_most_names)}});
 }
 
@@ -117,8 +118,8 @@ std::string mark_of(const Result& r, const std::vector<CoverageGroup>& groups) {
 }
 
 /// The sentence that says what U means for the results of a group.
-std::string coverage_sentence(const CoverageGroup& group, const Wording& words) {
-    const std::string p = percent_text(group.probability);
+Text coverage_sentence(const CoverageGroup& group, const Wording& words) {
+    const Text p = words.number(percent_text(group.probability));
     if (group.kind == "none") {
         return words("sentence", "coverage_none");
     }
@@ -126,7 +127,7 @@ std::string coverage_sentence(const CoverageGroup& group, const Wording& words) 
     std::optional<double> k_high;
     std::optional<double> nu_low;
     bool nu_differs = false;
-    const std::string first_nu = nu_text(group.results.front()->nu_eff, words);
+    const Text first_nu = nu_text(group.results.front()->nu_eff, words);
     for (const Result* r : group.results) {
         if (r->k) {
             k_low = k_low ? std::min(*k_low, *r->k) : *r->k;
@@ -137,10 +138,10 @@ std::string coverage_sentence(const CoverageGroup& group, const Wording& words) 
         }
         nu_differs = nu_differs || nu_text(r->nu_eff, words) != first_nu;
     }
-    std::string k = "k";
+    Text k = "k";
     if (k_low) {
-        const std::string low = fixed(*k_low, 2);
-        const std::string high = fixed(*k_high, 2);
+        const Text low = words.number(fixed(*k_low, 2));
+        const Text high = words.number(fixed(*k_high, 2));
         k = low == high ? words.fill("k_one", {{"k", low}}) : words.fill("k_between", {{"low", low}, {"high", high}});
     }
     if (group.kind == "monte_carlo") {
@@ -152,8 +153,8 @@ std::string coverage_sentence(const CoverageGroup& group, const Wording& words) 
     if (!nu_low) {
         return words.fill("coverage_normal", {{"k", k}, {"p", p}});
     }
-    const std::string nu = nu_differs ? words.fill("nu_between", {{"low", whole_below(*nu_low)}})
-                                      : words.fill("nu_one", {{"nu", degrees_of_freedom(*nu_low)}});
+    const Text nu = nu_differs ? words.fill("nu_between", {{"low", whole_below(*nu_low)}})
+                               : words.fill("nu_one", {{"nu", words.number(degrees_of_freedom(*nu_low))}});
     return words.fill("coverage_student_t", {{"k", k}, {"nu_eff", nu}, {"p", p}});
 }
 
@@ -161,7 +162,7 @@ void coverage(CertificateBuilder& builder, const Wording& words, const std::vect
               const std::vector<CoverageGroup>& groups) {
     for (const CoverageGroup& group : groups) {
         const std::string mark = mark_of(*group.results.front(), groups);
-        builder.paragraph((mark.empty() ? "" : mark + " ") + coverage_sentence(group, words));
+        builder.paragraph((mark.empty() ? mark : mark + " ") + coverage_sentence(group, words));
     }
     std::vector<std::pair<std::string, std::vector<std::string>>> notes;
     for (const Result& r : results) {
@@ -227,7 +228,7 @@ void result_table(CertificateBuilder& builder, const Wording& words, const Resul
     }
     Rows rows;
     for (const Result* r : list.results) {
-        std::vector<std::string> row = {points ? r->point : r->name};
+        std::vector<Text> row = {points ? r->point : r->name};
         if (described) {
             row.push_back(r->description);
         }
@@ -241,8 +242,8 @@ void result_table(CertificateBuilder& builder, const Wording& words, const Resul
         }
         row.push_back(r->k ? fixed(*r->k, 2) : "");
         row.push_back(coverage_kind(*r) == "student_t" ? nu_text(r->nu_eff, words)
-                      : r->nu_eff                      ? degrees_of_freedom(*r->nu_eff)
-                                                       : "");
+                      : r->nu_eff                      ? words.number(degrees_of_freedom(*r->nu_eff))
+                                                       : Text());
         if (!one_p) {
             row.push_back(percent_text(r->coverage_probability));
         }
@@ -325,11 +326,12 @@ std::string sensitivity_unit(const std::string& result, const std::string& input
 
 /// "A", "B", or "A, B" of an input that is a sum.
 /// The name of a distribution in the language of the document; one that the program does not name stays as it is.
-std::string distribution_text(const std::string& name, const Wording& words) {
+Text distribution_text(const std::string& name, const Wording& words) {
     constexpr std::array<std::string_view, 14> k_named{
         "constant",  "normal", "uniform",     "triangular", "arcsine", "trapezoidal", "curvilinear_trapezoid",
         "student_t", "gamma",  "exponential", "lognormal",  "beta",    "empirical",   "sum"};
-    return std::find(k_named.begin(), k_named.end(), name) == k_named.end() ? name : words("distribution_name", name);
+    return std::find(k_named.begin(), k_named.end(), name) == k_named.end() ? Text(name)
+                                                                            : words("distribution_name", name);
 }
 
 std::string type_of(const BudgetRow& row) {
@@ -340,14 +342,14 @@ std::string type_of(const BudgetRow& row) {
     return types.size() > 1 ? "A, B" : row.type;
 }
 
-std::vector<std::string> budget_line(const BudgetRow& row, const Result& result, bool part, const Wording& words) {
+std::vector<Text> budget_line(const BudgetRow& row, const Result& result, bool part, const Wording& words) {
     const auto bracketed = [&](const std::string& text) { return part && !text.empty() ? "(" + text + ")" : text; };
     return {row.input,
             with_unit(row.printed.value, gum::unit_for_people(row.unit)),
             with_unit(row.printed.u, gum::unit_for_people(difference_unit(row.unit))),
             distribution_text(row.distribution, words),
             type_of(row),
-            row.printed.nu.empty() ? nu_text(row.nu, words) : row.printed.nu,
+            row.printed.nu.empty() ? nu_text(row.nu, words) : Text(row.printed.nu),
             with_unit(row.printed.sensitivity, sensitivity_unit(result.unit, row.unit)),
             bracketed(row.printed.contribution),
             bracketed(row.printed.share)};
@@ -371,8 +373,8 @@ void budget(CertificateBuilder& builder, const Wording& words, const Result& res
     }
     const bool nu_known = coverage_kind(result) == "student_t" || result.nu_eff;
     rows.push_back({result.name, with_unit(result.printed.value, result.printed.unit), "",
-                    distribution_text(result.distribution, words), "", nu_known ? nu_text(result.nu_eff, words) : "",
-                    "", rounded(result.u), "100"});
+                    distribution_text(result.distribution, words), "",
+                    nu_known ? nu_text(result.nu_eff, words) : Text(), "", rounded(result.u), "100"});
     kinds.push_back(RowKind::closing);
     builder.table("budget-" + std::to_string(number), words.fill("budget_result", {{"name", result.name}}),
                   {{words("label", "quantity_x"), ""},
@@ -389,9 +391,9 @@ void budget(CertificateBuilder& builder, const Wording& words, const Result& res
 
 /// Where the uncertainties of the inputs come from: standards, instruments, certificates.
 void sources(CertificateBuilder& builder, const Wording& words, const std::vector<const Result*>& shown) {
-    std::vector<std::pair<std::string, std::string>> all;
+    Facts all;
     const auto add = [&](const std::string& name, const std::string& source) {
-        const std::pair<std::string, std::string> entry(name, source);
+        const std::pair<Text, Text> entry(name, source);
         if (!source.empty() && std::find(all.begin(), all.end(), entry) == all.end()) {
             all.push_back(entry);
         }
@@ -480,32 +482,34 @@ const char* verdict_of(const GufValidation& v) {
 void monte_carlo_of(CertificateBuilder& builder, const Wording& words, const Result& result, std::size_t number) {
     const MonteCarloSummary& m = *result.monte_carlo;
     const auto& error = m.numerical_error;
-    const std::string p = percent_text(result.coverage_probability);
+    const Text p = words.number(percent_text(result.coverage_probability));
     const std::string id = std::to_string(number);
-    builder.table(
-        "monte-carlo-" + id,
-        words.fill("monte_carlo_table",
-                   {{"name", result.name}, {"trials", m.printed.trials}, {"seed", std::to_string(m.seed)}, {"p", p}}),
-        {{words("label", "quantity"), ""},
-         {words("label", "value"), result.printed.unit, true},
-         {words("label", "numerical_error"), result.printed.unit, true}},
-        {{words("label", "mean_trials"), m.printed.mean, rounded(error.mean)},
-         {words("label", "u_trials"), m.printed.u, rounded(error.u)},
-         {words("label", "symmetric_low"), m.printed.symmetric[0], rounded(error.symmetric[0])},
-         {words("label", "symmetric_high"), m.printed.symmetric[1], rounded(error.symmetric[1])},
-         {words("label", "shortest_low"), m.printed.shortest[0], rounded(error.shortest[0])},
-         {words("label", "shortest_high"), m.printed.shortest[1], rounded(error.shortest[1])}});
+    builder.table("monte-carlo-" + id,
+                  words.fill("monte_carlo_table", {{"name", result.name},
+                                                   {"trials", words.number(m.printed.trials)},
+                                                   {"seed", std::to_string(m.seed)},
+                                                   {"p", p}}),
+                  {{words("label", "quantity"), ""},
+                   {words("label", "value"), result.printed.unit, true},
+                   {words("label", "numerical_error"), result.printed.unit, true}},
+                  {{words("label", "mean_trials"), m.printed.mean, rounded(error.mean)},
+                   {words("label", "u_trials"), m.printed.u, rounded(error.u)},
+                   {words("label", "symmetric_low"), m.printed.symmetric[0], rounded(error.symmetric[0])},
+                   {words("label", "symmetric_high"), m.printed.symmetric[1], rounded(error.symmetric[1])},
+                   {words("label", "shortest_low"), m.printed.shortest[0], rounded(error.shortest[0])},
+                   {words("label", "shortest_high"), m.printed.shortest[1], rounded(error.shortest[1])}});
     if (m.adaptive) {
         builder.paragraph(words("sentence", m.stabilised ? "stabilised" : "not_stabilised"));
     }
     if (m.validation) {
         const GufValidation& v = *m.validation;
-        builder.paragraph(words.fill(verdict_of(v), {{"name", result.name},
-                                                     {"d_low", with_unit(v.printed.d_low, result.printed.unit)},
-                                                     {"d_high", with_unit(v.printed.d_high, result.printed.unit)},
-                                                     {"delta", with_unit(v.printed.delta, result.printed.unit)},
-                                                     {"digits", std::to_string(v.digits)},
-                                                     {"interval", words("value", "interval", v.interval)}}));
+        builder.paragraph(
+            words.fill(verdict_of(v), {{"name", result.name},
+                                       {"d_low", words.number(with_unit(v.printed.d_low, result.printed.unit))},
+                                       {"d_high", words.number(with_unit(v.printed.d_high, result.printed.unit))},
+                                       {"delta", words.number(with_unit(v.printed.delta, result.printed.unit))},
+                                       {"digits", std::to_string(v.digits)},
+                                       {"interval", words("value", "interval", v.interval)}}));
     }
     if (!m.histogram.empty() && number < k_most_plots) {
         const DensityPlot plot = monte_carlo_plot(result, words, "plot-monte-carlo-" + id);
@@ -540,7 +544,7 @@ void monte_carlo(CertificateBuilder& builder, const Wording& words, const Evalua
         ++verdicts[verdict];
         rows.push_back({r->name, m.printed.trials, m.printed.mean, m.printed.u, m.printed.symmetric[0],
                         m.printed.symmetric[1], m.printed.shortest[0], m.printed.shortest[1], r->printed.unit,
-                        verdict.empty() ? "" : words("value", "verdict", verdict)});
+                        verdict.empty() ? Text() : words("value", "verdict", verdict)});
     }
     builder.table("monte-carlo", words("sentence", "monte_carlo_list"),
                   {{words("label", "name"), ""},
@@ -562,21 +566,22 @@ void monte_carlo(CertificateBuilder& builder, const Wording& words, const Evalua
 }
 
 void region(CertificateBuilder& builder, const Wording& words, const CoverageRegion& r) {
-    builder.paragraph(words.fill(
-        "region", {{"p", percent_text(r.coverage_probability)}, {"from", words("value", "region_from", r.from)}}));
-    std::vector<std::pair<std::string, std::string>> rows = {
+    builder.paragraph(words.fill("region", {{"p", words.number(percent_text(r.coverage_probability))},
+                                            {"from", words("value", "region_from", r.from)}}));
+    Facts rows = {
         {words("label", "ellipsoid"),
-         r.k_p ? words.fill("ellipsoid", {{"k_p", r.printed.k_p}}) : words("sentence", "no_ellipsoid")},
-        {words("label", "parallelepiped"),
-         r.k_q ? words.fill("parallelepiped", {{"k_q", r.printed.k_q}}) : words("sentence", "no_parallelepiped")}};
+         r.k_p ? words.fill("ellipsoid", {{"k_p", words.number(r.printed.k_p)}}) : words("sentence", "no_ellipsoid")},
+        {words("label", "parallelepiped"), r.k_q ? words.fill("parallelepiped", {{"k_q", words.number(r.printed.k_q)}})
+                                                 : words("sentence", "no_parallelepiped")}};
     if (r.degrees_of_freedom) {
-        rows.emplace_back(words("label", "region_nu"), degrees_of_freedom(*r.degrees_of_freedom));
+        rows.emplace_back(words("label", "region_nu"), words.number(degrees_of_freedom(*r.degrees_of_freedom)));
     }
     if (r.smallest_region) {
-        rows.emplace_back(words("label", "smallest_region"),
-                          words.fill("smallest_region", {{"volume", rounded(r.smallest_region->volume)},
-                                                         {"cells", std::to_string(r.smallest_region->cells)},
-                                                         {"p", percent_text(r.smallest_region->probability)}}));
+        rows.emplace_back(
+            words("label", "smallest_region"),
+            words.fill("smallest_region", {{"volume", words.number(rounded(r.smallest_region->volume))},
+                                           {"cells", std::to_string(r.smallest_region->cells)},
+                                           {"p", words.number(percent_text(r.smallest_region->probability))}}));
     }
     builder.definitions(rows);
     if (r.validation) {
@@ -634,17 +639,16 @@ void fit(CertificateBuilder& builder, const Wording& words, const FitSummary& f,
     const std::string id = std::to_string(number);
     builder.table("fit-" + id, words.fill("fit_table", {{"name", f.name}}), columns, rows);
     const std::string y_unit = gum::unit_for_people(f.y_unit);
-    std::vector<std::pair<std::string, std::string>> facts = {
-        {words("label", "observations_of_fit"), std::to_string(f.y.size())},
-        {words("label", "degrees_of_freedom"), fixed(f.degrees_of_freedom, 0)},
-        {words("label", weighted ? "residual_factor" : "residual_standard_deviation"),
-         with_unit(f.printed.residual_standard_deviation, weighted ? "" : y_unit)},
-        {words("label", weighted ? "chi_square" : "sum_of_squares"),
-         with_unit(f.printed.sum_of_squares, weighted ? "" : squared(y_unit))}};
+    Facts facts = {{words("label", "observations_of_fit"), std::to_string(f.y.size())},
+                   {words("label", "degrees_of_freedom"), fixed(f.degrees_of_freedom, 0)},
+                   {words("label", weighted ? "residual_factor" : "residual_standard_deviation"),
+                    words.number(with_unit(f.printed.residual_standard_deviation, weighted ? "" : y_unit))},
+                   {words("label", weighted ? "chi_square" : "sum_of_squares"),
+                    words.number(with_unit(f.printed.sum_of_squares, weighted ? "" : squared(y_unit)))}};
     if (f.p_value) {
-        facts.emplace_back(words("label", "p_value"), f.printed.p_value);
+        facts.emplace_back(words("label", "p_value"), words.number(f.printed.p_value));
     }
-    facts.emplace_back(words("label", "r_squared"), f.printed.r_squared);
+    facts.emplace_back(words("label", "r_squared"), words.number(f.printed.r_squared));
     facts.emplace_back(words("label", "fit_uncertainty"),
                        words("value", f.covariance_scaled ? "scaled_by_residuals" : "as_stated_uncertainties"));
     builder.definitions(facts);
@@ -673,15 +677,15 @@ void readings(CertificateBuilder& builder, const Wording& words, const std::vect
         std::any_of(all.begin(), all.end(), [](const auto& r) { return r.pooled_standard_deviation.has_value(); });
     Rows rows;
     for (const ReadingsSummary& r : all) {
-        std::vector<std::string> row = {part_name(r.input, r.component),
-                                        plain(r.n),
-                                        r.printed.mean,
-                                        r.printed.standard_deviation,
-                                        r.printed.standard_deviation_of_mean,
-                                        gum::unit_for_people(r.unit),
-                                        r.printed.r1,
-                                        r.printed.limit,
-                                        words("value", r.dependent ? "dependent" : "independent")};
+        std::vector<Text> row = {part_name(r.input, r.component),
+                                 plain(r.n),
+                                 r.printed.mean,
+                                 r.printed.standard_deviation,
+                                 r.printed.standard_deviation_of_mean,
+                                 gum::unit_for_people(r.unit),
+                                 r.printed.r1,
+                                 r.printed.limit,
+                                 words("value", r.dependent ? "dependent" : "independent")};
         if (pooled) {
             row.insert(row.begin() + 5, r.pooled_standard_deviation ? rounded(*r.pooled_standard_deviation) : "");
         }
@@ -716,12 +720,13 @@ void variance_analysis(CertificateBuilder& builder, const Wording& words, const 
           v.printed.mean_square[0], v.printed.F, v.printed.F_critical, v.printed.p_value},
          {words("label", "within"), rounded(v.sum_of_squares_within), whole_below(v.degrees_of_freedom_within),
           v.printed.mean_square[1], "", "", ""}});
-    builder.definitions({{words("label", "mean"), with_unit(v.printed.mean, unit)},
-                         {words("label", "s_within"), with_unit(v.printed.within, unit)},
-                         {words("label", "s_group_means"), with_unit(v.printed.group_means, unit)},
-                         {words("label", "s_between"), with_unit(v.printed.between, unit)},
-                         {words("label", "u_with_between"), with_unit(rounded(v.u_with_between_effect), unit)},
-                         {words("label", "u_without_between"), with_unit(rounded(v.u_without_between_effect), unit)}});
+    builder.definitions(
+        {{words("label", "mean"), words.number(with_unit(v.printed.mean, unit))},
+         {words("label", "s_within"), words.number(with_unit(v.printed.within, unit))},
+         {words("label", "s_group_means"), words.number(with_unit(v.printed.group_means, unit))},
+         {words("label", "s_between"), words.number(with_unit(v.printed.between, unit))},
+         {words("label", "u_with_between"), words.number(with_unit(rounded(v.u_with_between_effect), unit))},
+         {words("label", "u_without_between"), words.number(with_unit(rounded(v.u_without_between_effect), unit))}});
     builder.paragraph(words("sentence", v.conclusion == "significant" ? "anova_significant" : "anova_not_significant"));
 }
 
@@ -740,8 +745,11 @@ void type_a(CertificateBuilder& builder, const Wording& words, const EvaluationR
 
 }  // namespace
 
-void budget_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+void budget_results(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     results(builder, words, record);
+}
+
+void budget_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     if (record.model) {
         model(builder, words, *record.model);
     }

@@ -20,13 +20,51 @@ std::string align_of(const Column& column) {
     return column.number ? "number" : "left";
 }
 
-/// Position of the decimal sign, or the end; only plain decimal numbers take part in the alignment.
-std::optional<std::size_t> fraction_length(const std::string& text) {
-    if (text.empty() || text.find_first_not_of("0123456789.\u2212-+ ") != std::string::npos) {
+/// Length of the decimals with their sign; only plain decimal numbers take part in the alignment.
+std::optional<std::size_t> fraction_length(const std::string& text, const std::string& sign) {
+    if (text.empty() || text.find_first_not_of("0123456789\u2212-+ " + sign) != std::string::npos) {
         return std::nullopt;
     }
-    const std::size_t point = text.find('.');
-    return point == std::string::npos ? 0 : text.size() - point;
+    const std::size_t at = text.find(sign);
+    return at == std::string::npos ? 0 : text.size() - at;
+}
+
+bool is_decimal(const std::string& text) {
+    const std::size_t from = text.starts_with("\u2212") ? std::string("\u2212").size() : text.starts_with('-') ? 1 : 0;
+    return from < text.size() && text.find_first_not_of("0123456789.", from) == std::string::npos;
+}
+
+/// A drawing whose texts that are plain numbers (ticks of the axes, above all) have a decimal sign of the language.
+std::string with_numbers_of(const std::string& drawing, const std::string& sign) {
+    if (sign == ".") {
+        return drawing;
+    }
+    std::string out;
+    std::size_t at = 0;
+    while (at < drawing.size()) {
+        const std::size_t end = drawing.find("</text>", at);
+        const std::size_t open = end == std::string::npos ? end : drawing.rfind('>', end);
+        if (open == std::string::npos) {
+            break;
+        }
+        const std::string text = drawing.substr(open + 1, end - open - 1);
+        out +=
+            drawing.substr(at, open + 1 - at) + (is_decimal(text) ? with_decimal_sign(text, sign) : text) + "</text>";
+        at = end + std::string("</text>").size();
+    }
+    return out + drawing.substr(at);
+}
+
+/// A text with the same decimal sign in all languages.
+std::string with_one_sign(const std::string& text) {
+    std::string out = text;
+    for (std::size_t i = 1; i + 1 < out.size(); ++i) {
+        const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+        if (out[i] == ',' && is_digit(out[i - 1]) && is_digit(out[i + 1])) {
+            out[i] = '.';
+        }
+    }
+    return out;
 }
 
 const char* name_of(RowKind kind) {
@@ -74,94 +112,122 @@ CertificateBuilder::CertificateBuilder(const Wording& wording)
 
 CertificateBuilder::~CertificateBuilder() = default;
 
+nlohmann::json also(const Text& text, const std::vector<std::string>& languages) {
+    if (languages.size() < 2 || !text.differs() || with_one_sign(text.in(0)) == with_one_sign(text.in(1))) {
+        return json::array();
+    }
+    return json::array({{{"text", printable(text.in(1))}, {"language", languages[1]}}});
+}
+
+void put(nlohmann::json& object, const std::string& key, const Text& text, const std::vector<std::string>& languages) {
+    object[key] = printable(text.first());
+    object[key + "_also"] = also(text, languages);
+}
+
 void CertificateBuilder::section(const std::string& id) {
     section(id, wording_("heading", id));
 }
 
-void CertificateBuilder::section(const std::string& id, const std::string& heading) {
-    sections_->push_back({{"id", id}, {"heading", printable(heading)}, {"blocks", json::array()}});
+void CertificateBuilder::section(const std::string& id, const Text& heading) {
+    json entry = {{"id", id}, {"kind", annexes_ ? "annex" : ""}, {"blocks", json::array()}};
+    put(entry, "heading", annexes_ ? wording_.filled("heading", "annex", {{"heading", heading}}) : heading,
+        wording_.languages());
+    sections_->push_back(std::move(entry));
 }
 
-void CertificateBuilder::paragraph(const std::string& text) {
-    block("paragraph", {{"text", printable(text)}});
+void CertificateBuilder::paragraph(const Text& text) {
+    block("paragraph", {{"text", printable(text.first())}, {"also", also(text, wording_.languages())}});
 }
 
-void CertificateBuilder::formula(const std::string& text) {
-    block("formula", {{"text", printable(text)}});
+void CertificateBuilder::formula(const Text& text) {
+    block("formula", {{"text", printable(text.first())}});
 }
 
-void CertificateBuilder::definitions(const std::vector<std::pair<std::string, std::string>>& rows) {
+void CertificateBuilder::definitions(const std::vector<std::pair<Text, Text>>& rows) {
     json all = json::array();
     for (const auto& [label, value] : rows) {
-        all.push_back({{"label", printable(label)},
-                       {"value", value.empty() ? wording_("document", "absent") : printable(value)}});
+        json row = json::object();
+        put(row, "label", label, wording_.languages());
+        put(row, "value", value.empty() ? wording_("document", "absent") : value, wording_.languages());
+        all.push_back(std::move(row));
     }
     block("definitions", {{"rows", all}});
 }
 
-void CertificateBuilder::figure(const std::string& id, const std::string& caption, const std::string& alternative_text,
+void CertificateBuilder::figure(const std::string& id, const Text& caption, const std::string& alternative_text,
                                 const std::string& drawing) {
-    block("figure", {{"id", id},
-                     {"number", wording_("document", "figure") + " " + std::to_string(++figures_)},
-                     {"caption", printable(caption)},
-                     {"alt", printable(alternative_text)},
-                     {"svg", drawing}});
+    json entry = {
+        {"id", id}, {"alt", printable(alternative_text)}, {"svg", with_numbers_of(drawing, wording_.decimal_sign())}};
+    put(entry, "number", wording_("document", "figure") + " " + std::to_string(++figures_), wording_.languages());
+    put(entry, "caption", caption, wording_.languages());
+    block("figure", std::move(entry));
 }
 
-void CertificateBuilder::table(const std::string& id, const std::string& caption, const std::vector<Column>& columns,
-                               const std::vector<std::vector<std::string>>& rows,
-                               const std::vector<std::pair<std::string, std::size_t>>& groups,
+void CertificateBuilder::table(const std::string& id, const Text& caption, const std::vector<Column>& columns,
+                               const std::vector<std::vector<Text>>& rows,
+                               const std::vector<std::pair<Text, std::size_t>>& groups,
                                const std::vector<RowKind>& kinds) {
+    const std::vector<std::string>& languages = wording_.languages();
+    const std::string& sign = wording_.decimal_sign();
+    const auto shown = [&](std::size_t row, std::size_t column) {
+        const std::string& text = rows[row][column].first();
+        return columns[column].number ? with_decimal_sign(text, sign) : text;
+    };
     std::vector<std::size_t> longest(columns.size(), 0);
-    for (const auto& row : rows) {
+    for (std::size_t r = 0; r < rows.size(); ++r) {
         for (std::size_t c = 0; c < columns.size(); ++c) {
-            longest[c] = std::max(longest[c], fraction_length(row[c]).value_or(0));
+            longest[c] = std::max(longest[c], fraction_length(shown(r, c), sign).value_or(0));
         }
     }
     json heads = json::array();
     for (const Column& column : columns) {
-        heads.push_back(
-            {{"head", printable(column.head)},
-             {"unit", column.unit.empty() ? json::array() : json::array({{{"text", printable(column.unit)}}})},
-             {"align", align_of(column)}});
+        json head = {{"unit", column.unit.empty() ? json::array() : json::array({{{"text", printable(column.unit)}}})},
+                     {"align", align_of(column)}};
+        put(head, "head", column.head, languages);
+        heads.push_back(std::move(head));
     }
+    const std::string absent = wording_("document", "absent").first();
     json lines = json::array();
     for (std::size_t r = 0; r < rows.size(); ++r) {
-        const auto& row = rows[r];
         json cells = json::array();
         for (std::size_t c = 0; c < columns.size(); ++c) {
+            const std::string text = shown(r, c);
             std::string pad;
-            if (const auto length = fraction_length(row[c]); columns[c].number && length && *length < longest[c]) {
-                pad = (*length == 0 ? "." : "") + std::string(longest[c] - std::max<std::size_t>(*length, 1), '0');
+            if (const auto length = fraction_length(text, sign); columns[c].number && length && *length < longest[c]) {
+                pad = (*length == 0 ? sign : "") + std::string(longest[c] - std::max<std::size_t>(*length, 1), '0');
             }
-            const std::string text = row[c].empty() ? wording_("document", "absent") : printable(row[c]);
-            cells.push_back({{"text", text}, {"pad", pad}, {"align", align_of(columns[c])}});
+            cells.push_back({{"text", text.empty() ? absent : printable(text)},
+                             {"also", also(rows[r][c], languages)},
+                             {"pad", pad},
+                             {"align", align_of(columns[c])}});
         }
         lines.push_back({{"cells", std::move(cells)}, {"kind", name_of(r < kinds.size() ? kinds[r] : RowKind::plain)}});
     }
     json spans = json::array();
     for (const auto& [text, span] : groups) {
-        spans.push_back({{"text", text}, {"span", std::to_string(span)}});
+        spans.push_back(
+            {{"text", printable(text.first())}, {"also", also(text, languages)}, {"span", std::to_string(span)}});
     }
-    block("table", {{"id", id},
-                    {"number", wording_("document", "table") + " " + std::to_string(++tables_)},
-                    {"caption", printable(caption)},
-                    {"columns", std::move(heads)},
-                    {"groups", spans.empty() ? json::array() : json::array({{{"cells", std::move(spans)}}})},
-                    {"rows", std::move(lines)}});
+    json entry = {{"id", id},
+                  {"columns", std::move(heads)},
+                  {"groups", spans.empty() ? json::array() : json::array({{{"cells", std::move(spans)}}})},
+                  {"rows", std::move(lines)}};
+    put(entry, "number", wording_("document", "table") + " " + std::to_string(++tables_), languages);
+    put(entry, "caption", caption, languages);
+    block("table", std::move(entry));
 }
 
 nlohmann::json CertificateBuilder::take() {
     return std::exchange(*sections_, json::array());
 }
 
-void CertificateBuilder::block(const char* kind, const nlohmann::json& content) {
+void CertificateBuilder::block(const char* kind, nlohmann::json content) {
     json entry = {{"paragraph", json::array()},
                   {"formula", json::array()},
                   {"definitions", json::array()},
                   {"figure", json::array()},
                   {"table", json::array()}};
-    entry[kind].push_back(content);
+    entry[kind].push_back(std::move(content));
     sections_->back()["blocks"].push_back(std::move(entry));
 }
 

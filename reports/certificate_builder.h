@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reports/document_text.h"
 #include "reports/wording.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,8 +15,10 @@
 namespace gumcert::reports {
 
 struct Column {
-    std::string head;
-    std::string unit;  ///< for people; "" leaves it out
+    Text head;
+    std::string unit = {};  ///< for people; "" leaves it out
+    /// Cells are numbers with a point as decimal sign: they get that of the binding language, and stand below each
+    /// other by it.
     bool number = false;
 };
 
@@ -33,19 +36,20 @@ public:
 
     void section(const std::string& id);
     /// A section whose heading is not in the wording.
-    void section(const std::string& id, const std::string& heading);
-    void paragraph(const std::string& text);
-    void formula(const std::string& text);
-    void definitions(const std::vector<std::pair<std::string, std::string>>& rows);
-    /// \param drawing  SVG
-    void figure(const std::string& id, const std::string& caption, const std::string& alternative_text,
+    void section(const std::string& id, const Text& heading);
+    /// Sections from here on are annexes: their headings say so.
+    void annexes() { annexes_ = true; }
+    void paragraph(const Text& text);
+    void formula(const Text& text);
+    void definitions(const std::vector<std::pair<Text, Text>>& rows);
+    /// \param drawing  SVG; its numbers get the decimal sign of the binding language
+    void figure(const std::string& id, const Text& caption, const std::string& alternative_text,
                 const std::string& drawing);
     /// \param rows    one text a column; "" is printed as "–"
     /// \param groups  heads above the heads, each over a number of columns; empty: none
     /// \param kinds   one a row; empty: all plain
-    void table(const std::string& id, const std::string& caption, const std::vector<Column>& columns,
-               const std::vector<std::vector<std::string>>& rows,
-               const std::vector<std::pair<std::string, std::size_t>>& groups = {},
+    void table(const std::string& id, const Text& caption, const std::vector<Column>& columns,
+               const std::vector<std::vector<Text>>& rows, const std::vector<std::pair<Text, std::size_t>>& groups = {},
                const std::vector<RowKind>& kinds = {});
 
     /// The sections; the builder is empty afterwards.
@@ -56,9 +60,18 @@ private:
     std::unique_ptr<nlohmann::json> sections_;
     int tables_ = 0;
     int figures_ = 0;
+    bool annexes_ = false;
 
-    void block(const char* kind, const nlohmann::json& content);
+    void block(const char* kind, nlohmann::json content);
 };
+
+/// A text in the second language of a document as the view holds it: an array of one {text, language}, or an empty one
+/// where the document has one language or both texts are the same. Texts that differ by the decimal sign only are the
+/// same: "0,5 / 0.5" would read as a quotient.
+[[nodiscard]] nlohmann::json also(const Text& text, const std::vector<std::string>& languages);
+
+/// Puts a text under `key`, and what also() makes of it under `key` + "_also".
+void put(nlohmann::json& object, const std::string& key, const Text& text, const std::vector<std::string>& languages);
 
 /// A number of the record that has no printed form of its own: shortest text, U+2212 as minus sign.
 [[nodiscard]] std::string plain(double v);

@@ -10,9 +10,9 @@ namespace gumcert::reports {
 
 Plot error_motion_plot(const RotaryTable& rotary, const Wording& words) {
     Plot plot{.id = "plot-errors",
-              .title = words("plot", "errors_title"),
-              .description = words("plot", "errors_description"),
-              .x_label = words("plot", "angle_axis"),
+              .title = words("plot", "errors_title").first(),
+              .description = words("plot", "errors_description").first(),
+              .x_label = words("plot", "angle_axis").first(),
               .panels = {},
               .columns = 2,
               .panel_height = 150.0};
@@ -33,14 +33,15 @@ Plot error_motion_plot(const RotaryTable& rotary, const Wording& words) {
 
 Plot En_plot(const Comparison& comparison, const Wording& words) {
     Plot plot{.id = "plot-en",
-              .title = words("plot", "En_title"),
-              .description = words("plot", "En_description"),
-              .x_label = words("plot", "angle_axis"),
+              .title = words("plot", "En_title").first(),
+              .description = words("plot", "En_description").first(),
+              .x_label = words("plot", "angle_axis").first(),
               .panels = {},
               .columns = 1,
               .panel_height = 180.0};
-    PlotPanel panel{.heading = "", .y_label = words("label", "En"), .series = {}, .limits = {}};
-    panel.limits = {{-1.0, "\u22121 " + words("label", "En_limit")}, {1.0, "+1 " + words("label", "En_limit")}};
+    PlotPanel panel{.heading = "", .y_label = words("label", "En").first(), .series = {}, .limits = {}};
+    panel.limits = {{-1.0, "\u22121 " + words("label", "En_limit").first()},
+                    {1.0, "+1 " + words("label", "En_limit").first()}};
     static constexpr std::array<const char*, 3> k_directions = {"x", "y", "z"};
     static constexpr std::array<PlotMarker, 3> k_markers = {PlotMarker::disc, PlotMarker::square, PlotMarker::triangle};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -60,14 +61,14 @@ Plot En_plot(const Comparison& comparison, const Wording& words) {
 
 Plot displacement_plot(const Comparison& comparison, const Wording& words) {
     Plot plot{.id = "plot-displacement",
-              .title = words("plot", "displacement_title"),
-              .description = words("plot", "displacement_description"),
-              .x_label = words("plot", "angle_axis"),
+              .title = words("plot", "displacement_title").first(),
+              .description = words("plot", "displacement_description").first(),
+              .x_label = words("plot", "angle_axis").first(),
               .panels = {},
               .columns = 1,
               .panel_height = 120.0};
     for (const char* direction : {"x", "y", "z"}) {
-        PlotSeries measured{.label = words("label", "measured"),
+        PlotSeries measured{.label = words("label", "measured").first(),
                             .points = {},
                             .marker = PlotMarker::disc,
                             .bars = PlotBars::bars,
@@ -86,7 +87,7 @@ Plot displacement_plot(const Comparison& comparison, const Wording& words) {
             }
         }
         if (!measured.points.empty()) {
-            const std::string name = words.filled("plot", "direction", {{"direction", direction}});
+            const std::string name = words.filled("plot", "direction", {{"direction", direction}}).first();
             plot.panels.push_back({.heading = name,
                                    .y_label = std::string(direction) + " / µm",
                                    .series = {measured, reference},

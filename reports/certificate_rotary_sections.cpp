@@ -19,7 +19,8 @@ namespace gumcert::reports {
 
 namespace {
 
-using Rows = std::vector<std::vector<std::string>>;
+using Rows = std::vector<std::vector<Text>>;
+using Facts = std::vector<std::pair<Text, Text>>;  // label and value
 
 constexpr std::size_t k_most_listed = 60;  // rows of a list of exceptions; the record holds all
 
@@ -30,9 +31,9 @@ std::string rounded(double v) {
 }
 
 /// name, then value and U of each coordinate
-std::vector<std::string> coordinates(const std::string& name, const std::vector<std::string>& position,
-                                     const std::vector<std::string>& U) {
-    std::vector<std::string> row = {name};
+std::vector<Text> coordinates(const std::string& name, const std::vector<std::string>& position,
+                              const std::vector<std::string>& U) {
+    std::vector<Text> row = {name};
     for (std::size_t c = 0; c < 3; ++c) {
         row.push_back(c < position.size() ? position[c] : "");
         row.push_back(c < U.size() ? U[c] : "");
@@ -40,7 +41,7 @@ std::vector<std::string> coordinates(const std::string& name, const std::vector<
     return row;
 }
 
-std::vector<Column> coordinate_columns(const Wording& words, const std::string& first) {
+std::vector<Column> coordinate_columns(const Wording& words, const Text& first) {
     std::vector<Column> columns = {{first, ""}};
     for (const char* c : {"x", "y", "z"}) {
         columns.push_back({c, "mm", true});
@@ -60,12 +61,12 @@ std::string detectable(double bias_um) {
     return bias_um > 0.0 ? rounded(bias_um) : "";
 }
 
-std::string nu_text(const std::optional<double>& nu, const Wording& words) {
-    return nu ? degrees_of_freedom(*nu) : words("document", "infinite");
+Text nu_text(const std::optional<double>& nu, const Wording& words) {
+    return nu ? Text(degrees_of_freedom(*nu)) : words("document", "infinite");
 }
 
 /// What Monte Carlo says of a quantity; "" where it was not asked.
-std::string verdict_of(const std::optional<MonteCarloSummary>& m, const Wording& words) {
+Text verdict_of(const std::optional<MonteCarloSummary>& m, const Wording& words) {
     if (!m || !m->validation) {
         return "";
     }
@@ -75,8 +76,8 @@ std::string verdict_of(const std::optional<MonteCarloSummary>& m, const Wording&
                                                 : "not_validated");
 }
 
-void parameter_table(CertificateBuilder& builder, const Wording& words, const std::string& id,
-                     const std::string& caption, const std::vector<TableParameter>& parameters) {
+void parameter_table(CertificateBuilder& builder, const Wording& words, const std::string& id, const Text& caption,
+                     const std::vector<TableParameter>& parameters) {
     const bool compared = std::any_of(parameters.begin(), parameters.end(), [](const TableParameter& p) {
         return p.monte_carlo && p.monte_carlo->validation;
     });
@@ -100,16 +101,16 @@ void parameter_table(CertificateBuilder& builder, const Wording& words, const st
 
 void layout_figure(CertificateBuilder& builder, const Wording& words, const LayoutPlot& plot,
                    const std::string& sentence, double magnification) {
-    std::string caption = words("sentence", sentence);
+    Text caption = words("sentence", sentence);
     if (magnification > 0.0) {
-        caption += " " + words.fill("ellipses", {{"times", plain(magnification)}});
+        caption += " " + words.fill("ellipses", {{"times", words.number(plain(magnification))}});
     }
     builder.figure(plot.id, caption, plot.description, svg(plot));
 }
 
 /// A quantity of the evaluation that Monte Carlo was compared for.
 struct Compared {
-    std::string group, name;
+    Text group, name;
     const Printed* printed;
     const MonteCarloSummary* trials;
 };
@@ -117,7 +118,7 @@ struct Compared {
 std::vector<Compared> all_compared(const Wording& words, const EvaluationRecord& record) {
     std::vector<Compared> all;
     const RotaryTable& r = *record.rotary;
-    const auto add = [&](const std::string& group, const std::string& name, const Printed& printed,
+    const auto add = [&](const Text& group, const Text& name, const Printed& printed,
                          const std::optional<MonteCarloSummary>& m) {
         if (m) {
             all.push_back({.group = group, .name = name, .printed = &printed, .trials = &*m});
@@ -125,7 +126,7 @@ std::vector<Compared> all_compared(const Wording& words, const EvaluationRecord&
     };
     for (std::size_t i = 0; i < 6; ++i) {
         for (const ErrorsAtAngle& at : r.errors) {
-            add(r.error_names[i], r.error_names[i] + " (" + at.printed_angle + "°)", at.errors[i].printed,
+            add(r.error_names[i], r.error_names[i] + " (" + words.number(at.printed_angle) + "°)", at.errors[i].printed,
                 at.errors[i].monte_carlo);
         }
     }
@@ -156,9 +157,10 @@ void global_test(CertificateBuilder& builder, const Wording& words, const Adjust
         return;
     }
     const char* verdict = test.accepted ? "accepted" : a.chi_square < test.lower ? "too_small" : "too_large";
-    builder.paragraph(words.fill(
-        std::string("global_test_") + verdict,
-        {{"chi_square", a.printed.chi_square}, {"lower", test.printed_lower}, {"upper", test.printed_upper}}));
+    builder.paragraph(
+        words.fill(std::string("global_test_") + verdict, {{"chi_square", words.number(a.printed.chi_square)},
+                                                           {"lower", words.number(test.printed_lower)},
+                                                           {"upper", words.number(test.printed_upper)}}));
     if (!test.meaning.empty()) {
         builder.paragraph(test.meaning);
     }
@@ -187,7 +189,7 @@ void variance_components(CertificateBuilder& builder, const Wording& words, cons
     }
     Rows rows;
     for (const VarianceComponent& v : r.variance_components) {
-        std::vector<std::string> row = {v.name, v.printed.value, v.printed.U, v.printed.unit};
+        std::vector<Text> row = {v.name, v.printed.value, v.printed.U, v.printed.unit};
         if (in_depth) {
             row.push_back(v.printed_stated);
             row.push_back(v.degrees_of_freedom ? degrees_of_freedom(*v.degrees_of_freedom) : "");
@@ -204,10 +206,11 @@ void variance_components(CertificateBuilder& builder, const Wording& words, cons
 }
 
 void flagged_distances(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
-    const std::string alpha = plain(r.outlier_alpha);
+    const Text alpha = words.number(plain(r.outlier_alpha));
+    const Text critical = words.number(r.printed_critical_value);
     if (r.flagged.empty()) {
         if (!r.printed_critical_value.empty()) {
-            builder.paragraph(words.fill("no_flagged", {{"critical", r.printed_critical_value}, {"alpha", alpha}}));
+            builder.paragraph(words.fill("no_flagged", {{"critical", critical}, {"alpha", alpha}}));
         }
         return;
     }
@@ -227,13 +230,13 @@ void flagged_distances(CertificateBuilder& builder, const Wording& words, const 
     }
     columns.push_back({words("label", "action"), ""});
     Rows rows;
-    std::vector<std::pair<std::string, std::string>> reasons;
+    std::vector<std::pair<std::string, std::string>> reasons;  // numbers of the distances, reason
     for (std::size_t i = 0; i < r.flagged.size(); ++i) {
         const FlaggedDistance& f = r.flagged[i];
-        std::vector<std::string> row = {f.station, f.reflector, f.pass, f.angle, f.residual_um, f.test_value};
+        std::vector<Text> row = {f.station, f.reflector, f.pass, f.angle, f.residual_um, f.test_value};
         if (in_depth) {
             row.insert(row.begin(), std::to_string(i + 1));
-            row.push_back(f.found_with);
+            row.push_back(words.number(f.found_with));
             row.push_back(f.estimated_error_um);
         }
         row.push_back(words("value", f.removed ? "removed" : "kept"));
@@ -242,29 +245,62 @@ void flagged_distances(CertificateBuilder& builder, const Wording& words, const 
             // The same reason of distances that follow each other is said once.
             const std::string number = std::to_string(i + 1);
             if (!reasons.empty() && reasons.back().second == f.reason) {
-                std::string& label = reasons.back().first;
-                label = label.substr(0, label.find("–")) + "–" + number;
+                std::string& numbers = reasons.back().first;
+                numbers = numbers.substr(0, numbers.find("–")) + "–" + number;
             } else {
-                reasons.emplace_back(words("label", "order") + " " + number, f.reason);
+                reasons.emplace_back(number, f.reason);
             }
         }
     }
-    builder.table("flagged", words.fill("flagged", {{"critical", r.printed_critical_value}, {"alpha", alpha}}), columns,
-                  rows);
+    builder.table("flagged", words.fill("flagged", {{"critical", critical}, {"alpha", alpha}}), columns, rows);
     if (!reasons.empty()) {
-        builder.definitions(reasons);
+        Facts facts;
+        for (const auto& [numbers, reason] : reasons) {
+            facts.emplace_back(words("label", "order") + " " + numbers, reason);
+        }
+        builder.definitions(facts);
     }
+}
+
+void runs(CertificateBuilder& builder, const Wording& words, const PositioningAccuracy& p) {
+    builder.section("positioning");
+    builder.paragraph(words.fill("positioning", {{"up", plain(p.runs_up)}, {"down", plain(p.runs_down)}}));
+    if (!p.printed_u_deviation.empty()) {
+        builder.paragraph(words.fill("u_deviation", {{"u", words.number(p.printed_u_deviation)}}));
+    }
+}
+
+void targets(CertificateBuilder& builder, const Wording& words, const PositioningAccuracy& p) {
+    for (const std::string& remark : p.remarks) {
+        builder.paragraph(remark);
+    }
+    if (p.targets.empty()) {
+        return;
+    }
+    Rows rows;
+    for (const PositioningTarget& t : p.targets) {
+        rows.push_back({t.printed_angle, t.printed_mean_up, t.printed_mean_down, t.printed_s_up, t.printed_s_down,
+                        t.printed_reversal});
+    }
+    builder.table("positioning-targets", words("sentence", "positioning_targets"),
+                  {{words("label", "target"), "°", true},
+                   {words("label", "mean_up"), "″", true},
+                   {words("label", "mean_down"), "″", true},
+                   {words("label", "s_up"), "″", true},
+                   {words("label", "s_down"), "″", true},
+                   {words("label", "reversal_value"), "″", true}},
+                  rows);
 }
 
 }  // namespace
 
 /// \param unit  of the result, hence of every contribution
-void budget_table(CertificateBuilder& builder, const Wording& words, const std::string& id, const std::string& caption,
+void budget_table(CertificateBuilder& builder, const Wording& words, const std::string& id, const Text& caption,
                   const std::vector<BudgetRow>& budget, const std::string& unit) {
-    std::vector<std::vector<std::string>> rows;
+    Rows rows;
     for (const BudgetRow& row : budget) {
         rows.push_back({row.input, row.source, row.type, row.distribution,
-                        row.nu ? whole_below(*row.nu) : words("document", "infinite"), row.printed.u,
+                        row.nu ? Text(whole_below(*row.nu)) : words("document", "infinite"), row.printed.u,
                         gum::unit_for_people(row.unit), row.printed.contribution, row.printed.share});
     }
     builder.table(id, caption,
@@ -290,34 +326,18 @@ void positioning(CertificateBuilder& builder, const Wording& words, const Rotary
     if (!r.iso230_2) {
         return;
     }
-    const PositioningAccuracy& p = *r.iso230_2;
-    builder.section("positioning");
-    builder.paragraph(words.fill("positioning", {{"up", plain(p.runs_up)}, {"down", plain(p.runs_down)}}));
-    if (!p.printed_u_deviation.empty()) {
-        builder.paragraph(words.fill("u_deviation", {{"u", p.printed_u_deviation}}));
+    runs(builder, words, *r.iso230_2);
+    if (!r.iso230_2->parameters.empty()) {
+        parameter_table(builder, words, "positioning", words("sentence", "positioning_table"), r.iso230_2->parameters);
     }
-    if (!p.parameters.empty()) {
-        parameter_table(builder, words, "positioning", words("sentence", "positioning_table"), p.parameters);
+    targets(builder, words, *r.iso230_2);
+}
+
+void positioning_targets(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
+    if (r.iso230_2) {
+        runs(builder, words, *r.iso230_2);
+        targets(builder, words, *r.iso230_2);
     }
-    for (const std::string& remark : p.remarks) {
-        builder.paragraph(remark);
-    }
-    if (p.targets.empty()) {
-        return;
-    }
-    Rows rows;
-    for (const PositioningTarget& t : p.targets) {
-        rows.push_back({t.printed_angle, t.printed_mean_up, t.printed_mean_down, t.printed_s_up, t.printed_s_down,
-                        t.printed_reversal});
-    }
-    builder.table("positioning-targets", words("sentence", "positioning_targets"),
-                  {{words("label", "target"), "°", true},
-                   {words("label", "mean_up"), "″", true},
-                   {words("label", "mean_down"), "″", true},
-                   {words("label", "s_up"), "″", true},
-                   {words("label", "s_down"), "″", true},
-                   {words("label", "reversal_value"), "″", true}},
-                  rows);
 }
 
 void budget_by_source(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
@@ -331,7 +351,7 @@ void budget_by_source(CertificateBuilder& builder, const Wording& words, const R
     }
     Rows rows;
     for (const BudgetSummaryRow& row : r.budget_summary) {
-        std::vector<std::string> line = {row.quantity, row.printed_rms_u, gum::unit_for_people(row.unit)};
+        std::vector<Text> line = {row.quantity, row.printed_rms_u, gum::unit_for_people(row.unit)};
         line.insert(line.end(), row.printed_shares.begin(), row.printed_shares.end());
         rows.push_back(std::move(line));
     }
@@ -353,8 +373,7 @@ void fixture(CertificateBuilder& builder, const Wording& words, const RotaryTabl
     builder.section("fixture");
     if (r.fixture_budget) {
         const FixtureBudget& f = *r.fixture_budget;
-        std::vector<std::pair<std::string, std::string>> facts = {
-            {words("label", "fixture_method"), words("value", "fixture_method", f.method)}};
+        Facts facts = {{words("label", "fixture_method"), words("value", "fixture_method", f.method)}};
         if (!f.file.empty()) {
             facts.emplace_back(words("label", "file"), f.file);
         }
@@ -386,11 +405,11 @@ void rotary_monte_carlo(CertificateBuilder& builder, const Wording& words, const
     }
     builder.definitions({{words("label", "trials"), plain(m.trials)},
                          {words("label", "seed"), plain(m.seed)},
-                         {words("label", "steps"),
-                          words.fill("steps", {{"mean", fixed(m.mean_steps, 2)}, {"most", plain(m.most_steps)}})}});
+                         {words("label", "steps"), words.fill("steps", {{"mean", words.number(fixed(m.mean_steps, 2))},
+                                                                        {"most", plain(m.most_steps)}})}});
     const std::vector<Compared> all = all_compared(words, record);
     struct Counts {
-        std::string group;
+        Text group;
         std::int64_t compared = 0, validated = 0, not_validated = 0, not_precise = 0;
     };
     std::vector<Counts> groups;
@@ -445,7 +464,8 @@ void rotary_monte_carlo(CertificateBuilder& builder, const Wording& words, const
         }
         return;
     }
-    builder.table("monte-carlo-exceptions", words.fill("monte_carlo_exceptions", {{"p", record.printed_coverage}}),
+    builder.table("monte-carlo-exceptions",
+                  words.fill("monte_carlo_exceptions", {{"p", words.number(record.printed_coverage)}}),
                   {{words("label", "quantity"), ""},
                    {words("label", "value"), "", true},
                    {words("label", "U"), "", true},
@@ -473,34 +493,33 @@ void adjustment(CertificateBuilder& builder, const Wording& words, const RotaryT
     const AdjustmentSummary& a = r.adjustment;
     builder.section("adjustment");
     builder.paragraph(words("sentence", "adjustment"));
-    std::vector<std::pair<std::string, std::string>> facts = {
-        {words("label", "method"), words("value", "method", a.method)},
-        {words("label", "observations"), plain(a.observations)},
-        {words("label", "parameters"), plain(a.parameters)},
-        {words("label", "degrees_of_freedom"), plain(a.degrees_of_freedom)},
-        {words("label", "chi_square"), a.printed.chi_square}};
+    Facts facts = {{words("label", "method"), words("value", "method", a.method)},
+                   {words("label", "observations"), plain(a.observations)},
+                   {words("label", "parameters"), plain(a.parameters)},
+                   {words("label", "degrees_of_freedom"), plain(a.degrees_of_freedom)},
+                   {words("label", "chi_square"), words.number(a.printed.chi_square)}};
     if (!a.global_test.printed_lower.empty()) {
         facts.emplace_back(words("label", "chi_square_limits"),
-                           words.fill("chi_square_limits", {{"lower", a.global_test.printed_lower},
-                                                            {"upper", a.global_test.printed_upper},
-                                                            {"p", plain(a.global_test.probability)}}));
+                           words.fill("chi_square_limits", {{"lower", words.number(a.global_test.printed_lower)},
+                                                            {"upper", words.number(a.global_test.printed_upper)},
+                                                            {"p", words.number(plain(a.global_test.probability))}}));
     }
-    facts.emplace_back(words("label", "p_value"), a.printed.p_value);
-    facts.emplace_back(words("label", "variance_factor_stated"), plain(a.variance_factor.a_priori));
-    facts.emplace_back(words("label", "variance_factor"), a.printed.variance_factor);
+    facts.emplace_back(words("label", "p_value"), words.number(a.printed.p_value));
+    facts.emplace_back(words("label", "variance_factor_stated"), words.number(plain(a.variance_factor.a_priori)));
+    facts.emplace_back(words("label", "variance_factor"), words.number(a.printed.variance_factor));
     facts.emplace_back(words("label", "variance_factor_used"),
                        words("value", "variance_factor", a.variance_factor.used));
     if (!a.variance_factor.reason.empty()) {
         facts.emplace_back(words("label", "variance_factor_reason"), a.variance_factor.reason);
     }
-    facts.emplace_back(words("label", "condition_number"), a.printed.condition_number);
+    facts.emplace_back(words("label", "condition_number"), words.number(a.printed.condition_number));
     facts.emplace_back(words("label", "iterations"), plain(a.iterations));
     builder.definitions(facts);
     global_test(builder, words, a);
     variance_components(builder, words, r);
     if (!r.reliability.empty() && !r.stations.empty()) {
         const Plot plot = station_residual_plot(r, words);
-        std::string caption = words("sentence", "figure_station_residuals");
+        Text caption = words("sentence", "figure_station_residuals");
         if (r.stations.size() > k_most_residual_panels) {
             caption += " " + words.fill("first_stations", {{"shown", std::to_string(k_most_residual_panels)},
                                                            {"count", std::to_string(r.stations.size())}});
@@ -526,18 +545,18 @@ void reliability(CertificateBuilder& builder, const Wording& words, const Rotary
                           : largest;
         }
     }
-    std::vector<std::pair<std::string, std::string>> facts;
+    Facts facts;
     const auto distance = [&](const ReliabilityRow& row) {
         return words.fill("one_distance", {{"station", row.station},
                                            {"reflector", row.reflector},
                                            {"pass", row.pass},
-                                           {"angle", plain(row.angle_deg)}});
+                                           {"angle", words.number(plain(row.angle_deg))}});
     };
     if (least != nullptr && largest != nullptr) {
         facts.emplace_back(words("label", "least_redundancy"),
-                           fixed(least->redundancy_number, 3) + " (" + distance(*least) + ")");
-        facts.emplace_back(words("label", "largest_bias"),
-                           rounded(largest->minimal_detectable_bias_um) + " µm (" + distance(*largest) + ")");
+                           words.number(fixed(least->redundancy_number, 3)) + " (" + distance(*least) + ")");
+        facts.emplace_back(words("label", "largest_bias"), words.number(rounded(largest->minimal_detectable_bias_um)) +
+                                                               " µm (" + distance(*largest) + ")");
     }
     const FixtureReliabilityRow* least_fixture = nullptr;
     const FixtureReliabilityRow* largest_fixture = nullptr;
@@ -553,11 +572,12 @@ void reliability(CertificateBuilder& builder, const Wording& words, const Rotary
         const auto coordinate = [&](const FixtureReliabilityRow& row) {
             return words.fill("one_coordinate", {{"coordinate", row.coordinate}, {"reflector", row.reflector}});
         };
-        facts.emplace_back(words("label", "least_redundancy_fixture"),
-                           fixed(least_fixture->redundancy_number, 3) + " (" + coordinate(*least_fixture) + ")");
         facts.emplace_back(
-            words("label", "largest_bias_fixture"),
-            rounded(largest_fixture->minimal_detectable_bias_um) + " µm (" + coordinate(*largest_fixture) + ")");
+            words("label", "least_redundancy_fixture"),
+            words.number(fixed(least_fixture->redundancy_number, 3)) + " (" + coordinate(*least_fixture) + ")");
+        facts.emplace_back(words("label", "largest_bias_fixture"),
+                           words.number(rounded(largest_fixture->minimal_detectable_bias_um)) + " µm (" +
+                               coordinate(*largest_fixture) + ")");
     }
     builder.definitions(facts);
     if (least != nullptr) {
@@ -627,7 +647,7 @@ void geometry(CertificateBuilder& builder, const Wording& words, const RotaryTab
     if (const std::optional<LayoutPlot> plot = reflector_plot(r, words)) {
         layout_figure(builder, words, *plot, "figure_reflectors", layout_magnification(*plot).reflectors);
     }
-    std::vector<std::vector<std::string>> rows;
+    Rows rows;
     for (const Station& s : r.stations) {
         rows.push_back(coordinates(s.name, s.printed_position, s.printed_U));
         rows.back().push_back(s.printed_scale.value);

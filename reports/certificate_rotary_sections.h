@@ -10,7 +10,7 @@
 namespace gumcert::reports {
 
 /// A budget as a table of its own. \param unit  of the result, hence of every contribution; for people
-void budget_table(CertificateBuilder& builder, const Wording& words, const std::string& id, const std::string& caption,
+void budget_table(CertificateBuilder& builder, const Wording& words, const std::string& id, const Text& caption,
                   const std::vector<BudgetRow>& budget, const std::string& unit);
 
 // Sections and parts of sections of a rotary table. Each one writes nothing where the record does not hold what it is
@@ -21,6 +21,9 @@ void location_errors(CertificateBuilder& builder, const Wording& words, const Ro
 
 /// Accuracy and repeatability of positioning (ISO 230-2).
 void positioning(CertificateBuilder& builder, const Wording& words, const RotaryTable& rotary);
+
+/// Runs and target positions of the positioning (ISO 230-2), without the parameters that are certified.
+void positioning_targets(CertificateBuilder& builder, const Wording& words, const RotaryTable& rotary);
 
 /// Budget by source: part of the section on uncertainty.
 void budget_by_source(CertificateBuilder& builder, const Wording& words, const RotaryTable& rotary);

@@ -4,8 +4,10 @@
 #include "gum/quantity/unit.h"
 #include "reports/certificate_budget_sections.h"
 #include "reports/certificate_builder.h"
+#include "reports/certificate_identity_sections.h"
 #include "reports/certificate_plots.h"
 #include "reports/certificate_rotary_sections.h"
+#include "reports/certificate_statement_sections.h"
 #include "reports/record/canonical_json.h"
 #include "reports/svg_plot.h"
 #include "reports/wording.h"
@@ -28,28 +30,30 @@ namespace gumcert::reports {
 namespace {
 
 using nlohmann::json;
+using Facts = std::vector<std::pair<Text, Text>>;  // label and value
+using Rows = std::vector<std::vector<Text>>;
 
 std::string coordinate_of(const std::string& axis) {
     return axis == "A" ? "x" : axis == "B" ? "y" : "z";
 }
 
-void figure(CertificateBuilder& builder, const std::string& caption, const Plot& plot) {
+void figure(CertificateBuilder& builder, const Text& caption, const Plot& plot) {
     builder.figure(plot.id, caption, plot.description, svg(plot));
 }
 
 void identification(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
-    builder.section("identification");
-    std::vector<std::pair<std::string, std::string>> rows = {
-        {words("label", "title"), record.title}, {words("label", "kind"), words("value", "kind", record.kind)}};
+    builder.section(record.certificate ? "evaluation" : "identification");
+    Facts rows = {{words("label", "title"), record.title},
+                  {words("label", "kind"), words("value", "kind", record.kind)}};
     if (record.rotary) {
         const RotaryTable& r = *record.rotary;
         rows.emplace_back(words("label", "axis"), r.axis);
         rows.emplace_back(words("label", "angles"), std::to_string(r.errors.size()));
-        rows.emplace_back(words("label", "home"), plain(r.home_angle_deg) + "°");
+        rows.emplace_back(words("label", "home"), words.number(plain(r.home_angle_deg)) + "°");
         rows.emplace_back(words("label", "datum"), words("value", "datum", r.datum));
         rows.emplace_back(words("label", "method"), words("value", "method", r.method));
     }
-    rows.emplace_back(words("label", "coverage"), record.printed_coverage);
+    rows.emplace_back(words("label", "coverage"), words.number(record.printed_coverage));
     rows.emplace_back(words("label", "software"), record.software.name + " " + record.software.version);
     rows.emplace_back(words("label", "commit"), record.software.commit);
     builder.definitions(rows);
@@ -67,14 +71,14 @@ void conventions(CertificateBuilder& builder, const Wording& words, const Rotary
     builder.paragraph(words("sentence", "signs"));
     static constexpr std::array<const char*, 6> k_symbols = {"d_x", "d_y", "d_z", "e_a", "e_b", "e_c"};
     static constexpr std::array<const char*, 3> k_coordinates = {"x", "y", "z"};
-    std::vector<std::pair<std::string, std::string>> rows;
+    Facts rows;
     for (std::size_t i = 0; i < 6; ++i) {
         const std::string along = k_coordinates[i % 3];
         const bool axial = along == coordinate;
         const char* kind =
             i < 3 ? (axial ? "linear_along" : "linear_across") : (axial ? "angular_about" : "angular_tilt");
         rows.emplace_back(r.error_names[i],
-                          std::string(k_symbols[i]) + ": " + words.filled("value", kind, {{"coordinate", along}}));
+                          k_symbols[i] + (": " + words.filled("value", kind, {{"coordinate", along}})));
     }
     builder.paragraph(words("sentence", "error_names"));
     builder.definitions(rows);
@@ -84,7 +88,7 @@ void set_up(CertificateBuilder& builder, const Wording& words, const RotaryTable
     builder.section("set_up");
     builder.paragraph(words("sentence", "set_up_signs"));
     static constexpr std::array<const char*, 3> k_coordinates = {"x", "y", "z"};
-    std::vector<std::vector<std::string>> rows;
+    Rows rows;
     for (const bool linear : {true, false}) {
         const auto& fixture = linear ? r.set_up.printed_O : r.set_up.printed_S;
         const auto& axis = linear ? r.axis_in_fixture.printed_O : r.axis_in_fixture.printed_S;
@@ -106,9 +110,9 @@ void set_up(CertificateBuilder& builder, const Wording& words, const RotaryTable
 void ranges(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
     builder.paragraph(words("sentence", "ranges"));
     builder.paragraph(words("sentence", r.reversal.empty() ? "no_reversal" : "reversal"));
-    std::vector<std::vector<std::string>> rows;
+    Rows rows;
     for (std::size_t i = 0; i < 6; ++i) {
-        std::vector<std::string> row = {r.error_names[i], "", "", "", "", gum::unit_for_people(r.error_units[i])};
+        std::vector<Text> row = {r.error_names[i], "", "", "", "", gum::unit_for_people(r.error_units[i])};
         for (const RangeRow& range : r.ranges) {
             if (range.name == r.error_names[i]) {
                 row[1] = range.printed.value;
@@ -138,16 +142,16 @@ void error_motions(CertificateBuilder& builder, const Wording& words, const Rota
     ranges(builder, words, r);
     figure(builder, words("sentence", "figure_errors"), error_motion_plot(r, words));
     std::vector<Column> columns = {{words("label", "angle"), "°", true}};
-    std::vector<std::pair<std::string, std::size_t>> groups = {{"", 1}};
+    std::vector<std::pair<Text, std::size_t>> groups = {{"", 1}};
     for (std::size_t i = 0; i < 6; ++i) {
         const std::string unit = gum::unit_for_people(r.error_units[i]);
         columns.push_back({words("label", "value"), unit, true});
         columns.push_back({words("label", "U"), unit, true});
         groups.emplace_back(r.error_names[i], 2);
     }
-    std::vector<std::vector<std::string>> rows;
+    Rows rows;
     for (const ErrorsAtAngle& at : r.errors) {
-        std::vector<std::string> row = {at.printed_angle};
+        std::vector<Text> row = {at.printed_angle};
         for (const ErrorValue& e : at.errors) {
             row.push_back(e.printed.value);
             row.push_back(e.printed.U);
@@ -179,8 +183,8 @@ struct Coverage {
     }
 };
 
-void uncertainty(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
-    builder.section("uncertainty");
+/// What U means, for a record without certificate data; with them closing_sections() says it.
+void uncertainty_statement(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     Coverage coverage;
     if (record.rotary) {
         for (const ErrorsAtAngle& at : record.rotary->errors) {
@@ -200,20 +204,27 @@ void uncertainty(CertificateBuilder& builder, const Wording& words, const Evalua
         const std::string low = fixed(coverage.k_low, 2);
         const std::string high = fixed(coverage.k_high, 2);
         const auto nu = [&](const std::optional<double>& v) {
-            return v ? whole_below(*v) : words("document", "infinite");
+            return v ? Text(whole_below(*v)) : words("document", "infinite");
         };
-        const std::string nu_low = nu(coverage.nu_low);
-        const std::string nu_high = nu(coverage.nu_high);
-        const std::string k =
-            low == high ? words.fill("k_one", {{"k", low}}) : words.fill("k_between", {{"low", low}, {"high", high}});
-        const std::string nu_eff = nu_low == nu_high ? words.fill("nu_one", {{"nu", nu_low}})
-                                                     : words.fill("nu_between", {{"low", nu_low}, {"high", nu_high}});
-        const std::string reason =
-            coverage.nu_low ? words.fill("student", {{"nu_eff", nu_eff}}) : words("sentence", "normal");
-        builder.paragraph(
-            words.fill("uncertainty", {{"k", k}, {"reason", reason}, {"coverage", record.printed_coverage}}));
+        const Text nu_low = nu(coverage.nu_low);
+        const Text nu_high = nu(coverage.nu_high);
+        const Text k = low == high
+                           ? words.fill("k_one", {{"k", words.number(low)}})
+                           : words.fill("k_between", {{"low", words.number(low)}, {"high", words.number(high)}});
+        const Text nu_eff = nu_low == nu_high ? words.fill("nu_one", {{"nu", nu_low}})
+                                              : words.fill("nu_between", {{"low", nu_low}, {"high", nu_high}});
+        const Text reason = coverage.nu_low ? words.fill("student", {{"nu_eff", nu_eff}}) : words("sentence", "normal");
+        builder.paragraph(words.fill(
+            "uncertainty", {{"k", k}, {"reason", reason}, {"coverage", words.number(record.printed_coverage)}}));
     }
     builder.paragraph(words("sentence", "validity"));
+}
+
+void uncertainty(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    builder.section("uncertainty");
+    if (!record.certificate) {
+        uncertainty_statement(builder, words, record);
+    }
     if (record.rotary) {
         budget_by_source(builder, words, *record.rotary);
     }
@@ -232,16 +243,17 @@ void uncertainty(CertificateBuilder& builder, const Wording& words, const Evalua
 void comparison(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
     builder.section("comparison");
     builder.paragraph(words("sentence", "comparison"));
-    std::vector<std::pair<std::string, std::string>> rows = {{words("label", "reference_method"), c.reference_name}};
+    Facts rows = {{words("label", "reference_method"), c.reference_name}};
     if (c.contact_point_mm.size() == 3) {
-        rows.emplace_back(words("label", "contact_point"), "(" + plain(c.contact_point_mm[0]) + ", " +
-                                                               plain(c.contact_point_mm[1]) + ", " +
-                                                               plain(c.contact_point_mm[2]) + ") mm");
+        const Text separator = words("document", "separator");
+        const auto coordinate = [&](std::size_t i) { return words.number(plain(c.contact_point_mm[i])); };
+        rows.emplace_back(words("label", "contact_point"),
+                          "(" + coordinate(0) + separator + coordinate(1) + separator + coordinate(2) + ") mm");
     }
     builder.definitions(rows);
-    std::vector<std::vector<std::string>> lines;
+    Rows lines;
     for (const ComparisonSummary& s : c.summary) {
-        lines.push_back({s.direction == "all" ? words("label", "all") : s.direction, plain(s.points),
+        lines.push_back({s.direction == "all" ? words("label", "all") : Text(s.direction), plain(s.points),
                          s.printed.mean_abs_En, s.printed.max_abs_En, s.printed.rms_En, plain(s.count_above_1)});
     }
     builder.table("comparison-summary", words("sentence", "comparison_summary"),
@@ -285,7 +297,7 @@ void messages(CertificateBuilder& builder, const Wording& words, const std::vect
     builder.section("messages");
     builder.paragraph(words("sentence", "messages"));
     static constexpr std::array<const char*, 3> k_severities = {"note", "warning", "error"};
-    std::vector<std::pair<std::string, std::string>> rows;
+    Facts rows;
     for (const gum::Diagnostic& d : diagnostics) {
         rows.emplace_back(
             words("value", "severity", k_severities.at(static_cast<std::size_t>(d.severity))) + " " + printable(d.code),
@@ -296,7 +308,7 @@ void messages(CertificateBuilder& builder, const Wording& words, const std::vect
 
 void input(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     builder.section("input");
-    std::vector<std::vector<std::string>> rows;
+    Rows rows;
     for (const InputFile& file : record.job_files) {
         rows.push_back({file.name, file.sha256});
     }
@@ -304,10 +316,83 @@ void input(CertificateBuilder& builder, const Wording& words, const EvaluationRe
                   rows);
 }
 
+/// What a record without certificate data shows, in the order of an evaluation.
+void specimen_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    identification(builder, words, record);
+    if (record.rotary) {
+        conventions(builder, words, *record.rotary);
+        set_up(builder, words, *record.rotary);
+        location_errors(builder, words, *record.rotary);
+        error_motions(builder, words, *record.rotary);
+        positioning(builder, words, *record.rotary);
+    }
+    if (!record.rotary && !record.results.empty()) {
+        budget_results(builder, words, record);
+        budget_sections(builder, words, record);
+    } else {
+        uncertainty(builder, words, record);
+    }
+}
+
+/// What the laboratory certifies, and the beginning of the annexes, which do not repeat it: a certified U may be the
+/// capability of the laboratory and then differs from the evaluated one.
+void certified_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    findings_section(builder, words, *record.certificate);
+    method_sections(builder, words, record);
+    if (record.rotary) {
+        conventions(builder, words, *record.rotary);
+    }
+    result_sections(builder, words, record);
+    closing_sections(builder, words, record);
+    builder.annexes();
+    identification(builder, words, record);
+    if (record.rotary) {
+        positioning_targets(builder, words, *record.rotary);
+    }
+    if (!record.rotary && !record.results.empty()) {
+        budget_sections(builder, words, record);
+    } else {
+        uncertainty(builder, words, record);
+    }
+}
+
+/// "2026-11-21" as {year, month, day} without leading zeros; 1970-01-01 where no date is stated, because PDF/A demands
+/// one and that of the computer would change the bytes with every run.
+json date_of_creation(const EvaluationRecord& record) {
+    std::array<int, 3> parts = {1970, 1, 1};
+    const std::string date = record.certificate ? record.certificate->data.dates.issued : "";
+    if (date.size() == 10 && date[4] == '-' && date[7] == '-') {
+        std::array<int, 3> read = {};
+        const auto digits = [&](std::size_t from, std::size_t count, int& v) {
+            const char* const end = date.data() + from + count;
+            const auto [last, error] = std::from_chars(date.data() + from, end, v);
+            return error == std::errc() && last == end && v > 0;
+        };
+        if (digits(0, 4, read[0]) && digits(5, 2, read[1]) && digits(8, 2, read[2]) && read[1] <= 12 && read[2] <= 31) {
+            parts = read;
+        }
+    }
+    return {{"year", std::to_string(parts[0])}, {"month", std::to_string(parts[1])}, {"day", std::to_string(parts[2])}};
+}
+
+json pages(const Wording& words) {
+    json all = json::array();
+    const Text page = words("document", "page");
+    const Text of = words("document", "of");
+    const Text end = words("document", "page_end");
+    for (std::size_t i = 0; i < words.languages().size(); ++i) {
+        all.push_back({{"page", page.in(i)}, {"of", of.in(i)}, {"end", end.in(i)}});
+    }
+    return all;
+}
+
 }  // namespace
 
 std::string printable(const std::string& text) {
     static constexpr const char* k_replacement = "\uFFFD";
+    if (std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; })) {
+        return text;  // most texts of a document are numbers
+    }
     std::string out;
     std::size_t i = 0;
     while (i < text.size()) {
@@ -354,19 +439,15 @@ std::string shortened(const std::string& text, std::size_t most) {
 
 nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::json& wording) {
     const Wording words(wording);
+    const std::vector<std::string>& languages = words.languages();
     CertificateBuilder builder(words);
-    identification(builder, words, record);
-    if (record.rotary) {
-        conventions(builder, words, *record.rotary);
-        set_up(builder, words, *record.rotary);
-        location_errors(builder, words, *record.rotary);
-        error_motions(builder, words, *record.rotary);
-        positioning(builder, words, *record.rotary);
-    }
-    if (!record.rotary && !record.results.empty()) {
-        budget_sections(builder, words, record);
+    json view = running_texts(words, record);
+    view["identity"] = json::array();
+    if (record.certificate) {
+        view["identity"].push_back(identity_page(builder, words, record));
+        certified_sections(builder, words, record);
     } else {
-        uncertainty(builder, words, record);
+        specimen_sections(builder, words, record);
     }
     if (record.rotary) {
         fixture(builder, words, *record.rotary);
@@ -383,18 +464,22 @@ nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::
     }
     input(builder, words, record);
 
-    const std::string title = printable(record.title);
-    return {{"language", words.language()},
-            {"type", words("document", "type")},
-            {"mark", words("document", "mark")},
-            {"mark_reason", words("document", "mark_reason")},
-            {"title", title},
-            {"running_title", shortened(title, 80)},
-            {"page", words("document", "page")},
-            {"of", words("document", "of")},
-            {"end_mark", words("document", "end_mark")},
-            {"only_items", words("document", "only_items")},
-            {"sections", builder.take()}};
+    view["language"] = words.language();
+    view["mark"] = certificate_marks(words, record);
+    view["running_title"] = shortened(printable(record.title), 80);
+    view["pages"] = pages(words);
+    view["created"] = date_of_creation(record);
+    view["attachment"] = json::array();
+    view["closing"] = json::array();
+    if (!record.certificate) {  // the first page of a certificate says it
+        const Text only = words("document", "only_items");
+        view["closing"].push_back({{"text", only.first()}, {"also", also(only, languages)}});
+    }
+    put(view, "type", words("document", "type"), languages);
+    put(view, "title", record.title, languages);
+    put(view, "end_mark", words("document", "end_mark"), languages);
+    view["sections"] = builder.take();
+    return view;
 }
 
 }  // namespace gumcert::reports

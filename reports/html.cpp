@@ -11,6 +11,7 @@
 #include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
 
+#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -20,18 +21,23 @@ namespace {
 
 using kainjow::mustache::data;
 
+/// A view as the template engine takes it. Its set() and push_back() copy all that is below, at every level; parts are
+/// moved into their places instead.
 data to_mustache(const nlohmann::json& value) {
     if (value.is_object()) {
         data object{data::type::object};
         for (const auto& [key, item] : value.items()) {
-            object.set(key, to_mustache(item));
+            object[key] = to_mustache(item);
         }
         return object;
     }
     if (value.is_array()) {
         data list{data::type::list};
-        for (const nlohmann::json& item : value) {
-            list.push_back(to_mustache(item));
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            list.push_back(data{data::type::invalid});
+        }
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            const_cast<data&>(list.list_value()[i]) = to_mustache(value[i]);  // `list` itself is not const
         }
         return list;
     }
@@ -56,7 +62,7 @@ std::string view_as_html(nlohmann::json view, const RenderAssets& assets) {
 }
 
 std::string render_html(const EvaluationRecord& record, const RenderAssets& assets) {
-    return view_as_html(certificate_view(record, read_wording(assets)), assets);
+    return view_as_html(certificate_view(record, read_wording(assets, record)), assets);
 }
 
 }  // namespace gumcert::reports

@@ -21,10 +21,10 @@ bool any_place(const RotaryTable& rotary) {
 LayoutPlot with_words(const Wording& words, const std::string& axis) {
     LayoutPlot plot;
     plot.axis = axis;
-    plot.stations_label = words("plot", "station_key");
-    plot.reflectors_label = words("plot", "reflector_key");
-    plot.axis_label = words("plot", "axis_key");
-    plot.ellipse_label = words("plot", "ellipse_key");
+    plot.stations_label = words("plot", "station_key").first();
+    plot.reflectors_label = words("plot", "reflector_key").first();
+    plot.axis_label = words("plot", "axis_key").first();
+    plot.ellipse_label = words("plot", "ellipse_key").first();
     return plot;
 }
 
@@ -36,8 +36,8 @@ std::optional<LayoutPlot> layout_plot(const RotaryTable& rotary, const Wording& 
     }
     LayoutPlot plot = with_words(words, rotary.axis);
     plot.id = "plot-layout";
-    plot.title = words("plot", "layout_title");
-    plot.description = words("plot", "layout_description");
+    plot.title = words("plot", "layout_title").first();
+    plot.description = words("plot", "layout_description").first();
     for (const Station& s : rotary.stations) {
         plot.stations.push_back({.name = s.name, .position_mm = s.position_mm, .covariance_mm2 = s.covariance_mm2});
     }
@@ -53,8 +53,8 @@ std::optional<LayoutPlot> reflector_plot(const RotaryTable& rotary, const Wordin
     }
     LayoutPlot plot = with_words(words, rotary.axis);
     plot.id = "plot-reflectors";
-    plot.title = words("plot", "reflectors_title");
-    plot.description = words("plot", "reflectors_description");
+    plot.title = words("plot", "reflectors_title").first();
+    plot.description = words("plot", "reflectors_description").first();
     for (const Reflector& m : rotary.reflectors) {
         // Frame of the fixture and frame of the table differ by arcseconds: the ellipses are the same.
         plot.reflectors.push_back(
@@ -65,9 +65,9 @@ std::optional<LayoutPlot> reflector_plot(const RotaryTable& rotary, const Wordin
 
 Plot station_residual_plot(const RotaryTable& rotary, const Wording& words) {
     Plot plot{.id = "plot-station-residuals",
-              .title = words("plot", "station_residuals_title"),
-              .description = words("plot", "station_residuals_description"),
-              .x_label = words("plot", "angle_axis"),
+              .title = words("plot", "station_residuals_title").first(),
+              .description = words("plot", "station_residuals_description").first(),
+              .x_label = words("plot", "angle_axis").first(),
               .panels = {},
               .columns = 2,
               .panel_height = 84.0};
@@ -79,9 +79,9 @@ Plot station_residual_plot(const RotaryTable& rotary, const Wording& words) {
         if (plot.panels.size() == k_most_residual_panels) {
             break;
         }
-        PlotSeries good{.label = words("plot", "kept_key"), .points = {}, .marker = PlotMarker::disc};
-        PlotSeries flagged{.label = words("plot", "flagged_key"), .points = {}, .marker = PlotMarker::square};
-        PlotSeries removed{.label = words("plot", "removed_key"), .points = {}, .marker = PlotMarker::cross};
+        PlotSeries good{.label = words("plot", "kept_key").first(), .points = {}, .marker = PlotMarker::disc};
+        PlotSeries flagged{.label = words("plot", "flagged_key").first(), .points = {}, .marker = PlotMarker::square};
+        PlotSeries removed{.label = words("plot", "removed_key").first(), .points = {}, .marker = PlotMarker::cross};
         for (const ReliabilityRow& row : rotary.reliability) {
             if (row.station == station.name) {
                 (row.removed   ? removed
@@ -91,7 +91,7 @@ Plot station_residual_plot(const RotaryTable& rotary, const Wording& words) {
             }
         }
         PlotPanel panel{.heading = shortened(printable(station.name), 30),
-                        .y_label = words("plot", "residual_axis"),
+                        .y_label = words("plot", "residual_axis").first(),
                         .series = {},
                         .limits = {},
                         .y_most = 1.1 * most};
@@ -108,10 +108,10 @@ Plot station_residual_plot(const RotaryTable& rotary, const Wording& words) {
 HistogramPlot redundancy_plot(const RotaryTable& rotary, const Wording& words) {
     constexpr std::size_t k_cells = 20;  // of 0 to 1
     HistogramPlot plot{.id = "plot-redundancy",
-                       .title = words("plot", "redundancy_title"),
-                       .description = words("plot", "redundancy_description"),
-                       .x_label = words("plot", "redundancy_axis"),
-                       .y_label = words("plot", "count_axis"),
+                       .title = words("plot", "redundancy_title").first(),
+                       .description = words("plot", "redundancy_description").first(),
+                       .x_label = words("plot", "redundancy_axis").first(),
+                       .y_label = words("plot", "count_axis").first(),
                        .first_edge = 0.0,
                        .cell_width = 1.0 / static_cast<double>(k_cells),
                        .counts = std::vector<double>(k_cells, 0.0)};
@@ -126,10 +126,10 @@ HistogramPlot redundancy_plot(const RotaryTable& rotary, const Wording& words) {
 
 StackedPlot source_plot(const RotaryTable& rotary, const Wording& words) {
     StackedPlot plot{.id = "plot-sources",
-                     .title = words("plot", "sources_title"),
-                     .description = words("plot", "sources_description"),
-                     .x_label = words("plot", "shares_axis"),
-                     .text_head = words("label", "rms_u"),
+                     .title = words("plot", "sources_title").first(),
+                     .description = words("plot", "sources_description").first(),
+                     .x_label = words("plot", "shares_axis").first(),
+                     .text_head = words("label", "rms_u").first(),
                      .parts = {},
                      .bars = {}};
     for (const std::string& source : rotary.budget_sources) {
@@ -139,7 +139,7 @@ StackedPlot source_plot(const RotaryTable& rotary, const Wording& words) {
         StackedBar bar{.label = shortened(printable(row.quantity), 20),
                        .shares = {},
                        .texts = row.printed_shares,
-                       .text = row.printed_rms_u + " " + gum::unit_for_people(row.unit)};
+                       .text = words.number(row.printed_rms_u).first() + " " + gum::unit_for_people(row.unit)};
         for (const double share : row.shares) {
             bar.shares.push_back(100.0 * share);
         }

@@ -68,7 +68,7 @@ json study_view(const StudyDocument& study) {
         builder.paragraph(study.subtitle);
     }
     if (!study.facts.empty()) {
-        builder.definitions(study.facts);
+        builder.definitions({study.facts.begin(), study.facts.end()});
     }
     std::size_t sections = 0;
     std::size_t tables = 0;
@@ -83,9 +83,10 @@ json study_view(const StudyDocument& study) {
             for (const StudyColumn& column : table.columns) {
                 columns.push_back({.head = column.head, .unit = column.unit, .number = column.number});
             }
-            std::vector<std::vector<std::string>> rows = table.rows;
-            for (std::vector<std::string>& row : rows) {
-                row.resize(columns.size());
+            std::vector<std::vector<Text>> rows;
+            for (const std::vector<std::string>& row : table.rows) {
+                rows.emplace_back(row.begin(), row.end());
+                rows.back().resize(columns.size());
             }
             builder.table(std::to_string(++tables), table.caption, columns, rows);
         }
@@ -94,18 +95,25 @@ json study_view(const StudyDocument& study) {
                            figure.drawing);
         }
     }
-    const std::string title = printable(study.title);
-    return {{"language", words.language()},
-            {"type", words("study", "type")},
-            {"mark", words("study", "mark")},
-            {"mark_reason", words("study", "mark_reason")},
-            {"title", title},
-            {"running_title", shortened(title, 80)},
-            {"page", "page"},
-            {"of", "of"},
-            {"end_mark", words("study", "end_mark")},
-            {"only_items", words("study", "only_items")},
-            {"sections", builder.take()}};
+    const std::string title = shortened(printable(study.title), 80);
+    json view = {{"language", words.language()},
+                 {"mark", json::array({{{"text", words("study", "mark").first()},
+                                        {"also", json::array()},
+                                        {"reason", words("study", "mark_reason").first()},
+                                        {"reason_also", json::array()}}})},
+                 {"running_title", title},
+                 {"header_left", title},
+                 {"header_right", words("study", "mark").first()},
+                 {"footer_left", title},
+                 {"pages", json::array({{{"page", "page"}, {"of", "of"}, {"end", ""}}})},
+                 {"identity", json::array()},
+                 {"closing", json::array({{{"text", words("study", "only_items").first()}, {"also", json::array()}}})},
+                 {"attachment", json::array()},
+                 {"sections", builder.take()}};
+    put(view, "type", words("study", "type"), words.languages());
+    put(view, "title", study.title, words.languages());
+    put(view, "end_mark", words("study", "end_mark"), words.languages());
+    return view;
 }
 
 }  // namespace

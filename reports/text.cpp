@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gumcert::reports {
@@ -55,26 +56,40 @@ std::size_t width(const std::string& text) {
     return sum;
 }
 
-/// Lines of at most `most` columns, broken at blanks, and inside a word only where the word alone is longer.
+/// Signs that must not begin a line.
+bool closes(const std::string& glyph) {
+    static constexpr std::string_view k_signs = "。，、；：！？）」』》%,.;:!?)";
+    return k_signs.find(glyph) != std::string_view::npos;
+}
+
+/// Signs that must not end a line.
+bool opens(const std::string& glyph) {
+    static constexpr std::string_view k_signs = "（「『《(";
+    return k_signs.find(glyph) != std::string_view::npos;
+}
+
+/// Lines of at most `most` columns, broken at blanks, beside wide characters (Chinese has no blanks), and inside a word
+/// only where the word alone is longer.
 std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
     std::vector<std::string> lines(1);
     std::size_t used = 0;
-    std::string word;
+    std::vector<Glyph> word;
     std::size_t word_width = 0;
+    bool after_blank = true;
     const auto put_word = [&] {
         if (word.empty()) {
             return;
         }
-        const std::size_t gap = used > 0 ? 1 : 0;
+        const std::size_t gap = used > 0 && after_blank ? 1 : 0;
         if (used + gap + word_width > most && used > 0) {
             lines.emplace_back();
             used = 0;
         }
-        if (used > 0) {
+        if (used > 0 && after_blank) {
             lines.back() += ' ';
             ++used;
         }
-        for (const Glyph& g : glyphs(word)) {
+        for (const Glyph& g : word) {
             if (used + g.width > most && used > 0) {
                 lines.emplace_back();
                 used = 0;
@@ -84,14 +99,20 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
         }
         word.clear();
         word_width = 0;
+        after_blank = false;
     };
     for (const Glyph& g : glyphs(text)) {
         if (g.bytes == " ") {
             put_word();
-        } else {
-            word += g.bytes;
-            word_width += g.width;
+            after_blank = true;
+            continue;
         }
+        const bool wide = g.width == 2 || (!word.empty() && word.back().width == 2);
+        if (wide && !word.empty() && !closes(g.bytes) && !opens(word.back().bytes)) {
+            put_word();
+        }
+        word.push_back(g);
+        word_width += g.width;
     }
     put_word();
     return lines;
@@ -105,6 +126,15 @@ std::string padded(const std::string& text, std::size_t to, bool right) {
 
 std::string text_of(const json& object, const char* key) {
     return object.at(key).get<std::string>();
+}
+
+/// A text, and that of the second language behind a stroke where it differs.
+std::string both(const json& object, const char* key) {
+    std::string text = text_of(object, key);
+    for (const json& second : object.at(std::string_view(key) == "text" ? "also" : std::string(key) + "_also")) {
+        text += " / " + text_of(second, "text");
+    }
+    return text;
 }
 
 std::string centred(const std::string& text) {
@@ -123,15 +153,24 @@ std::string paragraph(const std::string& text, std::size_t indent) {
     return out;
 }
 
+/// A sentence in the binding language, below it the same in the second one.
+std::string sentences(const json& object, const char* key, const std::string& before = {}) {
+    std::string out = paragraph(before + text_of(object, key), 0);
+    for (const json& second : object.at(std::string_view(key) == "text" ? "also" : std::string(key) + "_also")) {
+        out += paragraph("/ " + text_of(second, "text"), 0);
+    }
+    return out;
+}
+
 std::string definitions(const json& block) {
     std::size_t labels = 0;
     for (const json& row : block.at("rows")) {
-        labels = std::max(labels, std::min<std::size_t>(40, width(text_of(row, "label"))));
+        labels = std::max(labels, std::min<std::size_t>(40, width(both(row, "label"))));
     }
     std::string out;
     for (const json& row : block.at("rows")) {
-        const std::vector<std::string> left = wrapped(text_of(row, "label"), labels);
-        const std::vector<std::string> right = wrapped(text_of(row, "value"), k_columns - labels - 4);
+        const std::vector<std::string> left = wrapped(both(row, "label"), labels);
+        const std::vector<std::string> right = wrapped(both(row, "value"), k_columns - labels - 4);
         for (std::size_t i = 0; i < std::max(left.size(), right.size()); ++i) {
             const std::string value = i < right.size() ? right[i] : "";
             const std::string label = "  " + padded(i < left.size() ? left[i] : "", value.empty() ? 0 : labels, false);
@@ -169,6 +208,37 @@ std::size_t span_of(const json& cell) {
     return span;
 }
 
+bool bilingual(const json& columns) {
+    return std::any_of(columns.begin(), columns.end(), [](const json& c) { return !c.at("head_also").empty(); });
+}
+
+/// The least width of a column of which no word is broken, in its head or in its cells; numbers are one word.
+std::size_t longest_word(const json& column, const json& rows, std::size_t c) {
+    std::size_t longest = 2;
+    const auto see = [&](const std::string& text, std::size_t indent) {
+        std::size_t word = indent;
+        for (const Glyph& g : glyphs(text)) {
+            word = g.bytes == " " || g.width == 2 ? indent : word + g.width;
+            longest = std::max(longest, word);
+        }
+    };
+    see(both(column, "head"), 0);
+    for (const json& unit : column.at("unit")) {
+        see("/" + text_of(unit, "text"), 0);
+    }
+    const bool number = text_of(column, "align") == "number";
+    for (const json& row : rows) {
+        const json& cell = row.at("cells").at(c);
+        const std::size_t indent = c == 0 && text_of(row, "kind") == "part" ? k_part_indent : 0;
+        if (number) {
+            longest = std::max(longest, indent + width(both(cell, "text")) + text_of(cell, "pad").size());
+        } else {
+            see(both(cell, "text"), indent);
+        }
+    }
+    return longest;
+}
+
 std::string table(const json& block) {
     const json& columns = block.at("columns");
     const std::size_t count = columns.size();
@@ -177,7 +247,7 @@ std::string table(const json& block) {
     std::vector<bool> may_shrink(count);
     std::vector<std::string> heads(count);
     for (std::size_t c = 0; c < count; ++c) {
-        heads[c] = text_of(columns[c], "head");
+        heads[c] = both(columns[c], "head");
         for (const json& unit : columns[c].at("unit")) {
             heads[c] += " /" + text_of(unit, "text");
         }
@@ -196,7 +266,7 @@ std::string table(const json& block) {
         for (const json& row : block.at("rows")) {
             const json& cell = row.at("cells").at(c);
             const std::size_t indent = c == 0 && text_of(row, "kind") == "part" ? k_part_indent : 0;
-            widths[c] = std::max(widths[c], indent + width(text_of(cell, "text")) + text_of(cell, "pad").size());
+            widths[c] = std::max(widths[c], indent + width(both(cell, "text")) + text_of(cell, "pad").size());
         }
     }
     std::size_t gap = 2;
@@ -208,7 +278,7 @@ std::string table(const json& block) {
             for (std::size_t c = first; c < first + span; ++c) {
                 room += widths[c];
             }
-            const std::size_t own = width(text_of(cell, "text"));
+            const std::size_t own = width(both(cell, "text"));
             widths[first] += own > room ? own - room : 0;
             first += span;
         }
@@ -223,11 +293,16 @@ std::string table(const json& block) {
     if (total() > k_columns) {
         gap = 1;
     }
+    // Heads in two languages take as many lines as they have words before anything else gives way.
+    std::vector<std::size_t> least = widths;
+    for (std::size_t c = 0; c < count && bilingual(columns); ++c) {
+        least[c] = std::min(widths[c], longest_word(columns[c], block.at("rows"), c));
+    }
     while (total() > k_columns) {  // the widest column of texts gives way; numbers only when no text is left to wrap
         std::size_t widest = count;
-        for (const bool texts_only : {true, false}) {
+        for (const int step : {0, 1, 2}) {
             for (std::size_t c = 0; c < count; ++c) {
-                const bool candidate = widths[c] > 8 && (may_shrink[c] || !texts_only);
+                const bool candidate = step == 0 ? widths[c] > least[c] : widths[c] > 8 && (may_shrink[c] || step == 2);
                 if (candidate && (widest == count || widths[c] > widths[widest])) {
                     widest = c;
                 }
@@ -242,7 +317,7 @@ std::string table(const json& block) {
         --widths[widest];
     }
 
-    std::string out = paragraph(text_of(block, "number") + ". " + text_of(block, "caption"), 0);
+    std::string out = sentences(block, "caption", both(block, "number") + ". ");
     const std::string rule(std::min(total(), k_columns), '-');
     out += rule + "\n";
     for (const json& group : block.at("groups")) {
@@ -254,7 +329,7 @@ std::string table(const json& block) {
             for (std::size_t i = 0; i < span; ++i) {
                 room += widths[c + i];
             }
-            line += std::string(c == 0 ? 0 : gap, ' ') + padded(text_of(cell, "text"), room, true);
+            line += std::string(c == 0 ? 0 : gap, ' ') + padded(both(cell, "text"), room, true);
             c += span;
         }
         line.erase(line.find_last_not_of(' ') + 1);
@@ -274,7 +349,7 @@ std::string table(const json& block) {
         for (std::size_t c = 0; c < count; ++c) {
             const json& cell = row.at("cells").at(c);
             const std::size_t indent = c == 0 && kind == "part" ? k_part_indent : 0;
-            std::vector<std::string> lines = wrapped(text_of(cell, "text"), widths[c] - indent);
+            std::vector<std::string> lines = wrapped(both(cell, "text"), widths[c] - indent);
             for (std::string& line : lines) {
                 line.insert(0, indent, ' ');
             }
@@ -286,41 +361,82 @@ std::string table(const json& block) {
     return out + rule + "\n";
 }
 
+std::string section_text(const json& section) {
+    std::string out;
+    std::size_t longest = 0;
+    for (const std::string& line : wrapped(both(section, "heading"), k_columns)) {
+        out += line + "\n";
+        longest = std::max(longest, width(line));
+    }
+    out += std::string(longest, '=') + "\n";
+    for (const json& block : section.at("blocks")) {
+        std::string text;
+        for (const json& item : block.at("paragraph")) {
+            text = sentences(item, "text");
+        }
+        for (const json& item : block.at("formula")) {
+            text = paragraph(text_of(item, "text"), 4);
+        }
+        for (const json& item : block.at("definitions")) {
+            text = definitions(item);
+        }
+        for (const json& item : block.at("table")) {
+            text = table(item);
+        }
+        if (!text.empty()) {
+            out += "\n" + text;
+        }
+    }
+    return out;
+}
+
+/// The first page of a certificate.
+std::string identity_text(const json& identity, const json& view) {
+    std::string out = centred(both(identity, "laboratory"));
+    for (const json& line : identity.at("address")) {
+        out += centred(both(line, "text"));
+    }
+    out += identity.at("accreditation").empty() ? "" : "\n";
+    for (const json& line : identity.at("accreditation")) {
+        out += centred(both(line, "text"));
+    }
+    out += "\n" + centred(both(view, "type")) +
+           centred(both(identity, "number_label") + ": " + text_of(identity, "number"));
+    for (const json& section : identity.at("sections")) {
+        out += "\n\n" + section_text(section);
+    }
+    for (const json& line : identity.at("foot")) {
+        out += "\n" + sentences(line, "text");
+    }
+    return out;
+}
+
 }  // namespace
 
 std::string view_as_text(const nlohmann::json& view) {
     const std::string rule(k_columns, '=');
-    std::string out = rule + "\n" + centred(text_of(view, "mark")) + rule + "\n" +
-                      paragraph(text_of(view, "mark_reason"), 0) + "\n" + centred(text_of(view, "type")) +
-                      centred(text_of(view, "title"));
-    for (const json& section : view.at("sections")) {
-        const std::string heading = text_of(section, "heading");
-        out += "\n\n" + heading + "\n" + std::string(width(heading), '=') + "\n";
-        for (const json& block : section.at("blocks")) {
-            std::string text;
-            for (const json& item : block.at("paragraph")) {
-                text = paragraph(text_of(item, "text"), 0);
-            }
-            for (const json& item : block.at("formula")) {
-                text = paragraph(text_of(item, "text"), 4);
-            }
-            for (const json& item : block.at("definitions")) {
-                text = definitions(item);
-            }
-            for (const json& item : block.at("table")) {
-                text = table(item);
-            }
-            if (!text.empty()) {
-                out += "\n" + text;
-            }
-        }
+    std::string out;
+    for (const json& mark : view.at("mark")) {
+        out += rule + "\n" + centred(both(mark, "text")) + rule + "\n" + sentences(mark, "reason") + "\n";
     }
-    return out + "\n" + std::string(k_columns, '-') + "\n" + paragraph(text_of(view, "only_items"), 0) + "\n" +
-           centred(text_of(view, "end_mark"));
+    for (const json& identity : view.at("identity")) {
+        out += identity_text(identity, view);
+    }
+    if (view.at("identity").empty()) {
+        out += centred(both(view, "type")) + centred(both(view, "title"));
+    }
+    for (const json& section : view.at("sections")) {
+        out += "\n\n" + section_text(section);
+    }
+    out += "\n" + std::string(k_columns, '-') + "\n";
+    for (const json& line : view.at("closing")) {
+        out += sentences(line, "text") + "\n";
+    }
+    return out + centred(both(view, "end_mark"));
 }
 
 std::string render_text(const EvaluationRecord& record, const RenderAssets& assets) {
-    return view_as_text(certificate_view(record, read_wording(assets)));
+    return view_as_text(certificate_view(record, read_wording(assets, record)));
 }
 
 }  // namespace gumcert::reports

@@ -1,7 +1,6 @@
 #include "reports/wording.h"
 
 #include "gum/quantity/diagnostic.h"
-#include "reports/record/canonical_json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -12,55 +11,142 @@ namespace gumcert::reports {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& pointer, const std::string& what) {
+using nlohmann::json;
+
+[[noreturn]] void refuse(const std::string& language, const std::string& pointer, const std::string& what) {
     throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0001",
-                                            .where = "wording#" + pointer,
+                                            .where = "wording " + language + "#" + pointer,
                                             .what = what,
                                             .rule = "every text of a document is in the wording file",
                                             .action = "take the templates of this release"});
 }
 
-std::string text_at(const nlohmann::json& texts, const std::string& pointer) {
-    const nlohmann::json::json_pointer at(pointer);
-    if (!texts.contains(at) || !texts.at(at).is_string()) {
-        refuse(pointer, "missing");
+std::string pointer_of(const std::vector<std::string>& path) {
+    std::string pointer;
+    for (const std::string& name : path) {
+        pointer += "/" + name;
     }
-    return texts.at(at).get<std::string>();
+    return pointer;
+}
+
+/// The text with this path; none where it is missing or no text.
+const json* find(const json& texts, const std::vector<std::string>& path) {
+    const json* at = &texts;
+    for (const std::string& name : path) {
+        const auto found = at->is_object() ? at->find(name) : at->end();
+        if (!at->is_object() || found == at->end()) {
+            return nullptr;
+        }
+        at = &*found;
+    }
+    return at->is_string() ? at : nullptr;
+}
+
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
 }
 
 }  // namespace
 
-std::string Wording::language() const {
-    return text_at(texts_, "/language");
-}
-
-std::string Wording::operator()(const std::string& group, const std::string& name) const {
-    return text_at(texts_, "/" + group + "/" + name);
-}
-
-std::string Wording::operator()(const std::string& group, const std::string& name, const std::string& item) const {
-    return text_at(texts_, "/" + group + "/" + name + "/" + pointer_token(item));
-}
-
-std::string Wording::filled(const std::string& group, const std::string& name, const Values& values) const {
-    const std::string text = (*this)(group, name);
+std::string with_decimal_sign(const std::string& text, const std::string& sign) {
     std::string out;
-    std::size_t at = 0;
-    while (at < text.size()) {
-        const std::size_t open = text.find('{', at);
-        const std::size_t close = open == std::string::npos ? open : text.find('}', open);
-        if (close == std::string::npos) {
-            return out + text.substr(at);
-        }
-        const std::string key = text.substr(open + 1, close - open - 1);
-        const auto value = std::find_if(values.begin(), values.end(), [&](const auto& v) { return v.first == key; });
-        if (value == values.end()) {
-            refuse("/" + group + "/" + name, "names a value {" + key + "} that does not exist");
-        }
-        out += text.substr(at, open - at) + value->second;
-        at = close + 1;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool point =
+            text[i] == '.' && i > 0 && i + 1 < text.size() && is_digit(text[i - 1]) && is_digit(text[i + 1]);
+        out += point ? sign : std::string(1, text[i]);
     }
     return out;
+}
+
+Wording::Wording(const nlohmann::json& texts) {
+    if (texts.is_array()) {
+        for (const json& one : texts) {
+            texts_.push_back(&one);
+        }
+    } else {
+        texts_.push_back(&texts);
+    }
+    for (const json* one : texts_) {
+        const json* language = find(*one, {"language"});
+        languages_.push_back(language == nullptr ? "" : language->get<std::string>());
+        const json* sign = find(*one, {"document", "decimal_sign"});
+        signs_.push_back(sign == nullptr ? "." : sign->get<std::string>());
+    }
+    if (texts_.empty()) {
+        refuse("", "", "no language");
+    }
+}
+
+Text Wording::text_of(const std::vector<std::string>& path) const {
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < texts_.size(); ++i) {
+        const json* text = find(*texts_[i], path);
+        if (text == nullptr) {
+            refuse(languages_[i], pointer_of(path), "missing");
+        }
+        all.push_back(text->get<std::string>());
+    }
+    return Text(std::move(all));
+}
+
+Text Wording::operator()(const std::string& group, const std::string& name) const {
+    return text_of({group, name});
+}
+
+Text Wording::operator()(const std::string& group, const std::string& name, const std::string& item) const {
+    return text_of({group, name, item});
+}
+
+bool Wording::has(const std::string& group, const std::string& name) const {
+    return std::all_of(texts_.begin(), texts_.end(), [&](const json* texts) {
+        return find(*texts, {group, name}) != nullptr;
+    });
+}
+
+Text Wording::filled(const std::string& group, const std::string& name, const Values& values) const {
+    const Text pattern = (*this)(group, name);
+    std::vector<std::string> all;
+    for (std::size_t language = 0; language < texts_.size(); ++language) {
+        const std::string& text = pattern.in(language);
+        std::string out;
+        std::size_t at = 0;
+        while (at < text.size()) {
+            const std::size_t open = text.find('{', at);
+            const std::size_t close = open == std::string::npos ? open : text.find('}', open);
+            if (close == std::string::npos) {
+                out += text.substr(at);
+                break;
+            }
+            const std::string key = text.substr(open + 1, close - open - 1);
+            const auto value =
+                std::find_if(values.begin(), values.end(), [&](const auto& v) { return v.first == key; });
+            if (value == values.end()) {
+                refuse(languages_[language], "/" + group + "/" + name,
+                       "names a value {" + key + "} that does not exist");
+            }
+            out += text.substr(at, open - at) + value->second.in(language);
+            at = close + 1;
+        }
+        all.push_back(std::move(out));
+    }
+    return Text(std::move(all));
+}
+
+Text Wording::number(const std::string& printed) const {
+    const std::string text = printed.starts_with('-') ? "\u2212" + printed.substr(1) : printed;
+    std::vector<std::string> all;
+    for (const std::string& sign : signs_) {
+        all.push_back(with_decimal_sign(text, sign));
+    }
+    return Text(std::move(all));
+}
+
+Text Wording::localised(const certificate::LocalisedText& text) const {
+    std::vector<std::string> all;
+    for (const std::string& language : languages_) {
+        all.push_back(text.in(language));
+    }
+    return Text(std::move(all));
 }
 
 }  // namespace gumcert::reports

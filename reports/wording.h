@@ -1,36 +1,58 @@
 #pragma once
 
+#include "certificate/localised_text.h"
+#include "reports/document_text.h"
+
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace gumcert::reports {
 
-/// Labels and sentences of one language (templates/wording/<language>.json). A text that is missing is an error: a
-/// document is never printed with a hole.
+/// Labels and sentences of a document in the languages that it is printed in (templates/wording/<language>.json), the
+/// binding one first. A text that is missing in any of them is an error: a document is never printed with a hole.
 class Wording {
 public:
-    using Values = std::vector<std::pair<std::string, std::string>>;
+    using Values = std::vector<std::pair<std::string, Text>>;
 
-    /// \param texts  must outlive this object
-    explicit Wording(const nlohmann::json& texts) : texts_(texts) {}
+    /// \param texts  the object of a wording file, or an array of several; must outlive this object
+    explicit Wording(const nlohmann::json& texts);
 
-    [[nodiscard]] std::string language() const;
-    [[nodiscard]] std::string operator()(const std::string& group, const std::string& name) const;
-    [[nodiscard]] std::string operator()(const std::string& group, const std::string& name,
-                                         const std::string& item) const;
+    /// Codes of the languages: "de", "en".
+    [[nodiscard]] const std::vector<std::string>& languages() const { return languages_; }
+    [[nodiscard]] const std::string& language() const { return languages_.front(); }  ///< the binding one
+    [[nodiscard]] const std::string& decimal_sign() const { return signs_.front(); }  ///< of the binding language
+
+    [[nodiscard]] Text operator()(const std::string& group, const std::string& name) const;
+    [[nodiscard]] Text operator()(const std::string& group, const std::string& name, const std::string& item) const;
+    [[nodiscard]] bool has(const std::string& group, const std::string& name) const;
 
     /// A text with every `{name}` replaced. Values are placed once and never looked at for names again.
     /// \throws gum::StorageError if the text names a value that is not given
-    [[nodiscard]] std::string filled(const std::string& group, const std::string& name, const Values& values) const;
-    [[nodiscard]] std::string fill(const std::string& sentence, const Values& values) const {
+    [[nodiscard]] Text filled(const std::string& group, const std::string& name, const Values& values) const;
+    [[nodiscard]] Text fill(const std::string& sentence, const Values& values) const {
         return filled("sentence", sentence, values);
     }
 
+    /// A printed number, alone or with its unit, with the decimal sign of each language and U+2212 as its minus sign.
+    /// The digits stay as they are.
+    [[nodiscard]] Text number(const std::string& printed) const;
+
+    /// A text of the certificate data in each language of the document.
+    [[nodiscard]] Text localised(const certificate::LocalisedText& text) const;
+
 private:
-    const nlohmann::json& texts_;
+    std::vector<const nlohmann::json*> texts_;  ///< one a language
+    std::vector<std::string> languages_;
+    std::vector<std::string> signs_;
+
+    [[nodiscard]] Text text_of(const std::vector<std::string>& path) const;
 };
+
+/// A text with `sign` in place of every point that stands between two digits.
+[[nodiscard]] std::string with_decimal_sign(const std::string& text, const std::string& sign);
 
 }  // namespace gumcert::reports

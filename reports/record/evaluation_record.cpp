@@ -1,5 +1,6 @@
 #include "reports/record/evaluation_record.h"
 
+#include "certificate/certificate_fields.h"
 #include "reports/record/canonical_json.h"
 
 #include <nlohmann/json.hpp>
@@ -23,7 +24,7 @@ namespace {
 
 using nlohmann::json;
 
-enum class Range { any, not_negative, positive, probability };
+using Range = certificate::NumberRule;
 
 const char* rule_of(Range range) {
     switch (range) {
@@ -33,6 +34,10 @@ const char* rule_of(Range range) {
             return "must be greater than 0";
         case Range::probability:
             return "must lie between 0 and 1";
+        case Range::at_least_one:
+            return "must be 1 or greater";
+        case Range::one_or_two:
+            return "must be 1 or 2";
         case Range::any:
             break;
     }
@@ -47,6 +52,10 @@ bool inside(double v, Range range) {
             return v > 0.0;
         case Range::probability:
             return v >= 0.0 && v <= 1.0;
+        case Range::at_least_one:
+            return v >= 1.0;
+        case Range::one_or_two:
+            return v == 1.0 || v == 2.0;
         case Range::any:
             break;
     }
@@ -65,7 +74,8 @@ template <class Type, class Whole>
 concept Is = std::same_as<std::remove_const_t<Type>, Whole>;
 
 // Each struct of the record is described once, by a function `describe(archive, value)`; the writer and the reader both
-// walk that description. So the two cannot disagree on a key.
+// walk that description. So the two cannot disagree on a key. Those of a certificate are in
+// certificate/certificate_fields.h.
 
 template <class Archive, Is<Printed> Struct>
 void describe(Archive& a, Struct& r) {
@@ -752,6 +762,7 @@ void describe(Archive& a, Struct& r) {
     a.added("variance_analyses", r.variance_analyses);
     a("rotary", r.rotary);
     a("comparison", r.comparison);
+    a.added("certificate", r.certificate);
     a("diagnostics", r.diagnostics);
     a.null("audit");  // the record of this version holds no audit
 }
@@ -974,6 +985,48 @@ void check_results(const EvaluationRecord& r, const Report& report) {
     }
 }
 
+/// What must hold between the parts of a certificate, so that a document can be made of it. Calls
+/// `report(pointer, what, rule)` for each breach.
+template <class Report>
+void check_certificate(const certificate::Certificate& c, const Report& report) {
+    const auto length = [&](const std::string& at, std::size_t found, std::size_t expected, const char* rule) {
+        if (found != expected) {
+            report(at, std::to_string(found) + " items", "must be " + std::to_string(expected) + ", " + rule);
+        }
+    };
+    for (std::size_t t = 0; t < c.tables.size(); ++t) {
+        const certificate::CertifiedTable& table = c.tables[t];
+        const std::string at = "/certificate/tables/" + std::to_string(t);
+        if (table.argument) {
+            length(at + "/argument/values", table.argument->values.size(), table.argument->printed.size(),
+                   "one a printed value");
+        }
+        const std::size_t rows = table.argument ? table.argument->printed.size() : 1;
+        for (std::size_t i = 0; i < table.columns.size(); ++i) {
+            const std::string column = at + "/columns/" + std::to_string(i) + "/values";
+            length(column, table.columns[i].values.size(), rows, table.argument ? "one a row" : "one without argument");
+            for (std::size_t row = 0; row < table.columns[i].values.size(); ++row) {
+                const auto& interval = table.columns[i].values[row].interval;
+                if (interval && interval->first > interval->second) {
+                    report(column + "/" + std::to_string(row) + "/interval",
+                           shortest(interval->first) + " to " + shortest(interval->second),
+                           "the lower end of an interval is not above the upper end");
+                }
+            }
+        }
+    }
+    if (c.data.languages.empty()) {
+        report("/certificate/data/languages", "no language", "a certificate is in one language at least");
+    }
+    for (std::size_t i = 0; i < c.data.languages.size(); ++i) {
+        if (std::find(certificate::k_languages.begin(), certificate::k_languages.end(), c.data.languages[i]) ==
+            certificate::k_languages.end()) {
+            report("/certificate/data/languages/" + std::to_string(i), '"' + c.data.languages[i] + '"',
+                   "must be one of \"en\" \"de\" \"zh-Hant\" \"es\"");
+        }
+    }
+}
+
 constexpr std::array<const char*, 4> k_summary_order = {"x", "y", "z", "all"};
 constexpr std::array<const char*, 3> k_severities = {"note", "warning", "error"};
 
@@ -992,6 +1045,41 @@ public:
             refuse(pointer_ + "/" + key, '"' + v + '"', "is not one of the names that a record may hold here");
         }
         object[key] = v;
+    }
+
+    void operator()(const char* key, const std::vector<std::string>& v, std::initializer_list<const char*> allowed) {
+        const std::string at = pointer_ + "/" + key;
+        json all = json::array();
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            Writer inner(at);
+            inner(std::to_string(i).c_str(), v[i], allowed);
+            all.push_back(v[i]);
+        }
+        object[key] = std::move(all);
+    }
+
+    /// What a text holds is the business of those who state it; a record keeps it as it is.
+    template <class Type>
+    void operator()(const char* key, const Type& v, certificate::TextForm) {
+        (*this)(key, v);
+    }
+
+    // In a record every key is present, whoever it comes from.
+    template <class Type, class... Rule>
+    void needed(const char* key, const Type& v, const Rule&... rule) {
+        (*this)(key, v, rule...);
+    }
+    void needed(const char* key, const std::string& v, std::initializer_list<const char*> allowed) {
+        (*this)(key, v, allowed);
+    }
+    template <class Type>
+    void filled(const char* key, const Type& v) {
+        (*this)(key, v);
+    }
+
+    template <class Enumerator>
+    void named(const char* key, Enumerator v, std::initializer_list<const char*> words) {
+        object[key] = *(words.begin() + static_cast<std::ptrdiff_t>(v));
     }
 
     /// A key that a later release added to the schema: always written, may be missing where it is read.
@@ -1115,6 +1203,26 @@ private:
         return std::move(inner.object);
     }
 
+    /// A text for all languages is a string, else an object with one text a language.
+    static json text_to_json(const certificate::LocalisedText& v, const std::string& at) {
+        if (v.by_language.empty()) {
+            return v.plain;
+        }
+        if (!v.plain.empty()) {
+            refuse(at, "a text for all languages beside one in " + v.by_language.front().first,
+                   "a text is given once for all languages, or once in each");
+        }
+        json all = json::object();
+        for (const auto& [language, text] : v.by_language) {
+            if (std::find(certificate::k_languages.begin(), certificate::k_languages.end(), language) ==
+                certificate::k_languages.end()) {
+                refuse(at, "the language \"" + language + '"', "is none of those that a certificate may have");
+            }
+            insert(all, language, text, at);
+        }
+        return all;
+    }
+
     template <class Type>
     static json to_json(const Type& v, const std::string& at, Range range) {
         if constexpr (std::same_as<Type, double>) {
@@ -1130,11 +1238,15 @@ private:
                 refuse(at, shortest(v), rule_of(range));
             }
             return v;
-        } else if constexpr (std::same_as<Type, std::int64_t>) {
+        } else if constexpr (std::same_as<Type, std::int64_t> || std::same_as<Type, int>) {
             if (!inside(static_cast<double>(v), range)) {
                 refuse(at, std::to_string(v), rule_of(range));
             }
             return v;
+        } else if constexpr (std::same_as<Type, certificate::LocalisedText>) {
+            return text_to_json(v, at);
+        } else if constexpr (std::same_as<Type, std::pair<double, double>>) {
+            return json::array({to_json(v.first, at + "/0", range), to_json(v.second, at + "/1", range)});
         } else if constexpr (std::same_as<Type, bool> || std::same_as<Type, std::string>) {
             return v;
         } else if constexpr (requires { v.has_value(); }) {
@@ -1211,11 +1323,43 @@ public:
         const std::string at = pointer_ + "/" + key;
         from_json(*item, v, at, Range::any);
         if (item->is_string() && std::find(allowed.begin(), allowed.end(), v) == allowed.end()) {
-            std::string rule = "must be one of";
-            for (const char* name : allowed) {
-                rule += std::string(" \"") + name + '"';
+            unknown_word(at, v, allowed);
+        }
+    }
+
+    void operator()(const char* key, std::vector<std::string>& v, std::initializer_list<const char*> allowed) {
+        (*this)(key, v);
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            if (std::find(allowed.begin(), allowed.end(), v[i]) == allowed.end()) {
+                unknown_word(pointer_ + "/" + key + "/" + std::to_string(i), v[i], allowed);
             }
-            problems_.add("GC-RECORD-0016", at, '"' + v + '"', rule, k_restore);
+        }
+    }
+
+    template <class Type>
+    void operator()(const char* key, Type& v, certificate::TextForm) {
+        (*this)(key, v);
+    }
+
+    template <class Type, class... Rule>
+    void needed(const char* key, Type& v, const Rule&... rule) {
+        (*this)(key, v, rule...);
+    }
+    void needed(const char* key, std::string& v, std::initializer_list<const char*> allowed) {
+        (*this)(key, v, allowed);
+    }
+    template <class Type>
+    void filled(const char* key, Type& v) {
+        (*this)(key, v);
+    }
+
+    template <class Enumerator>
+    void named(const char* key, Enumerator& v, std::initializer_list<const char*> words) {
+        std::string name;
+        (*this)(key, name, words);
+        const auto found = std::find(words.begin(), words.end(), name);
+        if (found != words.end()) {
+            v = static_cast<Enumerator>(found - words.begin());
         }
     }
 
@@ -1450,6 +1594,37 @@ private:
         problems_.add("GC-RECORD-0015", at, item.type_name(), "must be " + expected, k_restore);
     }
 
+    void unknown_word(const std::string& at, const std::string& word, std::initializer_list<const char*> allowed) {
+        std::string rule = "must be one of";
+        for (const char* name : allowed) {
+            rule += std::string(" \"") + name + '"';
+        }
+        problems_.add("GC-RECORD-0016", at, '"' + word + '"', rule, k_restore);
+    }
+
+    void localised(const json& item, certificate::LocalisedText& v, const std::string& at) {
+        if (item.is_string()) {
+            v.plain = item.get<std::string>();
+            return;
+        }
+        if (!item.is_object()) {
+            wrong_type(item, at, "a text, or an object with one text a language");
+            return;
+        }
+        Reader inner(item, at, problems_);
+        for (const std::string_view language : certificate::k_languages) {
+            if (const std::string key(language); item.contains(key)) {
+                std::string text;
+                inner(key.c_str(), text);
+                v.by_language.emplace_back(key, std::move(text));
+            }
+        }
+        inner.finish();
+        if (item.empty()) {
+            problems_.add("GC-RECORD-0016", at, "no language", "a text is stated in one language at least", k_restore);
+        }
+    }
+
     void number(const json& item, double& v, const std::string& at, Range range) {
         if (!item.is_number()) {
             wrong_type(item, at, "a number");
@@ -1490,6 +1665,17 @@ private:
             } else {
                 wrong_type(item, at, "a whole number");
             }
+        } else if constexpr (std::same_as<Type, int>) {
+            std::int64_t whole = 0;
+            from_json(item, whole, at, range);
+            v = static_cast<int>(
+                std::clamp<std::int64_t>(whole, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
+        } else if constexpr (std::same_as<Type, certificate::LocalisedText>) {
+            localised(item, v, at);
+        } else if constexpr (std::same_as<Type, std::pair<double, double>>) {
+            std::array<double, 2> ends{};
+            from_json(item, ends, at, range);
+            v = {ends[0], ends[1]};
         } else if constexpr (requires { v.has_value(); }) {
             if (item.is_null()) {
                 v.reset();
@@ -1631,9 +1817,13 @@ std::string to_canonical_json(const EvaluationRecord& record) {
             Writer::refuse("/rotary" + at, std::move(what), std::move(rule));
         });
     }
-    check_results(record, [](const std::string& at, std::string what, std::string rule) {
+    const auto refuse = [](const std::string& at, std::string what, std::string rule) {
         Writer::refuse(at, std::move(what), std::move(rule));
-    });
+    };
+    check_results(record, refuse);
+    if (record.certificate) {
+        check_certificate(*record.certificate, refuse);
+    }
     Writer writer("");
     describe(writer, record);
     std::string text = canonical_json(writer.object);
@@ -1685,6 +1875,9 @@ EvaluationRecord record_from_json(const std::string& text, const std::string& wh
         });
     }
     check_results(record, report);
+    if (record.certificate) {
+        check_certificate(*record.certificate, report);
+    }
     problems.throw_if_any();
     return record;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "certificate/certified_results.h"
 #include "gum/quantity/diagnostic.h"
 #include "reports/record/budget_evaluation.h"
 
@@ -373,6 +374,7 @@ struct EvaluationRecord {
     std::vector<VarianceAnalysis> variance_analyses;
     std::optional<RotaryTable> rotary;
     std::optional<Comparison> comparison;
+    std::optional<certificate::Certificate> certificate;  ///< where the job states certificate data
     std::vector<gum::Diagnostic> diagnostics;
 };
 

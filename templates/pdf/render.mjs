@@ -1,33 +1,82 @@
-// Sets view.json in FOLDER with a Typst template and writes FOLDER/certificate.pdf (PDF/A-3a).
-// Usage: node render.mjs NODE_MODULES FOLDER TEMPLATE
-// Exit status: 0 done; 3 Typst refused the document (the reason is on stdout); anything else: the installation.
+// Sets certificates as PDF/A-3a with Typst, one after the other, in a process that stays.
+// Usage: node render.mjs NODE_MODULES WORKSPACE [FONT_FOLDER...]
+//
+// Each line of standard input is a request, JSON: {"template": "…/certificate.typ", "further_fonts": true|false}. The
+// files of the document are in WORKSPACE: view.json, and certificate.xml if one is attached. The answer is one line of
+// JSON on standard output:
+//   {"status": "done", "memory": bytes}        WORKSPACE/certificate.pdf is there
+//   {"status": "refused", "messages": ["…"]}   by Typst
+//   {"status": "failed", "messages": ["…"]}    a file, a defect
+// The end of standard input ends the process.
 import fs from 'node:fs';
 import path from 'node:path';
+import readline from 'node:readline';
 import { createRequire } from 'node:module';
 
-const [modules, folder, template] = process.argv.slice(2);
+const [modules, workspace, ...fontFolders] = process.argv.slice(2);
 const { NodeCompiler } = createRequire(path.join(modules, 'x.js'))('@myriaddreamin/typst-ts-node-compiler');
+const main = path.join(workspace, 'certificate.typ');
 
-function refuse(messages) {
-  console.log(messages.join('\n'));
-  process.exit(3);
+// The compiler keeps its fonts. Opening further folders takes time, so it is done for the first document that asks.
+const compilers = {};
+function compilerWith(furtherFonts) {
+  const fontArgs = furtherFonts && fontFolders.length > 0 ? { fontArgs: [{ fontPaths: fontFolders }] } : {};
+  return (compilers[furtherFonts] ??= NodeCompiler.create({ workspace, ...fontArgs }));
 }
 
-// The only files that the template can see are those of the folder.
-fs.copyFileSync(template, path.join(folder, 'certificate.typ'));
-const compiler = NodeCompiler.create({ workspace: folder });
-const compiled = compiler.compile({ mainFilePath: path.join(folder, 'certificate.typ') });
-const texts = (error) => (error ? compiler.fetchDiagnostics(error).map((d) => d.message) : []);
-if (!compiled.result) refuse(texts(compiled.takeError()));
-// A warning, such as a font that is not there, would change the look in silence.
-const warnings = texts(compiled.takeWarnings());
-if (warnings.length > 0) refuse(warnings);
-
-let pdf;
-try {
-  pdf = compiler.pdf(compiled.result, { pdfStandard: 'a-3a' });
-} catch (error) {
-  refuse([...String(error.message).matchAll(/message: "((?:[^"\\]|\\.)*)"/g)].map((m) => m[1].replaceAll('\\"', '"'))
-    .concat(String(error.message).includes('message: "') ? [] : [String(error.message)]));
+// The only files that the template can see are those of the workspace.
+function copyTemplates(template) {
+  const folder = path.dirname(template);
+  for (const name of fs.readdirSync(folder)) {
+    if (name.endsWith('.typ')) fs.copyFileSync(path.join(folder, name), path.join(workspace, name));
+  }
+  if (path.basename(template) !== 'certificate.typ') fs.copyFileSync(template, main);
 }
-fs.writeFileSync(path.join(folder, 'certificate.pdf'), pdf);
+
+// The symbol comes as Base64 in the view; Typst reads files, and would be slow to decode it.
+function writeSymbols() {
+  const view = JSON.parse(fs.readFileSync(path.join(workspace, 'view.json'), 'utf8'));
+  for (const page of view.identity ?? []) {
+    for (const symbol of page.symbol ?? []) {
+      if (!/^symbol\.(png|jpg)$/.test(symbol.file)) throw new Error(`not a name of a symbol file: ${symbol.file}`);
+      fs.writeFileSync(path.join(workspace, symbol.file), Buffer.from(symbol.base64, 'base64'));
+    }
+  }
+}
+
+function messagesOf(error) {
+  const quoted = [...String(error.message).matchAll(/message: "((?:[^"\\]|\\.)*)"/g)];
+  return quoted.length > 0 ? quoted.map((m) => m[1].replaceAll('\\"', '"')) : [String(error.message)];
+}
+
+function setDocument({ template, further_fonts: furtherFonts }) {
+  copyTemplates(template);
+  writeSymbols();
+  const compiler = compilerWith(furtherFonts === true);
+  const texts = (error) => (error ? compiler.fetchDiagnostics(error).map((d) => d.message) : []);
+  // The files have the same names for every document: what was read before is forgotten.
+  const compiled = compiler.compile({ mainFilePath: main, resetRead: true });
+  if (!compiled.result) return { status: 'refused', messages: texts(compiled.takeError()) };
+  // A warning, such as a font that is not there, would change the look in silence.
+  const warnings = texts(compiled.takeWarnings());
+  if (warnings.length > 0) return { status: 'refused', messages: warnings };
+  let pdf;
+  try {
+    pdf = compiler.pdf(compiled.result, { pdfStandard: 'a-3a' });
+  } catch (error) {
+    return { status: 'refused', messages: messagesOf(error) };
+  }
+  fs.writeFileSync(path.join(workspace, 'certificate.pdf'), pdf);
+  compiler.evictCache(3);
+  return { status: 'done', memory: process.memoryUsage.rss() };
+}
+
+for await (const line of readline.createInterface({ input: process.stdin })) {
+  let answer;
+  try {
+    answer = setDocument(JSON.parse(line));
+  } catch (error) {
+    answer = { status: 'failed', messages: [String(error.message)] };
+  }
+  fs.writeSync(process.stdout.fd, JSON.stringify(answer) + '\n');
+}

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "certificate/certified_results.h"
+#include "reports/certificate_builder.h"
+#include "reports/wording.h"
+
+namespace gumcert::reports {
+
+/// Statement of conformity (ISO/IEC 17025:2017, 7.8.6): specification, rule, limits, risks and verdict of every value;
+/// or that none was requested.
+void conformity_section(CertificateBuilder& builder, const Wording& words, const certificate::Certificate& certificate);
+
+}  // namespace gumcert::reports

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "certificate/certified_results.h"
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gumcert::reports {
+
+/// What the U (or the interval) of a value means; each has a sentence.
+enum class Coverage { nothing, none, normal, student_t, convolution, monte_carlo, interval };
+
+[[nodiscard]] Coverage coverage_of(const certificate::CertifiedValue& v);
+
+/// Everything that is certified, seen at once: which sentences are needed, which columns, and which marks.
+class CertifiedOverview {
+public:
+    using Holds = std::function<bool(const certificate::CertifiedValue&)>;
+
+    /// \param certificate  must outlive this object
+    explicit CertifiedOverview(const certificate::Certificate& certificate);
+
+    [[nodiscard]] const std::vector<const certificate::CertifiedValue*>& values(Coverage c) const {
+        return by_coverage_.at(static_cast<std::size_t>(c));
+    }
+    [[nodiscard]] const std::vector<Coverage>& used() const { return used_; }
+    /// k is not the same for all, or the profile wants its column.
+    [[nodiscard]] bool k_column() const { return k_column_; }
+    /// Some U is the capability of the laboratory.
+    [[nodiscard]] bool raised() const { return raised_; }
+    /// The profile wants what is outside of the accreditation in a section of its own.
+    [[nodiscard]] bool separates() const;
+
+    /// "(a)", "(b)" … where more than one sentence is needed; "" else.
+    [[nodiscard]] std::string letter(Coverage c) const;
+    /// Marks beside a value: the letter of its sentence, * outside of the accreditation, ‡ external.
+    [[nodiscard]] std::string note(const certificate::CertifiedValue& v) const;
+    [[nodiscard]] bool is_outside(const certificate::CertifiedValue& v) const;
+    [[nodiscard]] bool any(const Holds& holds) const;
+
+private:
+    const certificate::Certificate& certificate_;
+    std::array<std::vector<const certificate::CertifiedValue*>, 7> by_coverage_;
+    std::vector<Coverage> used_;
+    bool k_column_ = false, raised_ = false;
+};
+
+}  // namespace gumcert::reports

@@ -1,0 +1,493 @@
+#include "reports/dcc/dcc_reader.h"
+#include "encoding/sha2.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "reports/certificate_view.h"
+#include "reports/dcc/d_si_unit.h"
+#include "reports/dcc/dcc_element.h"
+
+namespace gumcert::reports {
+
+namespace {
+
+constexpr std::size_t k_most_numbers = 100'000;
+constexpr std::size_t k_longest_name = 40;  // of one part of a name of the job language
+
+/// All numbers of one D-SI element, one a row.
+struct Form {
+    std::vector<ImportedNumber> numbers;
+    bool list = false;
+    [[nodiscard]] bool has_uncertainty() const {
+        return std::any_of(numbers.begin(), numbers.end(), [](const ImportedNumber& n) { return n.kind != "none"; });
+    }
+};
+
+/// Where a quantity stands.
+struct Context {
+    std::string role = "result";
+    std::string result, result_en;  ///< name of what it is part of, as it stands and for the job language
+};
+
+bool is_name_character(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+}
+
+/// Letters, digits and single `_`; "" where nothing of the text can be used.
+std::string as_name(std::string_view text) {
+    std::string name;
+    for (char c : text) {
+        if (c >= 'A' && c <= 'Z') {
+            c = static_cast<char>(c - 'A' + 'a');
+        }
+        if (is_name_character(c)) {
+            name += c;
+        } else if (!name.empty() && name.back() != '_') {
+            name += '_';
+        }
+    }
+    name = name.substr(0, k_longest_name);
+    while (!name.empty() && name.back() == '_') {
+        name.pop_back();
+    }
+    if (!name.empty() && name.front() >= '0' && name.front() <= '9') {
+        name.insert(0, "q_");
+    }
+    return name;
+}
+
+/// "basic_measuredValue" → "measured_value"
+std::string name_of_ref_type(const std::string& ref_type) {
+    const std::string first = ref_type.substr(0, ref_type.find(' '));
+    const std::size_t prefix = first.find('_');
+    std::string words;
+    for (const char c : prefix == std::string::npos ? first : first.substr(prefix + 1)) {
+        const bool capital = c >= 'A' && c <= 'Z';
+        words += capital && !words.empty() && is_name_character(words.back()) ? "_" : "";
+        words += c;
+    }
+    return as_name(words);
+}
+
+/// Entry of a list for a row: one entry stands for all rows. Nothing where the lengths do not fit.
+std::optional<std::string> entry(const std::vector<std::string>& words, std::size_t row, std::size_t rows) {
+    if (words.size() == 1) {
+        return words.front();
+    }
+    return words.size() == rows ? std::optional(words[row]) : std::nullopt;
+}
+
+class Reader {
+public:
+    Reader(std::string file, ImportedCertificate& out) : file_(std::move(file)), out_(out) {}
+
+    void walk(const XmlElement& element, Context context);
+
+private:
+    void remark(const char* code, const XmlElement& at, const std::string& what, const std::string& rule,
+                const std::string& action) {
+        out_.remarks.push_back({.code = code,
+                                .where = place_of(at, file_),
+                                .what = what,
+                                .rule = rule,
+                                .action = action,
+                                .severity = gum::Severity::warning});
+    }
+
+    void add_quantity(const XmlElement& quantity, const Context& context);
+    void add_position(const XmlElement& coordinate, const Context& context);
+    void add_rows(const XmlElement& quantity, const Context& context, const Form& main,
+                  const std::vector<const Form*>& others, const std::string& note);
+    [[nodiscard]] std::string free_name(const std::string& base, const std::string& result, std::size_t rows);
+
+    std::vector<Form> forms_of(const XmlElement& element);
+    Form real(const XmlElement& element);
+    Form real_list(const XmlElement& element);
+    Form xml_list_of_reals(const XmlElement& element);
+    Form complex_numbers(const XmlElement& element);
+    Form nested_list(const XmlElement& element);
+    void uncertainty_from(const XmlElement& stated, std::span<ImportedNumber> numbers);
+    void uncertainty_in(const XmlElement& holder, std::span<ImportedNumber> numbers);
+    void place_list(const XmlElement& list, std::span<ImportedNumber> numbers, std::string ImportedNumber::*into);
+    void unit(const std::string& d_si, const XmlElement& at, ImportedNumber& number);
+
+    std::string file_;
+    ImportedCertificate& out_;
+    std::set<std::string, std::less<>> names_;
+    std::set<std::string, std::less<>> unknown_units_;  // each one is remarked once
+};
+
+void Reader::unit(const std::string& d_si, const XmlElement& at, ImportedNumber& number) {
+    number.d_si_unit = d_si;
+    const std::optional<std::string> known = unit_from_d_si(d_si);
+    number.unit = known.value_or("");
+    if (!known && unknown_units_.insert(d_si).second) {
+        remark("GC-DCC-0021", at, "unit \"" + printable(d_si) + "\"",
+               "units are converted from D-SI where both sides know them", "state the unit in the job yourself");
+    }
+}
+
+/// `stated` is an element such as si:expandedMU or si:coverageIntervalXMLList; what it says goes to every number.
+void Reader::uncertainty_from(const XmlElement& stated, std::span<ImportedNumber> numbers) {
+    const auto place = [&](std::initializer_list<const char*> names, std::string ImportedNumber::*into) {
+        for (const char* name : names) {
+            for (const std::string& spelling : {"si:" + std::string(name), "si:" + std::string(name) + "XMLList"}) {
+                if (const XmlElement* const child = stated.child(spelling); child != nullptr) {
+                    place_list(*child, numbers, into);
+                }
+            }
+        }
+    };
+    place({"valueStandardMU", "standardUnc"}, &ImportedNumber::u);
+    place({"valueExpandedMU", "uncertainty"}, &ImportedNumber::U);
+    place({"coverageFactor"}, &ImportedNumber::k);
+    place({"coverageProbability"}, &ImportedNumber::p);
+    place({"intervalMin"}, &ImportedNumber::low);
+    place({"intervalMax"}, &ImportedNumber::high);
+    place({"distribution"}, &ImportedNumber::distribution);
+    for (ImportedNumber& number : numbers) {
+        for (std::string* text : {&number.u, &number.U, &number.k, &number.low, &number.high}) {
+            if (*text == "NaN") {
+                text->clear();  // how D-SI says that there is none
+            }
+        }
+        if (!number.low.empty() && !number.high.empty()) {
+            number.kind = "coverage_interval";
+        } else if (!number.U.empty()) {
+            number.kind = "expanded";
+        } else if (!number.u.empty()) {
+            number.kind = "standard";
+        }
+    }
+}
+
+/// One entry for all numbers, or one for each.
+void Reader::place_list(const XmlElement& list, std::span<ImportedNumber> numbers, std::string ImportedNumber::*into) {
+    const std::vector<std::string> words = xml_list(list.text);
+    if (words.size() != 1 && words.size() != numbers.size()) {
+        remark("GC-DCC-0022", list,
+               std::to_string(words.size()) + " entries beside " + std::to_string(numbers.size()) + " values",
+               "one entry stands for all values, else there is one for each",
+               "look at the certificate; the uncertainty was not imported");
+        return;
+    }
+    for (std::size_t row = 0; row < numbers.size(); ++row) {
+        numbers[row].*into = words[words.size() == 1 ? 0 : row];
+    }
+}
+
+/// The uncertainty that stands in a D-SI element, in any of the spellings of D-SI 1.3 to 2.2.1.
+void Reader::uncertainty_in(const XmlElement& holder, std::span<ImportedNumber> numbers) {
+    static constexpr std::array k_groups{"si:measurementUncertaintyUnivariate",
+                                         "si:measurementUncertaintyUnivaraite",  // as D-SI 2.2 spells it in realList
+                                         "si:measurementUncertaintyUnivariateXMLList",
+                                         "si:listMeasurementUncertaintyUnivariate", "si:listUnivariateUnc"};
+    static constexpr std::array k_statements{"si:standardMU",         "si:expandedMU",
+                                             "si:coverageIntervalMU", "si:expandedUnc",
+                                             "si:coverageInterval",   "si:standardMUXMLList",
+                                             "si:expandedMUXMLList",  "si:coverageIntervalMUXMLList",
+                                             "si:expandedUncXMLList", "si:coverageIntervalXMLList"};
+    for (const XmlElement& child : holder.children) {
+        if (std::find(k_groups.begin(), k_groups.end(), child.name) != k_groups.end()) {
+            uncertainty_in(child, numbers);
+        } else if (std::find(k_statements.begin(), k_statements.end(), child.name) != k_statements.end()) {
+            uncertainty_from(child, numbers);
+        }
+    }
+}
+
+/// si:real and si:constant.
+Form Reader::real(const XmlElement& element) {
+    ImportedNumber number;
+    number.value = element.child_text("si:value");
+    unit(element.child_text("si:unit"), element, number);
+    uncertainty_in(element, {&number, 1});
+    if (element.name == "si:constant") {
+        uncertainty_from(element, {&number, 1});
+        if (number.kind == "expanded") {  // si:uncertainty of a constant is a standard uncertainty (D-SI 2.0 to 2.2)
+            number.kind = "standard";
+            number.u = std::exchange(number.U, "");
+        }
+    }
+    return {.numbers = {number}, .list = false};
+}
+
+/// si:realList: elements si:real with what is common to them beside.
+Form Reader::real_list(const XmlElement& element) {
+    Form form{.numbers = {}, .list = true};
+    for (const XmlElement* one : element.children_named("si:real")) {
+        ImportedNumber number;
+        number.value = one->child_text("si:value");
+        const std::string own = one->child_text("si:unit");
+        unit(own.empty() ? element.child_text("si:listUnit") : own, *one, number);
+        uncertainty_in(*one, {&number, 1});
+        if (number.kind == "none") {
+            uncertainty_in(element, {&number, 1});
+        }
+        form.numbers.push_back(number);
+    }
+    return form;
+}
+
+Form Reader::xml_list_of_reals(const XmlElement& element) {
+    Form form{.numbers = {}, .list = true};
+    const XmlElement* const values = element.child("si:valueXMLList");
+    const XmlElement* const units = element.child("si:unitXMLList");
+    const std::vector<std::string> words = values == nullptr ? std::vector<std::string>() : xml_list(values->text);
+    const std::vector<std::string> unit_words = units == nullptr ? std::vector<std::string>() : xml_list(units->text);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        ImportedNumber number;
+        number.value = words[i];
+        unit(entry(unit_words, i, words.size()).value_or(""), element, number);
+        form.numbers.push_back(number);
+    }
+    uncertainty_in(element, form.numbers);
+    return form;
+}
+
+/// Both parts of a complex number are numbers without uncertainty here: theirs is a matrix.
+Form Reader::complex_numbers(const XmlElement& element) {
+    Form form{.numbers = {}, .list = element.name != "si:complex"};
+    for (const char* part : {"si:valueReal", "si:valueImag", "si:valueMagnitude", "si:valuePhase"}) {
+        for (const std::string& spelling : {std::string(part), std::string(part) + "XMLList"}) {
+            const XmlElement* const values = element.child(spelling);
+            const std::vector<std::string> words =
+                values == nullptr ? std::vector<std::string>() : xml_list(values->text);
+            const bool phase = std::string_view(part) == "si:valuePhase";
+            const std::string one = element.child_text(phase ? "si:unitPhase" : "si:unit");
+            const std::vector<std::string> units =
+                xml_list(one.empty() ? element.child_text(phase ? "si:unitPhaseXMLList" : "si:unitXMLList") : one);
+            for (std::size_t i = 0; i < words.size(); ++i) {
+                ImportedNumber number;
+                number.value = words[i];
+                unit(entry(units, i, words.size()).value_or(""), element, number);
+                form.numbers.push_back(number);
+            }
+        }
+    }
+    for (const XmlElement* one : element.children_named("si:complex")) {
+        const Form inner = complex_numbers(*one);
+        form.numbers.insert(form.numbers.end(), inner.numbers.begin(), inner.numbers.end());
+    }
+    remark("GC-DCC-0020", element, "complex numbers",
+           "the uncertainty of a complex number is a covariance matrix, which is not imported",
+           "state uncertainties and correlation of both parts in the job");
+    return form;
+}
+
+Form Reader::nested_list(const XmlElement& element) {
+    Form form{.numbers = {}, .list = true};
+    for (const XmlElement& child : element.children) {
+        for (const Form& inner : forms_of(child)) {
+            form.numbers.insert(form.numbers.end(), inner.numbers.begin(), inner.numbers.end());
+        }
+    }
+    return form;
+}
+
+/// The same quantity in each of the units that the document states it in; one form but for si:hybrid.
+std::vector<Form> Reader::forms_of(const XmlElement& element) {
+    for (const char* matrix : {"si:measurementUncertaintyMultivariateXMLList",
+                               "si:measurementUncertaintyBivariateXMLList", "si:ellipsoidalRegion",
+                               "si:rectangularRegion", "si:ellipsoidalRegionXMLList", "si:rectangularRegionXMLList"}) {
+        if (const XmlElement* const found = element.child(matrix); found != nullptr) {
+            remark("GC-DCC-0023", *found, "a covariance matrix", "covariances are not imported",
+                   "state them in the job under `covariance`");
+        }
+    }
+    if (element.name == "si:real" || element.name == "si:constant") {
+        return {real(element)};
+    }
+    if (element.name == "si:realList") {
+        return {real_list(element)};
+    }
+    if (element.name == "si:realListXMLList") {
+        return {xml_list_of_reals(element)};
+    }
+    if (element.name == "si:complex" || element.name == "si:complexList" || element.name == "si:complexListXMLList") {
+        return {complex_numbers(element)};
+    }
+    if (element.name == "si:list") {
+        return {nested_list(element)};
+    }
+    std::vector<Form> forms;
+    if (element.name == "si:hybrid") {
+        for (const XmlElement& child : element.children) {
+            const std::vector<Form> of_child = forms_of(child);
+            forms.insert(forms.end(), of_child.begin(), of_child.end());
+        }
+    }
+    return forms;
+}
+
+std::string Reader::free_name(const std::string& base, const std::string& result, std::size_t rows) {
+    const auto row_name = [&](const std::string& name, std::size_t row) {
+        return rows > 1 ? name + "_" + std::to_string(row + 1) : name;
+    };
+    const auto free = [&](const std::string& name) {
+        for (std::size_t row = 0; row < rows; ++row) {
+            if (names_.contains(row_name(name, row))) {
+                return false;
+            }
+        }
+        return true;
+    };
+    std::string name = base;
+    const std::string longer = result.empty() ? base : result + "_" + base;
+    for (std::size_t n = 2; !free(name); ++n) {
+        name = n == 2 ? longer : longer + "_v" + std::to_string(n - 1);
+    }
+    for (std::size_t row = 0; row < rows; ++row) {
+        names_.insert(row_name(name, row));
+    }
+    return name;
+}
+
+void Reader::add_rows(const XmlElement& quantity, const Context& context, const Form& main,
+                      const std::vector<const Form*>& others, const std::string& note) {
+    const XmlElement* const name = quantity.child("dcc:name");
+    const std::string ref_type = quantity.attribute("refType");
+    std::string base = as_name(content_in(name, "en"));
+    if (base.empty()) {
+        base = name_of_ref_type(ref_type);
+    }
+    if (base.empty()) {
+        base = context.result_en.empty() ? "quantity" : as_name(context.result_en);
+    }
+    base = base.empty() ? "quantity" : base;
+    const std::size_t rows = main.numbers.size();
+    base = free_name(base, as_name(context.result_en), rows);
+    if (out_.quantities.size() + rows > k_most_numbers) {
+        throw gum::InputError(gum::Diagnostic{.code = "GC-DCC-0004",
+                                              .where = place_of(quantity, file_),
+                                              .what = "more than 100000 numbers",
+                                              .rule = "certificates are read up to a hundred thousand numbers",
+                                              .action = "ask the issuer for the tables as files of their own"});
+    }
+    for (std::size_t row = 0; row < rows; ++row) {
+        ImportedQuantity imported;
+        static_cast<ImportedNumber&>(imported) = main.numbers[row];
+        imported.name = rows > 1 ? base + "_" + std::to_string(row + 1) : base;
+        imported.result = context.result;
+        imported.quantity = first_content(name);
+        imported.ref_type = ref_type;
+        imported.id = quantity.attribute("id");
+        imported.role = context.role;
+        if (main.list) {
+            imported.row = row;
+        }
+        for (const Form* other : others) {
+            imported.also.push_back(other->numbers[row]);
+        }
+        imported.remark = note;
+        out_.quantities.push_back(std::move(imported));
+    }
+}
+
+void Reader::add_quantity(const XmlElement& quantity, const Context& context) {
+    std::string note;
+    if (quantity.child("dcc:relativeUncertainty") != nullptr) {
+        note = "the certificate also states a relative uncertainty";
+    }
+    for (const XmlElement& child : quantity.children) {
+        const std::vector<Form> forms = forms_of(child);
+        if (forms.empty()) {
+            continue;
+        }
+        auto main = std::find_if(forms.begin(), forms.end(), [](const Form& f) { return f.has_uncertainty(); });
+        main = main == forms.end() ? forms.begin() : main;
+        std::vector<const Form*> others;
+        std::vector<const Form*> apart;
+        for (auto form = forms.begin(); form != forms.end(); ++form) {
+            if (form != main) {
+                (form->numbers.size() == main->numbers.size() ? others : apart).push_back(&*form);
+            }
+        }
+        add_rows(quantity, context, *main, others, note);
+        for (const Form* form : apart) {
+            add_rows(quantity, context, *form, {}, "another unit of the same quantity, with another number of values");
+        }
+    }
+}
+
+/// dcc:positionCoordinate1 …, dcc:relativeUncertaintySingle: of the type of si:real, but named otherwise.
+void Reader::add_position(const XmlElement& coordinate, const Context& context) {
+    Context inner = context;
+    inner.result_en = coordinate.name.substr(coordinate.name.find(':') + 1);
+    add_rows(coordinate, inner, real(coordinate), {}, "");
+}
+
+void Reader::walk(const XmlElement& element, Context context) {
+    static constexpr std::array<std::pair<const char*, const char*>, 7> k_roles{
+        {{"dcc:influenceCondition", "influence_condition"},
+         {"dcc:metaData", "meta_data"},
+         {"dcc:statement", "statement"},
+         {"dcc:measuringEquipment", "equipment"},
+         {"dcc:usedMethod", "method"},
+         {"dcc:item", "item"},
+         {"dcc:positionCoordinates", "location"}}};
+    for (const auto& [name, role] : k_roles) {
+        if (element.name == name) {
+            context.role = role;
+        }
+    }
+    const bool named =
+        element.name == "dcc:result" || element.name == "dcc:measurementResult" || context.role != "result";
+    if (const XmlElement* const name = element.child("dcc:name");
+        named && name != nullptr && element.name != "dcc:quantity") {
+        context.result = first_content(name);
+        context.result_en = content_in(name, "en");
+    }
+    if (element.child("si:value") != nullptr) {
+        add_position(element, context);
+        return;
+    }
+    if (element.child("si:valueXMLList") != nullptr) {  // dcc:relativeUncertaintyXmlList
+        add_rows(element, {context.role, context.result, "relative_uncertainty"}, xml_list_of_reals(element), {},
+                 "a relative uncertainty of the quantity before");
+        return;
+    }
+    add_quantity(element, context);
+    for (const XmlElement& child : element.children) {
+        if (!child.name.starts_with("si:")) {
+            walk(child, context);
+        }
+    }
+}
+
+const XmlElement* descend(const XmlElement* from, std::initializer_list<const char*> names) {
+    for (const char* name : names) {
+        from = from == nullptr ? nullptr : from->child(name);
+    }
+    return from;
+}
+
+std::string trimmed_or_empty(const XmlElement* element) {
+    return element == nullptr ? "" : element->trimmed();
+}
+
+}  // namespace
+
+ImportedCertificate read_dcc(std::string_view bytes, const std::string& file) {
+    const XmlElement root = read_dcc_root(bytes, file);
+    ImportedCertificate out;
+    out.schema_version = root.attribute("schemaVersion");
+    const XmlElement* const administrative = root.child("dcc:administrativeData");
+    const XmlElement* const core = descend(administrative, {"dcc:coreData"});
+    out.identifier = trimmed_or_empty(descend(core, {"dcc:uniqueIdentifier"}));
+    out.issued = trimmed_or_empty(descend(core, {"dcc:issueDate"}));
+    out.performed_from = trimmed_or_empty(descend(core, {"dcc:beginPerformanceDate"}));
+    out.performed_to = trimmed_or_empty(descend(core, {"dcc:endPerformanceDate"}));
+    out.laboratory = first_content(descend(administrative, {"dcc:calibrationLaboratory", "dcc:contact", "dcc:name"}));
+    out.item = first_content(descend(administrative, {"dcc:items", "dcc:item", "dcc:name"}));
+    out.sha256 = encoding::sha256(bytes);
+    Reader reader(file, out);
+    reader.walk(root, {});
+    return out;
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::reports {
+
+/// A number of a foreign certificate with its uncertainty; digits as they stand in the document.
+struct ImportedNumber {
+    std::string value;
+    std::string d_si_unit;              ///< "\milli\metre"
+    std::string unit;                   ///< UDUNITS-2; "" where the unit has no equivalent: a remark says so
+    std::string kind = "none";          ///< "expanded", "standard", "coverage_interval", "none"
+    std::string U, k, p, u, low, high;  ///< "" where absent
+    std::string distribution;
+};
+
+/// One number of a foreign certificate, ready to be an input of a budget. Where the document states the same number in
+/// several units, this is the first of those that have an uncertainty (else the first); the others are in `also`.
+struct ImportedQuantity : ImportedNumber {
+    std::string name;  ///< unique in the document, made from quantity, result and row: a name of the job language
+    std::string result, quantity;  ///< names as the document gives them (first language)
+    std::string ref_type, id;      ///< attributes; "" without
+    /// What the number is part of: "result", "influence_condition", "meta_data" (limits, nominal values …),
+    /// "statement", "equipment", "method", "item", "location"
+    std::string role = "result";
+    std::optional<std::size_t> row;  ///< in a list, from 0
+    std::vector<ImportedNumber> also;
+    std::string remark;
+};
+
+struct ImportedCertificate {
+    std::string schema_version;  ///< "3.3.0"
+    std::string identifier, laboratory, item, issued, performed_from, performed_to;
+    std::string sha256;  ///< of the file
+    std::vector<ImportedQuantity> quantities;
+    std::vector<gum::Diagnostic> remarks;
+};
+
+/// Reads a DCC of version 3.0 to 3.3: every number with its uncertainty, in the spellings of D-SI 1.3 to 2.2.1.
+/// \param file  for messages
+/// \throws gum::InputError  GC-DCC-0001 … -0004 as read_xml(), -0004 also for more than 100 000 numbers, -0005 another
+///                          root element, -0006 another version
+[[nodiscard]] ImportedCertificate read_dcc(std::string_view bytes, const std::string& file);
+
+}  // namespace gumcert::reports

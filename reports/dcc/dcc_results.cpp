@@ -1,0 +1,393 @@
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <set>
+
+#include "gum/rounding.h"
+#include "reports/dcc/dcc_joint_results.h"
+#include "reports/dcc/dcc_quantity.h"
+#include "reports/dcc/dcc_writer.h"
+
+namespace gumcert::reports {
+
+namespace {
+
+using certificate::CertifiedColumn;
+using certificate::CertifiedTable;
+using certificate::CertifiedValue;
+using certificate::Verdict;
+
+constexpr const char* k_nothing = "NaN";
+constexpr int k_digits_of_u = 2;
+
+/// What is stated of the uncertainty of a value. A column whose values state different things is written once for each
+/// of them, because a list of D-SI states one.
+enum class Stated { nothing, expanded, interval, standard };
+
+bool has_usable_factor(const CertifiedValue& v) {
+    return d_si_coverage_factor(v.printed_k) != k_nothing;
+}
+
+Stated stated_of(const CertifiedValue& v) {
+    if (v.interval && !v.printed_low.empty() && !v.printed_high.empty()) {
+        return Stated::interval;
+    }
+    if (!v.printed_U.empty()) {
+        return has_usable_factor(v) ? Stated::expanded : Stated::standard;
+    }
+    return v.coverage == "none" && v.u > 0.0 ? Stated::standard : Stated::nothing;
+}
+
+std::string distribution_of(const CertifiedValue& v) {
+    if (v.coverage == "convolution" || v.coverage == "monte_carlo") {
+        return v.coverage;
+    }
+    return v.coverage == "student_t" && v.nu_eff ? "student_t" : "normal";
+}
+
+/// One column of one table, and what its lists need.
+struct Column {
+    const CertifiedTable& table;
+    const CertifiedColumn& column;
+    bool list;  ///< lists, even of one row; else single numbers
+
+    [[nodiscard]] std::vector<std::string> entries(const std::function<std::string(const CertifiedValue&)>& of) const {
+        std::vector<std::string> all;
+        for (const CertifiedValue& v : column.values) {
+            all.push_back(of(v));
+        }
+        return all;
+    }
+};
+
+/// Coverage probability of a value: of its result where that states its own.
+double probability_of(const EvaluationRecord& record, const Column& c, std::size_t row) {
+    const bool has_points = c.table.argument && c.table.argument->name == "point";
+    const std::string point = has_points ? c.table.argument->printed[row] : "";
+    for (const Result& r : record.results) {
+        if ((r.quantity.empty() ? r.name : r.quantity) == c.column.result && (!has_points || r.point == point)) {
+            return r.coverage_probability;
+        }
+    }
+    return record.coverage_probability;
+}
+
+/// An element "si:name", or "si:nameXMLList" with one entry a row, or one where all are the same.
+void number_or_list(DccWriter& w, const Column& c, const std::string& name, const std::vector<std::string>& entries) {
+    w.xml.element(c.list ? name + "XMLList" : name, c.list ? joined_list(entries) : entries.front());
+}
+
+void uncertainty(DccWriter& w, const Column& c, Stated stated) {
+    const auto only = [&](const std::function<std::string(const CertifiedValue&)>& text) {
+        return c.entries([&](const CertifiedValue& v) { return stated_of(v) == stated ? text(v) : k_nothing; });
+    };
+    const std::string suffix = c.list ? "XMLList" : "";
+    std::vector<std::string> probabilities;
+    for (std::size_t row = 0; row < c.column.values.size(); ++row) {
+        probabilities.push_back(d_si_probability(probability_of(w.record(), c, row)));
+    }
+    const auto u = [&] {
+        number_or_list(w, c, "si:valueStandardMU", only([](const CertifiedValue& v) {
+                           return d_si_number(gum::round_significant(v.u, k_digits_of_u));
+                       }));
+    };
+    w.xml.open("si:measurementUncertaintyUnivariate" + suffix);
+    if (stated == Stated::expanded) {
+        w.xml.open("si:expandedMU" + suffix);
+        number_or_list(w, c, "si:valueExpandedMU", only([&](const CertifiedValue& v) {
+                           return required_d_si_number(v.printed_U, c.column.result);
+                       }));
+        number_or_list(w, c, "si:coverageFactor",
+                       only([](const CertifiedValue& v) { return d_si_coverage_factor(v.printed_k); }));
+        number_or_list(w, c, "si:coverageProbability", probabilities);
+        number_or_list(w, c, "si:distribution", c.entries(distribution_of));
+    } else if (stated == Stated::interval) {
+        w.xml.open("si:coverageIntervalMU" + suffix);
+        u();
+        number_or_list(w, c, "si:intervalMin", only([&](const CertifiedValue& v) {
+                           return required_d_si_number(v.printed_low, c.column.result);
+                       }));
+        number_or_list(w, c, "si:intervalMax", only([&](const CertifiedValue& v) {
+                           return required_d_si_number(v.printed_high, c.column.result);
+                       }));
+        number_or_list(w, c, "si:coverageProbability", probabilities);
+    } else {
+        w.xml.open("si:standardMU" + suffix);
+        u();
+    }
+    w.xml.close();
+    w.xml.close();
+}
+
+/// Why a standard uncertainty stands where an expanded one is expected.
+Text note_on_standard(DccWriter& w, const Column& c) {
+    std::string U;
+    std::string k;
+    for (const CertifiedValue& v : c.column.values) {
+        if (stated_of(v) == Stated::standard && !v.printed_U.empty()) {
+            U += (U.empty() ? "" : ", ") + v.printed_U;
+            k += (k.empty() ? "" : ", ") + v.printed_k;
+        }
+    }
+    return U.empty() ? w.words()("dcc", "no_expanded_uncertainty")
+                     : w.words().filled("dcc", "low_coverage_factor", {{"U", U}, {"k", k.empty() ? "?" : k}});
+}
+
+/// The six words of the format. A verdict that has no word there is no statement of conformity: the exact word stands
+/// in a quantity of its own.
+std::string conformity_word(const std::string& verdict) {
+    if (verdict == "pass" || verdict == "fail") {
+        return verdict;
+    }
+    if (verdict == "conditional_pass") {
+        return "conditionalPass";
+    }
+    return verdict == "conditional_fail" ? "conditionalFail" : "noPass";
+}
+
+const Verdict* verdict_for(const CertifiedValue& v, const std::string& specification) {
+    return v.verdict && v.verdict->specification == specification ? &*v.verdict : nullptr;
+}
+
+/// Words, one a row; blanks would split them.
+void words_quantity(DccWriter& w, const Text& name, const std::string& ref_type, std::vector<std::string> entries) {
+    for (std::string& entry : entries) {
+        std::string joined;
+        for (const std::string& word : xml_list(entry)) {
+            joined += (joined.empty() ? "" : "_") + word;
+        }
+        entry = joined.empty() ? "-" : joined;
+    }
+    w.xml.open("dcc:quantity", {{"refType", ref_type}});
+    w.text("dcc:name", name);
+    w.xml.element("dcc:charsXMLList", full_list(entries));
+    w.xml.close();
+}
+
+void numbers_quantity(DccWriter& w, const Column& c, const Text& name, const std::string& ref_type,
+                      const std::vector<std::string>& entries, const std::string& unit) {
+    if (c.list) {
+        write_plain_list(w, {.name = name, .ref_type = ref_type, .values = entries, .unit = unit});
+    } else {
+        write_plain_quantity(
+            w, {.element = "dcc:quantity", .name = name, .ref_type = ref_type, .value = entries.front(), .unit = unit});
+    }
+}
+
+/// The limits as they are printed, where there are any.
+void limit(DccWriter& w, const Column& c, const std::string& specification, const std::string& word,
+           const std::function<std::string(const Verdict&)>& text) {
+    const std::vector<std::string> entries = c.entries([&](const CertifiedValue& v) {
+        const Verdict* const verdict = verdict_for(v, specification);
+        return verdict == nullptr ? k_nothing : d_si_number(text(*verdict));
+    });
+    if (std::any_of(entries.begin(), entries.end(), [](const std::string& e) { return e != k_nothing; })) {
+        numbers_quantity(w, c, w.words()("dcc", "limits", word), w.ref_types()(word), entries, c.column.unit);
+    }
+}
+
+void conformity(DccWriter& w, const Column& c, const std::string& specification) {
+    const Wording& words = w.words();
+    std::vector<std::string> verdicts;
+    std::vector<std::string> exact;
+    const Verdict* first = nullptr;
+    for (const CertifiedValue& v : c.column.values) {
+        const Verdict* const verdict = verdict_for(v, specification);
+        first = first == nullptr ? verdict : first;
+        verdicts.push_back(verdict == nullptr ? "noPass" : conformity_word(verdict->verdict));
+        exact.push_back(verdict == nullptr ? "none" : verdict->verdict);
+    }
+    const Text name = words.filled("dcc", "verdicts", {{"name", c.column.result}});
+    w.xml.open("dcc:metaData",
+               {{"refId", w.specification_id(specification)}, {"refType", w.ref_types()("conformity")}});
+    Text declaration = Text(first->formula);
+    if (std::find(verdicts.begin(), verdicts.end(), "noPass") != verdicts.end()) {
+        append_line(declaration, words.filled("dcc", "conformity_words", {{"name", name}}));
+    }
+    w.optional_text("dcc:declaration", declaration);
+    w.xml.element(c.list ? "dcc:conformityXMLList" : "dcc:conformity", full_list(verdicts));
+    w.xml.open("dcc:data");
+    limit(w, c, specification, "tolerance_lower", [](const Verdict& v) { return v.printed.lower; });
+    limit(w, c, specification, "tolerance_upper", [](const Verdict& v) { return v.printed.upper; });
+    limit(w, c, specification, "acceptance_lower", [](const Verdict& v) { return v.printed.acceptance_lower; });
+    limit(w, c, specification, "acceptance_upper", [](const Verdict& v) { return v.printed.acceptance_upper; });
+    limit(w, c, specification, "guard_band", [](const Verdict& v) { return v.printed.guard_band; });
+    words_quantity(w, name, w.ref_types()("verdict"), exact);
+    // In percent, and as words: a text such as ">99.99" is no number.
+    const auto percent = [&](const char* word, const std::function<std::string(const Verdict&)>& text) {
+        words_quantity(w, words("dcc", "limits", word) + " [%]", w.ref_types()(word),
+                       c.entries([&](const CertifiedValue& v) {
+                           const Verdict* const verdict = verdict_for(v, specification);
+                           return verdict == nullptr ? std::string() : text(*verdict);
+                       }));
+    };
+    percent("conformance_probability", [](const Verdict& v) { return v.printed.conformance_probability; });
+    percent("specific_risk", [](const Verdict& v) { return v.printed.specific_risk; });
+    w.xml.close();
+    w.xml.close();
+}
+
+void flags(DccWriter& w, const Column& c, const XmlWriter::Attributes& attributes, const Text& declaration,
+           const std::function<bool(const CertifiedValue&)>& flag) {
+    w.xml.open("dcc:metaData", attributes);
+    w.optional_text("dcc:declaration", declaration);
+    w.xml.element(c.list ? "dcc:validXMLList" : "dcc:valid",
+                  full_list(c.entries([&](const CertifiedValue& v) { return flag(v) ? "true" : "false"; })));
+    w.xml.close();
+}
+
+void meta_data(DccWriter& w, const Column& c) {
+    std::vector<std::string> specifications;
+    bool raised = false;
+    for (const CertifiedValue& v : c.column.values) {
+        raised = raised || v.raised;
+        if (v.verdict &&
+            std::find(specifications.begin(), specifications.end(), v.verdict->specification) == specifications.end()) {
+            specifications.push_back(v.verdict->specification);
+        }
+    }
+    const bool unit = needs_unit_definition(c.column.unit);
+    if (specifications.empty() && !raised && !unit && !w.has_scope()) {
+        return;
+    }
+    w.xml.open("dcc:measurementMetaData");
+    for (const std::string& specification : specifications) {
+        conformity(w, c, specification);
+    }
+    if (w.has_scope()) {
+        flags(w, c, {{"refId", "scope"}, {"refType", w.ref_types()("capability")}}, {},
+              [](const CertifiedValue& v) { return !v.scope_entry.empty() && !v.external; });
+    }
+    if (raised) {
+        flags(w, c, {{"refType", w.ref_types()("raised")}}, w.words()("dcc", "raised"),
+              [](const CertifiedValue& v) { return v.raised; });
+    }
+    write_unit_definition(w, c.column.unit);
+    w.xml.close();
+}
+
+void column_once(DccWriter& w, const Column& c, Stated stated, bool with_meta_data) {
+    const std::string known = w.ref_types()("value_" + c.table.id);
+    const std::string ref_type = known.empty() ? w.ref_types()("value_results") : known;
+    w.xml.open("dcc:quantity", {{"refType", ref_type + " gumcert_" + as_token(c.column.result)}});
+    w.text("dcc:name", w.words().localised(c.column.name));
+    if (stated == Stated::standard) {
+        w.text("dcc:description", note_on_standard(w, c));
+    }
+    w.xml.open(c.list ? "si:realListXMLList" : "si:real");
+    w.xml.element(c.list ? "si:labelXMLList" : "si:label", as_token(c.column.result));
+    const std::vector<std::string> values =
+        c.entries([&](const CertifiedValue& v) { return required_d_si_number(v.printed_value, c.column.result); });
+    w.xml.element(c.list ? "si:valueXMLList" : "si:value", full_list(values));
+    w.xml.element(c.list ? "si:unitXMLList" : "si:unit", d_si_unit(c.column.unit));
+    if (stated != Stated::nothing) {
+        uncertainty(w, c, stated);
+    }
+    w.xml.close();
+    if (with_meta_data) {
+        meta_data(w, c);
+    }
+    w.xml.close();
+}
+
+void degrees_of_freedom(DccWriter& w, const Column& c) {
+    const std::vector<std::string> entries =
+        c.entries([](const CertifiedValue& v) { return d_si_number(v.printed_nu_eff); });
+    if (std::any_of(entries.begin(), entries.end(), [](const std::string& e) { return e != k_nothing; })) {
+        numbers_quantity(w, c, w.words().filled("dcc", "degrees_of_freedom", {{"name", c.column.result}}),
+                         w.ref_types()("degrees_of_freedom"), entries, "1");
+    }
+}
+
+void write_column(DccWriter& w, const Column& c) {
+    if (c.column.values.empty()) {
+        return;
+    }
+    std::set<Stated> kinds;
+    for (const CertifiedValue& v : c.column.values) {
+        kinds.insert(stated_of(v));
+    }
+    if (kinds.size() > 1) {
+        kinds.erase(Stated::nothing);  // these rows state NaN beside the others
+    }
+    bool first = true;
+    for (const Stated stated : kinds) {
+        column_once(w, c, stated, first);
+        first = false;
+    }
+    degrees_of_freedom(w, c);
+}
+
+void argument(DccWriter& w, const CertifiedTable::Argument& a) {
+    const bool numbers =
+        !a.values.empty() && std::all_of(a.values.begin(), a.values.end(), [](const auto& v) { return v.has_value(); });
+    const Text name = w.words().has("dcc", a.name) ? w.words()("dcc", a.name) : Text(a.name);
+    if (!numbers) {
+        words_quantity(w, name, w.ref_types()("point"), a.printed);
+        return;
+    }
+    std::vector<std::string> entries;
+    for (std::size_t i = 0; i < a.values.size(); ++i) {
+        const std::string printed = i < a.printed.size() ? d_si_number(a.printed[i]) : k_nothing;
+        entries.push_back(printed == k_nothing ? d_si_number(*a.values[i]) : printed);
+    }
+    write_plain_list(w, {.name = name, .ref_type = w.ref_types()("argument"), .values = entries, .unit = a.unit});
+}
+
+/// "Results." → "Results": the heading of a table without its full stop, in any language.
+Text heading(const Text& caption, std::size_t languages) {
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < languages; ++i) {
+        std::string text = caption.in(i);
+        for (const std::string_view stop : {".", "。"}) {
+            if (text.ends_with(stop)) {
+                text.resize(text.size() - stop.size());
+            }
+        }
+        all.push_back(text);
+    }
+    return Text(std::move(all));
+}
+
+void table(DccWriter& w, const CertifiedTable& t) {
+    const Wording& words = w.words();
+    const std::string known = w.ref_types()("table_" + t.id);
+    w.xml.open("dcc:result", {{"refType", known.empty() ? w.ref_types()("table_results") : known}});
+    const Text caption = words.has("table_name", t.id) ? words("table_name", t.id)
+                                                       : words.filled("table_name", "other", {{"name", t.id}});
+    w.text("dcc:name", heading(caption, words.languages().size()));
+    w.xml.open("dcc:data");
+    w.xml.open("dcc:list");
+    if (t.argument) {
+        argument(w, *t.argument);
+    }
+    for (const CertifiedColumn& column : t.columns) {
+        write_column(w, {.table = t, .column = column, .list = t.argument.has_value() || column.values.size() > 1});
+    }
+    w.xml.close();
+    w.xml.close();
+    w.xml.close();
+}
+
+}  // namespace
+
+void write_results(DccWriter& w) {
+    w.xml.open("dcc:results");
+    bool any = false;
+    for (const CertifiedTable& t : w.tables()) {
+        if (std::any_of(t.columns.begin(), t.columns.end(), [](const auto& c) { return !c.values.empty(); })) {
+            table(w, t);
+            any = true;
+        }
+    }
+    if (!any) {
+        w.xml.open("dcc:result");
+        w.text("dcc:name", w.words()("dcc", "results"));
+        w.data_sentence(w.not_stated());
+        w.xml.close();
+    }
+    write_joint_results(w);
+    w.xml.close();
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gum/quantity/diagnostic.h"
+#include "reports/dcc/xml_document.h"
+
+namespace gumcert::reports {
+
+/// The business rules above the schema (docs/digital_certificate.md), GC-DCC-0101 … -0111, in the order of the rules
+/// and then of the document.
+[[nodiscard]] std::vector<gum::Diagnostic> business_rule_breaches(const XmlElement& root, const std::string& file);
+
+}  // namespace gumcert::reports

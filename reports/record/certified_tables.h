@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "certificate/certified_results.h"
+#include "reports/record/evaluation_record.h"
+
+namespace gumcert::reports {
+
+/// The results of a record as tables of columns: unrounded values, the printed texts that the record holds, no scope
+/// and no verdicts. What a certificate starts from, and what a document without certificate data shows.
+///
+/// Budget: tables "results"; results of the same points share one, with the argument "point" (names, no numbers); those
+/// without points are columns of one value. Rotary table: "set_up", "error_motions" (argument "angle" in deg),
+/// "reversal" (columns `reversal_EXA` …), "ranges" (`range_EXA` …), "location_errors", "positioning"; those that the
+/// record has.
+///
+/// k and effective degrees of freedom are printed as certificate/statement_of_uncertainty.h says. Coverage intervals
+/// are left to whoever certifies.
+[[nodiscard]] std::vector<certificate::CertifiedTable> certified_tables(const EvaluationRecord& record);
+
+}  // namespace gumcert::reports

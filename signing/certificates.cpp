@@ -1,0 +1,196 @@
+#include "signing/certificates.h"
+
+#include <openssl/err.h>
+#include <openssl/pem.h>
+#include <openssl/rsa.h>
+#include <openssl/x509_vfy.h>
+#include <openssl/x509v3.h>
+
+#include <array>
+#include <ctime>
+#include <utility>
+
+#include "signing/time_texts.h"
+
+namespace gumcert::signing {
+
+namespace {
+
+std::string name_text(const X509_NAME* name) {
+    const Handle<BIO> out(BIO_new(BIO_s_mem()));
+    // UTF-8 as it is, but control characters escaped.
+    X509_NAME_print_ex(out.get(), name, 0, XN_FLAG_RFC2253 & ~static_cast<unsigned long>(ASN1_STRFLGS_ESC_MSB));
+    char* data = nullptr;
+    const long size = BIO_get_mem_data(out.get(), &data);
+    return size > 0 ? std::string(data, static_cast<std::size_t>(size)) : std::string();
+}
+
+std::optional<std::int64_t> seconds_of(const ASN1_TIME* time) {
+    std::tm parts{};
+    if (time == nullptr || ASN1_TIME_to_tm(time, &parts) != 1) {
+        return std::nullopt;
+    }
+    const auto two = [](int number) { return (number < 10 ? "0" : "") + std::to_string(number); };
+    return time_from_text(std::to_string(parts.tm_year + 1900) + two(parts.tm_mon + 1) + two(parts.tm_mday) +
+                          two(parts.tm_hour) + two(parts.tm_min) + two(parts.tm_sec));
+}
+
+std::string curve_of(EVP_PKEY* key) {
+    std::array<char, 64> name{};
+    std::size_t size = 0;
+    if (EVP_PKEY_get_group_name(key, name.data(), name.size(), &size) != 1) {
+        return {};
+    }
+    return {name.data(), size};
+}
+
+gum::Diagnostic finding(const char* code, const std::string& where, std::string what, const char* rule,
+                        const char* action) {
+    return {.code = code, .where = where, .what = std::move(what), .rule = rule, .action = action};
+}
+
+}  // namespace
+
+CertificateHandle certificate_from_der(const Bytes& der) {
+    const auto* at = reinterpret_cast<const unsigned char*>(der.data());
+    const auto* const end = at + der.size();
+    CertificateHandle certificate(d2i_X509(nullptr, &at, static_cast<long>(der.size())));
+    ERR_clear_error();
+    return at == end ? std::move(certificate) : CertificateHandle();
+}
+
+std::vector<Bytes> certificates_from_pem(const std::string& pem) {
+    std::vector<Bytes> all;
+    const Handle<BIO> in(BIO_new_mem_buf(pem.data(), static_cast<int>(pem.size())));
+    for (;;) {
+        const CertificateHandle certificate(PEM_read_bio_X509(in.get(), nullptr, nullptr, nullptr));
+        if (certificate == nullptr) {
+            break;
+        }
+        unsigned char* der = nullptr;
+        const int size = i2d_X509(certificate.get(), &der);
+        if (size > 0) {
+            all.emplace_back(reinterpret_cast<const char*>(der), static_cast<std::size_t>(size));
+        }
+        OPENSSL_free(der);
+    }
+    ERR_clear_error();
+    return all;
+}
+
+std::string subject_of(X509* certificate) {
+    return name_text(X509_get_subject_name(certificate));
+}
+std::string issuer_of(X509* certificate) {
+    return name_text(X509_get_issuer_name(certificate));
+}
+
+std::string kind_of_key(X509* certificate) {
+    EVP_PKEY* key = X509_get0_pubkey(certificate);
+    if (key == nullptr) {
+        return {};
+    }
+    return EVP_PKEY_get_base_id(key) == EVP_PKEY_RSA ? "RSA" : EVP_PKEY_get_base_id(key) == EVP_PKEY_EC ? "ECDSA" : "";
+}
+
+std::string weakness_of_key(X509* certificate) {
+    const std::string kind = kind_of_key(certificate);
+    if (kind == "RSA") {
+        const int bits = EVP_PKEY_get_bits(X509_get0_pubkey(certificate));
+        return bits >= 2048 ? "" : "RSA key of " + std::to_string(bits) + " bits";
+    }
+    if (kind == "ECDSA") {
+        return ecdsa_part_size(certificate) != 0 ? "" : "key on the curve " + curve_of(X509_get0_pubkey(certificate));
+    }
+    return "key that is neither RSA nor ECDSA";
+}
+
+std::size_t ecdsa_part_size(X509* certificate) {
+    EVP_PKEY* key = X509_get0_pubkey(certificate);
+    if (key == nullptr || EVP_PKEY_get_base_id(key) != EVP_PKEY_EC) {
+        return 0;
+    }
+    const std::string curve = curve_of(key);
+    return curve == "prime256v1" || curve == "P-256"  ? 32
+           : curve == "secp384r1" || curve == "P-384" ? 48
+           : curve == "secp521r1" || curve == "P-521" ? 66
+                                                      : 0;
+}
+
+bool verifies(X509* certificate, const char* digest_name, const Bytes& digest, const Bytes& signature) {
+    EVP_PKEY* key = X509_get0_pubkey(certificate);
+    if (key == nullptr) {
+        return false;
+    }
+    const Handle<EVP_PKEY_CTX> context(EVP_PKEY_CTX_new_from_pkey(nullptr, key, nullptr));
+    bool good = context != nullptr && EVP_PKEY_verify_init(context.get()) == 1;
+    if (good && EVP_PKEY_get_base_id(key) == EVP_PKEY_RSA) {
+        good = EVP_PKEY_CTX_set_rsa_padding(context.get(), RSA_PKCS1_PADDING) == 1;
+    }
+    good = good && EVP_PKEY_CTX_set_signature_md(context.get(), EVP_get_digestbyname(digest_name)) == 1 &&
+           EVP_PKEY_verify(context.get(), reinterpret_cast<const unsigned char*>(signature.data()), signature.size(),
+                           reinterpret_cast<const unsigned char*>(digest.data()), digest.size()) == 1;
+    ERR_clear_error();
+    return good;
+}
+
+std::optional<std::int64_t> end_of_validity(X509* certificate) {
+    return seconds_of(X509_get0_notAfter(certificate));
+}
+std::optional<std::int64_t> start_of_validity(X509* certificate) {
+    return seconds_of(X509_get0_notBefore(certificate));
+}
+
+std::vector<gum::Diagnostic> check_chain(const std::string& where, const std::vector<CertificateHandle>& chain,
+                                         const std::vector<Bytes>& trusted, std::int64_t time) {
+    std::vector<gum::Diagnostic> findings;
+    X509* const signer = chain.front().get();
+    if (const std::string weakness = weakness_of_key(signer); !weakness.empty()) {
+        findings.push_back(
+            finding("GC-SIGN-0131", where, weakness,
+                    "signatures are made with RSA of 2048 bits or more, or ECDSA with P-256, P-384 or P-521",
+                    "ask the laboratory for a document signed with such a key"));
+    }
+    if ((X509_get_extension_flags(signer) & EXFLAG_KUSAGE) != 0 &&
+        (X509_get_key_usage(signer) & (KU_DIGITAL_SIGNATURE | KU_NON_REPUDIATION)) == 0) {
+        findings.push_back(finding("GC-SIGN-0132", where,
+                                   "the certificate of " + subject_of(signer) + " is not for signing documents",
+                                   "its key usage has digitalSignature or nonRepudiation (RFC 5280, 4.2.1.3)",
+                                   "ask the laboratory which certificate is meant"));
+    }
+
+    const Handle<X509_STORE> store(X509_STORE_new());
+    for (const Bytes& der : trusted) {
+        if (const CertificateHandle root = certificate_from_der(der); root != nullptr) {
+            X509_STORE_add_cert(store.get(), root.get());
+        }
+    }
+    const Handle<STACK_OF(X509)> others(sk_X509_new_null());
+    for (const CertificateHandle& certificate : chain) {
+        sk_X509_push(others.get(), certificate.get());
+    }
+    const Handle<X509_STORE_CTX> context(X509_STORE_CTX_new());
+    X509_STORE_CTX_init(context.get(), store.get(), signer, others.get());
+    X509_VERIFY_PARAM* rules = X509_STORE_CTX_get0_param(context.get());
+    X509_VERIFY_PARAM_set_time(rules, static_cast<std::time_t>(time));
+    X509_VERIFY_PARAM_set_flags(rules, X509_V_FLAG_PARTIAL_CHAIN);
+    constexpr int k_112_bits_of_security = 2;
+    X509_VERIFY_PARAM_set_auth_level(rules, k_112_bits_of_security);
+    const int answer = X509_verify_cert(context.get());
+    ERR_clear_error();
+    if (answer != 1) {
+        const int reason = X509_STORE_CTX_get_error(context.get());
+        X509* at = X509_STORE_CTX_get_current_cert(context.get());
+        const bool out_of_time = reason == X509_V_ERR_CERT_HAS_EXPIRED || reason == X509_V_ERR_CERT_NOT_YET_VALID;
+        findings.push_back(finding(out_of_time ? "GC-SIGN-0133" : "GC-SIGN-0130", where,
+                                   "the certificate of " + subject_of(at != nullptr ? at : signer) +
+                                       " is not accepted at " + time_text(time) + ": " +
+                                       X509_verify_cert_error_string(reason),
+                                   "the signer's certificate leads to one of the trust store, and all were in force at "
+                                   "the time of signing",
+                                   "if you trust the issuer, put its root certificate into the trust store"));
+    }
+    return findings;
+}
+
+}  // namespace gumcert::signing

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gum/quantity/diagnostic.h"
+#include "signing/openssl_handles.h"
+#include "signing/signer.h"
+
+namespace gumcert::signing {
+
+/// \return none if the bytes are not one certificate in DER
+[[nodiscard]] CertificateHandle certificate_from_der(const Bytes& der);
+
+/// All certificates of a PEM text, in DER. Other blocks are passed over.
+[[nodiscard]] std::vector<Bytes> certificates_from_pem(const std::string& pem);
+
+/// Names as RFC 2253 writes them: "CN=…,O=…".
+[[nodiscard]] std::string subject_of(X509* certificate);
+[[nodiscard]] std::string issuer_of(X509* certificate);
+
+/// Why a key is too weak or of a kind that is not accepted; "" where it is accepted: RSA from 2048 bits, ECDSA with
+/// P-256, P-384 or P-521.
+[[nodiscard]] std::string weakness_of_key(X509* certificate);
+
+/// "RSA" or "ECDSA"; "" for another kind of key.
+[[nodiscard]] std::string kind_of_key(X509* certificate);
+
+/// Bytes of one coordinate of the curve: 32, 48 or 66; 0 for a key of another kind.
+[[nodiscard]] std::size_t ecdsa_part_size(X509* certificate);
+
+/// Whether the key of the certificate verifies the signature of a digest.
+/// \param digest_name  as for digest()   \param signature  ECDSA: DER of r and s
+[[nodiscard]] bool verifies(X509* certificate, const char* digest_name, const Bytes& digest, const Bytes& signature);
+
+/// Whether a certificate leads to a trusted one, was in force at `time`, and may sign documents.
+///
+/// Chain by X509_verify_cert of OpenSSL at security level 2 (RFC 5280, clause 6, without revocation: no list or service
+/// is asked). A trusted certificate need not be a root: it is trusted by itself. \param chain    the signer's
+/// certificate first, then what came with the signature \param trusted  DER \param time     of signing, seconds since
+/// 1970-01-01 UTC \return findings GC-SIGN-0130 to 0133; none: accepted
+[[nodiscard]] std::vector<gum::Diagnostic> check_chain(const std::string& where,
+                                                       const std::vector<CertificateHandle>& chain,
+                                                       const std::vector<Bytes>& trusted, std::int64_t time);
+
+/// End of validity, seconds since 1970-01-01 UTC; none if it cannot be read.
+[[nodiscard]] std::optional<std::int64_t> end_of_validity(X509* certificate);
+[[nodiscard]] std::optional<std::int64_t> start_of_validity(X509* certificate);
+
+}  // namespace gumcert::signing

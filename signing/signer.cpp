@@ -1,0 +1,284 @@
+#include "signing/signer.h"
+#include "encoding/base64.h"
+#include "encoding/sha2.h"
+
+#include <openssl/err.h>
+#include <openssl/pem.h>
+#include <openssl/rsa.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "gum/quantity/diagnostic.h"
+#include "signing/certificates.h"
+#include "signing/checked_signature.h"
+#include "signing/external_program.h"
+#include "signing/signing_files.h"
+#include "signing/time_texts.h"
+
+namespace gumcert::signing {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void refuse(const char* code, const std::string& where, std::string what, const char* rule,
+                         const char* action) {
+    throw gum::InputError(
+        gum::Diagnostic{.code = code, .where = where, .what = std::move(what), .rule = rule, .action = action});
+}
+
+std::vector<Bytes> chain_from(const fs::path& file) {
+    std::vector<Bytes> chain = certificates_from_pem(read_signing_file(file));
+    if (chain.empty()) {
+        refuse("GC-SIGN-0011", file.string(), "no certificate in it",
+               "the signer's certificate and those of its issuers stand in a PEM file, the signer's first",
+               "name the file with -----BEGIN CERTIFICATE-----");
+    }
+    const CertificateHandle own = certificate_from_der(chain.front());
+    if (const std::string weakness = weakness_of_key(own.get()); !weakness.empty()) {
+        refuse("GC-SIGN-0012", file.string(), weakness,
+               "signatures are made with RSA of 2048 bits or more, or ECDSA with P-256, P-384 or P-521",
+               "use a certificate with such a key");
+    }
+    return chain;
+}
+
+class SignerBase : public Signer {
+public:
+    explicit SignerBase(std::vector<Bytes> chain)
+        : chain_(std::move(chain)), algorithm_(kind_of_key(certificate_from_der(chain_.front()).get())) {}
+    [[nodiscard]] const std::vector<Bytes>& certificates() const override { return chain_; }
+    [[nodiscard]] std::string algorithm() const override { return algorithm_; }
+
+private:
+    std::vector<Bytes> chain_;
+    std::string algorithm_;
+};
+
+class FileSigner : public SignerBase {
+public:
+    FileSigner(std::vector<Bytes> chain, KeyHandle key) : SignerBase(std::move(chain)), key_(std::move(key)) {}
+
+    [[nodiscard]] Bytes sign_sha256(const Bytes& digest) const override {
+        const Handle<EVP_PKEY_CTX> context(EVP_PKEY_CTX_new_from_pkey(nullptr, key_.get(), nullptr));
+        bool good = context != nullptr && EVP_PKEY_sign_init(context.get()) == 1;
+        if (good && algorithm() == "RSA") {
+            good = EVP_PKEY_CTX_set_rsa_padding(context.get(), RSA_PKCS1_PADDING) == 1;
+        }
+        const auto* data = reinterpret_cast<const unsigned char*>(digest.data());
+        std::size_t size = 0;
+        good = good && EVP_PKEY_CTX_set_signature_md(context.get(), EVP_sha256()) == 1 &&
+               EVP_PKEY_sign(context.get(), nullptr, &size, data, digest.size()) == 1;
+        Bytes signature(size, '\0');
+        good = good && EVP_PKEY_sign(context.get(), reinterpret_cast<unsigned char*>(signature.data()), &size, data,
+                                     digest.size()) == 1;
+        ERR_clear_error();
+        if (!good) {
+            throw gum::StorageError(gum::Diagnostic{.code = "GC-SIGN-0021",
+                                                    .where = "key",
+                                                    .what = "OpenSSL could not sign with it",
+                                                    .rule = "the key signs a SHA-256 digest",
+                                                    .action = "try the key with openssl pkeyutl -sign"});
+        }
+        signature.resize(size);
+        return signature;
+    }
+
+private:
+    KeyHandle key_;
+};
+
+class CommandSigner : public SignerBase {
+public:
+    CommandSigner(std::vector<Bytes> chain, std::vector<std::string> command, std::chrono::seconds limit)
+        : SignerBase(std::move(chain)), command_(std::move(command)), limit_(limit) {}
+
+    [[nodiscard]] Bytes sign_sha256(const Bytes& digest) const override {
+        const std::string said = run_program(command_, encoding::hexadecimal(digest) + '\n', limit_);
+        const std::optional<Bytes> signature = encoding::bytes_from_base64(said);
+        if (!signature || signature->empty()) {
+            throw gum::StorageError(gum::Diagnostic{.code = "GC-SIGN-0020",
+                                                    .where = command_[0],
+                                                    .what = "its answer is not Base64",
+                                                    .rule = "the signing program answers with the signature in Base64",
+                                                    .action = "run it by hand to see what it says (docs/signing.md)"});
+        }
+        return *signature;
+    }
+
+private:
+    std::vector<std::string> command_;
+    std::chrono::seconds limit_;
+};
+
+/// Without a passphrase OpenSSL would ask at the terminal.
+int give_passphrase(char* buffer, int size, int /*for_writing*/, void* passphrase) {
+    const auto& text = *static_cast<const std::string*>(passphrase);
+    if (text.empty() || text.size() > static_cast<std::size_t>(size)) {
+        return -1;
+    }
+    std::memcpy(buffer, text.data(), text.size());
+    return static_cast<int>(text.size());
+}
+
+/// A signer description as it stands in the file.
+struct Description {
+    std::string certificates, key, passphrase_file;
+    std::vector<std::string> command;
+    std::int64_t time_limit = 60;
+};
+
+constexpr const char* k_description_rule =
+    R"(a signer is {"certificates": "chain.pem", "key": "key.pem"}, or with "command": ["/path/program", "word"])";
+
+void read_description_key(Description& description, const std::string& file, const std::string& name,
+                          const nlohmann::json& value) {
+    const auto refuse_value = [&](const char* what) {
+        refuse("GC-SIGN-0013", file + "#/" + name, what, k_description_rule, "correct the value (docs/signing.md)");
+    };
+    std::string* text = name == "certificates"      ? &description.certificates
+                        : name == "key"             ? &description.key
+                        : name == "passphrase_file" ? &description.passphrase_file
+                                                    : nullptr;
+    if (text != nullptr) {
+        if (!value.is_string() || value.get_ref<const std::string&>().empty()) {
+            refuse_value("not the name of a file");
+        }
+        *text = value.get<std::string>();
+    } else if (name == "command") {
+        const auto is_word = [](const nlohmann::json& word) { return word.is_string(); };
+        if (!value.is_array() || value.empty() || !std::all_of(value.begin(), value.end(), is_word)) {
+            refuse_value("not a list of words");
+        }
+        description.command = value.get<std::vector<std::string>>();
+    } else if (name == "time_limit_s") {
+        if (!value.is_number_unsigned() || value < 1 || value > 9999) {
+            refuse_value("not a whole number of seconds from 1 to 9999");
+        }
+        description.time_limit = value.get<std::int64_t>();
+    } else {
+        refuse_value("not a known key");
+    }
+}
+
+Description read_description(const fs::path& file) {
+    const nlohmann::json json = nlohmann::json::parse(read_signing_file(file), nullptr, false);
+    if (!json.is_object()) {
+        refuse("GC-SIGN-0013", file.string(), "not a JSON object", k_description_rule, "correct the file");
+    }
+    Description description;
+    for (const auto& [name, value] : json.items()) {
+        read_description_key(description, file.string(), name, value);
+    }
+    if (description.certificates.empty() || description.key.empty() == description.command.empty()) {
+        refuse("GC-SIGN-0013", file.string(), "certificates and exactly one of key and command are needed",
+               k_description_rule, "correct the file (docs/signing.md)");
+    }
+    return description;
+}
+
+}  // namespace
+
+std::string read_signing_file(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::string text(std::istreambuf_iterator<char>(stream), {});
+    if (!stream || !fs::is_regular_file(file)) {
+        throw gum::StorageError(gum::Diagnostic{.code = "GC-SIGN-0010",
+                                                .where = file.string(),
+                                                .what = "cannot be read",
+                                                .rule = "keys, certificates and signer descriptions are files",
+                                                .action = "name a file that you may read"});
+    }
+    return text;
+}
+
+std::unique_ptr<Signer> signer_from_files(const fs::path& key, const fs::path& certificates,
+                                          const std::string& passphrase) {
+    std::vector<Bytes> chain = chain_from(certificates);
+    const std::string pem = read_signing_file(key);
+    const Handle<BIO> in(BIO_new_mem_buf(pem.data(), static_cast<int>(pem.size())));
+    std::string phrase = passphrase;
+    KeyHandle own(PEM_read_bio_PrivateKey(in.get(), nullptr, give_passphrase, &phrase));
+    ERR_clear_error();
+    if (own == nullptr) {
+        refuse("GC-SIGN-0014", key.string(), "no private key in it, or not with this passphrase",
+               "the key stands in a PEM file, encrypted or not", "name the file with the private key");
+    }
+    const CertificateHandle certificate = certificate_from_der(chain.front());
+    const bool belongs = X509_check_private_key(certificate.get(), own.get()) == 1;
+    ERR_clear_error();
+    if (!belongs) {
+        refuse("GC-SIGN-0015", key.string(),
+               "the key does not belong to the first certificate of " + certificates.string(),
+               "the signer's own certificate stands first", "name key and certificates of the same signer");
+    }
+    return std::make_unique<FileSigner>(std::move(chain), std::move(own));
+}
+
+std::unique_ptr<Signer> signer_from_command(const std::vector<std::string>& command, const fs::path& certificates,
+                                            std::chrono::seconds time_limit) {
+    if (command.empty() || command[0].find('/') == std::string::npos) {
+        refuse("GC-SIGN-0016", command.empty() ? "command" : command[0], "not the path of a program",
+               "the signing program is started without a shell and without looking it up", "state its path");
+    }
+    return std::make_unique<CommandSigner>(chain_from(certificates), command, time_limit);
+}
+
+std::unique_ptr<Signer> signer_from_description(const fs::path& file) {
+    Description description = read_description(file);
+    const fs::path folder = file.parent_path();
+    const fs::path certificates = folder / description.certificates;
+    if (!description.command.empty()) {
+        std::string& program = description.command[0];
+        if (program.find('/') != std::string::npos) {
+            program = fs::absolute(folder / program).string();
+        }
+        return signer_from_command(description.command, certificates, std::chrono::seconds(description.time_limit));
+    }
+    std::string passphrase;
+    if (!description.passphrase_file.empty()) {
+        passphrase = read_signing_file(folder / description.passphrase_file);
+        passphrase.erase(passphrase.find_last_not_of("\r\n") + 1);
+    }
+    return signer_from_files(folder / description.key, certificates, passphrase);
+}
+
+Bytes checked_signature(const Signer& signer, const Bytes& digest) {
+    Bytes signature = signer.sign_sha256(digest);
+    const CertificateHandle certificate = certificate_from_der(signer.certificates().front());
+    if (certificate == nullptr || !verifies(certificate.get(), "SHA2-256", digest, signature)) {
+        throw gum::StorageError(
+            gum::Diagnostic{.code = "GC-SIGN-0022",
+                            .where = "signer",
+                            .what = "the signature that it made does not fit its certificate",
+                            .rule = "the signer signs the SHA-256 digest with the key of the first certificate "
+                                    "(RSA: PKCS #1 v1.5; ECDSA: DER)",
+                            .action = "check which key the card, program or file uses"});
+    }
+    return signature;
+}
+
+void require_in_force(const Signer& signer, std::int64_t signing_time) {
+    const CertificateHandle certificate = certificate_from_der(signer.certificates().at(0));
+    const std::optional<std::int64_t> from = certificate ? start_of_validity(certificate.get()) : std::nullopt;
+    const std::optional<std::int64_t> to = certificate ? end_of_validity(certificate.get()) : std::nullopt;
+    if (!from || !to) {
+        refuse("GC-SIGN-0011", "signer", "its certificate cannot be read", "the signer has a certificate",
+               "check the certificate file");
+    }
+    if (signing_time < *from || signing_time > *to) {
+        refuse("GC-SIGN-0017", "signer",
+               "the certificate of " + subject_of(certificate.get()) + " is in force from " + time_text(*from) +
+                   " to " + time_text(*to) + ", not at " + time_text(signing_time),
+               "a signature is made while the certificate is in force", "renew the certificate, or correct the clock");
+    }
+}
+
+}  // namespace gumcert::signing

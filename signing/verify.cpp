@@ -1,0 +1,84 @@
+#include "signing/verify.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "signing/certificates.h"
+#include "signing/document_verification.h"
+#include "signing/signing_files.h"
+
+namespace gumcert::signing {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool all_valid(const std::vector<SignatureReport>& reports) {
+    return std::all_of(reports.begin(), reports.end(), [](const SignatureReport& report) { return report.valid; });
+}
+
+/// An XML document begins with "<", perhaps behind a byte-order mark and blanks.
+bool looks_like_xml(const Bytes& file) {
+    const std::size_t from = file.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+    const std::size_t first = file.find_first_not_of(" \t\r\n", from);
+    return first != Bytes::npos && file[first] == '<';
+}
+
+}  // namespace
+
+Verification verify_signatures(const Bytes& file, const std::string& name, const std::vector<Bytes>& trusted,
+                               std::int64_t now) {
+    Verification verification;
+    if (file.starts_with("%PDF-")) {
+        verification = verify_pdf(file, name, trusted, now);
+        verification.kind = "pdf";
+    } else if (looks_like_xml(file)) {
+        verification.kind = "dcc";
+        verification.signatures = verify_xml(file, name, trusted, now);
+    } else {
+        throw gum::InputError(gum::Diagnostic{.code = "GC-SIGN-0050",
+                                              .where = name,
+                                              .what = "neither an XML document nor a PDF",
+                                              .rule = "signatures are checked in digital certificates (XML) and PDF",
+                                              .action = "name the certificate itself"});
+    }
+    verification.valid = !verification.signatures.empty() && all_valid(verification.signatures) &&
+                         all_valid(verification.attachment_signatures);
+    return verification;
+}
+
+std::vector<Bytes> read_trust_store(const fs::path& store) {
+    std::vector<fs::path> files;
+    std::error_code failure;
+    if (fs::is_directory(store, failure)) {
+        for (const fs::directory_entry& entry : fs::directory_iterator(store, failure)) {
+            if (entry.is_regular_file(failure)) {
+                files.push_back(entry.path());
+            }
+        }
+        std::sort(files.begin(), files.end());
+    } else {
+        files.push_back(store);
+    }
+    std::vector<Bytes> all;
+    std::set<Bytes> seen;
+    for (const fs::path& file : files) {
+        for (Bytes& certificate : certificates_from_pem(read_signing_file(file))) {
+            if (seen.insert(certificate).second) {
+                all.push_back(std::move(certificate));
+            }
+        }
+    }
+    if (all.empty()) {
+        throw gum::InputError(
+            gum::Diagnostic{.code = "GC-SIGN-0051",
+                            .where = store.string(),
+                            .what = "no certificate in it",
+                            .rule = "a trust store is a PEM file with certificates, or a folder of such",
+                            .action = "put the root certificates that you trust into it"});
+    }
+    return all;
+}
+
+}  // namespace gumcert::signing

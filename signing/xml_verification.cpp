@@ -1,0 +1,416 @@
+#include <libxml/parser.h>
+#include <libxml/xmlerror.h>
+#include <openssl/err.h>
+#include <xmlsec/xmlsec.h>
+
+#include <xmlsec/errors.h>
+#include <xmlsec/keys.h>
+#include <xmlsec/openssl/app.h>
+#include <xmlsec/openssl/crypto.h>
+#include <xmlsec/openssl/evp.h>
+#include <xmlsec/xmldsig.h>
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "encoding/base64.h"
+#include "encoding/sha2.h"
+#include "gum/quantity/diagnostic.h"
+#include "signing/certificates.h"
+#include "signing/document_verification.h"
+#include "signing/time_texts.h"
+#include "signing/xml_tree.h"
+
+namespace gumcert::signing {
+
+namespace {
+
+/// An algorithm of the allow-list: its identifier in XML, and its name for people and for OpenSSL.
+struct Algorithm {
+    std::string_view identifier;
+    const char* name;
+};
+constexpr std::array<Algorithm, 3> k_canonicalisations = {{{"http://www.w3.org/2001/10/xml-exc-c14n#", "exclusive"},
+                                                           {"http://www.w3.org/2006/12/xml-c14n11", "1.1"},
+                                                           {"http://www.w3.org/TR/2001/REC-xml-c14n-20010315", "1.0"}}};
+constexpr std::array<Algorithm, 3> k_digests = {{{"http://www.w3.org/2001/04/xmlenc#sha256", "SHA2-256"},
+                                                 {"http://www.w3.org/2001/04/xmldsig-more#sha384", "SHA2-384"},
+                                                 {"http://www.w3.org/2001/04/xmlenc#sha512", "SHA2-512"}}};
+constexpr std::array<Algorithm, 6> k_methods = {
+    {{"http://www.w3.org/2001/04/xmldsig-more#rsa-sha256", "RSA with SHA-256"},
+     {"http://www.w3.org/2001/04/xmldsig-more#rsa-sha384", "RSA with SHA-384"},
+     {"http://www.w3.org/2001/04/xmldsig-more#rsa-sha512", "RSA with SHA-512"},
+     {"http://www.w3.org/2001/04/xmldsig-more#ecdsa-sha256", "ECDSA with SHA-256"},
+     {"http://www.w3.org/2001/04/xmldsig-more#ecdsa-sha384", "ECDSA with SHA-384"},
+     {"http://www.w3.org/2001/04/xmldsig-more#ecdsa-sha512", "ECDSA with SHA-512"}}};
+
+template <std::size_t Count>
+const char* allowed(const std::array<Algorithm, Count>& list, const std::string& identifier) {
+    const auto found =
+        std::find_if(list.begin(), list.end(), [&](const Algorithm& a) { return a.identifier == identifier; });
+    return found == list.end() ? nullptr : found->name;
+}
+
+constexpr const char* k_ask_again = "ask the laboratory for the original document";
+
+void start_xmlsec() {
+    static std::once_flag started;
+    std::call_once(started, [] {
+        xmlInitParser();
+        xmlSecErrorsDefaultCallbackEnableOutput(0);  // a library never prints
+        if (xmlSecInit() < 0 || xmlSecOpenSSLAppInit(nullptr) < 0 || xmlSecOpenSSLInit() < 0) {
+            throw std::runtime_error("xmlsec cannot be started");
+        }
+        xmlSecErrorsDefaultCallbackEnableOutput(0);
+    });
+}
+
+struct ContextFree {
+    void operator()(xmlSecDSigCtx* context) const { xmlSecDSigCtxDestroy(context); }
+};
+
+/// Every element of the document, in order.
+std::vector<xmlNode*> all_elements(xmlNode* root) {
+    std::vector<xmlNode*> all = {root};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const std::vector<xmlNode*> children = children_of(all[i]);
+        all.insert(all.end(), children.begin(), children.end());
+    }
+    return all;
+}
+
+bool is_inside(const xmlNode* node, const xmlNode* of) {
+    while (node != nullptr && node != of) {
+        node = node->parent;
+    }
+    return node != nullptr;
+}
+
+bool has_comments(const xmlNode* node) {
+    for (const xmlNode* child = node->children; child != nullptr; child = child->next) {
+        if (child->type == XML_COMMENT_NODE || (child->type == XML_ELEMENT_NODE && has_comments(child))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// How many elements bear this value as identifier, whatever the spelling of the attribute.
+int count_of_id(const std::vector<xmlNode*>& elements, const std::string& value) {
+    int count = 0;
+    for (const xmlNode* element : elements) {
+        for (const xmlAttr* a = element->properties; a != nullptr; a = a->next) {
+            const std::string_view name(reinterpret_cast<const char*>(a->name));
+            if ((name == "Id" || name == "ID" || name == "id") && a->children != nullptr &&
+                text_of(reinterpret_cast<const xmlNode*>(a)) == value) {
+                ++count;
+            }
+        }
+    }
+    return count;
+}
+
+/// Checks one signature: first its shape, by our own rules, so that nothing of what XML signatures can do besides is
+/// left; then its values, by xmlsec; then its signer.
+class XmlSignatureCheck {
+public:
+    XmlSignatureCheck(xmlNode* signature, const std::vector<xmlNode*>& elements, std::string where)
+        : signature_(signature), elements_(elements), where_(std::move(where)) {}
+
+    SignatureReport run(const std::vector<Bytes>& trusted, std::int64_t now) {
+        report_.format = "XMLDSig";
+        check_shape();
+        find_certificate();
+        if (report_.findings.empty()) {
+            check_values();
+        }
+        if (!chain_.empty()) {
+            // A time and a certificate that the values do not protect are worth nothing.
+            const bool protects = report_.findings.empty() && properties_ != nullptr;
+            check_signer(report_, where_, chain_, trusted, protects ? claimed_time() : std::string(), now);
+        }
+        conclude(report_);
+        if (report_.valid) {
+            say_what_is_covered();
+        } else {
+            report_.not_covered.emplace_back("nothing can be relied on");
+        }
+        return std::move(report_);
+    }
+
+private:
+    void error(const char* code, const std::string& what, const char* rule, const char* action = k_ask_again) {
+        add_error(report_, code, where_, what, rule, action);
+    }
+
+    void check_shape() {
+        const xmlNode* info = only_child(signature_, k_dsig_namespace, "SignedInfo");
+        if (info == nullptr || only_child(signature_, k_dsig_namespace, "SignatureValue") == nullptr) {
+            error("GC-SIGN-0110", "SignedInfo or SignatureValue is missing or there more than once",
+                  "a signature has one of each");
+            return;
+        }
+        check_method(info);
+        int document_references = 0;
+        for (const xmlNode* reference : children_of(info, k_dsig_namespace, "Reference")) {
+            if (has_attribute(reference, "URI") && attribute(reference, "URI").empty()) {
+                ++document_references;
+                check_document_reference(reference);
+            } else if (attribute(reference, "Type") == k_signed_properties_type && properties_ == nullptr) {
+                check_properties_reference(reference);
+            } else {
+                error("GC-SIGN-0112", "it refers to " + attribute(reference, "URI"),
+                      "a signature covers the whole document and its own properties, and nothing else");
+            }
+        }
+        if (document_references != 1) {
+            error("GC-SIGN-0112", std::to_string(document_references) + " references to the whole document",
+                  "exactly one reference has URI=\"\", so that nothing else can be taken for what was signed");
+        }
+    }
+
+    void check_method(const xmlNode* info) {
+        const xmlNode* canonicalisation = only_child(info, k_dsig_namespace, "CanonicalizationMethod");
+        const xmlNode* method = only_child(info, k_dsig_namespace, "SignatureMethod");
+        if (allowed(k_canonicalisations, attribute(canonicalisation, "Algorithm")) == nullptr) {
+            error("GC-SIGN-0111", "canonicalisation " + attribute(canonicalisation, "Algorithm"),
+                  "canonical XML is 1.0, 1.1 or exclusive, without comments");
+        }
+        const std::string identifier = attribute(method, "Algorithm");
+        if (const char* name = allowed(k_methods, identifier); name != nullptr) {
+            report_.algorithm = name;
+        } else {
+            report_.algorithm = identifier;
+            error("GC-SIGN-0111", "signature method " + identifier,
+                  "accepted are RSA (PKCS #1 v1.5) and ECDSA with SHA-256, SHA-384 or SHA-512");
+        }
+    }
+
+    void check_digest(const xmlNode* reference) {
+        const std::string identifier = attribute(only_child(reference, k_dsig_namespace, "DigestMethod"), "Algorithm");
+        if (allowed(k_digests, identifier) == nullptr) {
+            error("GC-SIGN-0111", "digest method " + identifier, "accepted are SHA-256, SHA-384 and SHA-512");
+        }
+    }
+
+    static std::vector<std::string> transforms_of(const xmlNode* reference) {
+        std::vector<std::string> all;
+        for (const xmlNode* list : children_of(reference, k_dsig_namespace, "Transforms")) {
+            for (const xmlNode* transform : children_of(list)) {
+                all.push_back(attribute(transform, "Algorithm"));
+            }
+        }
+        return all;
+    }
+
+    void check_document_reference(const xmlNode* reference) {
+        const std::vector<std::string> transforms = transforms_of(reference);
+        const bool good = !transforms.empty() && transforms[0] == k_enveloped && transforms.size() <= 2 &&
+                          (transforms.size() == 1 || allowed(k_canonicalisations, transforms[1]) != nullptr);
+        if (!good) {
+            error("GC-SIGN-0113", "transforms of the document other than leaving out the signature and canonical XML",
+                  "every other transform could leave out a part of the document");
+        }
+        check_digest(reference);
+    }
+
+    void check_properties_reference(const xmlNode* reference) {
+        for (const xmlNode* object : children_of(signature_, k_dsig_namespace, "Object")) {
+            const xmlNode* qualifying = only_child(object, k_xades_namespace, "QualifyingProperties");
+            if (xmlNode* found = only_child(qualifying, k_xades_namespace, "SignedProperties"); found != nullptr) {
+                properties_ = found;
+            }
+        }
+        const std::string id = attribute(properties_, "Id");
+        if (id.empty() || attribute(reference, "URI") != '#' + id || count_of_id(elements_, id) != 1) {
+            error("GC-SIGN-0114", "the signed properties are not found by their identifier, or it is there twice",
+                  "the second reference points to the properties within the same signature");
+            return;
+        }
+        const std::vector<std::string> transforms = transforms_of(reference);
+        if (transforms.size() > 1 ||
+            (transforms.size() == 1 && allowed(k_canonicalisations, transforms[0]) == nullptr)) {
+            error("GC-SIGN-0113", "transforms of the signed properties other than canonical XML",
+                  "every other transform could leave out a part of them");
+        }
+        check_digest(reference);
+    }
+
+    [[nodiscard]] const xmlNode* signature_properties() const {
+        return only_child(properties_, k_xades_namespace, "SignedSignatureProperties");
+    }
+
+    [[nodiscard]] std::string claimed_time() const {
+        const xmlNode* time = only_child(signature_properties(), k_xades_namespace, "SigningTime");
+        return time == nullptr ? std::string() : text_of(time);
+    }
+
+    /// The certificates of KeyInfo, the signer's first: with XAdES the one whose digest is among the signed properties.
+    void find_certificate() {
+        for (const xmlNode* key_info : children_of(signature_, k_dsig_namespace, "KeyInfo")) {
+            for (const xmlNode* data : children_of(key_info, k_dsig_namespace, "X509Data")) {
+                for (const xmlNode* element : children_of(data, k_dsig_namespace, "X509Certificate")) {
+                    const std::optional<Bytes> der = encoding::bytes_from_base64(text_of(element));
+                    CertificateHandle certificate = der ? certificate_from_der(*der) : CertificateHandle();
+                    if (certificate != nullptr) {
+                        encoded_.push_back(*der);
+                        chain_.push_back(std::move(certificate));
+                    }
+                }
+            }
+        }
+        if (chain_.empty()) {
+            error("GC-SIGN-0115", "no certificate of the signer in it",
+                  "the signature brings the certificate of the signer (KeyInfo/X509Data/X509Certificate)");
+            return;
+        }
+        if (properties_ != nullptr) {
+            choose_by_digest();
+        }
+    }
+
+    void choose_by_digest() {
+        const xmlNode* all = only_child(signature_properties(), k_xades_namespace, "SigningCertificateV2");
+        const bool newer = all != nullptr;
+        if (!newer) {
+            all = only_child(signature_properties(), k_xades_namespace, "SigningCertificate");
+        }
+        const std::vector<xmlNode*> certificates = children_of(all, k_xades_namespace, "Cert");
+        const xmlNode* stated =
+            certificates.empty() ? nullptr : only_child(certificates.front(), k_xades_namespace, "CertDigest");
+        const char* name =
+            allowed(k_digests, attribute(only_child(stated, k_dsig_namespace, "DigestMethod"), "Algorithm"));
+        const std::optional<Bytes> value =
+            encoding::bytes_from_base64(text_of(only_child(stated, k_dsig_namespace, "DigestValue")));
+        for (std::size_t i = 0; name != nullptr && value && i < chain_.size(); ++i) {
+            if (encoding::sha2_bytes(name, encoded_[i]) == *value) {
+                std::swap(chain_[0], chain_[i]);
+                report_.format = newer && !claimed_time().empty() ? "XAdES-BASELINE-B" : "XAdES";
+                return;
+            }
+        }
+        error("GC-SIGN-0116", "the certificate is not the one that the signed properties name",
+              "the signer states the digest of the certificate with SHA-256, SHA-384 or SHA-512");
+    }
+
+    void check_values() {
+        start_xmlsec();
+        if (properties_ != nullptr) {
+            xmlAttr* id = xmlHasProp(properties_, reinterpret_cast<const xmlChar*>("Id"));
+            const std::string value = attribute(properties_, "Id");
+            xmlAddID(nullptr, signature_->doc, reinterpret_cast<const xmlChar*>(value.c_str()), id);
+        }
+        const std::unique_ptr<xmlSecDSigCtx, ContextFree> context(xmlSecDSigCtxCreate(nullptr));
+        if (context == nullptr) {
+            throw std::runtime_error("xmlsec has no memory");
+        }
+        // The key is the certificate's, which is then checked against the trust store; KeyInfo has no say.
+        context->signKey = key_of(chain_.front().get());
+        context->enabledReferenceUris =
+            static_cast<xmlSecTransformUriType>(xmlSecTransformUriTypeEmpty | xmlSecTransformUriTypeSameDocument);
+        const bool done = context->signKey != nullptr && xmlSecDSigCtxVerify(context.get(), signature_) >= 0;
+        if (!done || context->status != xmlSecDSigStatusSucceeded) {
+            const bool changed = done && a_reference_differs(*context);
+            error(changed ? "GC-SIGN-0117" : "GC-SIGN-0118",
+                  changed ? "the document or the signed properties were changed after signing (the digest differs)"
+                          : "the value of the signature does not fit the certificate",
+                  "what was signed is unchanged");
+        }
+        ERR_clear_error();
+        xmlResetLastError();
+    }
+
+    static bool a_reference_differs(xmlSecDSigCtx& context) {
+        const xmlSecSize count = xmlSecPtrListGetSize(&context.signedInfoReferences);
+        for (xmlSecSize i = 0; i < count; ++i) {
+            const auto* reference =
+                static_cast<xmlSecDSigReferenceCtxPtr>(xmlSecPtrListGetItem(&context.signedInfoReferences, i));
+            if (reference != nullptr && reference->status == xmlSecDSigStatusInvalid) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    /// \return owned by who asks; nullptr for a kind of key that xmlsec does not take
+    static xmlSecKeyPtr key_of(X509* certificate) {
+        EVP_PKEY* key = X509_get_pubkey(certificate);
+        xmlSecKeyDataPtr data = key == nullptr ? nullptr : xmlSecOpenSSLEvpKeyAdopt(key);
+        if (data == nullptr) {
+            EVP_PKEY_free(key);
+            return nullptr;
+        }
+        xmlSecKeyPtr whole = xmlSecKeyCreate();
+        if (whole == nullptr || xmlSecKeySetValue(whole, data) < 0) {
+            xmlSecKeyDataDestroy(data);
+            if (whole != nullptr) {
+                xmlSecKeyDestroy(whole);
+            }
+            return nullptr;
+        }
+        return whole;
+    }
+
+    void say_what_is_covered() {
+        report_.covers.emplace_back("the whole document without this signature");
+        if (properties_ != nullptr) {
+            report_.covers.emplace_back("the signed properties: time of signing and certificate of the signer");
+        }
+        if (has_comments(xmlDocGetRootElement(signature_->doc))) {
+            report_.not_covered.emplace_back("comments of the XML");
+        }
+        for (const xmlNode* object : children_of(signature_, k_dsig_namespace, "Object")) {
+            const xmlNode* qualifying = only_child(object, k_xades_namespace, "QualifyingProperties");
+            if (qualifying == nullptr || qualifying != properties_parent()) {
+                report_.not_covered.emplace_back("an object within the signature");
+            } else if (only_child(qualifying, k_xades_namespace, "UnsignedProperties") != nullptr) {
+                report_.not_covered.emplace_back("unsigned properties within the signature, such as time stamps");
+            }
+        }
+    }
+
+    [[nodiscard]] const xmlNode* properties_parent() const {
+        return properties_ == nullptr ? nullptr : properties_->parent;
+    }
+
+    xmlNode* signature_;
+    const std::vector<xmlNode*>& elements_;
+    std::string where_;
+    SignatureReport report_;
+    xmlNode* properties_ = nullptr;
+    std::vector<CertificateHandle> chain_;
+    std::vector<Bytes> encoded_;  ///< DER of the certificates, as they stand in the document
+};
+
+}  // namespace
+
+std::vector<SignatureReport> verify_xml(const Bytes& xml, const std::string& name, const std::vector<Bytes>& trusted,
+                                        std::int64_t now) {
+    const XmlDocument document = parse_xml(xml, name);
+    xmlNode* root = xmlDocGetRootElement(document.get());
+    const std::vector<xmlNode*> elements = all_elements(root);
+    std::vector<xmlNode*> proper = children_of(root, k_dsig_namespace, "Signature");
+    std::vector<SignatureReport> reports;
+    for (xmlNode* signature : proper) {
+        const std::string where = name + ", signature " + std::to_string(reports.size() + 1);
+        reports.push_back(XmlSignatureCheck(signature, elements, where).run(trusted, now));
+    }
+    for (xmlNode* element : elements) {
+        const auto holds = [&](const xmlNode* signature) { return is_inside(element, signature); };
+        if (is_element(element, k_dsig_namespace, "Signature") && std::none_of(proper.begin(), proper.end(), holds)) {
+            SignatureReport report;
+            report.format = "XMLDSig";
+            add_error(report, "GC-SIGN-0119", name, "a signature that is not a child of the root element",
+                      "the signature of a digital certificate stands at the end of its root element", k_ask_again);
+            reports.push_back(std::move(report));
+        }
+    }
+    return reports;
+}
+
+}  // namespace gumcert::signing

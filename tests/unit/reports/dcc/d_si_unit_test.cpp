@@ -1,0 +1,64 @@
+#include "reports/dcc/d_si_unit.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gum/quantity/unit.h"
+
+namespace gumcert::reports {
+namespace {
+
+TEST(DSiUnit, ReadsUnitsOfTheNotation) {
+    const std::vector<std::pair<std::string, std::string>> units = {
+        {"\\metre", "m"},
+        {"\\micro\\metre", "um"},
+        {"\\kilogram", "kg"},
+        {"\\kilo\\gram", "kg"},
+        {"\\one", "1"},
+        {"\\percent", "percent"},
+        {"\\degreecelsius", "degC"},
+        {"\\metre\\per\\second", "m s-1"},
+        {"\\metre\\second\\tothe{-1}", "m s-1"},
+        {"\\metre\\per\\second\\tothe{2}", "m s-2"},
+        {"\\kilo\\gram\\metre\\tothe{-3}", "kg m-3"},
+        {"\\one\\per\\kelvin", "K-1"},
+        {"\\arcsecond", "arcsec"},
+        {"\\nano\\metre\\per\\kelvin", "nm K-1"},
+    };
+    for (const auto& [d_si, udunits] : units) {
+        EXPECT_EQ(unit_from_d_si(d_si), udunits) << d_si;
+        EXPECT_NO_THROW((void)gum::Unit::parse(udunits)) << udunits;
+    }
+}
+
+TEST(DSiUnit, SaysNothingOfWhatItDoesNotKnow) {
+    for (const char* text : {"", "|inch", "metre", "\\", "\\furlong", "\\micro", "\\metre\\per", "\\per\\per\\second",
+                             "\\metre\\tothe{0.5}", "\\metre\\tothe{2", "\\metre\\tothe{}", "\\metre ", "\\metre2",
+                             "\\Metre", "\\metre\\tothe{1000}"}) {
+        EXPECT_FALSE(unit_from_d_si(text)) << text;
+    }
+}
+
+TEST(DSiUnit, IsTheInverseOfTheUnitsThatWeWrite) {
+    for (const std::string unit :
+         {"um",  "mm", "nm", "arcsec", "deg",    "rad",    "degC",       "K",      "V",   "mV",  "ohm",     "uohm",
+          "A",   "mA", "kg", "g",      "mg",     "Pa",     "kPa",        "bar",    "N",   "J",   "percent", "ppm",
+          "1",   "s",  "ms", "min",    "h",      "d",      "Hz",         "MHz",    "W",   "mol", "cd",      "lx",
+          "dB",  "L",  "t",  "eV",     "nm K-1", "kg m-3", "J kg-1 K-1", "um m-1", "K-1", "Gy",  "Sv",      "Bq",
+          "kat", "lm", "T",  "H",      "F",      "S",      "Wb",         "C"}) {
+        const auto d_si = gum::unit_in_d_si(unit);
+        ASSERT_TRUE(d_si) << unit;
+        const auto back = unit_from_d_si(*d_si);
+        ASSERT_TRUE(back) << *d_si;
+        const gum::Unit a = gum::Unit::parse(unit);
+        const gum::Unit b = gum::Unit::parse(*back);
+        EXPECT_EQ(a.dimension(), b.dimension()) << unit << " " << *back;
+        EXPECT_EQ(a.to_si(3.0), b.to_si(3.0)) << unit << " " << *back;
+    }
+}
+
+}  // namespace
+}  // namespace gumcert::reports

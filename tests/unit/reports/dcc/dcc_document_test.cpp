@@ -1,0 +1,356 @@
+#include "reports/dcc/dcc_document.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "reports/dcc/dcc_element.h"
+#include "reports/dcc/dcc_reader.h"
+#include "tests/unit/reports/dcc/dcc_samples.h"
+
+namespace gumcert::reports {
+namespace {
+
+using test::certified_budget;
+using test::certified_rotary_table;
+using test::dcc_assets;
+
+/// Renders and holds the document against its schema (where that is there) and against the business rules.
+std::string checked(const EvaluationRecord& record, const std::vector<std::string>& languages = {"en"}) {
+    std::string document = render_dcc(record, dcc_assets(languages));
+    for (const gum::Diagnostic& d : check_dcc(document, "document")) {
+        EXPECT_NE(d.severity, gum::Severity::error) << message(d);
+    }
+    if (std::filesystem::exists(test::shared_dcc())) {
+        EXPECT_EQ(test::schema_errors(document), "");
+    }
+    return document;
+}
+
+std::vector<ImportedQuantity> results_of(const std::string& document) {
+    std::vector<ImportedQuantity> all = read_dcc(document, "document").quantities;
+    std::erase_if(all, [](const ImportedQuantity& q) { return q.role != "result"; });
+    return all;
+}
+
+/// Quantities whose refType holds a name.
+std::vector<ImportedQuantity> named(const std::string& document, const std::string& name) {
+    std::vector<ImportedQuantity> found = read_dcc(document, "document").quantities;
+    std::erase_if(found, [&](const ImportedQuantity& q) {
+        const std::vector<std::string> names = xml_list(q.ref_type);
+        return std::find(names.begin(), names.end(), name) == names.end();
+    });
+    return found;
+}
+
+/// Texts of all elements of a name, in the order of the document.
+std::vector<std::string> texts(const std::string& document, const std::string& element) {
+    std::vector<std::string> found;
+    for_each_element(read_dcc_root(document, "document"), [&](const XmlElement& e) {
+        if (e.name == element) {
+            found.push_back(e.trimmed());
+        }
+    });
+    return found;
+}
+
+bool contains(const std::vector<std::string>& texts, const std::string& text) {
+    return std::find(texts.begin(), texts.end(), text) != texts.end();
+}
+
+std::string ascii(const std::string& printed) {
+    return printed.starts_with("\u2212") ? "-" + printed.substr(std::string("\u2212").size()) : printed;
+}
+
+TEST(DccDocument, OfARecordWithoutCertificateDataIsASpecimen) {
+    const std::string budget = checked(test::sample_budget_record());
+    EXPECT_EQ(texts(budget, "dcc:uniqueIdentifier"), std::vector<std::string>{"not stated (specimen)"});
+    EXPECT_EQ(texts(budget, "dcc:beginPerformanceDate"), std::vector<std::string>{"0001-01-01"});
+    EXPECT_NE(budget.find("refType=\"gumcert_specimen\""), std::string::npos);
+    EXPECT_EQ(budget.find("basic_isInCMC"), std::string::npos);
+    const auto l = named(budget, "gumcert_l");
+    ASSERT_EQ(l.size(), 1U);
+    EXPECT_EQ(l[0].value, "50000838");
+    EXPECT_EQ(l[0].U, "93");
+    EXPECT_EQ(l[0].k, "2.92");
+    EXPECT_EQ(l[0].p, "0.99");
+    EXPECT_EQ(l[0].unit, "nm");
+    (void)checked(test::sample_record());
+    (void)checked(test::sample_two_results_record());
+}
+
+TEST(DccDocument, HoldsEveryCertifiedNumberAsItIsPrinted) {
+    for (const EvaluationRecord& record : {certified_budget(), certified_rotary_table()}) {
+        const std::string document = checked(record, {});
+        std::vector<std::pair<std::string, std::string>> expected;
+        for (const certificate::CertifiedTable& table : record.certificate->tables) {
+            for (const certificate::CertifiedColumn& column : table.columns) {
+                for (const certificate::CertifiedValue& v : column.values) {
+                    expected.emplace_back(ascii(v.printed_value), v.printed_U);
+                }
+            }
+        }
+        std::vector<std::pair<std::string, std::string>> found;
+        for (const ImportedQuantity& q : results_of(document)) {
+            if (q.ref_type.starts_with("basic_m")) {  // measuredValue, measurementError
+                found.emplace_back(q.value, q.U);
+            }
+        }
+        EXPECT_EQ(found, expected);
+    }
+}
+
+TEST(DccDocument, SaysWhatTheLaboratoryStates) {
+    const std::string document = checked(certified_budget(), {});
+    EXPECT_EQ(texts(document, "dcc:uniqueIdentifier"), std::vector<std::string>{"EX-2026-0042"});
+    EXPECT_EQ(texts(document, "dcc:usedLangCodeISO639_1"), (std::vector<std::string>{"en", "de"}));
+    EXPECT_EQ(texts(document, "dcc:mandatoryLangCodeISO639_1"), std::vector<std::string>{"en"});
+    EXPECT_EQ(texts(document, "dcc:issueDate"), std::vector<std::string>{"2026-11-21"});
+    EXPECT_EQ(texts(document, "dcc:receiptDate"), std::vector<std::string>{"2026-11-16"});
+    EXPECT_EQ(texts(document, "dcc:role"), (std::vector<std::string>{"approval", "review", "calibration"}));
+    EXPECT_EQ(texts(document, "dcc:inValidityRange"), std::vector<std::string>{"true"});
+    EXPECT_EQ(texts(document, "dcc:model"), std::vector<std::string>{"EW 50"});
+    const std::vector<std::string> contents = texts(document, "dcc:content");
+    for (const char* text :
+         {"Beispiel-Kalibrierlaboratorium", "Example Customer", "Lufttemperatur", "Laserinterferometer"}) {
+        EXPECT_TRUE(contains(contents, text)) << text;
+    }
+    EXPECT_TRUE(contains(texts(document, "dcc:value"), std::string(64, 'a')));  // digest of the standard's certificate
+    const auto minimum = named(document, "basic_temperatureMin");
+    ASSERT_EQ(minimum.size(), 1U);
+    EXPECT_EQ(minimum[0].value, "19.8");
+    EXPECT_EQ(minimum[0].unit, "degC");
+    EXPECT_EQ(named(document, "gumcert_expandedUncertaintyOfSensor").at(0).unit, "K");
+    // Without the second language only the first one is there.
+    const std::string german = checked(certified_budget(), {"de"});
+    EXPECT_EQ(german.find("lang="), std::string::npos);
+    EXPECT_TRUE(contains(texts(german, "dcc:content"), "Lufttemperatur"));
+    EXPECT_FALSE(contains(texts(german, "dcc:content"), "Air temperature"));
+}
+
+TEST(DccDocument, MapsVerdictsToTheWordsOfTheFormat) {
+    EvaluationRecord record = certified_rotary_table();
+    certificate::CertifiedTable& motions = record.certificate->tables[1];
+    ASSERT_EQ(motions.id, "error_motions");
+    const std::array verdicts = {"pass",         "fail",          "conditional_pass", "conditional_fail",
+                                 "undetermined", "not_applicable"};
+    std::vector<certificate::CertifiedValue>& values = motions.columns[3].values;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (i < verdicts.size()) {
+            values[i].verdict = test::sample_verdict("axial", verdicts.at(i));
+        }
+    }
+    values[1].scope_entry.clear();
+    values[2].external = true;
+    values[3].raised = true;
+    const std::string document = checked(record, {});
+    std::string words = "pass fail conditionalPass conditionalFail";
+    for (std::size_t i = 4; i < values.size(); ++i) {
+        words += " noPass";
+    }
+    EXPECT_TRUE(contains(texts(document, "dcc:conformityXMLList"), words));
+    std::string exact = "pass fail conditional_pass conditional_fail undetermined not_applicable";
+    for (std::size_t i = 6; i < values.size(); ++i) {
+        exact += " none";
+    }
+    EXPECT_TRUE(contains(texts(document, "dcc:charsXMLList"), exact));
+    std::string in_scope = "true false false";
+    for (std::size_t i = 3; i < values.size(); ++i) {
+        in_scope += " true";
+    }
+    EXPECT_TRUE(contains(texts(document, "dcc:validXMLList"), in_scope));
+    const auto limits = named(document, "basic_toleranceLimitUpper");
+    ASSERT_GE(limits.size(), 6U);
+    EXPECT_TRUE(std::any_of(limits.begin(), limits.end(), [](const auto& q) { return q.value == "10.0"; }));
+    // Single values have single words.
+    EXPECT_TRUE(contains(texts(document, "dcc:conformity"), "pass"));
+}
+
+TEST(DccDocument, WritesMonteCarloIntervals) {
+    EvaluationRecord record = certified_budget();
+    certificate::CertifiedValue& v = record.certificate->tables[0].columns[0].values[0];
+    v.interval = {50000745.0, 50000932.0};
+    v.printed_low = "50000745";
+    v.printed_high = "50000932";
+    v.printed_U.clear();
+    v.printed_k.clear();
+    v.u = 35.6;
+    const auto l = named(checked(record), "gumcert_l");
+    ASSERT_EQ(l.size(), 1U);
+    EXPECT_EQ(l[0].kind, "coverage_interval");
+    EXPECT_EQ(l[0].low, "50000745");
+    EXPECT_EQ(l[0].high, "50000932");
+    EXPECT_EQ(l[0].u, "36");
+    EXPECT_EQ(l[0].p, "0.99");
+}
+
+TEST(DccDocument, KeepsColumnsApartThatStateDifferentThings) {
+    EvaluationRecord record = certified_rotary_table();
+    std::vector<certificate::CertifiedValue>& values = record.certificate->tables[1].columns[0].values;
+    values[0].printed_U.clear();  // by definition without uncertainty
+    values[0].U.reset();
+    values[1].interval = {0.1, 1.2};
+    values[1].printed_low = "0.10";
+    values[1].printed_high = "1.20";
+    const auto exa = named(checked(record), "gumcert_EXA");
+    ASSERT_EQ(exa.size(), 2 * values.size());  // once with U, once with intervals
+    EXPECT_EQ(exa[0].kind, "none");
+    EXPECT_EQ(exa[1].kind, "none");
+    EXPECT_EQ(exa[2].kind, "expanded");
+    EXPECT_EQ(exa[values.size() + 1].kind, "coverage_interval");
+    EXPECT_EQ(exa[values.size() + 1].low, "0.10");
+    EXPECT_EQ(exa[values.size() + 2].kind, "none");
+}
+
+TEST(DccDocument, StatesAFactorBelowOneInWords) {
+    EvaluationRecord record = certified_budget();
+    certificate::CertifiedValue& v = record.certificate->tables[0].columns[0].values[0];
+    v.printed_k = "0.95";
+    const std::string document = checked(record);
+    const auto l = named(document, "gumcert_l");
+    ASSERT_EQ(l.size(), 1U);
+    EXPECT_EQ(l[0].kind, "standard");
+    EXPECT_NE(document.find("Expanded uncertainties U: 93; coverage factors k: 0.95."), std::string::npos);
+}
+
+TEST(DccDocument, HoldsCovariancesUnrounded) {
+    const std::string document = checked(test::sample_two_results_record());
+    const std::vector<std::string> values = texts(document, "si:valueXMLList");
+    ASSERT_EQ(values.size(), 5U);
+    EXPECT_EQ(values[0], "127.73 219.85");
+    EXPECT_EQ(values[1], "0.005041");
+    EXPECT_EQ(values[2], "-0.01234");
+    EXPECT_EQ(values[3], "-0.01234");
+    EXPECT_EQ(values[4], "0.08738");
+    EXPECT_TRUE(contains(texts(document, "si:unitXMLList"), "\\ohm\\tothe{2}"));
+    EXPECT_EQ(texts(document, "si:coverageFactorXMLList"), std::vector<std::string>{"2.49"});
+    EXPECT_EQ(texts(document, "si:coverageProbabilityXMLList"), std::vector<std::string>{"0.9545"});
+}
+
+TEST(DccDocument, AttachesALargeCovarianceAsTable) {
+    EvaluationRecord record = test::sample_budget_record();
+    ResultCovariance c;
+    constexpr std::size_t k_quantities = 51;
+    for (std::size_t i = 0; i < k_quantities; ++i) {
+        c.names.push_back("l" + std::to_string(i));
+        c.units.emplace_back("nm");
+        c.matrix.emplace_back(k_quantities, 0.5);
+    }
+    record.covariance = c;
+    const std::string document = checked(record);
+    EXPECT_EQ(texts(document, "dcc:fileName"), std::vector<std::string>{"covariance.csv"});
+    EXPECT_EQ(texts(document, "dcc:dataBase64").at(0).substr(0, 16), "cmVzdWx0LHVuaXQs");  // "result,unit,"
+    // Too large for the record itself: the file beside it is named.
+    record.covariance->matrix.clear();
+    record.covariance->file = "covariance.csv";
+    EXPECT_NE(checked(record).find("is in the file covariance.csv beside"), std::string::npos);
+}
+
+TEST(DccDocument, RefersToTheCertificateThatItAmends) {
+    EvaluationRecord record = certified_budget();
+    certificate::Amendment amendment;
+    amendment.kind = "replaced";
+    amendment.number = "EX-2026-0041";
+    amendment.sha256 = std::string(64, 'c');
+    amendment.reason = "the serial number was wrong";
+    amendment.changes = {"serial number"};
+    record.certificate->data.amendment = amendment;
+    std::string document = checked(record);
+    EXPECT_EQ(texts(document, "dcc:typeOfChange"), std::vector<std::string>{"substituted"});
+    EXPECT_EQ(texts(document, "dcc:replacedUniqueIdentifier"), std::vector<std::string>{"EX-2026-0041"});
+    EXPECT_EQ(texts(document, "dcc:referralID").front(), "EX-2026-0041");
+    EXPECT_TRUE(contains(texts(document, "dcc:value"), std::string(64, 'c')));
+    record.certificate->data.amendment->kind = "amended";
+    record.certificate->data.amendment->sha256.clear();
+    document = checked(record);
+    EXPECT_EQ(texts(document, "dcc:typeOfChange"), std::vector<std::string>{"amended"});
+    EXPECT_EQ(document.find("dcc:previousReport"), std::string::npos);
+}
+
+TEST(DccDocument, MarksADraftWithItsFindings) {
+    EvaluationRecord record = certified_budget();
+    record.certificate->blocked = true;
+    record.certificate->findings = {{.id = "R01-e",
+                                     .clause = "ISO/IEC 17025:2017, 7.8.2.1 e",
+                                     .severity = certificate::FindingSeverity::critical,
+                                     .where = "/customer",
+                                     .what = "no customer",
+                                     .action = "State it."}};
+    const std::string document = checked(record);
+    EXPECT_NE(document.find("refType=\"gumcert_draft\""), std::string::npos);
+    EXPECT_NE(document.find("no customer"), std::string::npos);
+}
+
+TEST(DccDocument, DefinesUnitsThatAreNotInDSi) {
+    EvaluationRecord record = certified_budget();
+    record.certificate->tables[0].columns[0].unit = "inch";
+    const std::string document = checked(record);
+    EXPECT_TRUE(contains(texts(document, "si:unit"), "|inch"));
+    EXPECT_EQ(texts(document, "dcc:nonSIDefinition").at(0), "1 inch = 0.0254 m");
+}
+
+TEST(DccDocument, ListsPointsOfABudget) {
+    EvaluationRecord record = test::sample_budget_record();
+    Result second = record.results[0];
+    record.results[0].point = "low end";
+    second.name = "l (high)";
+    second.point = "high";
+    second.coverage_probability = 0.95;
+    second.k.reset();
+    second.U.reset();
+    second.coverage = "none";
+    second.printed.U = "";
+    record.results.push_back(second);
+    const std::string document = checked(record);
+    EXPECT_TRUE(contains(texts(document, "dcc:charsXMLList"), "low_end high"));
+    const auto l = named(document, "gumcert_l");
+    ASSERT_EQ(l.size(), 4U);  // once with U, once with u
+    EXPECT_EQ(l[0].p, "0.99");
+    EXPECT_EQ(l[3].u, "32");
+}
+
+TEST(DccDocument, StaysTheSameTreeWithHostileTexts) {
+    EvaluationRecord plain = certified_budget();
+    const auto tree = [](const EvaluationRecord& record) {
+        std::string names;
+        for_each_element(read_dcc_root(checked(record), "document"),
+                         [&](const XmlElement& e) { names += e.name + "\n"; });
+        return names;
+    };
+    const std::string expected = tree(plain);
+    for (const std::string hostile :
+         {"</dcc:content><script>alert(1)</script>", "<!DOCTYPE a [<!ENTITY x SYSTEM 'file:///etc/passwd'>]>&x;", "]]>",
+          "{{name}} ${name} url(file:///etc/passwd)", "\u202Eevil\u202C", "\"'><&amp;&#0;", "  two  blanks \t",
+          "a\x01\x02\xFF\xFE", "<!-- -->", "| \\metre"}) {
+        EvaluationRecord record = plain;
+        certificate::CertificateData& d = record.certificate->data;
+        record.title = hostile;
+        d.number = d.customer.order = d.item.manufacturer = d.item.type = d.item.serial_number = hostile;
+        d.item.identification = d.laboratory.code = d.laboratory.telephone = d.laboratory.email = hostile;
+        d.laboratory.name = d.customer.name = d.item.description = d.method.title = d.method.description = hostile;
+        d.laboratory.address.lines = d.customer.address.lines = {hostile, hostile};
+        d.persons.authorised_by->name = d.persons.performed_by->name = d.customer.contact = hostile;
+        d.standards[0].name = hostile;
+        d.standards[0].certificate = d.standards[0].identification = hostile;
+        d.conditions[0].quantity = d.remarks[0] = hostile;
+        d.conditions[0].sensor = d.specifications[0].document = hostile;
+        record.certificate->tables[0].columns[0].name = hostile;
+        record.job_files[0].name = hostile;
+        EXPECT_EQ(tree(record), expected) << hostile;
+    }
+}
+
+TEST(DccDocument, NeverLosesANumber) {
+    EvaluationRecord record = certified_budget();
+    record.certificate->tables[0].columns[0].values[0].printed_value = "1 234";
+    EXPECT_THROW((void)render_dcc(record, dcc_assets({"en"})), gum::NoResultError);
+}
+
+TEST(DccDocument, IsTheSameBytesEveryTime) {
+    const EvaluationRecord record = certified_rotary_table();
+    EXPECT_EQ(render_dcc(record, dcc_assets({})), render_dcc(record, dcc_assets({})));
+}
+
+}  // namespace
+}  // namespace gumcert::reports

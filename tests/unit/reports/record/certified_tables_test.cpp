@@ -1,0 +1,81 @@
+#include "reports/record/certified_tables.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/sample_budget_record.h"
+
+namespace gumcert::reports {
+namespace {
+
+using certificate::CertifiedTable;
+
+TEST(CertifiedTables, HoldABudgetWithoutPointsAsColumnsOfOneValue) {
+    const std::vector<CertifiedTable> tables = certified_tables(test::sample_two_results_record());
+    ASSERT_EQ(tables.size(), 1U);
+    EXPECT_EQ(tables[0].id, "results");
+    EXPECT_FALSE(tables[0].argument);
+    ASSERT_EQ(tables[0].columns.size(), 2U);
+    EXPECT_EQ(tables[0].columns[0].result, "R");
+    EXPECT_EQ(tables[0].columns[0].name.plain, "resistance");
+    EXPECT_EQ(tables[0].columns[0].printed_unit, "Ω");
+    const certificate::CertifiedValue& R = tables[0].columns[0].values.at(0);
+    EXPECT_EQ(R.value, 127.732);
+    EXPECT_EQ(R.printed_value, "127.73");
+    EXPECT_EQ(R.printed_U, "0.20");
+    EXPECT_EQ(R.printed_k, "2.87");
+    const certificate::CertifiedValue& X = tables[0].columns[1].values.at(0);
+    EXPECT_EQ(X.coverage, "none");
+    EXPECT_EQ(X.printed_U, "");
+    EXPECT_FALSE(X.U);
+    EXPECT_EQ(X.u, 0.2956);
+}
+
+TEST(CertifiedTables, PutResultsOfTheSamePointsIntoOneTable) {
+    EvaluationRecord record = test::sample_budget_record();
+    const Result one = record.results[0];
+    record.results.clear();
+    for (const char* point : {"a", "b", "c"}) {
+        for (const char* quantity : {"l", "d"}) {
+            if (std::string(quantity) == "l" || std::string(point) != "b") {
+                record.results.push_back(one);
+                record.results.back().quantity = quantity;
+                record.results.back().point = point;
+            }
+        }
+    }
+    const std::vector<CertifiedTable> tables = certified_tables(record);
+    ASSERT_EQ(tables.size(), 2U);  // d has no point b
+    EXPECT_EQ(tables[0].argument->printed, (std::vector<std::string>{"a", "b", "c"}));
+    EXPECT_EQ(tables[0].columns.at(0).values.size(), 3U);
+    EXPECT_EQ(tables[1].argument->printed, (std::vector<std::string>{"a", "c"}));
+    EXPECT_EQ(tables[1].columns.at(0).result, "d");
+}
+
+TEST(CertifiedTables, HoldARotaryTable) {
+    const EvaluationRecord record = test::sample_record();
+    const std::vector<CertifiedTable> tables = certified_tables(record);
+    std::vector<std::string> ids;
+    for (const CertifiedTable& table : tables) {
+        ids.push_back(table.id);
+        for (const certificate::CertifiedColumn& column : table.columns) {
+            EXPECT_EQ(column.values.size(), table.argument ? table.argument->printed.size() : 1U);
+        }
+    }
+    ASSERT_GE(ids.size(), 2U);
+    EXPECT_EQ(ids[0], "set_up");
+    EXPECT_EQ(ids[1], "error_motions");
+    const CertifiedTable& motions = tables[1];
+    EXPECT_EQ(motions.argument->name, "angle");
+    EXPECT_EQ(motions.argument->unit, "deg");
+    ASSERT_EQ(motions.columns.size(), 6U);
+    EXPECT_EQ(motions.columns[3].unit, "arcsec");
+    EXPECT_EQ(motions.columns[3].values[2].printed_value, record.rotary->errors[2].errors[3].printed.value);
+    for (const CertifiedTable& table : tables) {
+        if (table.id == "ranges") {
+            EXPECT_TRUE(table.columns.at(0).result.starts_with("range_"));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gumcert::reports
