@@ -1,10 +1,13 @@
 #include "app/evaluate_job.h"
 
 #include "app/budget_record.h"
+#include "app/certificate_inputs.h"
+#include "app/certify.h"
 #include "app/evaluate_budget.h"
 #include "app/evaluate_rotary_table.h"
-#include "app/file_digest.h"
+#include "app/read_file.h"
 #include "app/rotary_table_record.h"
+#include "encoding/sha2.h"
 #include "engine/job/budget_job.h"
 #include "engine/job/rotary_table_job.h"
 
@@ -19,14 +22,29 @@ constexpr std::size_t k_most_correlated_results = 2000;
 std::vector<reports::InputFile> digests(const std::filesystem::path& job_file, const std::vector<std::string>& names) {
     std::vector<reports::InputFile> files;
     for (const std::string& name : names) {
-        files.push_back({name, sha256(read_file(job_file.parent_path() / name))});
+        files.push_back({name, encoding::sha256(read_file(job_file.parent_path() / name))});
     }
     return files;
 }
 
+/// The profile that certificate data ask for: found before the evaluation, which may take long.
+std::optional<certificate::Profile> profile_of(const std::optional<certificate::CertificateData>& data,
+                                               const std::filesystem::path& templates) {
+    return data ? std::optional(certificate_profile(*data, templates)) : std::nullopt;
+}
+
+void make_certificate(Evaluation& evaluation, const std::optional<certificate::CertificateData>& data,
+                      const std::optional<certificate::Profile>& profile, const CapabilityInputs& inputs) {
+    if (data && profile) {
+        certify(evaluation.record, *data, *profile, inputs);
+        evaluation.blocked = evaluation.record.certificate->blocked;
+    }
+}
+
 Evaluation evaluate_budget_job(const std::filesystem::path& job_file, const std::string& covariance_file,
-                               unsigned threads, const Progress& progress) {
+                               unsigned threads, const std::filesystem::path& templates, const Progress& progress) {
     const engine::BudgetJob job = engine::read_budget_job(job_file);
+    const std::optional<certificate::Profile> profile = profile_of(job.certificate, templates);
     BudgetResult result = evaluate_budget(job, threads, progress);
     const std::size_t results = result.points.size() * result.output_names.size();
     Eigen::MatrixXd covariance;
@@ -48,17 +66,23 @@ Evaluation evaluate_budget_job(const std::filesystem::path& job_file, const std:
     evaluation.record =
         budget_record(job, result, digests(job_file, job.files), covariance, in_file ? covariance_file : "");
     evaluation.negative = result.validation_failed;
+    if (job.certificate) {
+        make_certificate(evaluation, job.certificate, profile, capability_inputs(job, result));
+    }
     return evaluation;
 }
 
 Evaluation evaluate_rotary_table_job(const std::filesystem::path& job_file, const std::string& covariance_file,
-                                     unsigned threads, const Progress& progress) {
+                                     unsigned threads, const std::filesystem::path& templates,
+                                     const Progress& progress) {
     engine::RotaryTableJob job = engine::read_rotary_table_job(job_file);
+    const std::optional<certificate::Profile> profile = profile_of(job.certificate, templates);
     const RotaryTableResult result = evaluate_rotary_table(job, threads, progress);
     Evaluation evaluation;
     evaluation.covariance_csv = covariance_csv(job, result.solution.quantities, result.propagation.covariance);
     evaluation.record = rotary_table_record(job, result, digests(job_file, job.files), covariance_file);
     evaluation.negative = result.validation_failed;
+    make_certificate(evaluation, job.certificate, profile, {});
     return evaluation;
 }
 
@@ -74,7 +98,7 @@ std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_
 }
 
 Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string& covariance_file, unsigned threads,
-                        const Progress& progress) {
+                        const std::filesystem::path& templates, const Progress& progress) {
     std::string kind;
     try {
         kind = engine::job_kind(job_file);
@@ -88,10 +112,10 @@ Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string
         throw;
     }
     if (kind == "budget") {
-        return evaluate_budget_job(job_file, covariance_file, threads, progress);
+        return evaluate_budget_job(job_file, covariance_file, threads, templates, progress);
     }
     if (kind == "rotary_table") {
-        return evaluate_rotary_table_job(job_file, covariance_file, threads, progress);
+        return evaluate_rotary_table_job(job_file, covariance_file, threads, templates, progress);
     }
     throw gum::InputError(gum::Diagnostic{"GC-INPUT-0900", job_file.string() + "#/kind",
                                           "\"" + kind + "\" cannot be evaluated by this version",

@@ -13,6 +13,7 @@ struct Evaluation {
     reports::EvaluationRecord record;
     std::string covariance_csv;  ///< contents of the file that the record names; empty: there is none
     bool negative = false;       ///< evaluated, and the answer is no: not validated where validation was demanded
+    bool blocked = false;        ///< critical findings block the issue of the certificate
 };
 
 /// The files that a record names as read, as paths beside the job.
@@ -26,8 +27,11 @@ using Progress = std::function<void(const std::string&)>;
 ///
 /// \param covariance_file  name that the covariance file will have beside the record; "" when none will be written
 /// \param threads          of Monte Carlo; 0: as many as the machine has. Results do not depend on it
-/// \throws gum::InputError, gum::NoResultError, gum::StorageError
+/// \param templates        folder with profiles/<id>.json, for certificate data that name a profile by its id
+/// \throws gum::InputError  GC-CERT-0300 for a profile that is not in the folder, and those of the readers
+/// \throws gum::NoResultError, gum::StorageError
 [[nodiscard]] Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string& covariance_file,
-                                      unsigned threads, const Progress& progress = {});
+                                      unsigned threads, const std::filesystem::path& templates,
+                                      const Progress& progress = {});
 
 }  // namespace gumcert::app

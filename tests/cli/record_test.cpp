@@ -52,7 +52,8 @@ TEST_F(Record, RunWritesTheDocumentsAndNothingElse) {
     for (const auto& [name, bytes] : contents_of(run.folder())) {
         names.insert(name);
     }
-    EXPECT_EQ(names, (std::set<std::string>{"certificate.html", "certificate.pdf", "covariance.csv", "record.json"}));
+    EXPECT_EQ(names, (std::set<std::string>{"certificate.html", "certificate.pdf", "certificate.xml", "covariance.csv",
+                                            "record.json"}));
     const std::string html = bytes_of(run.folder() / "certificate.html");
     EXPECT_TRUE(html.starts_with("<!DOCTYPE html>") || html.starts_with("<!doctype html>")) << html.substr(0, 80);
     EXPECT_NE(html.find("</html>"), std::string::npos);

@@ -19,17 +19,19 @@ import json
 import math
 import pathlib
 import re
+import statistics
 import subprocess
 import sys
 import tempfile
 from decimal import Decimal, InvalidOperation
 
+SHARE = pathlib.Path(__file__).resolve().parents[2]  # holds templates/ with the profiles of certificates
 FEW_TRIALS = 1_000_000
 MANY_TRIALS = 10_000_000
 NUMERICAL_ERRORS = 5  # how many of them an exact value may be away from a Monte Carlo one
 LEAST_LRE = {"linear_fit_ols": 9.0, "nonlinear_least_squares": 8.0}  # digits that agree with certified parameters
 
-# Procedures of later issues: the key comparison, the scores and the decision rules are not jobs of kind budget.
+# Procedures of later issues: the key comparison and the scores are not jobs of kind budget.
 LATER = {
     "kcrv_pmm": "key comparison: power-moderated mean",
     "kcrv_weighted_mean": "key comparison: weighted mean with consistency test",
@@ -45,10 +47,6 @@ LATER = {
     "sigma_pt": "comparison: standard deviation for proficiency assessment",
     "performance_scores": "comparison: scores",
     "z_scores_from_mean_and_std": "comparison: z scores",
-    "conformity_probability": "decision rules: conformance probability",
-    "guard_band_rules": "decision rules: guard bands",
-    "decision_rule": "decision rules: conformance zones",
-    "global_risk": "decision rules: global risk",
 }
 
 # Expected numbers without a look-up: procedure, kind and quantity (patterns of the whole text), and why.
@@ -60,6 +58,9 @@ NOT_LOOKED_UP = (
     (r"lpu", r"y|u", r"v_without_factor_2",
      "quantity of another model than the one that the case states (see its notes)"),
     (r"anova_.*", r"F_critical", r"F_0\.975.*", "the record holds the critical value of F at 5 % only"),
+    (r"conformity_probability", r"cpk", r".*", "process capability index: not a calculation of this program"),
+    (r"decision_rule", r"limit", r"rejection_.*",
+     "the record holds no rejection limits; the verdicts show them, and the unit tests of gum/conformity look them up"),
     (r"rounding", r"rounded_u", r".*round up.*",
      "the program rounds to the nearest; a job cannot ask for rounding up"),
 )
@@ -233,8 +234,9 @@ class Program:
         job = {"schema": "gumcert/job/1", "kind": "budget", **job}
         job_file, record_file = self.folder / f"{stem}.json", self.folder / f"{stem}-record.json"
         job_file.write_text(json.dumps(job, indent=1, ensure_ascii=False), encoding="utf-8")
+        share = ["--share", SHARE] if "certificate" in job else []
         done = subprocess.run([self.program, "evaluate", job_file, "-o", record_file, "--quiet", "--json-messages",
-                               "--threads", "1"], capture_output=True, text=True, encoding="utf-8", errors="replace",
+                               "--threads", "1", *share], capture_output=True, text=True, encoding="utf-8", errors="replace",
                               check=False, timeout=550)
         messages = []
         for line in done.stderr.splitlines():
@@ -782,6 +784,103 @@ class Rounding(Lookup):
         raise Unexplained(f"the text {text} is not understood here")
 
 
+class Conformity(Lookup):
+    """A value without a model against a specification: what the certificate says of it."""
+
+    def verdict(self, statement, limits, rule, probability=None):
+        """\\param limits  lower and upper one, or None"""
+        specification = {"id": "A", "results": ["x"], "unit": "1", "rule": rule,
+                         **{key: limit for key, limit in zip(("lower", "upper"), limits) if limit is not None}}
+        job = {"coverage_probability": probability or probability_of(2), "inputs": {"x": statement},
+               "certificate": {"specifications": [specification]}}
+        record = self.record(json.dumps((statement, limits, rule), sort_keys=True), lambda: job)
+        values = [value for table in record["certificate"]["tables"] for column in table["columns"]
+                  for value in column["values"] if column["result"] == "x"]
+        if len(values) != 1 or not values[0].get("verdict"):
+            raise Unexplained("the record holds no verdict of x")
+        return values[0]["verdict"]
+
+
+class ConformanceProbability(Conformity):
+    """p_c, and the risk of an accepted value."""
+
+    def statement(self, given):
+        distribution = given.get("distribution")
+        if not isinstance(distribution, dict):
+            return {"value": given["mean"], "u": given["std"]} if "mean" in given else {
+                "value": self.data["y"], "u": self.data["u"]}
+        if distribution["type"] == "t":
+            return {"value": distribution["location"], "u": distribution["scale"], "nu": distribution["dof"]}
+        return {"limits": [distribution["lower"], distribution["upper"]],
+                "distribution": {"rectangular": "uniform"}.get(distribution["type"], distribution["type"])}
+
+    def find(self, entry):
+        given = entry.get("given", {})
+        if "distribution" in given:
+            limits = [given.get("lower"), given.get("upper")]
+        else:
+            limits = self.data.get("limits") or [self.data["lower_limit"], self.data["upper_limit"]]
+        verdict = self.verdict(self.statement(given), limits, {"id": "DR-01"})
+        kind = without_suffix(entry["kind"])
+        if kind == "conformance_probability":
+            return Found(verdict["conformance_probability"])
+        if kind in ("specific_consumer_risk", "specific_risk") and verdict["verdict"] == "pass":
+            return Found(verdict["specific_risk"])
+        raise Unexplained(f"no rule for the kind {entry['kind']} of a value that gives {verdict['verdict']}")
+
+
+class GuardBandRules(Conformity):
+    """Acceptance limits of the methods of ANSI/NCSL Z540.3, as a part of the tolerance ±1."""
+
+    METHODS = {"rss": "rds", "test95": "5", "rp10": "rp10", "dobbert": "6"}
+
+    def find(self, entry):
+        statement = {"value": 0, "U": 1 / entry["given"]["TUR"], "k": 2}
+        method = self.METHODS[entry["quantity"].partition("(")[0]]
+        verdict = self.verdict(statement, [-1, 1], {"id": "DR-09", "method": method})
+        return [Found(verdict["acceptance_upper"]), Found(-verdict["acceptance_lower"])]
+
+
+class ConformanceZones(Conformity):
+    """ISO 14253-1. The case gives u and, by its zones, the limits; it rounds the factor to 1.65."""
+
+    def find(self, entry):
+        expected = {e["quantity"]: e for e in self.case["expected"]}
+        u, g = expected["g"]["given"]["u"], expected["g"]["value"]
+        limits = [round(expected["acceptance_low"]["value"] - g, 9), round(expected["acceptance_high"]["value"] + g, 9)]
+        solved = {"id": "DR-08"}
+        rounded = {"id": "DR-08", "guard_factor": 1.65 / 2}
+        middle = {"value": sum(limits) / 2, "u": u}
+        kind, quantity = entry["kind"], entry["quantity"]
+        if kind == "decision":
+            verdicts = {self.verdict({"value": float(quantity.removeprefix("y=")), "u": u}, limits, rule)["verdict"]
+                        for rule in (solved, rounded)}
+            said = {"pass": "conformity", "fail": "nonconformity", "undetermined": "undecided"}
+            return Found(" or ".join(sorted(said[v] for v in verdicts)))
+        if kind == "guard_band_factor":
+            return Found(self.verdict(middle, limits, solved)["guard_band"] / u)
+        verdict = self.verdict(middle, limits, rounded)
+        if kind == "guard_band":
+            return Found(verdict["guard_band"])
+        side = "lower" if quantity.endswith("low") else "upper"
+        return Found(verdict[f"acceptance_{side}"])
+
+
+class GlobalRisk(Conformity):
+    """Risks of a population that is centred between the limits ±1, u a quarter of its deviation, nothing guarded."""
+
+    def find(self, entry):
+        reliability = float(re.fullmatch(r"\w+\(([\d.]+)\)", entry["quantity"]).group(1))
+        deviation = 1 / statistics.NormalDist().inv_cdf((1 + reliability) / 2)
+        rule = {"id": "DR-01", "population_reliability": reliability}
+        verdict = self.verdict({"value": 0, "u": deviation / 4}, [-1, 1], rule)
+        accept, reject = verdict["false_accept"], verdict["false_reject"]
+        kind = entry["kind"].removesuffix("_percent")
+        if kind == "conditional_false_accept":  # among the accepted: the good ones that were not rejected, and the bad
+            return Found(100 * accept / (reliability - reject + accept))
+        return Found(100 * {"false_accept": accept, "false_reject": reject}[kind])
+
+
 class UncertaintyOfStandardDeviation(Lookup):
     """s of n readings is the root of a variance that is χ² distributed: Monte Carlo of one input."""
 
@@ -1155,6 +1254,8 @@ PROCEDURES = {
     "welch_satterthwaite": WelchSatterthwaite,
     "t_quantile": Quantiles, "trapezoid_k": Quantiles, "chi2_coverage_factor": EllipsoidFactors,
     "expanded_uncertainty": ExpandedUncertainty, "rounding": Rounding, "format_result": Rounding,
+    "conformity_probability": ConformanceProbability, "guard_band_rules": GuardBandRules,
+    "decision_rule": ConformanceZones, "global_risk": GlobalRisk,
     "uncertainty_of_std": UncertaintyOfStandardDeviation, "type_b_dof": Reliability,
     "scalar_conversions": ScalarConversions, "distribution_moments": DistributionMoments,
     "numerical_tolerance": NumericalTolerance,

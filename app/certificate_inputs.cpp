@@ -1,0 +1,112 @@
+#include "app/certificate_inputs.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/budget_model.h"
+#include "app/budget_record.h"
+#include "app/read_file.h"
+#include "engine/job/certificate_statement.h"
+#include "gum/convolution.h"
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An id is the name of a file: letters, digits, '-' and '_' only, so that it cannot lead out of the folder.
+bool is_file_stem(const std::string& id) {
+    return !id.empty() && std::all_of(id.begin(), id.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    });
+}
+
+std::string known_profiles(const fs::path& folder) {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+        if (entry.path().extension() == ".json") {
+            names.push_back(entry.path().stem().string());
+        }
+    }
+    std::sort(names.begin(), names.end());
+    std::string text;
+    for (const std::string& name : names) {
+        text += (text.empty() ? "" : ", ") + name;
+    }
+    return text.empty() ? "none" : text;
+}
+
+InputValues values_of(const engine::BudgetJob& job, std::size_t input) {
+    InputValues out{.unit = job.inputs[input].unit.text(), .values = {}};
+    const auto add = [&](std::optional<std::size_t> point) {
+        out.values.push_back(job.inputs[input].unit.from_si(input_total(input_at(job, input, point)).value));
+    };
+    if (job.points.empty()) {
+        add(std::nullopt);
+    }
+    for (std::size_t p = 0; p < job.points.size(); ++p) {
+        add(p);
+    }
+    return out;
+}
+
+/// P(Y ≤ x) of an output that bounded inputs dominate, x in its unit.
+std::function<double(double)> convolution_of(const BudgetPointResult& point, Eigen::Index output,
+                                             const gum::Unit& unit) {
+    const auto dominated = gum::expand_dominated_output(*point.model, point.propagation, output);
+    if (!dominated) {
+        return {};
+    }
+    return [distribution = gum::ConvolutionDistribution(dominated->terms), centre = point.propagation.value(output),
+            unit](double x) { return distribution(unit.to_si(x) - centre); };
+}
+
+}  // namespace
+
+certificate::Profile certificate_profile(const certificate::CertificateData& data, const fs::path& templates) {
+    if (data.own_profile) {
+        return *data.own_profile;
+    }
+    const fs::path folder = templates / "profiles";
+    const fs::path file = folder / (data.profile + ".json");
+    if (!is_file_stem(data.profile) || !fs::exists(file)) {
+        throw gum::InputError(gum::Diagnostic{.code = "GC-CERT-0300",
+                                              .where = "certificate/profile",
+                                              .what = "there is no profile \"" + data.profile + "\"",
+                                              .rule = "the profiles are " + known_profiles(folder),
+                                              .action = "name one of them, or a file of your own beside the job"});
+    }
+    return engine::parse_profile(read_file(file), file.filename().string());
+}
+
+CapabilityInputs capability_inputs(const engine::BudgetJob& job, const BudgetResult& result) {
+    CapabilityInputs inputs;
+    for (std::size_t i = 0; i < job.inputs.size(); ++i) {
+        inputs.values.emplace(job.inputs[i].name, values_of(job, i));
+    }
+    if (!job.certificate || job.certificate->specifications.empty()) {
+        return inputs;
+    }
+    const std::vector<std::string> names = budget_result_names(job, result);
+    const std::size_t outputs = result.output_names.size();
+    for (std::size_t p = 0; p < result.points.size(); ++p) {
+        for (std::size_t i = 0; i < outputs; ++i) {
+            if (result.points[p].outputs[i].coverage != "convolution") {
+                continue;
+            }
+            if (auto function =
+                    convolution_of(result.points[p], static_cast<Eigen::Index>(i), result.output_units[i])) {
+                inputs.distributions.emplace(names[p * outputs + i], std::move(function));
+            }
+        }
+    }
+    return inputs;
+}
+
+}  // namespace gumcert::app

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+#include "app/certify.h"
+#include "app/evaluate_budget.h"
+#include "certificate/certificate_data.h"
+#include "certificate/profile.h"
+#include "engine/job/budget_job.h"
+
+namespace gumcert::app {
+
+/// The profile that certificate data ask for: one of their own, else templates/profiles/<id>.json.
+/// \throws gum::InputError    GC-CERT-0300 where there is none of that id, and those of engine::parse_profile
+/// \throws gum::StorageError  if the file cannot be read
+[[nodiscard]] certificate::Profile certificate_profile(const certificate::CertificateData& data,
+                                                       const std::filesystem::path& templates);
+
+/// What the evaluation of a budget knows for its certificate: values of the inputs at every point, and the distribution
+/// of results whose k comes from a convolution.
+[[nodiscard]] CapabilityInputs capability_inputs(const engine::BudgetJob& job, const BudgetResult& result);
+
+}  // namespace gumcert::app

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "certificate/certified_results.h"
+
+namespace gumcert::app {
+
+/// Knowledge of the distribution of one value, where it is neither normal nor a t-distribution.
+struct KnownDistribution {
+    std::function<double(double)> function;  ///< P(Y ≤ x), x in the unit of the column; empty: normal or t
+    std::string note;                        ///< English sentence for the verdict; "" without
+};
+
+/// Decides on conformity of one value, twice: with the unrounded numbers, and with those that are printed.
+///
+/// Where the printed U is a capability in place of a smaller U, the decision rests on that larger U: it is what the
+/// certificate states. Then the value counts as normally or t-distributed. A value that no U can be stated for, a rule
+/// that cannot be applied and a specification in a unit of another kind give "not_applicable" with a note.
+[[nodiscard]] certificate::Verdict verdict_of(const certificate::AgreedSpecification& specification,
+                                              const certificate::CertifiedColumn& column,
+                                              const certificate::CertifiedValue& value, const KnownDistribution& known);
+
+}  // namespace gumcert::app

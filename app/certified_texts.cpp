@@ -1,0 +1,130 @@
+#include "app/certified_texts.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+
+namespace gumcert::app {
+
+namespace {
+
+using certificate::CertifiedColumn;
+using certificate::CertifiedTable;
+using certificate::CertifiedValue;
+using reports::Printed;
+
+/// Finds values in the tables by the names of the record.
+class Tables {
+public:
+    explicit Tables(const std::vector<CertifiedTable>& tables) : tables_(tables) {}
+
+    /// \param point  name of the point of a table of points; "" = the only value
+    [[nodiscard]] const CertifiedValue* find(const std::string& table, const std::string& result,
+                                             const std::string& point = "") const {
+        for (const CertifiedTable& t : tables_) {
+            const CertifiedColumn* c = t.id == table ? column(t, result) : nullptr;
+            if (c == nullptr || t.argument.has_value() == point.empty()) {
+                continue;
+            }
+            if (point.empty()) {
+                return &c->values.front();
+            }
+            const auto& names = t.argument->printed;
+            const auto at = std::find(names.begin(), names.end(), point);
+            if (at != names.end()) {
+                return &c->values[static_cast<std::size_t>(at - names.begin())];
+            }
+        }
+        return nullptr;
+    }
+    [[nodiscard]] const CertifiedValue* at_row(const std::string& table, const std::string& result,
+                                               std::size_t row) const {
+        for (const CertifiedTable& t : tables_) {
+            const CertifiedColumn* c = t.id == table ? column(t, result) : nullptr;
+            if (c != nullptr && row < c->values.size()) {
+                return &c->values[row];
+            }
+        }
+        return nullptr;
+    }
+
+private:
+    const std::vector<CertifiedTable>& tables_;
+
+    static const CertifiedColumn* column(const CertifiedTable& table, const std::string& result) {
+        const auto found = std::find_if(table.columns.begin(), table.columns.end(),
+                                        [&](const CertifiedColumn& c) { return c.result == result; });
+        return found == table.columns.end() ? nullptr : &*found;
+    }
+};
+
+void take(Printed& text, const CertifiedValue* from) {
+    if (from != nullptr) {
+        text.value = from->printed_value;
+        text.U = from->printed_U;
+    }
+}
+
+/// The same number with the other sign, for the set-up as seen from the fixture.
+std::string negated(const std::string& printed) {
+    if (printed.find_first_of("123456789") == std::string::npos) {
+        return printed;
+    }
+    return printed.starts_with('-') ? printed.substr(1) : "-" + printed;
+}
+
+/// O_y → coordinate 1 of the offsets.
+void take_set_up(reports::RotaryTable& rotary, const std::string& name, const CertifiedValue* from) {
+    if (from == nullptr || name.size() != 3 || name[1] != '_' || name[2] < 'x' || name[2] > 'z') {
+        return;
+    }
+    const auto coordinate = static_cast<std::size_t>(name[2] - 'x');
+    const bool offset = name[0] == 'O';
+    take((offset ? rotary.set_up.printed_O : rotary.set_up.printed_S)[coordinate], from);
+    Printed& seen = (offset ? rotary.axis_in_fixture.printed_O : rotary.axis_in_fixture.printed_S)[coordinate];
+    seen.value = negated(from->printed_value);
+    seen.U = from->printed_U;
+}
+
+void print_rotary(reports::RotaryTable& rotary, const Tables& tables) {
+    for (std::size_t row = 0; row < rotary.errors.size(); ++row) {
+        for (std::size_t i = 0; i < rotary.error_names.size(); ++i) {
+            take(rotary.errors[row].errors[i].printed, tables.at_row("error_motions", rotary.error_names[i], row));
+        }
+    }
+    for (reports::Reversal& reversal : rotary.reversal) {
+        take(reversal.value.printed, tables.find("reversal", "reversal_" + reversal.name));
+    }
+    for (reports::RangeRow& range : rotary.ranges) {
+        take(range.printed, tables.find("ranges", "range_" + range.name));
+    }
+    for (reports::TableParameter& parameter : rotary.location_errors) {
+        take(parameter.printed, tables.find("location_errors", parameter.name));
+    }
+    if (rotary.iso230_2) {
+        for (reports::TableParameter& parameter : rotary.iso230_2->parameters) {
+            take(parameter.printed, tables.find("positioning", parameter.name));
+        }
+    }
+}
+
+}  // namespace
+
+void print_as_certified(reports::EvaluationRecord& record, const std::vector<CertifiedTable>& all) {
+    const Tables tables(all);
+    const char* const table = record.rotary ? "set_up" : "results";
+    for (reports::Result& result : record.results) {
+        const CertifiedValue* from =
+            tables.find(table, result.quantity.empty() ? result.name : result.quantity, result.point);
+        take(result.printed, from);
+        if (record.rotary) {
+            take_set_up(*record.rotary, result.name, from);
+        }
+    }
+    if (record.rotary) {
+        print_rotary(*record.rotary, tables);
+    }
+}
+
+}  // namespace gumcert::app

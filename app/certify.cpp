@@ -1,0 +1,380 @@
+#include "app/certify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "app/certified_conformity.h"
+#include "app/certified_scope.h"
+#include "app/certified_texts.h"
+#include "app/record_parts.h"
+#include "certificate/gates.h"
+#include "certificate/result_names.h"
+#include "certificate/statement_of_uncertainty.h"
+#include "gum/coverage.h"
+#include "gum/rounding.h"
+#include "reports/record/certified_tables.h"
+
+namespace gumcert::app {
+
+namespace {
+
+using certificate::CertificateData;
+using certificate::CertifiedColumn;
+using certificate::CertifiedTable;
+using certificate::CertifiedValue;
+using certificate::Finding;
+using certificate::PrintRule;
+using certificate::Profile;
+using reports::EvaluationRecord;
+using reports::Result;
+
+constexpr double k_about_95_percent = 0.01;  // 95 % and 95.45 % are the same statement
+
+/// ν of k = t_p(ν), where a record holds k and not ν: the ranges of a rotary table. None where k is that of the normal
+/// distribution.
+std::optional<double> degrees_of_freedom_of(double k, double p) {
+    constexpr double k_most = 1e6;  // beyond, k does not show ν
+    if (!(k > gum::coverage_factor(p, k_most))) {
+        return std::nullopt;
+    }
+    double low = 0.5;
+    double high = k_most;
+    for (int i = 0; i < 100 && high - low > 1e-9 * low; ++i) {
+        const double middle = std::sqrt(low * high);
+        (gum::coverage_factor(p, middle) > k ? low : high) = middle;
+    }
+    return std::sqrt(low * high);
+}
+
+/// The result of a budget that a value stands for, or the set-up of a rotary table; none for its other tables.
+const Result* result_of(const EvaluationRecord& record, const CertifiedTable& table, const std::string& name,
+                        std::size_t row) {
+    if (table.id != "results" && table.id != "set_up") {
+        return nullptr;
+    }
+    const std::string point =
+        table.argument && row < table.argument->printed.size() ? table.argument->printed[row] : "";
+    const auto found = std::find_if(record.results.begin(), record.results.end(), [&](const Result& r) {
+        return (r.quantity.empty() ? r.name : r.quantity) == name && r.point == point;
+    });
+    return found == record.results.end() ? nullptr : &*found;
+}
+
+/// Rounding that the job itself asks for.
+bool job_rounds_upwards(const EvaluationRecord& record) {
+    const nlohmann::json options = nlohmann::json::parse(record.options_json, nullptr, false);
+    if (!options.is_object() || !options.contains("reporting") || !options["reporting"].is_object()) {
+        return false;
+    }
+    return options["reporting"].value("rounding", "") == "up";
+}
+
+/// Makes the tables of one record certified.
+class Certifier {
+public:
+    Certifier(EvaluationRecord& record, const CapabilityInputs& inputs) : record_(record), inputs_(inputs) {
+        const certificate::Certificate& c = *record.certificate;
+        rule_ = certificate::print_rule(c.profile);
+        if (job_rounds_upwards(record)) {
+            rule_.rounding = gum::RoundingMode::up;
+        }
+        scoped_ = c.data.accreditation.has_value() && c.data.status != "not_accredited";
+    }
+
+    void certify_tables(std::vector<CertifiedTable>& tables) {
+        for (CertifiedTable& table : tables) {
+            for (CertifiedColumn& column : table.columns) {
+                for (std::size_t row = 0; row < column.values.size(); ++row) {
+                    certify_value(tables, table, column, row);
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
+
+private:
+    EvaluationRecord& record_;
+    const CapabilityInputs& inputs_;
+    PrintRule rule_;
+    bool scoped_ = false;
+    std::vector<Finding> findings_;
+
+    [[nodiscard]] const CertificateData& data() const { return record_.certificate->data; }
+
+    void certify_value(const std::vector<CertifiedTable>& tables, const CertifiedTable& table, CertifiedColumn& column,
+                       std::size_t row) {
+        CertifiedValue& value = column.values[row];
+        const Result* result = result_of(record_, table, column.result, row);
+        const double p = result != nullptr ? result->coverage_probability : record_.coverage_probability;
+        place_in_scope({.tables = tables, .table = table, .column = column, .row = row, .coverage_probability = p},
+                       value);
+        if (result != nullptr) {
+            state_interval(*result, value);
+        }
+        if (table.id == "ranges" && value.k && !value.nu_eff) {
+            value.nu_eff = degrees_of_freedom_of(*value.k, p);
+        }
+        print(value);
+        note_coverage(column, p);
+        decide(column, value, result);
+    }
+
+    void place_in_scope(const ScopePlace& place, CertifiedValue& value) {
+        for (const certificate::ExternalResults& external : data().external_results) {
+            if (certificate::is_named(external.results, place.column.result)) {
+                value.external = true;
+                value.outside_because = "another laboratory provided it";
+                return;
+            }
+        }
+        if (!scoped_) {
+            return;
+        }
+        ScopeAnswer answer = scope_of(data(), place, inputs_);
+        value.scope_entry = std::move(answer.entry);
+        value.outside_because = std::move(answer.outside_because);
+        if (value.U || value.u > 0.0) {  // by definition without uncertainty: no capability either
+            value.capability = answer.capability;
+        }
+    }
+
+    /// The interval of Monte Carlo, where it takes the place of U or is what U comes from.
+    static void state_interval(const Result& result, CertifiedValue& value) {
+        const bool alone = result.coverage == "none" && !result.U;
+        if (result.monte_carlo && (alone || result.coverage == "monte_carlo")) {
+            value.interval = {result.monte_carlo->symmetric[0], result.monte_carlo->symmetric[1]};
+        }
+    }
+
+    void leave_accreditation(CertifiedValue& value, const std::string& because) {
+        value.scope_entry.clear();
+        value.outside_because = because;
+    }
+
+    void print(CertifiedValue& value) {
+        if (value.k && value.U) {
+            value.printed_k = certificate::printed_coverage_factor(*value.k);
+        }
+        const bool has_degrees = value.U && value.coverage != "monte_carlo" && value.coverage != "none";
+        value.printed_nu_eff = has_degrees ? certificate::printed_degrees_of_freedom(value.nu_eff) : "";
+        if (value.capability) {
+            value.printed_capability = certificate::printed_capability(*value.capability);
+        }
+        if (value.U && (*value.U > 0.0 || value.capability)) {
+            print_with_uncertainty(value);
+        } else if (value.interval) {
+            print_interval(value);
+        }
+    }
+
+    void print_with_uncertainty(CertifiedValue& value) {
+        const std::string& policy = record_.certificate->profile.below_capability;
+        const certificate::StatedPair stated =
+            certificate::state_uncertainty(value.value, *value.U, value.capability, rule_, policy == "raise");
+        value.printed_value = stated.value;
+        value.printed_U = stated.U;
+        value.raised = stated.raised;
+        if (stated.below && policy == "outside") {
+            leave_accreditation(value, "its expanded uncertainty is smaller than the capability of the scope entry \"" +
+                                           value.scope_entry + "\"");
+        }
+        if (value.raised) {
+            value.interval.reset();  // what is certified is the value with the capability
+            value.printed_low.clear();
+            value.printed_high.clear();
+        } else if (value.interval) {
+            print_ends(value, certificate::decimals_of(value.printed_U));
+        }
+    }
+
+    void print_interval(CertifiedValue& value) {
+        const double half_width = 0.5 * (value.interval->second - value.interval->first);
+        if (!(half_width > 0.0)) {
+            return;
+        }
+        const gum::RoundedPair pair = gum::round_to_uncertainty(value.value, half_width, rule_.digits, rule_.rounding);
+        value.printed_value = pair.value;
+        print_ends(value, certificate::decimals_of(pair.U));
+        if (value.capability && half_width < *value.capability) {
+            leave_accreditation(value, "its coverage interval is narrower than the capability of the scope entry \"" +
+                                           value.scope_entry + "\"");
+        }
+    }
+
+    static void print_ends(CertifiedValue& value, int decimals) {
+        value.printed_low = gum::round_to_quantum(value.interval->first, decimals);
+        value.printed_high = gum::round_to_quantum(value.interval->second, decimals);
+    }
+
+    void note_coverage(const CertifiedColumn& column, double p) {
+        if (!scoped_ || std::abs(p - 0.95) <= k_about_95_percent) {
+            return;
+        }
+        add({.id = "K03",
+             .clause = "ILAC-P14:09/2020",
+             .severity = certificate::FindingSeverity::major,
+             .where = column.result,
+             .what = "the expanded uncertainty has a coverage probability of " + gum::percent(p) + " %",
+             .action = "State accredited results with a coverage probability of about 95 % (coverage_probability in "
+                       "the job), or give the customer's agreement in the remarks."});
+    }
+
+    /// Once a result, however many rows it has.
+    void add(Finding finding) {
+        const bool known = std::any_of(findings_.begin(), findings_.end(), [&](const Finding& f) {
+            return f.id == finding.id && f.where == finding.where;
+        });
+        if (!known) {
+            findings_.push_back(std::move(finding));
+        }
+    }
+
+    void decide(const CertifiedColumn& column, CertifiedValue& value, const Result* result) {
+        for (const certificate::AgreedSpecification& specification : data().specifications) {
+            if (!certificate::is_named(specification.results, column.result)) {
+                continue;
+            }
+            if (value.verdict) {
+                add({.id = "D09",
+                     .clause = "ISO/IEC 17025:2017, 7.8.6.2 b",
+                     .severity = certificate::FindingSeverity::major,
+                     .where = column.result,
+                     .what = "the specification \"" + specification.id + "\" names the result too, and only \"" +
+                             value.verdict->specification + "\" is decided",
+                     .action = "Name a result in one specification; decide the other on a certificate of its own."});
+                continue;
+            }
+            if (!value.external && (value.U || value.u > 0.0)) {
+                value.verdict = verdict_of(specification, column, value, known_distribution(result));
+            }
+        }
+    }
+
+    [[nodiscard]] KnownDistribution known_distribution(const Result* result) const;
+};
+
+/// P(Y ≤ x) from the histogram of the trials, linear inside a cell. What lies outside of the cells (beyond four
+/// standard deviations) is shared evenly by both sides.
+std::function<double(double)> distribution_of(const reports::MonteCarloSummary& trials) {
+    if (trials.histogram.empty() || !(trials.histogram_high > trials.histogram_low) || trials.trials <= 0) {
+        return {};
+    }
+    std::vector<double> below{0.0};
+    for (const std::int64_t count : trials.histogram) {
+        below.push_back(below.back() + static_cast<double>(count));
+    }
+    const auto all = static_cast<double>(trials.trials);
+    const double outside = std::max(0.0, 0.5 * (all - below.back()));
+    const double width = (trials.histogram_high - trials.histogram_low) / static_cast<double>(trials.histogram.size());
+    return [below = std::move(below), all, outside, width, low = trials.histogram_low,
+            high = trials.histogram_high](double x) {
+        if (x < low) {
+            return outside / all;
+        }
+        if (x >= high) {
+            return 1.0 - outside / all;
+        }
+        const double position = (x - low) / width;
+        const auto cell = std::min(static_cast<std::size_t>(position), below.size() - 2);
+        const double part = position - static_cast<double>(cell);
+        return (outside + below[cell] + part * (below[cell + 1] - below[cell])) / all;
+    };
+}
+
+KnownDistribution Certifier::known_distribution(const Result* result) const {
+    if (result == nullptr) {
+        return {};
+    }
+    if (result->coverage == "convolution") {
+        if (const auto found = inputs_.distributions.find(result->name); found != inputs_.distributions.end()) {
+            return {.function = found->second,
+                    .note = "Probabilities are those of the convolution of all input distributions."};
+        }
+        return {.function = {},
+                .note =
+                    "Probabilities are those of a normal distribution with the stated U and k; the result itself "
+                    "is not normally distributed."};
+    }
+    if (result->coverage == "monte_carlo" && result->monte_carlo) {
+        std::function<double(double)> function = distribution_of(*result->monte_carlo);
+        const char* const note = function ? "Probabilities are those of the Monte Carlo trials."
+                                          : "Probabilities are those of a normal distribution with the stated U and "
+                                            "k; the Monte Carlo trials were not kept.";
+        return {.function = std::move(function), .note = note};
+    }
+    return {};
+}
+
+/// Results that Monte Carlo does not confirm, although ±U of the law of propagation is certified.
+void note_validation(std::vector<Finding>& findings, const std::string& result,
+                     const std::optional<reports::MonteCarloSummary>& trials) {
+    const bool contradicted =
+        trials && trials->validation && trials->validation->precise_enough && !trials->validation->validated;
+    const bool known =
+        std::any_of(findings.begin(), findings.end(), [&](const Finding& f) { return f.where == result; });
+    if (contradicted && !known) {
+        findings.push_back({.id = "S05",
+                            .clause = "JCGM 101:2008, clause 8",
+                            .severity = certificate::FindingSeverity::major,
+                            .where = result,
+                            .what = "Monte Carlo does not validate the stated expanded uncertainty",
+                            .action = "See the Monte Carlo interval in the record; improve the measurement, or agree "
+                                      "on the interval as the result."});
+    }
+}
+
+std::vector<Finding> validation_findings(const EvaluationRecord& record) {
+    std::vector<Finding> findings;
+    for (const Result& result : record.results) {
+        if (result.coverage != "monte_carlo") {
+            note_validation(findings, result.quantity.empty() ? result.name : result.quantity, result.monte_carlo);
+        }
+    }
+    if (!record.rotary) {
+        return findings;
+    }
+    const reports::RotaryTable& rotary = *record.rotary;
+    for (const reports::ErrorsAtAngle& at : rotary.errors) {
+        for (std::size_t i = 0; i < at.errors.size(); ++i) {
+            note_validation(findings, rotary.error_names[i], at.errors[i].monte_carlo);
+        }
+    }
+    for (const reports::Reversal& reversal : rotary.reversal) {
+        note_validation(findings, "reversal_" + reversal.name, reversal.value.monte_carlo);
+    }
+    for (const reports::RangeRow& range : rotary.ranges) {
+        note_validation(findings, "range_" + range.name, range.monte_carlo);
+    }
+    for (const reports::TableParameter& parameter : rotary.location_errors) {
+        note_validation(findings, parameter.name, parameter.monte_carlo);
+    }
+    if (rotary.iso230_2) {
+        for (const reports::TableParameter& parameter : rotary.iso230_2->parameters) {
+            note_validation(findings, parameter.name, parameter.monte_carlo);
+        }
+    }
+    return findings;
+}
+
+}  // namespace
+
+void certify(EvaluationRecord& record, CertificateData data, Profile profile, const CapabilityInputs& inputs) {
+    record.certificate.emplace();
+    record.certificate->data = std::move(data);
+    record.certificate->profile = std::move(profile);
+    std::vector<CertifiedTable> tables = reports::certified_tables(record);
+    Certifier certifier(record, inputs);
+    certifier.certify_tables(tables);
+    print_as_certified(record, tables);
+    record.certificate->tables = std::move(tables);
+    std::vector<Finding> audit = certifier.findings();
+    const std::vector<Finding> validation = validation_findings(record);
+    audit.insert(audit.end(), validation.begin(), validation.end());
+    certificate::pass_gates(*record.certificate, audit);
+}
+
+}  // namespace gumcert::app

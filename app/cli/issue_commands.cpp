@@ -1,0 +1,275 @@
+#include "app/cli/issue_commands.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "app/cli/share_folder.h"
+#include "app/cli/summary.h"
+#include "app/evaluate_job.h"
+#include "app/issue_documents.h"
+#include "app/output_files.h"
+#include "app/read_file.h"
+#include "reports/record/evaluation_record.h"
+
+namespace gumcert::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::int64_t seconds_now() {
+    const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::seconds>(since_1970).count();
+}
+
+/// What all documents of one command are made with. The signer is looked at first of all; templates when the first
+/// document is made, so that faults of a job are told before those of the installation.
+class Issuer {
+public:
+    explicit Issuer(DocumentOptions options)
+        : asked_(std::move(options)),
+          signer_(asked_.signer.empty() ? nullptr : signing::signer_from_description(asked_.signer)) {}
+
+    [[nodiscard]] const app::IssueOptions& options() {
+        if (!worker_) {
+            options_.assets = render_assets(asked_.share, asked_.languages);
+            options_.signer = signer_.get();
+            options_.signing_time = seconds_now();
+            worker_ = std::make_unique<reports::PdfWorker>(options_.assets);
+            options_.worker = worker_.get();
+        }
+        return options_;
+    }
+
+private:
+    DocumentOptions asked_;
+    std::unique_ptr<signing::Signer> signer_;
+    std::unique_ptr<reports::PdfWorker> worker_;
+    app::IssueOptions options_;
+};
+
+void print_written(const std::vector<app::OutputFile>& files) {
+    fmt::print("\nWritten:\n");
+    for (const app::OutputFile& file : files) {
+        fmt::print("  {}\n", file.path.string());
+    }
+}
+
+bool withheld(const reports::EvaluationRecord& record, bool draft) {
+    return record.certificate && record.certificate->blocked && !draft;
+}
+
+/// Says why no document is written, and which old ones must not be taken for it.
+void report_withheld(const std::string& where, const std::vector<fs::path>& documents, const CommonOptions& common) {
+    print_message({.code = "GC-CERT-0305",
+                   .where = where,
+                   .what = "no document is written: critical findings block the issue of the certificate",
+                   .rule = "ISO/IEC 17025:2017, 7.8",
+                   .action = "mend what the findings say, or print a draft with --draft",
+                   .severity = gum::Severity::error},
+                  common);
+    for (const fs::path& file : documents) {
+        std::error_code error;
+        if (fs::exists(file, error)) {
+            print_message({.code = "GC-CERT-0306",
+                           .where = file.string(),
+                           .what = "is a document of an earlier evaluation",
+                           .rule = "the record beside it is the new one",
+                           .action = "remove it, so that nobody takes it for the document of this record",
+                           .severity = gum::Severity::warning},
+                          common);
+        }
+    }
+}
+
+/// \return true when the answer is negative
+bool run_job(const fs::path& job, const fs::path& folder, Issuer& issuer, const DocumentOptions& options,
+             const CommonOptions& common, ProgressLine& progress) {
+    const app::Evaluation evaluation =
+        app::evaluate_job(job, "covariance.csv", static_cast<unsigned>(common.threads), templates_if_any(options.share),
+                          [&](const std::string& text) { progress(text); });
+    const reports::EvaluationRecord& record = evaluation.record;
+    const std::vector<fs::path> documents = {folder / "certificate.html", folder / "certificate.pdf",
+                                             folder / "certificate.xml"};
+    std::vector<app::OutputFile> files{{folder / "record.json", reports::to_canonical_json(record)}};
+    if (!evaluation.covariance_csv.empty()) {
+        files.push_back({folder / "covariance.csv", evaluation.covariance_csv});
+    }
+    const bool held_back = withheld(record, options.draft);
+    if (!held_back) {
+        progress("documents");
+        app::IssuedDocuments issued = app::issue_documents(record, issuer.options());
+        files.push_back({documents[0], std::move(issued.html)});
+        files.push_back({documents[1], std::move(issued.pdf)});
+        files.push_back({documents[2], std::move(issued.dcc)});
+    }
+    for (const app::OutputFile& file : files) {
+        app::require_not_an_input(file.path, app::input_files(job, record));
+    }
+    app::write_files(files);
+    progress.clear();
+    report_diagnostics(record, common);
+    report_findings(record, common);
+    if (held_back) {
+        report_withheld(job.string(), documents, common);
+    }
+    if (!common.quiet) {
+        print_summary(record);
+        print_written(files);
+    }
+    return evaluation.negative || evaluation.blocked;
+}
+
+fs::path folder_of(const fs::path& job, const std::string& output, bool several) {
+    const std::string name = job.stem().string() + "-out";
+    if (output.empty()) {
+        return job.parent_path() / name;
+    }
+    return several ? fs::path(output) / name : fs::path(output);
+}
+
+/// Two inputs of one command must not write to one place.
+void require_different(const std::vector<fs::path>& places, const std::string& what) {
+    std::set<fs::path> seen;
+    for (const fs::path& place : places) {
+        if (!seen.insert(place.lexically_normal()).second) {
+            refuse_usage(place.string(), "two " + what + " would be written there", "each has a place of its own",
+                         "give them different names, or run them one by one with -o");
+        }
+    }
+}
+
+std::string ending_of(const std::string& format) {
+    return format == "text" ? ".txt" : format == "dcc" ? ".xml" : "." + format;
+}
+
+app::DocumentForm form_of(const std::string& format) {
+    return format == "html"  ? app::DocumentForm::html
+           : format == "pdf" ? app::DocumentForm::pdf
+           : format == "dcc" ? app::DocumentForm::dcc
+                             : app::DocumentForm::text;
+}
+
+/// \param file  empty: to standard output
+ExitCode render_record(const std::string& name, const std::string& format, const fs::path& file, Issuer& issuer,
+                       const DocumentOptions& options, const CommonOptions& common) {
+    const reports::EvaluationRecord record = reports::record_from_json(app::read_file(name), name);
+    if (withheld(record, options.draft)) {
+        report_findings(record, common);
+        report_withheld(name, {file}, common);
+        return negative_answer;
+    }
+    const std::string bytes = app::issue_document(record, form_of(format), issuer.options());
+    if (file.empty()) {
+        write_to_stdout(bytes);
+        return done;
+    }
+    app::write_files({{file, bytes}});
+    if (!common.quiet) {
+        fmt::print("Written: {}\n", file.string());
+    }
+    return done;
+}
+
+}  // namespace
+
+ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& options, const CommonOptions& common) {
+    std::vector<fs::path> folders;
+    for (const std::string& job : jobs) {
+        folders.push_back(folder_of(job, options.output, jobs.size() > 1));
+        app::require_writable(folders.back() / "record.json");
+    }
+    require_different(folders, "jobs");
+    Issuer issuer(options);
+    ExitCode code = done;
+    ProgressLine progress(!common.quiet);
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        const ExitCode one = explained(common, [&] {
+            return run_job(jobs[i], folders[i], issuer, options, common, progress) ? negative_answer : done;
+        });
+        code = std::max(code, one);
+    }
+    return code;
+}
+
+ExitCode evaluate_to_record(const fs::path& job, const std::string& output, const std::string& share,
+                            const CommonOptions& common) {
+    const bool to_stdout = output == "-";
+    const fs::path record_file =
+        output.empty() ? job.parent_path() / (job.stem().string() + "-record.json") : fs::path(output);
+    // The covariance stands beside the record under the record's own name, so that two records do not share it.
+    const std::string covariance_name = to_stdout ? "" : record_file.stem().string() + "-covariance.csv";
+    if (!to_stdout) {
+        app::require_writable(record_file);
+    }
+    ProgressLine progress(!common.quiet);
+    const app::Evaluation evaluation =
+        app::evaluate_job(job, covariance_name, static_cast<unsigned>(common.threads), templates_if_any(share),
+                          [&](const std::string& text) { progress(text); });
+    const std::string text = reports::to_canonical_json(evaluation.record);
+    progress.clear();
+    const ExitCode code = evaluation.negative || evaluation.blocked ? negative_answer : done;
+    if (to_stdout) {
+        report_diagnostics(evaluation.record, common);
+        report_findings(evaluation.record, common);
+        write_to_stdout(text);
+        return code;
+    }
+    std::vector<app::OutputFile> files{{record_file, text}};
+    if (!evaluation.covariance_csv.empty()) {
+        files.push_back({record_file.parent_path() / covariance_name, evaluation.covariance_csv});
+    }
+    for (const app::OutputFile& file : files) {
+        app::require_not_an_input(file.path, app::input_files(job, evaluation.record));
+    }
+    app::write_files(files);
+    report_diagnostics(evaluation.record, common);
+    report_findings(evaluation.record, common);
+    if (!common.quiet) {
+        print_summary(evaluation.record);
+        print_written(files);
+        fmt::print("Next: gumcert render {} --format pdf{}\n", record_file.string(),
+                   evaluation.blocked ? " --draft" : "");
+    }
+    return code;
+}
+
+ExitCode render_records(const std::vector<std::string>& records, const std::string& format,
+                        const DocumentOptions& options, const CommonOptions& common) {
+    const bool several = records.size() > 1;
+    const bool to_stdout = options.output == "-";
+    if (to_stdout && several) {
+        refuse_usage("-o -", "several records", "standard output takes one document", "render them one by one");
+    }
+    std::vector<fs::path> files;
+    for (const std::string& name : records) {
+        const fs::path record(name);
+        const fs::path beside = record.parent_path() / (record.stem().string() + ending_of(format));
+        files.push_back(options.output.empty() ? beside
+                        : several              ? fs::path(options.output) / beside.filename()
+                                               : fs::path(options.output));
+        if (!to_stdout) {
+            app::require_writable(files.back());
+            app::require_not_an_input(files.back(), {records.begin(), records.end()});
+        }
+    }
+    require_different(files, "documents");
+    Issuer issuer(options);
+    ExitCode code = done;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const ExitCode one = explained(common, [&] {
+            return render_record(records[i], format, to_stdout ? fs::path() : files[i], issuer, options, common);
+        });
+        code = std::max(code, one);
+    }
+    return code;
+}
+
+}  // namespace gumcert::cli

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/terminal.h"
+
+namespace gumcert::cli {
+
+/// Options of the commands that make documents.
+struct DocumentOptions {
+    std::string output;                  ///< -o
+    std::string share;                   ///< --share
+    std::vector<std::string> languages;  ///< --language
+    bool draft = false;                  ///< --draft
+    std::string signer;                  ///< --sign: signer description; "" = not signed
+};
+
+/// `gumcert run`: evaluates jobs and writes record, covariance and documents of each.
+[[nodiscard]] ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& options,
+                                const CommonOptions& common);
+
+/// `gumcert evaluate`: the record only.
+[[nodiscard]] ExitCode evaluate_to_record(const std::filesystem::path& job, const std::string& output,
+                                          const std::string& share, const CommonOptions& common);
+
+/// `gumcert render`: one form of the document of each record.
+[[nodiscard]] ExitCode render_records(const std::vector<std::string>& records, const std::string& format,
+                                      const DocumentOptions& options, const CommonOptions& common);
+
+}  // namespace gumcert::cli

@@ -1,0 +1,94 @@
+#include "app/cli/share_folder.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <system_error>
+#include <utility>
+
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path program_on_path(const char* name) {
+    const char* const search = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): one thread
+    std::error_code error;
+    for (std::string rest = search == nullptr ? "" : search; !rest.empty();) {
+        const std::size_t end = rest.find(':');
+        const fs::path candidate = fs::path(rest.substr(0, end)) / name;
+        if (access(candidate.c_str(), X_OK) == 0 && fs::is_regular_file(candidate, error)) {
+            return candidate;
+        }
+        rest = end == std::string::npos ? "" : rest.substr(end + 1);
+    }
+    return {};
+}
+
+}  // namespace
+
+fs::path executable() {
+    std::error_code error;
+    return fs::read_symlink("/proc/self/exe", error);
+}
+
+fs::path share_folder(const std::string& given) {
+    std::error_code error;
+    if (!given.empty()) {
+        if (!fs::exists(fs::path(given) / "templates" / "certificate.html.mustache", error)) {
+            throw gum::StorageError(gum::Diagnostic{"GC-STORE-0010", given,
+                                                    "has no folder templates with the documents",
+                                                    "--share names the folder that holds templates/ and node_modules/",
+                                                    "correct the folder, or leave --share out", gum::Severity::error});
+        }
+        return given;
+    }
+    fs::path folder = executable().parent_path();
+    for (int level = 0; level < 6 && !folder.empty(); ++level, folder = folder.parent_path()) {
+        for (const fs::path& candidate : {folder / "share" / "gumcert", folder}) {
+            if (fs::exists(candidate / "templates" / "certificate.html.mustache", error)) {
+                return candidate;
+            }
+        }
+        if (folder == folder.root_path()) {
+            break;
+        }
+    }
+    throw gum::StorageError(gum::Diagnostic{"GC-STORE-0010", "templates", "the folder of templates was not found",
+                                            "documents need the templates that come with the program",
+                                            "name it with --share FOLDER", gum::Severity::error});
+}
+
+fs::path templates_if_any(const std::string& given) {
+    try {
+        return share_folder(given) / "templates";
+    } catch (const gum::StorageError&) {
+        if (!given.empty()) {
+            throw;
+        }
+        return {};
+    }
+}
+
+reports::RenderAssets render_assets(const std::string& share, std::vector<std::string> languages) {
+    const fs::path folder = share_folder(share);
+    reports::RenderAssets result;
+    result.templates = folder / "templates";
+    result.node_program = program_on_path("node");
+    result.node_modules = folder / "node_modules";
+    std::error_code error;
+    const fs::path temporary = fs::temp_directory_path(error);  // only the PDF needs it, and says so when it is missing
+    result.temporary_folder = error ? fs::path("/tmp") : temporary;
+    result.languages = std::move(languages);
+    for (const fs::path& fonts : {folder / "fonts", fs::path("/usr/share/fonts/opentype/noto")}) {
+        if (fs::is_directory(fonts, error)) {
+            result.fonts.push_back(fonts);
+        }
+    }
+    return result;
+}
+
+}  // namespace gumcert::cli

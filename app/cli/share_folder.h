@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "reports/render.h"
+
+namespace gumcert::cli {
+
+/// This program's own file.
+[[nodiscard]] std::filesystem::path executable();
+
+/// Folder with templates/: share/gumcert of the installation, or the tree that the program was built in.
+/// \param given  what --share names; "" = look for it
+/// \throws gum::StorageError  GC-STORE-0010
+[[nodiscard]] std::filesystem::path share_folder(const std::string& given);
+
+/// The folder of templates; empty where it is not found and --share does not name it: only certificate data need it.
+[[nodiscard]] std::filesystem::path templates_if_any(const std::string& given);
+
+/// What documents are made with.
+/// \param languages  to print in; empty: those of the certificate data
+[[nodiscard]] reports::RenderAssets render_assets(const std::string& share, std::vector<std::string> languages = {});
+
+}  // namespace gumcert::cli

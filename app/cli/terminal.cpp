@@ -1,0 +1,149 @@
+#include "app/cli/terminal.h"
+
+#include <unistd.h>
+
+#include <exception>
+#include <new>
+#include <nlohmann/json.hpp>
+
+namespace gumcert::cli {
+
+void print_message(const gum::Diagnostic& diagnostic, const CommonOptions& common) {
+    if (common.json_messages) {
+        const char* const severities[] = {"note", "warning", "error"};
+        const nlohmann::json line{
+            {"code", diagnostic.code},     {"where", diagnostic.where},
+            {"what", diagnostic.what},     {"rule", diagnostic.rule},
+            {"action", diagnostic.action}, {"severity", severities[static_cast<int>(diagnostic.severity)]}};
+        print_to_stderr("{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    } else {
+        const char* const prefix = diagnostic.severity == gum::Severity::error     ? ""
+                                   : diagnostic.severity == gum::Severity::warning ? "warning: "
+                                                                                   : "note: ";
+        std::string text = gum::message(diagnostic);
+        for (char& character : text) {
+            // A name from the command line may hold a line feed; a message is one line.
+            character = static_cast<unsigned char>(character) < 0x20 ? ' ' : character;
+        }
+        print_to_stderr("{}{} [{}]\n", prefix, text, diagnostic.code);
+    }
+}
+
+namespace {
+
+ExitCode told(const gum::DiagnosedError& error, const CommonOptions& common, ExitCode code) {
+    for (const gum::Diagnostic& diagnostic : error.diagnostics()) {
+        print_message(diagnostic, common);
+    }
+    return code;
+}
+
+}  // namespace
+
+ExitCode explained(const CommonOptions& common, const std::function<ExitCode()>& work) {
+    try {
+        return work();
+    } catch (const gum::UsageError& error) {
+        return told(error, common, usage);
+    } catch (const gum::InputError& error) {
+        return told(error, common, input_refused);
+    } catch (const gum::NoResultError& error) {
+        return told(error, common, no_result);
+    } catch (const gum::StorageError& error) {
+        return told(error, common, storage_trouble);
+    } catch (const std::bad_alloc&) {
+        print_to_stderr(
+            "gumcert — out of memory — an evaluation needs its memory whole — close other programs, or split the job "
+            "[GC-STORE-0020]\n");
+        return storage_trouble;
+    } catch (const std::exception& error) {
+        print_to_stderr(
+            "gumcert — {} — this is a defect in the program — please report it with the job [GC-DEFECT-0001]\n",
+            error.what());
+        return defect;
+    }
+}
+
+ProgressLine::ProgressLine(bool wanted) : wanted_(wanted && isatty(STDERR_FILENO) == 1) {}
+
+void ProgressLine::operator()(const std::string& text) {
+    const auto elapsed = std::chrono::steady_clock::now() - start_;
+    if (!wanted_ || elapsed < std::chrono::seconds(1)) {
+        return;
+    }
+    print_to_stderr("\r\033[Kgumcert: {}", text);
+    std::fflush(stderr);
+    shown_ = true;
+}
+
+void ProgressLine::clear() {
+    if (shown_) {
+        print_to_stderr("\r\033[K");
+        shown_ = false;
+    }
+}
+
+void report_diagnostics(const reports::EvaluationRecord& record, const CommonOptions& common) {
+    for (const gum::Diagnostic& diagnostic : record.diagnostics) {
+        if (!common.quiet || diagnostic.severity != gum::Severity::note) {
+            print_message(diagnostic, common);
+        }
+    }
+}
+
+namespace {
+
+struct SeverityText {
+    const char* code;
+    const char* word;
+    gum::Severity severity;
+};
+
+SeverityText text_of(certificate::FindingSeverity severity) {
+    switch (severity) {
+        case certificate::FindingSeverity::critical:
+            return {"GC-CERT-0313", "critical", gum::Severity::error};
+        case certificate::FindingSeverity::major:
+            return {"GC-CERT-0312", "major", gum::Severity::warning};
+        case certificate::FindingSeverity::minor:
+            return {"GC-CERT-0311", "minor", gum::Severity::warning};
+        case certificate::FindingSeverity::information:
+            break;
+    }
+    return {"GC-CERT-0310", "information", gum::Severity::note};
+}
+
+}  // namespace
+
+void report_findings(const reports::EvaluationRecord& record, const CommonOptions& common) {
+    if (!record.certificate) {
+        return;
+    }
+    for (const certificate::Finding& finding : record.certificate->findings) {
+        const SeverityText text = text_of(finding.severity);
+        if (text.severity != gum::Severity::note || !common.quiet) {
+            print_message({.code = text.code,
+                           .where = "finding " + finding.id + ", " + finding.where,
+                           .what = std::string(text.word) + ": " + finding.what,
+                           .rule = finding.clause,
+                           .action = finding.action,
+                           .severity = text.severity},
+                          common);
+        }
+    }
+}
+
+void refuse_usage(const std::string& where, const std::string& what, const std::string& rule,
+                  const std::string& action) {
+    throw gum::UsageError(gum::Diagnostic{"GC-USAGE-0001", where, what, rule, action, gum::Severity::error});
+}
+
+void write_to_stdout(const std::string& bytes) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0) {
+        throw gum::StorageError(gum::Diagnostic{"GC-STORE-0003", "standard output", "cannot be written",
+                                                "all of the output must arrive", "write to a file with -o FILE",
+                                                gum::Severity::error});
+    }
+}
+
+}  // namespace gumcert::cli

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "gum/quantity/diagnostic.h"
+#include "reports/record/evaluation_record.h"
+
+namespace gumcert::cli {
+
+enum ExitCode : int {
+    done = 0,
+    negative_answer = 1,
+    usage = 2,
+    input_refused = 3,
+    no_result = 4,
+    storage_trouble = 5,
+    defect = 70,
+};
+
+struct CommonOptions {
+    bool quiet = false;
+    bool json_messages = false;
+    int threads = 0;  // 0: as many as the machine has
+};
+
+/// A terminal that is gone or full must not change the exit code.
+template <class... Arguments>
+void print_to_stderr(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    const std::string text = fmt::format(format, std::forward<Arguments>(arguments)...);
+    (void)std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+/// One line on stderr: "where — what — rule — action [code]", or JSON.
+void print_message(const gum::Diagnostic& diagnostic, const CommonOptions& common);
+
+/// The messages that a record holds; notes only where they are wanted.
+void report_diagnostics(const reports::EvaluationRecord& record, const CommonOptions& common);
+
+/// The findings of the gates before issue, one line each; informations only where they are wanted.
+void report_findings(const reports::EvaluationRecord& record, const CommonOptions& common);
+
+/// \throws gum::UsageError  GC-USAGE-0001
+[[noreturn]] void refuse_usage(const std::string& where, const std::string& what, const std::string& rule,
+                               const std::string& action);
+
+/// \throws gum::StorageError  if not all of it arrives
+void write_to_stdout(const std::string& bytes);
+
+/// Does some work; a failure is told and becomes its exit code.
+[[nodiscard]] ExitCode explained(const CommonOptions& common, const std::function<ExitCode()>& work);
+
+/// Progress on a terminal, from the first second on.
+class ProgressLine {
+public:
+    explicit ProgressLine(bool wanted);
+    ~ProgressLine() { clear(); }
+    ProgressLine(const ProgressLine&) = delete;
+    ProgressLine& operator=(const ProgressLine&) = delete;
+
+    void operator()(const std::string& text);
+    void clear();
+
+private:
+    bool wanted_;
+    bool shown_ = false;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace gumcert::cli

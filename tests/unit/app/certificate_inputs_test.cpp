@@ -1,0 +1,109 @@
+#include "app/certificate_inputs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "app/evaluate_job.h"
+#include "gum/quantity/diagnostic.h"
+#include "tests/support/sample_certificate.h"
+#include "tests/unit/engine/job/budget_campaign.h"
+
+namespace gumcert::app {
+namespace {
+
+const std::filesystem::path k_tree = GUMCERT_SOURCE_DIR;
+
+TEST(CertificateProfile, ComesFromTheTemplates) {
+    certificate::CertificateData data = test::sample_certificate_data();
+    data.profile = "cgcre";
+    const certificate::Profile profile = certificate_profile(data, k_tree / "templates");
+    EXPECT_EQ(profile.id, "cgcre");
+    EXPECT_EQ(profile.below_capability, "outside");
+}
+
+TEST(CertificateProfile, IsTheOneBesideTheJobWhereThereIsOne) {
+    certificate::CertificateData data = test::sample_certificate_data();
+    data.own_profile.emplace();
+    data.own_profile->id = "own";
+    EXPECT_EQ(certificate_profile(data, k_tree / "no templates").id, "own");
+}
+
+TEST(CertificateProfile, IsRefusedWhereThereIsNoneOfThatName) {
+    certificate::CertificateData data = test::sample_certificate_data();
+    for (const char* name : {"nowhere", "", "../profiles/ilac", "/etc/passwd", "ilac.json"}) {
+        data.profile = name;
+        try {
+            (void)certificate_profile(data, k_tree / "templates");
+            ADD_FAILURE() << name;
+        } catch (const gum::InputError& error) {
+            EXPECT_EQ(error.diagnostics().front().code, "GC-CERT-0300");
+            EXPECT_THAT(error.diagnostics().front().rule, testing::HasSubstr("a2la, cgcre, dakks, ilac"));
+        }
+    }
+}
+
+engine::BudgetJob budget(const std::string& inputs, const std::string& model, const std::string& more = "") {
+    engine::BudgetJob job =
+        engine::test::read_budget("\"model\": [\"" + model + "\"], \"inputs\": {" + inputs + "}" + more);
+    job.certificate = test::sample_certificate_data();
+    return job;
+}
+
+TEST(CapabilityInputs, HoldTheValuesOfTheInputsInTheirUnits) {
+    const engine::BudgetJob job = budget(R"("x": {"value": 10, "unit": "mm", "u": 0.1},
+                                            "t": {"value": 23, "unit": "degC", "u": 0.1})",
+                                         "y = x + 0*t*x/t", R"(, "points": [{"x": 20}, {"x": 30}])");
+    const CapabilityInputs inputs = capability_inputs(job, evaluate_budget(job, 1));
+    EXPECT_EQ(inputs.values.at("x").unit, "mm");
+    ASSERT_EQ(inputs.values.at("x").values.size(), 2U);
+    EXPECT_NEAR(inputs.values.at("x").values[0], 20.0, 1e-12);
+    EXPECT_NEAR(inputs.values.at("x").values[1], 30.0, 1e-12);
+    EXPECT_NEAR(inputs.values.at("t").values[1], 23.0, 1e-12);
+    EXPECT_TRUE(inputs.distributions.empty());
+}
+
+TEST(CapabilityInputs, HoldTheDistributionOfAConvolution) {
+    const engine::BudgetJob job =
+        budget(R"("x": {"value": 10, "unit": "mm", "half_width": 0.1, "distribution": "uniform"})", "y = x");
+    const CapabilityInputs inputs = capability_inputs(job, evaluate_budget(job, 1));
+    ASSERT_EQ(inputs.distributions.size(), 1U);
+    const auto& P = inputs.distributions.at("y");  // x in millimetres, or in what the model gives
+    const gum::Unit unit = evaluate_budget(job, 1).output_units.at(0);
+    const auto at = [&](double mm) { return P(unit.from_si(1e-3 * mm)); };
+    EXPECT_NEAR(at(10.0), 0.5, 1e-6);
+    EXPECT_NEAR(at(10.05), 0.75, 1e-6);
+    EXPECT_NEAR(at(9.89), 0.0, 1e-6);
+    EXPECT_NEAR(at(10.11), 1.0, 1e-6);
+}
+
+TEST(EvaluateJob, MakesACertificateOfAJobWithCertificateData) {
+    const Evaluation evaluation =
+        evaluate_job(k_tree / "examples/certificate/end_gauge.json", "", 1, k_tree / "templates");
+    ASSERT_TRUE(evaluation.record.certificate);
+    const certificate::Certificate& c = *evaluation.record.certificate;
+    EXPECT_FALSE(evaluation.blocked);
+    for (const certificate::Finding& f : c.findings) {
+        EXPECT_NE(f.severity, certificate::FindingSeverity::critical) << f.id << " " << f.where << ": " << f.what;
+    }
+    EXPECT_TRUE(c.symbol);
+    EXPECT_EQ(c.profile.id, "ilac");
+    const certificate::CertifiedValue& l = c.tables.at(0).columns.at(0).values.at(0);
+    EXPECT_EQ(l.printed_value, "50000838");
+    EXPECT_EQ(l.scope_entry, "L1");
+    EXPECT_NEAR(*l.capability, std::sqrt(50.0 * 50.0 + 25.0 * 25.0), 1e-3);
+    EXPECT_EQ(l.printed_U, evaluation.record.results.at(0).printed.U);
+    EXPECT_EQ(l.verdict->verdict, "pass");
+}
+
+TEST(EvaluateJob, MakesNoCertificateWithoutCertificateData) {
+    const Evaluation evaluation = evaluate_job(k_tree / "examples/end_gauge/job.json", "", 1, "");
+    EXPECT_FALSE(evaluation.record.certificate);
+    EXPECT_FALSE(evaluation.blocked);
+}
+
+}  // namespace
+}  // namespace gumcert::app
