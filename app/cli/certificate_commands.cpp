@@ -2,10 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 
+#include "app/cli/clock.h"
 #include "app/import_certificate.h"
 #include "app/output_files.h"
 #include "app/read_file.h"
@@ -16,11 +16,6 @@ namespace gumcert::cli {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::int64_t seconds_now() {
-    const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
-    return std::chrono::duration_cast<std::chrono::seconds>(since_1970).count();
-}
 
 void print_signature(const signing::SignatureReport& signature, const std::string& of) {
     fmt::print("  {}{}: {}\n", of, signature.format, signature.valid ? "valid" : "NOT VALID");

@@ -3,13 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <set>
 #include <utility>
 
+#include "app/cli/clock.h"
 #include "app/cli/share_folder.h"
 #include "app/cli/summary.h"
 #include "app/evaluate_job.h"
@@ -23,11 +23,6 @@ namespace gumcert::cli {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::int64_t seconds_now() {
-    const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
-    return std::chrono::duration_cast<std::chrono::seconds>(since_1970).count();
-}
 
 /// What all documents of one command are made with. The signer is looked at first of all; templates when the first
 /// document is made, so that faults of a job are told before those of the installation.

@@ -3,11 +3,13 @@
 #include <gumcert_build_info.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <exception>
 #include <new>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/cli/certificate_commands.h"
@@ -242,5 +244,8 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
 
 int main(int argc, char** argv) {
     Arguments arguments;
+    // Also a command line that cannot be read to its end is told in the form that it asks for.
+    arguments.common.json_messages = std::any_of(
+        argv + 1, argv + argc, [](const char* word) { return std::string_view(word) == "--json-messages"; });
     return explained(arguments.common, [&] { return dispatch(argc, argv, arguments); });
 }
