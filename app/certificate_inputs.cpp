@@ -85,7 +85,7 @@ certificate::Profile certificate_profile(const certificate::CertificateData& dat
     return engine::parse_profile(read_file(file), file.filename().string());
 }
 
-CapabilityInputs capability_inputs(const engine::BudgetJob& job, const BudgetResult& result) {
+CapabilityInputs capability_inputs(const engine::BudgetJob& job, const BudgetResult& result, unsigned threads) {
     CapabilityInputs inputs;
     for (std::size_t i = 0; i < job.inputs.size(); ++i) {
         inputs.values.emplace(job.inputs[i].name, values_of(job, i));
@@ -96,13 +96,23 @@ CapabilityInputs capability_inputs(const engine::BudgetJob& job, const BudgetRes
     const std::vector<std::string> names = budget_result_names(job, result);
     const std::size_t outputs = result.output_names.size();
     for (std::size_t p = 0; p < result.points.size(); ++p) {
+        const BudgetPointResult& point = result.points[p];
         for (std::size_t i = 0; i < outputs; ++i) {
-            if (result.points[p].outputs[i].coverage != "convolution") {
-                continue;
-            }
-            if (auto function =
-                    convolution_of(result.points[p], static_cast<Eigen::Index>(i), result.output_units[i])) {
-                inputs.distributions.emplace(names[p * outputs + i], std::move(function));
+            const std::string& name = names[p * outputs + i];
+            const gum::Unit& unit = result.output_units[i];
+            const auto output = static_cast<Eigen::Index>(i);
+            if (point.outputs[i].coverage == "monte_carlo" && point.monte_carlo) {
+                inputs.trials.emplace(name, TrialsOfOutput{.model = point.model,
+                                                           .output = output,
+                                                           .unit = unit,
+                                                           .seed = point.monte_carlo->seed,
+                                                           .streams = point.streams,
+                                                           .trials = point.outputs[i].trials,
+                                                           .threads = threads});
+            } else if (point.outputs[i].coverage == "convolution") {
+                if (auto function = convolution_of(point, output, unit)) {
+                    inputs.distributions.emplace(name, std::move(function));
+                }
             }
         }
     }

@@ -16,8 +16,10 @@ namespace gumcert::app {
 [[nodiscard]] certificate::Profile certificate_profile(const certificate::CertificateData& data,
                                                        const std::filesystem::path& templates);
 
-/// What the evaluation of a budget knows for its certificate: values of the inputs at every point, and the distribution
-/// of results whose k comes from a convolution.
-[[nodiscard]] CapabilityInputs capability_inputs(const engine::BudgetJob& job, const BudgetResult& result);
+/// What the evaluation of a budget knows for its certificate: values of the inputs at every point, the distribution of
+/// results whose k comes from a convolution, and the trials of those whose U comes from Monte Carlo.
+/// \param threads  to draw trials again; 0: as many as the machine has
+[[nodiscard]] CapabilityInputs capability_inputs(const engine::BudgetJob& job, const BudgetResult& result,
+                                                 unsigned threads = 1);
 
 }  // namespace gumcert::app

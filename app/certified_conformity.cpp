@@ -23,6 +23,8 @@ using gum::ConformityDecision;
 using gum::ConformityVerdict;
 using gum::Unit;
 
+constexpr double k_noise = 1e-12;  // of a capability that a unit was converted of
+
 const char* name_of(ConformityVerdict verdict) {
     switch (verdict) {
         case ConformityVerdict::pass:
@@ -101,15 +103,17 @@ std::optional<DecisionNumbers> numbers_of(const CertifiedValue& from, const Know
         return std::nullopt;
     }
     DecisionNumbers out;
+    // Also where rounding alone has lifted U to the capability.
+    const bool floored = from.capability && *from.U < *from.capability && *U >= *from.capability * (1.0 - k_noise);
     out.unrounded.value = from.value;
-    out.unrounded.expanded_uncertainty = from.raised && from.capability ? *from.capability : *from.U;
+    out.unrounded.expanded_uncertainty = floored ? *from.capability : *from.U;
     out.unrounded.standard_uncertainty = out.unrounded.expanded_uncertainty / *from.k;
     out.unrounded.degrees_of_freedom = from.nu_eff.value_or(std::numeric_limits<double>::infinity());
     out.printed = out.unrounded;
     out.printed.value = *y;
     out.printed.expanded_uncertainty = *U;
     out.printed.standard_uncertainty = *U / *k;
-    if (known.function && !from.raised) {
+    if (known.function && !floored) {
         out.unrounded.distribution = known.function;
         // The same shape about the printed value, as wide as the printed U.
         const double stretch = *from.U / *U;
@@ -120,11 +124,15 @@ std::optional<DecisionNumbers> numbers_of(const CertifiedValue& from, const Know
     return out;
 }
 
+/// Never above the ratio, so that it does not seem to reach a least one that it misses.
 std::string printed_ratio(double ratio) {
-    return gum::round_significant(ratio, 3);
+    return certificate::printed_at_most(ratio, certificate::decimals_of(gum::round_significant(ratio, 3)));
 }
 
-void print(Verdict& verdict, int decimals) {
+/// Guard band, acceptance limits and ratio are those of the printed value and U, so that they can be checked by hand
+/// with what stands beside them, and that the printed value is inside of them where the verdict says so.
+/// \param shown  the decision from the printed numbers
+void print(Verdict& verdict, const ConformityDecision& shown, int decimals) {
     const auto limit = [&](const std::optional<double>& l) {
         return l ? certificate::printed_limit(*l, decimals) : std::string();
     };
@@ -135,20 +143,31 @@ void print(Verdict& verdict, int decimals) {
     for (const std::string& text : {verdict.printed.lower, verdict.printed.upper}) {
         finest = text.empty() ? finest : std::max(finest, certificate::decimals_of(text));
     }
-    const auto acceptance = [&](const std::optional<double>& l) {
-        return l ? gum::round_to_quantum(*l, finest) : std::string();
-    };
-    verdict.printed.acceptance_lower = acceptance(verdict.acceptance_lower);
-    verdict.printed.acceptance_upper = acceptance(verdict.acceptance_upper);
-    verdict.printed.guard_band = gum::round_to_quantum(verdict.guard_band, finest);
-    const auto risk = [](const std::optional<double>& p) { return p ? certificate::printed_risk(*p) : std::string(); };
-    verdict.printed.conformance_probability = certificate::printed_conformance(verdict.conformance_probability);
-    verdict.printed.specific_risk = certificate::printed_risk(verdict.specific_risk);
-    verdict.printed.largest_specific_risk = risk(verdict.largest_specific_risk);
-    verdict.printed.false_accept = risk(verdict.false_accept);
-    verdict.printed.false_reject = risk(verdict.false_reject);
+    const gum::ToleranceLimits& accepted = shown.acceptance;
+    verdict.printed.acceptance_lower = accepted.lower ? certificate::printed_at_least(*accepted.lower, finest) : "";
+    verdict.printed.acceptance_upper = accepted.upper ? certificate::printed_at_most(*accepted.upper, finest) : "";
+    verdict.printed.guard_band = certificate::printed_at_least(shown.guard_band, finest);
     verdict.printed.test_uncertainty_ratio =
-        verdict.test_uncertainty_ratio ? printed_ratio(*verdict.test_uncertainty_ratio) : std::string();
+        shown.test_uncertainty_ratio ? printed_ratio(*shown.test_uncertainty_ratio) : "";
+    const auto percent = [](const std::optional<double>& p) {
+        return p ? certificate::printed_probability(*p) : std::string();
+    };
+    verdict.printed.conformance_probability = certificate::printed_probability(verdict.conformance_probability);
+    verdict.printed.specific_risk = certificate::printed_probability(verdict.specific_risk);
+    verdict.printed.largest_specific_risk = percent(verdict.largest_specific_risk);
+    verdict.printed.false_accept = percent(verdict.false_accept);
+    verdict.printed.false_reject = percent(verdict.false_reject);
+}
+
+/// What a finite number of trials leaves open of a probability that is counted. One trial stands for "none" and "all".
+std::string error_of_count(const KnownDistribution& known, const Verdict& verdict) {
+    if (known.trials == 0) {
+        return "";
+    }
+    const auto trials = static_cast<double>(known.trials);
+    const double p = std::clamp(verdict.conformance_probability, 1.0 / trials, 1.0 - 1.0 / trials);
+    return " The standard uncertainty of the conformance probability from their number is " +
+           gum::round_significant(100.0 * std::sqrt(p * (1.0 - p) / trials), 1) + " %.";
 }
 
 void fill(Verdict& verdict, const ConformityDecision& decision) {
@@ -190,18 +209,24 @@ Verdict verdict_of(const AgreedSpecification& specification, const certificate::
     if (!numbers) {
         return not_applicable(verdict, "no expanded uncertainty is stated for the value");
     }
+    ConformityDecision shown;
     try {
-        fill(verdict, gum::decide_conformity(rule.rule, rule.parameters, rule.limits, numbers->unrounded));
-        verdict.verdict_from_printed =
-            name_of(gum::decide_conformity(rule.rule, rule.parameters, rule.limits, numbers->printed).verdict);
+        shown = gum::decide_conformity(rule.rule, rule.parameters, rule.limits, numbers->unrounded);
+        fill(verdict, shown);
+        const ConformityDecision by_hand =
+            gum::decide_conformity(rule.rule, rule.parameters, rule.limits, numbers->printed);
+        verdict.verdict_from_printed = name_of(by_hand.verdict);
+        if (by_hand.rule == shown.rule) {  // else rounding has moved a ratio past the one where an alternative begins
+            shown = by_hand;
+        }
     } catch (const gum::DiagnosedError& error) {
         const gum::Diagnostic& first = error.diagnostics().front();
         return not_applicable(verdict, first.what + ": " + first.rule);
     }
     if (!known.note.empty() && (!known.function || numbers->unrounded.distribution)) {
-        verdict.note += (verdict.note.empty() ? "" : " ") + known.note;
+        verdict.note += (verdict.note.empty() ? "" : " ") + known.note + error_of_count(known, verdict);
     }
-    print(verdict, certificate::decimals_of(value.printed_value));
+    print(verdict, shown, certificate::decimals_of(value.printed_value));
     return verdict;
 }
 

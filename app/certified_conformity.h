@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -11,6 +12,7 @@ namespace gumcert::app {
 struct KnownDistribution {
     std::function<double(double)> function;  ///< P(Y ≤ x), x in the unit of the column; empty: normal or t
     std::string note;                        ///< English sentence for the verdict; "" without
+    std::uint64_t trials = 0;                ///< of Monte Carlo, that the function counts; 0: it is not from trials
 };
 
 /// Decides on conformity of one value, twice: with the unrounded numbers, and with those that are printed.

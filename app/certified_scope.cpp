@@ -62,7 +62,9 @@ Found argument_of(const certificate::CertificateData& data, const ScopeEntry& en
     if (argument.of == "value") {
         const double value = place.column.values[place.row].value;
         Found found = converted(value, place.column.unit, argument.unit, what);
-        if (found.value && !has_negative(entry, argument.name)) {
+        // A Celsius temperature has no magnitude: −30 °C is not the 30 °C of a scope.
+        const bool signed_value = Unit::parse(argument.unit).is_celsius_temperature();
+        if (found.value && !signed_value && !has_negative(entry, argument.name)) {
             found.value = std::abs(*found.value);
         }
         return found;

@@ -33,22 +33,6 @@ using reports::Result;
 
 constexpr double k_about_95_percent = 0.01;  // 95 % and 95.45 % are the same statement
 
-/// ν of k = t_p(ν), where a record holds k and not ν: the ranges of a rotary table. None where k is that of the normal
-/// distribution.
-std::optional<double> degrees_of_freedom_of(double k, double p) {
-    constexpr double k_most = 1e6;  // beyond, k does not show ν
-    if (!(k > gum::coverage_factor(p, k_most))) {
-        return std::nullopt;
-    }
-    double low = 0.5;
-    double high = k_most;
-    for (int i = 0; i < 100 && high - low > 1e-9 * low; ++i) {
-        const double middle = std::sqrt(low * high);
-        (gum::coverage_factor(p, middle) > k ? low : high) = middle;
-    }
-    return std::sqrt(low * high);
-}
-
 /// The result of a budget that a value stands for, or the set-up of a rotary table; none for its other tables.
 const Result* result_of(const EvaluationRecord& record, const CertifiedTable& table, const std::string& name,
                         std::size_t row) {
@@ -114,9 +98,6 @@ private:
                        value);
         if (result != nullptr) {
             state_interval(*result, value);
-        }
-        if (table.id == "ranges" && value.k && !value.nu_eff) {
-            value.nu_eff = degrees_of_freedom_of(*value.k, p);
         }
         print(value);
         note_coverage(column, p);
@@ -216,7 +197,7 @@ private:
         }
         add({.id = "K03",
              .clause = "ILAC-P14:09/2020",
-             .severity = certificate::FindingSeverity::major,
+             .severity = p < 0.95 ? certificate::FindingSeverity::critical : certificate::FindingSeverity::major,
              .where = column.result,
              .what = "the expanded uncertainty has a coverage probability of " + gum::percent(p) + " %",
              .action = "State accredited results with a coverage probability of about 95 % (coverage_probability in "
@@ -257,34 +238,6 @@ private:
     [[nodiscard]] KnownDistribution known_distribution(const Result* result) const;
 };
 
-/// P(Y ≤ x) from the histogram of the trials, linear inside a cell. What lies outside of the cells (beyond four
-/// standard deviations) is shared evenly by both sides.
-std::function<double(double)> distribution_of(const reports::MonteCarloSummary& trials) {
-    if (trials.histogram.empty() || !(trials.histogram_high > trials.histogram_low) || trials.trials <= 0) {
-        return {};
-    }
-    std::vector<double> below{0.0};
-    for (const std::int64_t count : trials.histogram) {
-        below.push_back(below.back() + static_cast<double>(count));
-    }
-    const auto all = static_cast<double>(trials.trials);
-    const double outside = std::max(0.0, 0.5 * (all - below.back()));
-    const double width = (trials.histogram_high - trials.histogram_low) / static_cast<double>(trials.histogram.size());
-    return [below = std::move(below), all, outside, width, low = trials.histogram_low,
-            high = trials.histogram_high](double x) {
-        if (x < low) {
-            return outside / all;
-        }
-        if (x >= high) {
-            return 1.0 - outside / all;
-        }
-        const double position = (x - low) / width;
-        const auto cell = std::min(static_cast<std::size_t>(position), below.size() - 2);
-        const double part = position - static_cast<double>(cell);
-        return (outside + below[cell] + part * (below[cell + 1] - below[cell])) / all;
-    };
-}
-
 KnownDistribution Certifier::known_distribution(const Result* result) const {
     if (result == nullptr) {
         return {};
@@ -299,12 +252,17 @@ KnownDistribution Certifier::known_distribution(const Result* result) const {
                     "Probabilities are those of a normal distribution with the stated U and k; the result itself "
                     "is not normally distributed."};
     }
-    if (result->coverage == "monte_carlo" && result->monte_carlo) {
-        std::function<double(double)> function = distribution_of(*result->monte_carlo);
-        const char* const note = function ? "Probabilities are those of the Monte Carlo trials."
-                                          : "Probabilities are those of a normal distribution with the stated U and "
-                                            "k; the Monte Carlo trials were not kept.";
-        return {.function = std::move(function), .note = note};
+    if (result->coverage == "monte_carlo") {
+        if (const auto found = inputs_.trials.find(result->name); found != inputs_.trials.end()) {
+            TrialDistribution trials = count_trials(found->second);
+            return {.function = std::move(trials.function),
+                    .note = "Probabilities are counted from " + std::to_string(trials.counted) + " Monte Carlo trials.",
+                    .trials = trials.counted};
+        }
+        return {.function = {},
+                .note =
+                    "Probabilities are those of a normal distribution with the stated U and k; the Monte Carlo "
+                    "trials were not kept."};
     }
     return {};
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/trial_distribution.h"
 #include "certificate/certificate_data.h"
 #include "reports/record/evaluation_record.h"
 
@@ -21,6 +22,9 @@ struct CapabilityInputs {
     std::map<std::string, InputValues> values;  ///< by the name of the input
     /// P(Y ≤ x) of results whose k comes from a convolution, by Result::name; x in the unit of the result.
     std::map<std::string, std::function<double(double)>> distributions;
+    /// Trials of results whose U comes from Monte Carlo, by Result::name. Counted where a decision needs them, one
+    /// result after the other: they take memory.
+    std::map<std::string, TrialsOfOutput> trials = {};
 };
 
 /// Makes a record a certificate: puts its results into certified tables, prints every value with its capability as the

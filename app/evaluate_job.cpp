@@ -67,7 +67,7 @@ Evaluation evaluate_budget_job(const std::filesystem::path& job_file, const std:
         budget_record(job, result, digests(job_file, job.files), covariance, in_file ? covariance_file : "");
     evaluation.negative = result.validation_failed;
     if (job.certificate) {
-        make_certificate(evaluation, job.certificate, profile, capability_inputs(job, result));
+        make_certificate(evaluation, job.certificate, profile, capability_inputs(job, result, threads));
     }
     return evaluation;
 }

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include "gum/expression/syntax_tree.h"
 #include "reports/certificate_view.h"
@@ -38,8 +41,10 @@ std::optional<std::string> json_number(const std::string& text) {
     digits.erase(0, first == whole ? first - (first > 0 ? 1 : 0) : first);
     number = (negative ? "-" : "") + digits + rest.substr(exponent_at);
     const nlohmann::json parsed = nlohmann::json::parse(number, nullptr, false);
-    const bool finite = parsed.is_number() && std::isfinite(parsed.get<double>());
-    return finite ? std::optional(number) : std::nullopt;
+    double value = 0.0;
+    // Numbers too large or too small for a double are refused by the reader of jobs as well.
+    const bool in_range = std::from_chars(number.data(), number.data() + number.size(), value).ec == std::errc();
+    return parsed.is_number() && in_range && std::isfinite(value) ? std::optional(number) : std::nullopt;
 }
 
 double value_of(const std::string& number) {
@@ -69,6 +74,10 @@ std::string object_on_one_line(const Members& members) {
 struct Input {
     std::string name;
     Members members;
+
+    [[nodiscard]] bool is_constant() const {
+        return std::any_of(members.begin(), members.end(), [](const auto& m) { return m.first == "constant"; });
+    }
 };
 
 class Importer {
@@ -80,22 +89,38 @@ public:
     std::vector<gum::Diagnostic> remarks;
 
 private:
-    void remark(const ImportedQuantity& q, const std::string& what, const std::string& rule,
-                const std::string& action) {
-        remarks.push_back({.code = "GC-DCC-0031",
-                           .where = file_ + ": " + q.name,
-                           .what = what,
-                           .rule = rule,
-                           .action = action,
-                           .severity = gum::Severity::warning});
-    }
+    void remark(const ImportedQuantity& q, const std::string& what, const std::string& rule, const std::string& action);
     bool add_uncertainty(const ImportedQuantity& q, Members& members);
     bool add_interval(const ImportedQuantity& q, Members& members);
     std::string name_for(const ImportedQuantity& q);
+    bool add_expanded(const ImportedQuantity& q, const std::string& stated, Members& members);
 
     std::string file_;
     std::set<std::string, std::less<>> names_;
+    const ImportedQuantity* last_remarked_ = nullptr;
+    std::string first_remarked_;  // name of the first row that the last remark is about
 };
+
+/// One remark for all rows of a column that it holds for.
+void Importer::remark(const ImportedQuantity& q, const std::string& what, const std::string& rule,
+                      const std::string& action) {
+    const bool next_row = last_remarked_ != nullptr && q.row && last_remarked_->row &&
+                          *q.row == *last_remarked_->row + 1 && q.table == last_remarked_->table &&
+                          q.quantity == last_remarked_->quantity && q.result == last_remarked_->result;
+    const bool same = next_row && remarks.back().what == what && remarks.back().rule == rule;
+    last_remarked_ = &q;
+    if (same) {
+        remarks.back().where = file_ + ": " + first_remarked_ + " to " + q.name;
+        return;
+    }
+    first_remarked_ = q.name;
+    remarks.push_back({.code = "GC-DCC-0031",
+                       .where = file_ + ": " + q.name,
+                       .what = what,
+                       .rule = rule,
+                       .action = action,
+                       .severity = gum::Severity::warning});
+}
 
 std::string Importer::name_for(const ImportedQuantity& q) {
     std::string name = gum::is_reserved_name(q.name) ? q.name + "_value" : q.name;
@@ -112,6 +137,11 @@ bool Importer::add_interval(const ImportedQuantity& q, Members& members) {
     if (!u || value_of(*u) <= 0.0) {
         remark(q, "an interval without a standard uncertainty", "an input needs a statement of its uncertainty",
                "add the input by hand");
+        return false;
+    }
+    if (value_of(json_number(q.low).value_or("0")) > value_of(json_number(q.high).value_or("0"))) {
+        remark(q, "an interval from " + q.low + " to " + q.high, "an interval begins before it ends",
+               "ask the laboratory; add the input by hand");
         return false;
     }
     members.emplace_back("u", *u);
@@ -145,13 +175,32 @@ bool Importer::add_uncertainty(const ImportedQuantity& q, Members& members) {
         members.emplace_back("u", *stated);
         return true;
     }
+    return add_expanded(q, *stated, members);
+}
+
+/// U with its k, else with p; never both, because a job takes one of them.
+bool Importer::add_expanded(const ImportedQuantity& q, const std::string& stated, Members& members) {
     const auto k = json_number(q.k);
     const auto p = json_number(q.p);
     if (!k && !p) {
         remark(q, "U without k and p", "an expanded uncertainty needs its coverage factor", "add the input by hand");
         return false;
     }
-    members.emplace_back("U", *stated);
+    if (k && value_of(*k) <= 0.0) {
+        remark(q, "the coverage factor is " + *k, "a coverage factor is greater than 0",
+               "ask the laboratory; add the input by hand");
+        return false;
+    }
+    if (!k && (value_of(*p) <= 0.0 || value_of(*p) >= 1.0)) {
+        remark(q, "U without k, and the coverage probability is " + *p, "a probability is between 0 and 1",
+               "ask the laboratory; add the input by hand");
+        return false;
+    }
+    if (!k) {
+        remark(q, "U without k", "the budget takes the coverage factor of a normal distribution for p = " + *p,
+               "ask the laboratory for its k");
+    }
+    members.emplace_back("U", stated);
     members.emplace_back(k ? "k" : "p", k ? *k : *p);
     return true;
 }
@@ -164,8 +213,9 @@ std::optional<Input> Importer::input_of(const ImportedQuantity& q) {
         return std::nullopt;
     }
     if (q.unit.empty()) {
-        remark(q, "unit " + json_text(q.d_si_unit) + " is not known here", "an input has a unit of UDUNITS-2",
-               "add the input by hand, in a unit that is known");
+        remark(q,
+               q.d_si_unit.empty() ? "no unit" : "unit \"" + reports::printable(q.d_si_unit) + "\" is not known here",
+               "an input has a unit of UDUNITS-2", "add the input by hand, in a unit that is known");
         return std::nullopt;
     }
     Input input;
@@ -179,10 +229,80 @@ std::optional<Input> Importer::input_of(const ImportedQuantity& q) {
     return input;
 }
 
+/// What stands in the same row of a table as a value: where it was measured, and how many degrees of freedom it has.
+class Rows {
+public:
+    explicit Rows(const ImportedCertificate& certificate) : certificate_(certificate) {
+        for (const ImportedQuantity& q : certificate.quantities) {
+            if (is_beside(q)) {
+                beside_[{q.table, *q.row}].push_back(&q);
+            } else if (is_degrees_of_freedom(q)) {
+                degrees_of_freedom_[{q.table, q.row.value_or(0), q.label}] = &q;
+            }
+        }
+    }
+
+    /// A number without uncertainty in a table: it says where the values of its row were measured.
+    [[nodiscard]] static bool is_beside(const ImportedQuantity& q) {
+        return q.role == "result" && q.table > 0 && q.row && q.kind == "none" && !is_degrees_of_freedom(q);
+    }
+    /// Of a certificate that this program wrote: they carry the label of their result.
+    [[nodiscard]] static bool is_degrees_of_freedom(const ImportedQuantity& q) {
+        return q.ref_type == "gumcert_effectiveDegreesOfFreedom" && !q.label.empty();
+    }
+
+    /// "Angle 20 deg, Point 10_V"; "" for a value outside of a table.
+    [[nodiscard]] std::string place_of(const ImportedQuantity& q) const {
+        std::string text;
+        if (q.table == 0 || !q.row) {
+            return text;
+        }
+        const auto append = [&](const std::string& entry) { text += (text.empty() ? "" : ", ") + entry; };
+        for (const reports::ImportedWords& words : certificate_.words) {
+            if (words.table == q.table && *q.row < words.words.size()) {
+                append((words.quantity.empty() ? "" : words.quantity + " ") + words.words[*q.row]);
+            }
+        }
+        if (const auto found = beside_.find({q.table, *q.row}); found != beside_.end()) {
+            for (const ImportedQuantity* other : found->second) {
+                if (other->quantity != q.quantity) {  // the same column once more, in another form
+                    append((other->quantity.empty() ? other->name : other->quantity) + " " + with_unit(*other));
+                }
+            }
+        }
+        return text;
+    }
+
+    [[nodiscard]] std::optional<std::string> degrees_of_freedom(const ImportedQuantity& q) const {
+        const auto found = degrees_of_freedom_.find({q.table, q.row.value_or(0), q.label});
+        const auto nu = found == degrees_of_freedom_.end() ? std::nullopt : json_number(found->second->value);
+        return nu && value_of(*nu) > 0.0 ? nu : std::nullopt;
+    }
+
+private:
+    static std::string with_unit(const ImportedNumber& number) {
+        const std::string& unit = number.unit.empty() ? number.d_si_unit : number.unit;
+        return number.value + (unit == "1" ? "" : " " + unit);
+    }
+
+    const ImportedCertificate& certificate_;
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<const ImportedQuantity*>> beside_;
+    std::map<std::tuple<std::size_t, std::size_t, std::string>, const ImportedQuantity*> degrees_of_freedom_;
+};
+
+/// The results of a certificate of this program that stand there once more, beside their covariance.
+bool is_stated_twice(const ImportedQuantity& q) {
+    return q.ref_type == "gumcert_jointResults";
+}
+
 /// Distributions other than the normal one are not carried over by U and k alone.
+bool is_normal(const std::string& distribution) {
+    return distribution.empty() || distribution == "normal" || distribution == "gaussian";
+}
+
 void note_distribution(const ImportedQuantity& q, Members& members) {
     std::string note;
-    if (!q.distribution.empty() && q.distribution != "normal") {
+    if (!is_normal(q.distribution)) {
         note = "distribution in the certificate: " + q.distribution;
     }
     if (q.kind == "expanded" && !q.p.empty() && !q.k.empty()) {
@@ -205,7 +325,7 @@ std::string source_of(const ImportedCertificate& c) {
     return "certificate " + c.identifier + (c.laboratory.empty() ? "" : ", " + c.laboratory) + ", SHA-256 " + c.sha256;
 }
 
-std::string description_of(const ImportedQuantity& q) {
+std::string description_of(const ImportedQuantity& q, const std::string& place) {
     std::string text = q.result;
     if (!q.quantity.empty()) {
         text += (text.empty() ? "" : ": ") + q.quantity;
@@ -213,7 +333,36 @@ std::string description_of(const ImportedQuantity& q) {
     if (q.row) {
         text += (text.empty() ? "" : ", ") + std::string("row ") + std::to_string(*q.row + 1);
     }
-    return text;
+    return text + (place.empty() ? "" : " (" + place + ")");
+}
+
+gum::Diagnostic note_of(const char* code, const std::string& file, const std::string& what, const std::string& rule,
+                        const std::string& action) {
+    return {.code = code, .where = file, .what = what, .rule = rule, .action = action, .severity = gum::Severity::note};
+}
+
+/// What a person has to know of the job as a whole.
+void add_notes(const std::string& file, std::size_t inputs, std::size_t left_out,
+               const std::map<std::string, std::size_t>& distributions, std::vector<gum::Diagnostic>& remarks) {
+    for (const auto& [distribution, count] : distributions) {
+        remarks.push_back(note_of("GC-DCC-0033", file,
+                                  "distribution \"" + reports::printable(distribution) + "\" of " +
+                                      std::to_string(count) + (count == 1 ? " input" : " inputs"),
+                                  "the job takes U/k as the standard uncertainty of a normal distribution",
+                                  "state `distribution` or `nu` where that matters"));
+    }
+    if (left_out > 0) {
+        remarks.push_back(note_of(
+            "GC-DCC-0034", file,
+            std::to_string(left_out) +
+                (left_out == 1 ? " result without uncertainty is" : " results without uncertainty are") + " left out",
+            "inputs are the results that have one", "add them as constants where the model needs them"));
+    }
+    if (inputs > 1) {
+        remarks.push_back(note_of("GC-DCC-0032", file, std::to_string(inputs) + " inputs from one certificate",
+                                  "results of one calibration usually share errors; the job holds them as independent",
+                                  "state `correlations` or `covariance` where the certificate gives reason to"));
+    }
 }
 
 std::string job_text(const ImportedCertificate& c, const std::vector<Input>& inputs) {
@@ -244,36 +393,49 @@ ImportedJob import_certificate(std::string_view bytes, const std::string& file) 
     const bool any_uncertainty =
         std::any_of(certificate.quantities.begin(), certificate.quantities.end(),
                     [](const ImportedQuantity& q) { return q.role == "result" && q.kind != "none"; });
+    const Rows rows(certificate);
     std::vector<Input> inputs;
+    std::map<std::string, std::size_t> distributions;
+    std::set<std::size_t> tables;  // that inputs come from
     for (const ImportedQuantity& q : certificate.quantities) {
-        if (q.role != "result" || (any_uncertainty && q.kind == "none")) {
+        if (q.role != "result" || Rows::is_degrees_of_freedom(q) || is_stated_twice(q)) {
+            continue;
+        }
+        if (any_uncertainty && q.kind == "none") {
             continue;
         }
         if (std::optional<Input> input = importer.input_of(q); input) {
-            input->members.emplace_back("description", json_text(description_of(q)));
+            const auto nu = q.kind == "expanded" ? rows.degrees_of_freedom(q) : std::nullopt;
+            if (nu && !input->is_constant()) {
+                input->members.emplace_back("nu", *nu);
+            } else if (!is_normal(q.distribution)) {
+                ++distributions[q.distribution];
+            }
+            input->members.emplace_back("description", json_text(description_of(q, rows.place_of(q))));
             input->members.emplace_back("source", json_text(source_of(certificate)));
             note_distribution(q, input->members);
             inputs.push_back(std::move(*input));
+            tables.insert(q.table);
         }
     }
+    const auto left_out = static_cast<std::size_t>(
+        std::count_if(certificate.quantities.begin(), certificate.quantities.end(), [&](const ImportedQuantity& q) {
+            const bool in_description = Rows::is_beside(q) && tables.contains(q.table);
+            return any_uncertainty && q.role == "result" && q.kind == "none" && !Rows::is_degrees_of_freedom(q) &&
+                   !in_description;
+        }));
     if (inputs.empty()) {
-        throw gum::InputError(gum::Diagnostic{.code = "GC-DCC-0030",
-                                              .where = file,
-                                              .what = "no result that can be an input of a budget",
-                                              .rule = "results with a number and a known unit are imported",
-                                              .action = "enter the inputs by hand"});
+        std::vector<gum::Diagnostic> refusal = importer.remarks;
+        refusal.insert(refusal.begin(), gum::Diagnostic{.code = "GC-DCC-0030",
+                                                        .where = file,
+                                                        .what = "no result that can be an input of a budget",
+                                                        .rule = "results with a number and a known unit are imported",
+                                                        .action = "enter the inputs by hand"});
+        throw gum::InputError(std::move(refusal));
     }
     ImportedJob out{.job = job_text(certificate, inputs), .remarks = certificate.remarks};
     out.remarks.insert(out.remarks.end(), importer.remarks.begin(), importer.remarks.end());
-    if (inputs.size() > 1) {
-        out.remarks.push_back(
-            {.code = "GC-DCC-0032",
-             .where = file,
-             .what = std::to_string(inputs.size()) + " inputs from one certificate",
-             .rule = "results of one calibration usually share errors; the job holds them as independent",
-             .action = "state `correlations` or `covariance` where the certificate gives reason to",
-             .severity = gum::Severity::note});
-    }
+    add_notes(file, inputs.size(), left_out, distributions, out.remarks);
     return out;
 }
 

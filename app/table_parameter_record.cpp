@@ -172,6 +172,8 @@ void fill_table_parameters(reports::RotaryTable& rotary, const engine::TablePara
         row.value = numbers.value;
         row.u = numbers.u;
         row.U = numbers.U;
+        row.k = numbers.k;
+        row.nu_eff = numbers.nu_eff;
         row.printed = numbers.text;
         rotary.ranges.push_back(std::move(row));
     }

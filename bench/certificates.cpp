@@ -134,9 +134,9 @@ int run(int argc, char** argv) {
         print_row("signature of the PDF", pdf_signature, "–");
     }
     std::cout << "\n| certificates | largest memory of the program | of the process that sets PDF |\n|---|---|---|\n"
-              << "| " << count / 10 << " | " << early_peak << " MiB | – |\n"
-              << "| " << count << " | " << peak_mebibytes(RUSAGE_SELF) << " MiB | " << peak_mebibytes(RUSAGE_CHILDREN)
-              << " MiB |\n\n"
+              << "| after " << count / 10 << " | " << early_peak << " MiB | – |\n"
+              << "| after " << count << " | " << peak_mebibytes(RUSAGE_SELF) << " MiB | "
+              << peak_mebibytes(RUSAGE_CHILDREN) << " MiB |\n\n"
               << count << " certificates, " << bytes / count / 1000 << " kB of HTML and PDF each.\n";
     return EXIT_SUCCESS;
 }

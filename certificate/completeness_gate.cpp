@@ -5,6 +5,7 @@
 #include "certificate/finding_list.h"
 #include "certificate/gates.h"
 #include "certificate/result_names.h"
+#include "certificate/stated_text.h"
 
 namespace gumcert::certificate {
 
@@ -19,12 +20,11 @@ const std::string& last_day(const Dates& dates) {
 }
 
 bool is_blank(const Address& address) {
-    return std::all_of(address.lines.begin(), address.lines.end(),
-                       [](const std::string& line) { return line.empty(); });
+    return !any_stated(address.lines);
 }
 
 void laboratory_and_customer(FindingList& found, const CertificateData& data) {
-    if (data.laboratory.name.empty()) {
+    if (!is_stated(data.laboratory.name)) {
         found.item(k_critical, 'b', "/laboratory/name", "the name of the laboratory is missing",
                    "State it as the accreditation does.");
     }
@@ -35,14 +35,14 @@ void laboratory_and_customer(FindingList& found, const CertificateData& data) {
         found.item(k_critical, 'c', "/place/address", "the place where the work was done is missing",
                    "State its address: the work was not done in the laboratory.");
     }
-    if (data.number.empty()) {
+    if (!is_stated(data.number)) {
         found.item(k_critical, 'd', "/number", "the number of the certificate is missing",
                    "Give it a number that no other certificate has.");
     }
-    if (data.customer.name.empty()) {
+    if (!is_stated(data.customer.name)) {
         found.item(k_critical, 'e', "/customer/name", "the name of the customer is missing", "State it.");
     }
-    if (is_blank(data.customer.address) && data.customer.contact.empty() && data.customer.email.empty()) {
+    if (is_blank(data.customer.address) && !is_stated(data.customer.contact) && !is_stated(data.customer.email)) {
         found.item(k_critical, 'e', "/customer/address", "the contact information of the customer is missing",
                    "State an address, a contact or an e-mail address.");
     }
@@ -50,14 +50,14 @@ void laboratory_and_customer(FindingList& found, const CertificateData& data) {
 
 void method(FindingList& found, const CertificateData& data) {
     const Method& m = data.method;
-    if (m.identification.empty()) {
+    if (!is_stated(m.identification)) {
         found.item(k_critical, 'f', "/method/identification", "the method is not identified",
                    "State the identification of the procedure.");
     }
-    if (m.version.empty()) {
+    if (!is_stated(m.version)) {
         found.item(k_major, 'f', "/method/version", "the version of the method is missing", "State it.");
     }
-    if (m.deviations.empty() && !m.no_deviations) {
+    if (!any_stated(m.deviations) && !m.no_deviations) {
         found.item(k_major, 'n', "/method/deviations",
                    "nothing is said of additions to, deviations or exclusions from the method",
                    "List them, or state \"no_deviations\": true.");
@@ -74,14 +74,14 @@ void method(FindingList& found, const CertificateData& data) {
 }
 
 void item(FindingList& found, const CertificateData& data, const Profile& profile) {
-    if (data.item.description.empty()) {
+    if (!is_stated(data.item.description)) {
         found.item(k_critical, 'g', "/item/description", "the description of the item is missing", "State it.");
     }
-    if (data.item.serial_number.empty() && data.item.identification.empty()) {
+    if (!is_stated(data.item.serial_number) && !is_stated(data.item.identification)) {
         found.item(k_critical, 'g', "/item/serial_number", "the item is not identified",
                    "State a serial number, or an identification that customer or laboratory assigned.");
     }
-    if (data.item.condition.empty()) {
+    if (!is_stated(data.item.condition)) {
         found.item(k_critical, 'g', "/item/condition", "the condition of the item on receipt is missing",
                    "State it; \"no damage seen\" is a condition.");
     }
@@ -117,10 +117,10 @@ void dates(FindingList& found, const CertificateData& data) {
 
 void persons(FindingList& found, const CertificateData& data, const Profile& profile) {
     const auto& [performed_by, reviewed_by, authorised_by] = data.persons;
-    if (!authorised_by || authorised_by->name.empty()) {
+    if (!authorised_by || !is_stated(authorised_by->name)) {
         found.item(k_critical, 'o', "/persons/authorised_by", "nobody is named who authorises the certificate",
                    "State name and function.");
-    } else if (authorised_by->function.empty()) {
+    } else if (!is_stated(authorised_by->function)) {
         found.item(FindingSeverity::minor, 'o', "/persons/authorised_by/function",
                    "the function of the person who authorises the certificate is missing", "State it.");
     }
@@ -158,6 +158,17 @@ bool has_named_result(const Certificate& certificate, const std::vector<std::str
     });
 }
 
+/// U = 0 says that nothing was evaluated; a capability in its place would only hide that.
+void no_uncertainty(FindingList& found, const CertifiedColumn& column) {
+    const auto zero = [](const CertifiedValue& v) { return v.U == 0.0 && !v.external; };
+    const auto accredited = [&](const CertifiedValue& v) { return zero(v) && !v.scope_entry.empty(); };
+    if (std::any_of(column.values.begin(), column.values.end(), zero)) {
+        const bool any = std::any_of(column.values.begin(), column.values.end(), accredited);
+        found.add(any ? k_critical : k_major, "R07-4a", iso_17025("7.8.4.1 a"), column.result,
+                  "the evaluated expanded uncertainty is 0", "State the uncertainties of the inputs.");
+    }
+}
+
 void results(FindingList& found, const Certificate& certificate) {
     bool any = false;
     for (const CertifiedTable& table : certificate.tables) {
@@ -174,6 +185,7 @@ void results(FindingList& found, const Certificate& certificate) {
                                "no expanded uncertainty and no coverage interval is stated",
                                "See why in the remarks of the result; Monte Carlo in the job gives an interval.");
             }
+            no_uncertainty(found, column);
         }
     }
     if (!any) {
@@ -182,7 +194,7 @@ void results(FindingList& found, const Certificate& certificate) {
     const CertificateData& data = certificate.data;
     for (std::size_t i = 0; i < data.external_results.size(); ++i) {
         const ExternalResults& external = data.external_results[i];
-        if (external.provider.empty()) {
+        if (!is_stated(external.provider)) {
             found.item(k_critical, 'p', place_in("/external_results", i, "provider"),
                        "the laboratory that provided results is not named", "Name it.");
         }
@@ -203,7 +215,7 @@ void conditions(FindingList& found, const CertificateData& data) {
         const Condition& c = data.conditions[i];
         const bool outside =
             (c.lower_limit && c.minimum < *c.lower_limit) || (c.upper_limit && c.maximum > *c.upper_limit);
-        if (outside && data.method.deviations.empty()) {
+        if (outside && !any_stated(data.method.deviations)) {
             found.critical("E01", iso_17025("7.8.2.1 n"), place_in("/conditions", i),
                            "\"" + c.quantity.in("en") + "\" left the limits of the method, and no deviation is stated",
                            "State the deviation from the method and what it does to the results, or repeat the work.");
@@ -214,10 +226,15 @@ void conditions(FindingList& found, const CertificateData& data) {
 void standard(FindingList& found, const StandardUsed& s, std::size_t i, const Dates& dates) {
     const auto where = [&](const char* key) { return place_in("/standards", i, key); };
     const std::string name = "the standard \"" + s.name.in("en") + "\"";
-    if (s.identification.empty() || s.certificate.empty() || s.issuer.empty()) {
+    if (!is_stated(s.identification) || !is_stated(s.certificate) || !is_stated(s.issuer)) {
         found.major("R07-4c", iso_17025("7.8.4.1 c"), where(""),
                     name + " has no identification, no certificate or no issuer",
                     "State all three: the statement of traceability rests on them.");
+    }
+    if (s.calibrated.empty()) {
+        found.major("R07-4c", iso_17025("7.8.4.1 c"), where("calibrated"),
+                    "the date of the calibration of " + name + " is missing",
+                    "State it: without it nobody can see that the calibration was valid.");
     }
     if (!s.U && !s.conformity_statement_only) {
         found.critical("T04", iso_17025("6.5"), where("U"), "the certificate of " + name + " states no uncertainty",
@@ -255,7 +272,7 @@ void adjustment(FindingList& found, const CertificateData& data) {
     if (!data.adjustment) {
         found.critical("R07-4d", iso_17025("7.8.4.1 d"), "/adjustment", "it is not said whether the item was adjusted",
                        "State \"adjusted\": true or false.");
-    } else if (data.adjustment->adjusted && data.adjustment->as_found.empty()) {
+    } else if (data.adjustment->adjusted && !is_stated(data.adjustment->as_found)) {
         found.critical("R07-4d", iso_17025("7.8.4.1 d"), "/adjustment/as_found",
                        "the item was adjusted, and it is not said where the results before the adjustment are",
                        "Say where they stand, or why there are none.");
@@ -297,7 +314,7 @@ void specification(FindingList& found, const Certificate& certificate, std::size
 void opinions(FindingList& found, const CertificateData& data) {
     for (std::size_t i = 0; i < data.opinions.size(); ++i) {
         const Opinion& o = data.opinions[i];
-        if (o.author.name.empty()) {
+        if (!is_stated(o.author.name)) {
             found.critical("R14", iso_17025("7.8.7.1"), place_in("/opinions", i, "author"), "the opinion has no author",
                            "Name the authorised person who gives it.");
         } else if (!data.dates.issued.empty() &&
@@ -306,8 +323,8 @@ void opinions(FindingList& found, const CertificateData& data) {
                            o.author.name + " was not authorised to give opinions on " + data.dates.issued,
                            "Let an authorised person give it.");
         }
-        if (o.text.empty() || o.basis.empty()) {
-            found.major("R14", iso_17025("7.8.7.1"), place_in("/opinions", i, o.text.empty() ? "text" : "basis"),
+        if (!is_stated(o.text) || !is_stated(o.basis)) {
+            found.major("R14", iso_17025("7.8.7.1"), place_in("/opinions", i, is_stated(o.text) ? "basis" : "text"),
                         "the opinion has no text, or the basis on which it was made is not documented", "State both.");
         }
     }
@@ -319,7 +336,7 @@ void amendment(FindingList& found, const CertificateData& data) {
     }
     const Amendment& a = *data.amendment;
     const bool replaced = a.kind == "replaced";
-    if (a.number.empty()) {
+    if (!is_stated(a.number)) {
         found.critical("R12", iso_17025(replaced ? "7.8.8.3" : "7.8.8.2"), "/amendment/number",
                        "the certificate that this one amends or replaces is not named", "State its number.");
     } else if (a.number == data.number) {
@@ -327,11 +344,11 @@ void amendment(FindingList& found, const CertificateData& data) {
                        "the certificate has the number of the one that it amends or replaces",
                        "Give it a number of its own.");
     }
-    if (a.changes.empty()) {
+    if (!any_stated(a.changes)) {
         found.critical("R12", iso_17025("7.8.8.1"), "/amendment/changes", "the changed information is not identified",
                        "List the changes.");
     }
-    if (a.reason.empty()) {
+    if (!is_stated(a.reason)) {
         found.major("R12", iso_17025("7.8.8.1"), "/amendment/reason", "the reason of the change is missing",
                     "State it.");
     }
@@ -349,11 +366,13 @@ void languages(FindingList& found, const CertificateData& data, const Profile& p
 void omissions(FindingList& found, const CertificateData& data) {
     for (std::size_t i = 0; i < data.omissions.size(); ++i) {
         const Omission& o = data.omissions[i];
-        if (!o.clause.starts_with("7.8.2.1 ")) {
+        if (!may_be_left_out(o.clause)) {
             found.major("R16", iso_17025(o.clause), place_in("/omissions", i),
-                        "the item of " + o.clause + " cannot be left out for a reason: only those of 7.8.2.1 can",
+                        "the item of " + o.clause +
+                            " cannot be left out for a reason: only those of 7.8.2.1 c, e, f, "
+                            "g, h, k, n and p can",
                         "Give the item; the omission has no effect.");
-        } else if (o.reason.empty()) {
+        } else if (!is_stated(o.reason)) {
             found.major("R16", iso_17025(o.clause), place_in("/omissions", i, "reason"),
                         "the reason why the item is left out is missing", "State it.");
         }
@@ -381,7 +400,7 @@ std::vector<Finding> completeness_findings(const Certificate& certificate) {
     amendment(found, data);
     languages(found, data, certificate.profile);
     omissions(found, data);
-    if (!data.recalibration_date.empty() && data.recalibration_agreement.empty()) {
+    if (!data.recalibration_date.empty() && !is_stated(data.recalibration_agreement)) {
         found.critical("R08", iso_17025("7.8.4.3"), "/recalibration_date",
                        "a date of recalibration is stated without an agreement with the customer",
                        "State the agreement (\"recalibration_agreement\"), or leave the date out.");

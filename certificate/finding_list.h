@@ -25,7 +25,7 @@ public:
         add(FindingSeverity::major, id, clause, where, what, action);
     }
 
-    /// An item of ISO/IEC 17025:2017, 7.8.2.1, which may be left out for a valid reason: with a stored reason the
+    /// An item of ISO/IEC 17025:2017, 7.8.2.1. Where it may be left out for a valid reason and a reason is stored, the
     /// finding is an information that gives it.
     /// \param letter  "a" … "p"
     void item(FindingSeverity severity, char letter, const std::string& where, const std::string& what,
@@ -37,6 +37,11 @@ private:
     const CertificateData& data_;
     std::vector<Finding> findings_;
 };
+
+/// Whether a stored reason is enough for an item of ISO/IEC 17025:2017, 7.8.2.1 ("7.8.2.1 h"). Laboratory, number,
+/// dates of performance and issue, results and the person who authorises are what makes a certificate one, and what
+/// scope and authorisation are held against: no reason replaces them.
+[[nodiscard]] bool may_be_left_out(const std::string& clause);
 
 /// "ISO/IEC 17025:2017, 7.8.2.1 e" from "7.8.2.1 e".
 [[nodiscard]] std::string iso_17025(const std::string& clause);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace gumcert::certificate {
 
@@ -12,7 +13,10 @@ constexpr int k_trusted_digits = 12;     // of a number that a unit was converte
 constexpr int k_digits_of_raised_U = 2;  // as scopes state capabilities
 constexpr int k_most_digits_of_a_scope = 4;
 constexpr double k_least_printed = 1e-4;  // of a risk
-constexpr double k_noise = 1e-12;         // 3.999…9 degrees of freedom are 4
+constexpr double k_largest_loss = 0.05;   // of U by rounding
+constexpr double k_noise_of_a_quantum = 1e-6;
+constexpr double k_noise_of_a_limit = 16.0 * std::numeric_limits<double>::epsilon();
+constexpr double k_noise = 1e-12;  // 3.999…9 degrees of freedom are 4
 
 /// The number without the noise of a conversion.
 double trusted(double number) {
@@ -41,6 +45,21 @@ StatedPair raised_to(double value, double capability) {
     return {.value = floor.value, .U = floor.U, .raised = true};
 }
 
+/// Whether rounding took more than a twentieth of U away, as 0.14 printed as 0.1 does.
+bool lost_much(const std::string& printed, double U) {
+    return number_of(printed).value_or(U) < (1.0 - k_largest_loss) * U;
+}
+
+/// The next multiple of a quantum in one direction, or the number itself where it is one but for its rounding noise.
+std::string printed_towards(double number, int decimals, double direction) {
+    std::string text = gum::round_to_quantum(number, decimals);
+    const double quantum = std::pow(10.0, -decimals);
+    const double nearest = number_of(text).value_or(number);
+    const double noise = k_noise_of_a_quantum * quantum + k_noise_of_a_limit * std::abs(number);
+    return direction * (number - nearest) > noise ? gum::round_to_quantum(nearest + direction * quantum, decimals)
+                                                  : text;
+}
+
 }  // namespace
 
 PrintRule print_rule(const Profile& profile) {
@@ -57,10 +76,11 @@ StatedPair state_uncertainty(double value, double U, std::optional<double> capab
                                   .below = true};
     }
     const gum::RoundedPair plain = gum::round_to_uncertainty(value, U, rule.digits, rule.rounding);
-    if (!capability || !below(plain.U, *capability)) {
+    const bool too_small = capability && below(plain.U, *capability);
+    if (!too_small && !lost_much(plain.U, U)) {
         return {.value = plain.value, .U = plain.U};
     }
-    if (trusted(U) >= trusted(*capability)) {
+    if (!too_small || trusted(U) >= trusted(*capability)) {
         const gum::RoundedPair upwards = gum::round_to_uncertainty(value, U, rule.digits, gum::RoundingMode::up);
         return {.value = upwards.value, .U = upwards.U};
     }
@@ -85,19 +105,17 @@ std::string printed_degrees_of_freedom(std::optional<double> nu_eff) {
     return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
 }
 
-std::string printed_risk(double probability) {
-    return probability < k_least_printed ? "<0.01" : gum::round_significant(100.0 * probability, 2);
-}
-
-std::string printed_conformance(double probability) {
+std::string printed_probability(double probability) {
     const double complement = 1.0 - probability;
+    if (probability < k_least_printed) {
+        return "<0.01";
+    }
     if (complement < k_least_printed) {
         return ">99.99";
     }
-    if (probability < complement) {
-        return printed_risk(probability);
-    }
-    return gum::round_to_quantum(100.0 * probability, decimals_of(gum::round_significant(100.0 * complement, 2)));
+    return probability < complement
+               ? gum::round_significant(100.0 * probability, 2)
+               : gum::round_to_quantum(100.0 * probability, decimals_of(gum::round_significant(100.0 * complement, 2)));
 }
 
 int decimals_of(const std::string& printed) {
@@ -133,6 +151,14 @@ int significant_digits(const std::string& printed) {
 
 std::string printed_limit(double limit, int decimals) {
     return gum::round_to_quantum(limit, std::max({own_decimals(limit), decimals, 0}));
+}
+
+std::string printed_at_least(double number, int decimals) {
+    return printed_towards(number, decimals, 1.0);
+}
+
+std::string printed_at_most(double number, int decimals) {
+    return printed_towards(number, decimals, -1.0);
 }
 
 std::string printed_capability(double capability) {

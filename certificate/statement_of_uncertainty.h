@@ -48,11 +48,9 @@ struct StatedPair {
 /// has more than four.
 [[nodiscard]] std::string printed_capability(double capability);
 
-/// A probability in percent with two significant digits: 0.02275 gives "2.3"; "<0.01" below 0.01 %, where it rests on
-/// the tail of an assumed distribution.
-[[nodiscard]] std::string printed_risk(double probability);
-/// A probability near one, to the decimal place of its complement: 0.97725 gives "97.7"; ">99.99" above 99.99 %.
-[[nodiscard]] std::string printed_conformance(double probability);
+/// A probability in percent: two significant digits of it or of its complement, whichever is smaller. 0.02275 gives
+/// "2.3", 0.97725 gives "97.7"; "<0.01" and ">99.99" where it rests on the tail of an assumed distribution.
+[[nodiscard]] std::string printed_probability(double probability);
 
 /// Decimal place at which a printed number ends: "1.23" 2, "50" 0, "1.2E+3" −2.
 [[nodiscard]] int decimals_of(const std::string& printed);
@@ -62,5 +60,11 @@ struct StatedPair {
 [[nodiscard]] int significant_digits(const std::string& printed);
 /// Shortest text of a limit as it was stated, noise of a unit conversion left out, and not fewer decimals than asked.
 [[nodiscard]] std::string printed_limit(double limit, int decimals);
+
+/// Acceptance limits, guard bands and ratios, to a decimal place and always to the safe side: a value that ends at this
+/// place or before lies inside of the printed limit where it lies inside of the limit itself. Noise of a computation (a
+/// millionth of the place) is left out.
+[[nodiscard]] std::string printed_at_least(double number, int decimals);
+[[nodiscard]] std::string printed_at_most(double number, int decimals);
 
 }  // namespace gumcert::certificate

@@ -5,6 +5,7 @@
 #include "certificate/dates.h"
 #include "certificate/finding_list.h"
 #include "certificate/gates.h"
+#include "certificate/stated_text.h"
 #include "certificate/statement_of_uncertainty.h"
 
 namespace gumcert::certificate {
@@ -56,8 +57,8 @@ struct Tally {
 
 void accreditation(FindingList& found, const CertificateData& data) {
     const Accreditation& a = *data.accreditation;
-    if (a.number.empty() || a.body.empty()) {
-        found.critical("X08", k_p8, a.number.empty() ? "/accreditation/number" : "/accreditation/body",
+    if (!is_stated(a.number) || !is_stated(a.body)) {
+        found.critical("X08", k_p8, is_stated(a.number) ? "/accreditation/body" : "/accreditation/number",
                        "the accreditation has no number or no body", "State both.");
     }
     const auto valid_on = [&](const std::string& day, const char* what) {
@@ -98,11 +99,11 @@ void routes(FindingList& found, const CertificateData& data) {
             found.critical("T03", k_p10, place_in("/standards", i, "route"),
                            "it is not said by which route " + name + " is traceable",
                            "State 1 (national institute), 2 (accredited laboratory), 3a, 3b, in_house or crm.");
-        } else if (by_evidence && s.evidence.empty()) {
+        } else if (by_evidence && !is_stated(s.evidence)) {
             found.critical("T03", k_p10, place_in("/standards", i, "evidence"),
                            name + " is traceable by route " + s.route + ", and no evidence of competence is named",
                            "Name the documents that show the competence of who calibrated it.");
-        } else if (s.route == "2" && s.issuer_accreditation.empty()) {
+        } else if (s.route == "2" && !is_stated(s.issuer_accreditation)) {
             found.critical("T03", k_p10, place_in("/standards", i, "issuer_accreditation"),
                            "the accreditation of the laboratory that calibrated " + name + " is missing",
                            "State its number.");

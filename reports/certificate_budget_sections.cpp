@@ -3,16 +3,15 @@
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
 #include "reports/budget_plots.h"
+#include "reports/result_names.h"
 #include "reports/svg_plot.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -325,15 +324,6 @@ std::string sensitivity_unit(const std::string& result, const std::string& input
 }
 
 /// "A", "B", or "A, B" of an input that is a sum.
-/// The name of a distribution in the language of the document; one that the program does not name stays as it is.
-Text distribution_text(const std::string& name, const Wording& words) {
-    constexpr std::array<std::string_view, 14> k_named{
-        "constant",  "normal", "uniform",     "triangular", "arcsine", "trapezoidal", "curvilinear_trapezoid",
-        "student_t", "gamma",  "exponential", "lognormal",  "beta",    "empirical",   "sum"};
-    return std::find(k_named.begin(), k_named.end(), name) == k_named.end() ? Text(name)
-                                                                            : words("distribution_name", name);
-}
-
 std::string type_of(const BudgetRow& row) {
     std::set<std::string> types;
     for (const BudgetRow& part : row.components) {
@@ -347,7 +337,7 @@ std::vector<Text> budget_line(const BudgetRow& row, const Result& result, bool p
     return {row.input,
             with_unit(row.printed.value, gum::unit_for_people(row.unit)),
             with_unit(row.printed.u, gum::unit_for_people(difference_unit(row.unit))),
-            distribution_text(row.distribution, words),
+            distribution_name(row.distribution, words),
             type_of(row),
             row.printed.nu.empty() ? nu_text(row.nu, words) : Text(row.printed.nu),
             with_unit(row.printed.sensitivity, sensitivity_unit(result.unit, row.unit)),
@@ -373,7 +363,7 @@ void budget(CertificateBuilder& builder, const Wording& words, const Result& res
     }
     const bool nu_known = coverage_kind(result) == "student_t" || result.nu_eff;
     rows.push_back({result.name, with_unit(result.printed.value, result.printed.unit), "",
-                    distribution_text(result.distribution, words), "",
+                    distribution_name(result.distribution, words), "",
                     nu_known ? nu_text(result.nu_eff, words) : Text(), "", rounded(result.u), "100"});
     kinds.push_back(RowKind::closing);
     builder.table("budget-" + std::to_string(number), words.fill("budget_result", {{"name", result.name}}),

@@ -170,8 +170,8 @@ void CertificateBuilder::table(const std::string& id, const Text& caption, const
     const std::vector<std::string>& languages = wording_.languages();
     const std::string& sign = wording_.decimal_sign();
     const auto shown = [&](std::size_t row, std::size_t column) {
-        const std::string& text = rows[row][column].first();
-        return columns[column].number ? with_decimal_sign(text, sign) : text;
+        // As Wording::number() prints it, and in one language: a number has no second one.
+        return columns[column].number ? wording_.number(rows[row][column].first()).first() : rows[row][column].first();
     };
     std::vector<std::size_t> longest(columns.size(), 0);
     for (std::size_t r = 0; r < rows.size(); ++r) {
@@ -192,6 +192,7 @@ void CertificateBuilder::table(const std::string& id, const Text& caption, const
         json cells = json::array();
         for (std::size_t c = 0; c < columns.size(); ++c) {
             const std::string text = shown(r, c);
+            absent_cells_ += text.empty() ? 1U : 0U;
             std::string pad;
             if (const auto length = fraction_length(text, sign); columns[c].number && length && *length < longest[c]) {
                 pad = (*length == 0 ? sign : "") + std::string(longest[c] - std::max<std::size_t>(*length, 1), '0');

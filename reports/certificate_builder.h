@@ -52,6 +52,9 @@ public:
                const std::vector<std::vector<Text>>& rows, const std::vector<std::pair<Text, std::size_t>>& groups = {},
                const std::vector<RowKind>& kinds = {});
 
+    /// Cells that were printed as "–", of all tables so far.
+    [[nodiscard]] std::size_t absent_cells() const { return absent_cells_; }
+
     /// The sections; the builder is empty afterwards.
     [[nodiscard]] nlohmann::json take();
 
@@ -60,6 +63,7 @@ private:
     std::unique_ptr<nlohmann::json> sections_;
     int tables_ = 0;
     int figures_ = 0;
+    std::size_t absent_cells_ = 0;
     bool annexes_ = false;
 
     void block(const char* kind, nlohmann::json content);

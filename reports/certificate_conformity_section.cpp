@@ -2,7 +2,9 @@
 
 #include "gum/quantity/unit.h"
 #include "reports/certified_value_tables.h"
+#include "reports/decision_formula.h"
 #include "reports/printed_texts.h"
+#include "reports/result_names.h"
 
 #include <algorithm>
 #include <array>
@@ -36,7 +38,8 @@ struct Decided {
     const CertifiedColumn* column = nullptr;
     const CertifiedValue* value = nullptr;
     const CertifiedTable::Argument* argument = nullptr;
-    std::string at;  ///< printed argument; "" without
+    std::string at;          ///< printed argument; "" without
+    std::string table = {};  ///< id
 };
 
 std::vector<Decided> decided_by(const Certificate& certificate, const AgreedSpecification& specification) {
@@ -49,7 +52,8 @@ std::vector<Decided> decided_by(const Certificate& certificate, const AgreedSpec
                     all.push_back({.column = &column,
                                    .value = &v,
                                    .argument = table.argument ? &*table.argument : nullptr,
-                                   .at = table.argument ? table.argument->printed.at(i) : std::string()});
+                                   .at = table.argument ? table.argument->printed.at(i) : std::string(),
+                                   .table = table.id});
                 }
             }
         }
@@ -101,14 +105,6 @@ Text tolerance_limits(const std::vector<Decided>& decided, const AgreedSpecifica
     return low.empty() || high.empty() ? low + high : low + "; " + high;
 }
 
-std::string document_of(const AgreedSpecification& s) {
-    std::string text = s.document.empty() ? s.id : s.document;
-    for (const std::string& part : {s.edition, s.clause}) {
-        text += part.empty() ? "" : ", " + part;
-    }
-    return text;
-}
-
 void specification_rows(CertificateBuilder& builder, const Wording& words, const AgreedSpecification& s,
                         const std::vector<Decided>& decided) {
     Rows rows = {{words("certificate", "specification"), document_of(s)}};
@@ -141,7 +137,8 @@ void decision_sentences(CertificateBuilder& builder, const Wording& words, const
         common(texts_of(decided, [](const auto& d) { return d.value->verdict->printed.largest_specific_risk; }));
     const std::string& unit = decided.front().column->printed_unit;
     for (const auto& [rule, formula] : formulas) {
-        Text text = words.filled("statement", "conformity_sentence", {{"rule", rule}, {"formula", formula}});
+        Text text = words.filled("statement", "conformity_sentence",
+                                 {{"rule", rule}, {"formula", decision_formula(formula, words)}});
         if (bands && !bands->empty()) {
             text += " " +
                     words.filled("statement", "conformity_guard_band", {{"w", with_unit(words.number(*bands), unit)}});
@@ -208,7 +205,7 @@ void verdict_table(CertificateBuilder& builder, const Wording& words, const Agre
     columns.push_back({words("certificate", "verdict"), ""});
     Lines lines;
     for (std::size_t i = 0; i < decided.size(); ++i) {
-        std::vector<Text> row = {decided[i].column->result};
+        std::vector<Text> row = {name_of_result(decided[i].table, decided[i].column->result, words)};
         if (any_argument) {
             row.emplace_back(decided[i].at);
         }
@@ -239,6 +236,14 @@ void verdict_meanings(CertificateBuilder& builder, const Wording& words, const s
 }
 
 }  // namespace
+
+std::string document_of(const AgreedSpecification& s) {
+    std::string text = s.document.empty() ? s.id : s.document;
+    for (const std::string& part : {s.edition, s.clause}) {
+        text += part.empty() ? "" : ", " + part;
+    }
+    return text;
+}
 
 void conformity_section(CertificateBuilder& builder, const Wording& words, const Certificate& certificate) {
     builder.section("conformity");

@@ -1,6 +1,10 @@
 #include "reports/certificate_identity_sections.h"
 
+#include "reports/certificate_conformity_section.h"
 #include "reports/certificate_view.h"
+#include "reports/certified_overview.h"
+#include "reports/printed_texts.h"
+#include "reports/result_names.h"
 
 #include <nlohmann/json.hpp>
 
@@ -159,7 +163,7 @@ void dates_section(CertificateBuilder& builder, const Wording& words, const Cert
     builder.definitions(rows);
 }
 
-/// "pass: 10 of 12 values, fail: 2 of 12 values"
+/// "pass (10 of 12 values), fail (2 of 12 values)"
 Text verdict_counts(const std::vector<const certificate::Verdict*>& verdicts, const Wording& words) {
     static constexpr const char* k_order[] = {"pass", "conditional_pass", "conditional_fail", "undetermined",
                                               "fail", "not_applicable"};
@@ -175,28 +179,91 @@ Text verdict_counts(const std::vector<const certificate::Verdict*>& verdicts, co
                                                               {{"verdict", words("verdict_name", name)},
                                                                {"count", std::to_string(count)},
                                                                {"all", std::to_string(verdicts.size())}});
-        text = text.empty() ? part : text + "; " + part;
+        text = text.empty() ? part : text + ", " + part;
     }
     return text;
 }
 
-std::string specification_name(const certificate::AgreedSpecification& s) {
-    return s.document.empty() ? s.id : s.document;
+/// The one certified value of the certificate with its column; nothing where there are none or several.
+std::pair<const certificate::CertifiedColumn*, const certificate::CertifiedValue*> only_value(
+    const Certificate& certificate) {
+    std::pair<const certificate::CertifiedColumn*, const certificate::CertifiedValue*> found = {};
+    for (const certificate::CertifiedTable& table : certificate.tables) {
+        for (const certificate::CertifiedColumn& column : table.columns) {
+            for (const certificate::CertifiedValue& value : column.values) {
+                if (found.first != nullptr) {
+                    return {};
+                }
+                found = {&column, &value};
+            }
+        }
+    }
+    return found;
 }
 
-void summary_section(CertificateBuilder& builder, const Wording& words, const Certificate& certificate) {
+/// "l = 50000838 nm ± 68 nm, k = 2.16" where that is the whole of the results; else where they stand. A value with a
+/// mark (outside of the accreditation, external) stands where the mark is explained.
+Text results_in_one_line(const Certificate& certificate, const Wording& words, const std::string& coverage) {
+    const auto [column, value] = only_value(certificate);
+    if (column == nullptr || value->printed_value.empty() || !CertifiedOverview(certificate).note(*value).empty()) {
+        return words("statement", "see_following_pages");
+    }
+    const auto quantity = [&](const std::string& printed) {
+        return with_unit(words.number(printed), column->printed_unit);
+    };
+    const Coverage kind = coverage_of(*value);
+    if (kind == Coverage::interval) {
+        return words.filled("statement", "result_interval",
+                            {{"name", column->result},
+                             {"value", quantity(value->printed_value)},
+                             {"low", quantity(value->printed_low)},
+                             {"high", quantity(value->printed_high)},
+                             {"p", words.number(coverage)}});
+    }
+    if (kind == Coverage::none || kind == Coverage::nothing) {
+        return words("statement", "see_following_pages");
+    }
+    Text text = words.filled(
+        "statement", certificate.profile.plus_minus_in_tables ? "result_with_U" : "result_and_U",
+        {{"name", column->result}, {"value", quantity(value->printed_value)}, {"U", quantity(value->printed_U)}});
+    if (!value->printed_k.empty()) {
+        text += words("document", "separator") + words.fill("k_one", {{"k", words.number(value->printed_k)}});
+    }
+    return text;
+}
+
+/// Names of the results that a specification holds for, each once; the first ones of many.
+Text decided_names(const std::vector<Text>& all) {
+    constexpr std::size_t k_most = 6;
+    std::vector<Text> names;
+    for (const Text& name : all) {
+        if (std::find(names.begin(), names.end(), name) == names.end()) {
+            names.push_back(name);
+        }
+    }
+    Text text;
+    for (std::size_t i = 0; i < std::min(names.size(), k_most); ++i) {
+        text += (i == 0 ? Text() : Text(", ")) + names[i];
+    }
+    return names.size() > k_most ? text + ", …" : text;
+}
+
+void summary_section(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    const Certificate& certificate = *record.certificate;
     builder.section("summary");
-    Rows rows = {{words("certificate", "results"), words("statement", "see_following_pages")}};
+    Rows rows = {{words("certificate", "results"), results_in_one_line(certificate, words, record.printed_coverage)}};
     if (certificate.data.specifications.empty()) {
         rows.emplace_back(words("certificate", "conformity"), words("statement", "no_conformity"));
     }
     for (const certificate::AgreedSpecification& s : certificate.data.specifications) {
         std::vector<const certificate::Verdict*> verdicts;
+        std::vector<Text> names;
         for (const certificate::CertifiedTable& table : certificate.tables) {
             for (const certificate::CertifiedColumn& column : table.columns) {
                 for (const certificate::CertifiedValue& value : column.values) {
                     if (value.verdict && value.verdict->specification == s.id) {
                         verdicts.push_back(&*value.verdict);
+                        names.push_back(name_of_result(table.id, column.result, words));
                     }
                 }
             }
@@ -204,8 +271,9 @@ void summary_section(CertificateBuilder& builder, const Wording& words, const Ce
         if (!verdicts.empty()) {
             rows.emplace_back(words("certificate", "conformity"),
                               words.filled("statement", "conformity_summary",
-                                           {{"verdicts", verdict_counts(verdicts, words)},
-                                            {"specification", specification_name(s)},
+                                           {{"specification", document_of(s)},
+                                            {"results", decided_names(names)},
+                                            {"verdicts", verdict_counts(verdicts, words)},
                                             {"rule", s.rule.id + ", " + words("rule_name", s.rule.id)}}));
         }
     }
@@ -262,7 +330,7 @@ nlohmann::json identity_page(CertificateBuilder& builder, const Wording& words, 
     item_section(builder, words, data.item);
     customer_section(builder, words, data.customer);
     dates_section(builder, words, data);
-    summary_section(builder, words, certificate);
+    summary_section(builder, words, record);
     authorisation_section(builder, words, data);
     const Text name = words.localised(data.laboratory.name);
     const Text number = words("certificate", "number");

@@ -2,6 +2,7 @@
 
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
+#include "reports/result_names.h"
 #include "reports/rotary_plots.h"
 
 #include <algorithm>
@@ -77,7 +78,7 @@ Text verdict_of(const std::optional<MonteCarloSummary>& m, const Wording& words)
 }
 
 void parameter_table(CertificateBuilder& builder, const Wording& words, const std::string& id, const Text& caption,
-                     const std::vector<TableParameter>& parameters) {
+                     const std::string& table, const std::vector<TableParameter>& parameters) {
     const bool compared = std::any_of(parameters.begin(), parameters.end(), [](const TableParameter& p) {
         return p.monte_carlo && p.monte_carlo->validation;
     });
@@ -90,8 +91,8 @@ void parameter_table(CertificateBuilder& builder, const Wording& words, const st
     }
     Rows rows;
     for (const TableParameter& p : parameters) {
-        rows.push_back({p.name, p.description, p.printed.value, p.printed.U, p.printed.unit, fixed(p.k, 2),
-                        nu_text(p.nu_eff, words)});
+        rows.push_back({p.name, result_meaning(table, p.name, p.description, words), p.printed.value, p.printed.U,
+                        p.printed.unit, fixed(p.k, 2), nu_text(p.nu_eff, words)});
         if (compared) {
             rows.back().push_back(verdict_of(p.monte_carlo, words));
         }
@@ -299,7 +300,8 @@ void budget_table(CertificateBuilder& builder, const Wording& words, const std::
                   const std::vector<BudgetRow>& budget, const std::string& unit) {
     Rows rows;
     for (const BudgetRow& row : budget) {
-        rows.push_back({row.input, row.source, row.type, row.distribution,
+        rows.push_back({source_name(row.input, words), source_name(row.source, words), row.type,
+                        distribution_name(row.distribution, words),
                         row.nu ? Text(whole_below(*row.nu)) : words("document", "infinite"), row.printed.u,
                         gum::unit_for_people(row.unit), row.printed.contribution, row.printed.share});
     }
@@ -318,7 +320,8 @@ void budget_table(CertificateBuilder& builder, const Wording& words, const std::
 
 void location_errors(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
     if (!r.location_errors.empty()) {
-        parameter_table(builder, words, "location-errors", words("sentence", "location_errors"), r.location_errors);
+        parameter_table(builder, words, "location-errors", words("sentence", "location_errors"), "location_errors",
+                        r.location_errors);
     }
 }
 
@@ -328,7 +331,8 @@ void positioning(CertificateBuilder& builder, const Wording& words, const Rotary
     }
     runs(builder, words, *r.iso230_2);
     if (!r.iso230_2->parameters.empty()) {
-        parameter_table(builder, words, "positioning", words("sentence", "positioning_table"), r.iso230_2->parameters);
+        parameter_table(builder, words, "positioning", words("sentence", "positioning_table"), "positioning",
+                        r.iso230_2->parameters);
     }
     targets(builder, words, *r.iso230_2);
 }
@@ -347,7 +351,7 @@ void budget_by_source(CertificateBuilder& builder, const Wording& words, const R
     std::vector<Column> columns = {
         {words("label", "quantity"), ""}, {words("label", "rms_u"), "", true}, {words("label", "unit"), ""}};
     for (const std::string& source : r.budget_sources) {
-        columns.push_back({source, "%", true});
+        columns.push_back({source_name(source, words), "%", true});
     }
     Rows rows;
     for (const BudgetSummaryRow& row : r.budget_summary) {

@@ -40,20 +40,48 @@ Text stated_number(const std::optional<double>& v, const std::string& unit, cons
     return v ? with_unit(words.number(plain(*v)), unit) : Text();
 }
 
+/// Two plain numbers with the same number of decimals: "19.8", "20.0".
+std::pair<std::string, std::string> with_equal_decimals(double a, double b) {
+    std::pair<std::string, std::string> texts = {plain(a), plain(b)};
+    const auto decimals = [](const std::string& text) {
+        const std::size_t point = text.find('.');
+        return point == std::string::npos ? 0 : text.size() - point - 1;
+    };
+    const std::size_t most = std::max(decimals(texts.first), decimals(texts.second));
+    for (std::string* text : {&texts.first, &texts.second}) {
+        const std::size_t own = decimals(*text);
+        if (own < most && (texts.first + texts.second).find('e') == std::string::npos) {
+            *text += (own == 0 ? "." : "") + std::string(most - own, '0');
+        }
+    }
+    return texts;
+}
+
+bool has_limits(const Plot& plot) {
+    return std::any_of(plot.panels.begin(), plot.panels.end(),
+                       [](const PlotPanel& p) { return !p.limits.empty() || p.series.size() > 1; });
+}
+
 /// One paragraph, so that it is not torn apart by the end of a page.
-void legend(CertificateBuilder& builder, const Wording& words, const CertifiedOverview& overview) {
-    Text text = words("statement", "not_applicable_mark");
+/// \param absent  a table above has a cell "–"
+void legend(CertificateBuilder& builder, const Wording& words, const CertifiedOverview& overview, bool absent) {
+    Text text;
+    const auto mark = [&](const Text& sentence) { text += text.empty() ? sentence : " " + sentence; };
+    if (absent) {
+        mark(words("statement", "not_applicable_mark"));
+    }
     if (overview.used().size() > 1) {
-        text += " " + words.filled("statement", "coverage_marks",
-                                   {{"heading", words("heading", "statement_of_uncertainty")}});
+        mark(words.filled("statement", "coverage_marks", {{"heading", words("heading", "statement_of_uncertainty")}}));
     }
     if (!overview.separates() && overview.any([&](const auto& v) { return overview.is_outside(v); })) {
-        text += " " + words("statement", "outside_mark");
+        mark(words("statement", "outside_mark"));
     }
     if (overview.any([](const auto& v) { return v.external; })) {
-        text += " " + words.filled("statement", "external_mark", {{"heading", words("heading", "external")}});
+        mark(words.filled("statement", "external_mark", {{"heading", words("heading", "external")}}));
     }
-    builder.paragraph(text);
+    if (!text.empty()) {
+        builder.paragraph(text);
+    }
 }
 
 void remarks_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data) {
@@ -223,7 +251,8 @@ void conditions_section(CertificateBuilder& builder, const Wording& words, const
     Lines lines;
     const auto number = [](const std::optional<double>& v) { return Text(v ? plain(*v) : std::string()); };
     for (const certificate::Condition& c : data.conditions) {
-        std::vector<Text> row = {words.localised(c.quantity),  plain(c.minimum), plain(c.maximum), number(c.U),
+        const auto [least, greatest] = with_equal_decimals(c.minimum, c.maximum);
+        std::vector<Text> row = {words.localised(c.quantity),  least,   greatest, number(c.U),
                                  gum::unit_for_people(c.unit), c.sensor};
         if (limits) {
             row.push_back(number(c.lower_limit));
@@ -276,6 +305,7 @@ void result_sections(CertificateBuilder& builder, const Wording& words, const Ev
                               : words("statement", "not_adjusted"));
     }
     const auto shown = [&](const CertifiedValue& v) { return !overview.separates() || !overview.is_outside(v); };
+    const std::size_t absent_before = builder.absent_cells();
     for (std::size_t i = 0; i < certificate.tables.size(); ++i) {
         const CertifiedTable& table = certificate.tables[i];
         certified_table(builder, words, table, "certified-" + std::to_string(i), shown, overview);
@@ -283,13 +313,16 @@ void result_sections(CertificateBuilder& builder, const Wording& words, const Ev
             certified_meanings(builder, words, table);
         }
     }
-    legend(builder, words, overview);
+    legend(builder, words, overview, builder.absent_cells() > absent_before);
     for (std::size_t i = 0; i < certificate.tables.size(); ++i) {
         const Text name = certified_table_name(certificate.tables[i], words);
         const std::string id = "plot-certified-" + std::to_string(i);
         if (const auto plot = certified_plot(certificate.tables[i], name.first(), words, id)) {
-            builder.figure(plot->id, words.filled("statement", "certified_figure", {{"table", name}}),
-                           plot->description, svg(*plot));
+            Text caption = words.filled("statement", "certified_figure", {{"table", name}});
+            if (has_limits(*plot)) {
+                caption += " " + words("statement", "figure_limits");
+            }
+            builder.figure(plot->id, caption, plot->description, svg(*plot));
         }
     }
 }

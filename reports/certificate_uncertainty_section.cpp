@@ -1,6 +1,7 @@
 #include "reports/certificate_uncertainty_section.h"
 
 #include "reports/printed_texts.h"
+#include "reports/result_names.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -126,16 +127,28 @@ Text coverage_sentence(Coverage c, const std::vector<const CertifiedValue*>& val
     return words.fill("coverage_none", {});
 }
 
+/// "a, b, c" as each language writes it.
+Text listed(const std::vector<Text>& names, const Wording& words) {
+    Text text;
+    for (const Text& name : names) {
+        text += text.empty() ? name : words("document", "enumeration") + name;
+    }
+    return text;
+}
+
 /// Names of what the budget contains, each once.
-std::vector<std::string> contributions(const EvaluationRecord& record) {
-    std::vector<std::string> names;
-    const auto see = [&](const std::string& name) {
+std::vector<Text> contributions(const EvaluationRecord& record, const Wording& words) {
+    std::vector<Text> names;
+    const auto see = [&](const Text& name) {
         if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) {
             names.push_back(name);
         }
     };
-    if (record.rotary) {
-        std::for_each(record.rotary->budget_sources.begin(), record.rotary->budget_sources.end(), see);
+    if (record.rotary && !record.rotary->budget_sources.empty()) {
+        for (const std::string& source : record.rotary->budget_sources) {
+            see(source_name(source, words));
+        }
+        return names;  // the inputs of the set-up errors have these sources, under other names
     }
     for (const Result& r : record.results) {
         for (const BudgetRow& row : r.budget) {
@@ -165,8 +178,8 @@ void uncertainty_section(CertificateBuilder& builder, const Wording& words, cons
     if (overview.raised()) {
         builder.paragraph(words("statement", "raised"));
     }
-    if (const std::vector<std::string> names = contributions(record); !names.empty()) {
-        builder.paragraph(words.filled("statement", "contributions", {{"names", joined(names)}}));
+    if (const std::vector<Text> names = contributions(record, words); !names.empty()) {
+        builder.paragraph(words.filled("statement", "contributions", {{"names", listed(names, words)}}));
     }
     builder.paragraph(words.fill("validity", {}));
 }

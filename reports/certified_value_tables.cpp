@@ -1,6 +1,7 @@
 #include "reports/certified_value_tables.h"
 
 #include "reports/printed_texts.h"
+#include "reports/result_names.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -83,6 +84,16 @@ void cells(std::vector<Text>& row, const Parts& parts, const CertifiedValue* val
     }
 }
 
+/// What the name of a quantity stands for; empty where the name says it.
+Text meaning(const CertifiedTable& table, const CertifiedColumn& column, const Wording& words) {
+    const std::string name = name_in_table(table.id, column.result);
+    if (column.name.empty() || column.name.in("en") == column.result || column.name.in("en") == name ||
+        name != column.result) {
+        return {};
+    }
+    return result_meaning(table, column, words);
+}
+
 /// One row a quantity: for a table without argument.
 void quantity_table(CertificateBuilder& builder, const Wording& words, const CertifiedTable& table,
                     const std::string& id, const CertifiedOverview::Holds& shown, const CertifiedOverview& overview) {
@@ -94,7 +105,7 @@ void quantity_table(CertificateBuilder& builder, const Wording& words, const Cer
         if (!column.values.empty() && shown(column.values.front())) {
             rows_of.push_back(&column);
             parts.see(column.values.front(), overview);
-            named = named || (!column.name.empty() && column.name.in("en") != column.result);
+            named = named || !meaning(table, column, words).empty();
             units.push_back(column.printed_unit);
         }
     }
@@ -112,9 +123,9 @@ void quantity_table(CertificateBuilder& builder, const Wording& words, const Cer
     }
     Lines lines;
     for (const CertifiedColumn* column : rows_of) {
-        std::vector<Text> row = {column->result};
+        std::vector<Text> row = {name_in_table(table.id, column->result)};
         if (named) {
-            row.push_back(words.localised(column->name));
+            row.push_back(meaning(table, *column, words));
         }
         cells(row, parts, &column->values.front(), overview);
         if (!unit) {
@@ -159,7 +170,7 @@ void argument_table(CertificateBuilder& builder, const Wording& words, const Cer
         std::vector<std::pair<Text, std::size_t>> groups = {{"", 1}};
         for (std::size_t q = first; q < last; ++q) {
             heads(columns, quantities[q].parts, quantities[q].column->printed_unit, words, width > 6);
-            groups.emplace_back(quantities[q].column->result, quantities[q].parts.count());
+            groups.emplace_back(name_in_table(table.id, quantities[q].column->result), quantities[q].parts.count());
         }
         Lines lines;
         for (std::size_t r = 0; r < argument.printed.size(); ++r) {
@@ -209,8 +220,8 @@ bool is_numeric(const CertifiedTable::Argument& argument) {
 void certified_meanings(CertificateBuilder& builder, const Wording& words, const CertifiedTable& table) {
     std::vector<std::pair<Text, Text>> rows;
     for (const CertifiedColumn& column : table.columns) {
-        if (!column.name.empty() && column.name.in("en") != column.result) {
-            rows.emplace_back(column.result, words.localised(column.name));
+        if (Text text = meaning(table, column, words); !text.empty()) {
+            rows.emplace_back(column.result, std::move(text));
         }
     }
     if (!rows.empty()) {

@@ -36,6 +36,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* k_set_up = "run scripts/setup, which installs it";
+constexpr const char* k_make_room = "make room on the disk of this folder, or name another with TMPDIR";
 constexpr const char* k_package = "@myriaddreamin/typst-ts-node-compiler";
 
 // The pinned Typst package keeps about 1.2 MB for good for each certificate of three pages (measured over 1000), and a
@@ -56,7 +57,8 @@ public:
         std::string name = (fs::absolute(parent) / "gumcert-XXXXXX").string();
         if (::mkdtemp(name.data()) == nullptr) {
             storage_error(parent.string(), std::string("cannot make a folder in it: ") + std::strerror(errno),
-                          "the PDF step needs a folder for its files", "name a folder that can be written to");
+                          "the PDF step needs a folder for its files",
+                          "name a folder that can be written to with TMPDIR");
         }
         path_ = name;
     }
@@ -73,17 +75,19 @@ private:
     fs::path path_;
 };
 
+void make_folder(const fs::path& path) {
+    std::error_code failure;
+    fs::create_directory(path, failure);
+    if (failure) {
+        storage_error(path.string(), "cannot be made: " + failure.message(),
+                      "the PDF step needs a folder for its files", k_make_room);
+    }
+}
+
 /// The folder with the files of one document: empty at first, gone at the end.
 class DocumentFolder {
 public:
-    explicit DocumentFolder(fs::path path) : path_(std::move(path)) {
-        std::error_code failure;
-        fs::create_directory(path_, failure);
-        if (failure) {
-            storage_error(path_.string(), "cannot be made: " + failure.message(),
-                          "the PDF step needs a folder for its files", "make room on the disk");
-        }
-    }
+    explicit DocumentFolder(fs::path path) : path_(std::move(path)) { make_folder(path_); }
     ~DocumentFolder() {
         std::error_code ignored;
         fs::remove_all(path_, ignored);
@@ -99,8 +103,7 @@ void write_file(const fs::path& name, std::string_view bytes) {
     std::ofstream file(name, std::ios::binary);
     file << bytes;
     if (!file.flush()) {
-        storage_error(name.string(), "cannot be written", "the PDF step needs room for its files",
-                      "make room on the disk");
+        storage_error(name.string(), "cannot be written", "the PDF step needs room for its files", k_make_room);
     }
 }
 
@@ -199,7 +202,7 @@ class PdfWorker::Process {
 public:
     explicit Process(const RenderAssets& assets) : assets_(assets), folder_(assets.temporary_folder) {
         // Typst would offer the fonts of the machine; a list of folders with one empty folder keeps them away.
-        fs::create_directory(folder_.path() / "no_fonts");
+        make_folder(folder_.path() / "no_fonts");
         write_file(folder_.path() / "fonts.conf", "<?xml version=\"1.0\"?>\n<fontconfig><dir>" +
                                                       xml_escaped((folder_.path() / "no_fonts").string()) +
                                                       "</dir></fontconfig>\n");
@@ -234,6 +237,15 @@ public:
         const nlohmann::json answer = nlohmann::json::parse(receive_line(deadline), nullptr, false);
         ++documents_;
         const std::string status = answer.is_object() ? answer.value("status", std::string()) : std::string();
+        if (status == "template") {
+            throw gum::NoResultError(gum::Diagnostic{
+                .code = "GC-REPORT-0011",
+                .where = "PDF",
+                .what = messages(answer),
+                .rule = "the template templates/pdf/certificate.typ is set by Typst with the texts of the record",
+                .action = "correct the template at the place that is named, or use the one that comes "
+                          "with the program (docs/templates.md)"});
+        }
         if (status == "refused") {
             throw gum::NoResultError(gum::Diagnostic{
                 .code = "GC-REPORT-0011",
@@ -245,7 +257,7 @@ public:
         if (status != "done") {
             storage_error("PDF",
                           "node could not set the document" + (answer.is_object() ? ": " + messages(answer) : ""),
-                          "the PDF step answers with a document", k_set_up);
+                          "the PDF step answers with a document", is_full(answer) ? k_make_room : k_set_up);
         }
         memory_ = answer.value("memory", std::uint64_t{0});
         std::string pdf = read_asset(workspace / "certificate.pdf");
@@ -315,10 +327,9 @@ private:
 
     /// \return true if the child has ended
     bool wait_for_end(int options) {
-        int status = 0;
         pid_t ended = 0;
         do {
-            ended = child_ > 0 ? ::waitpid(child_, &status, options) : -1;
+            ended = child_ > 0 ? ::waitpid(child_, &status_, options) : -1;
         } while (ended < 0 && child_ > 0 && errno == EINTR);
         if (ended != 0) {
             child_ = 0;
@@ -337,7 +348,8 @@ private:
             }
             if (ready == 0 && Clock::now() >= deadline) {
                 storage_error("PDF", "not finished after " + std::to_string(assets_.pdf_time_limit.count()) + " s",
-                              "the PDF step has a time limit", "print fewer rows, or use HTML");
+                              "the PDF step has a time limit",
+                              "print fewer rows, look for a loop without end in a template of your own, or use HTML");
             }
             if (ready < 0 && errno != EINTR) {
                 storage_error("PDF", std::string("waiting for node failed: ") + std::strerror(errno),
@@ -382,13 +394,32 @@ private:
         }
     }
 
+    /// The signal that ended the child; 0 for none. Its output is closed, so it has ended or will at once.
+    int ending_signal() {
+        for (int i = 0; i < 100 && !wait_for_end(WNOHANG); ++i) {
+            ::usleep(10'000);
+        }
+        return child_ == 0 && WIFSIGNALED(status_) ? WTERMSIG(status_) : 0;
+    }
+
     [[noreturn]] void ended_early() {
+        if (const int signal = ending_signal(); signal != 0) {
+            storage_error("PDF", "node was ended by signal " + std::to_string(signal) + " before it answered",
+                          "the PDF step answers with a document",
+                          "somebody or the system ended it, perhaps for lack of memory: close other programs, and try "
+                          "again");
+        }
         std::error_code failure;
         std::string said = fs::file_size(log_file(), failure) > 0 && !failure ? read_asset(log_file()) : std::string();
         std::replace(said.begin(), said.end(), '\n', ' ');
         said = shortened(printable(said), 600);
         storage_error("PDF", "node ended before it answered" + (said.empty() ? "" : ": " + said),
                       "the PDF step answers with a document", k_set_up);
+    }
+
+    static bool is_full(const nlohmann::json& answer) {
+        const std::string code = answer.is_object() ? answer.value("code", std::string()) : std::string();
+        return code == "ENOSPC" || code == "EDQUOT" || code == "EROFS";
     }
 
     static std::string messages(const nlohmann::json& answer) {
@@ -407,6 +438,7 @@ private:
     Descriptor input_;   ///< requests go in here
     Descriptor output_;  ///< answers come out here
     pid_t child_ = 0;
+    int status_ = 0;  ///< of the child, once it has ended
     int documents_ = 0;
     std::uint64_t memory_ = 0;  ///< bytes that were resident after the last document
 };

@@ -2,6 +2,7 @@
 
 #include "gum/quantity/unit.h"
 #include "reports/certificate_view.h"
+#include "reports/result_names.h"
 
 #include <algorithm>
 #include <array>
@@ -133,7 +134,7 @@ StackedPlot source_plot(const RotaryTable& rotary, const Wording& words) {
                      .parts = {},
                      .bars = {}};
     for (const std::string& source : rotary.budget_sources) {
-        plot.parts.push_back(shortened(printable(source), 40));
+        plot.parts.push_back(shortened(printable(source_name(source, words).first()), 40));
     }
     for (const BudgetSummaryRow& row : rotary.budget_summary) {
         StackedBar bar{.label = shortened(printable(row.quantity), 20),

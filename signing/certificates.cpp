@@ -6,6 +6,7 @@
 #include <openssl/x509_vfy.h>
 #include <openssl/x509v3.h>
 
+#include <algorithm>
 #include <array>
 #include <ctime>
 #include <utility>
@@ -47,6 +48,42 @@ std::string curve_of(EVP_PKEY* key) {
 gum::Diagnostic finding(const char* code, const std::string& where, std::string what, const char* rule,
                         const char* action) {
     return {.code = code, .where = where, .what = std::move(what), .rule = rule, .action = action};
+}
+
+struct UsagesFree {
+    void operator()(EXTENDED_KEY_USAGE* p) const { EXTENDED_KEY_USAGE_free(p); }
+};
+
+/// Object identifiers of the extended key usage; empty where none is stated, or where it cannot be read.
+std::vector<std::string> extended_key_usages(X509* certificate) {
+    const std::unique_ptr<EXTENDED_KEY_USAGE, UsagesFree> usages(
+        static_cast<EXTENDED_KEY_USAGE*>(X509_get_ext_d2i(certificate, NID_ext_key_usage, nullptr, nullptr)));
+    ERR_clear_error();
+    std::vector<std::string> all;
+    for (int i = 0; i < sk_ASN1_OBJECT_num(usages.get()); ++i) {
+        std::array<char, 128> text{};
+        constexpr int k_always_as_number = 1;
+        OBJ_obj2txt(text.data(), static_cast<int>(text.size()), sk_ASN1_OBJECT_value(usages.get(), i),
+                    k_always_as_number);
+        all.emplace_back(text.data());
+    }
+    return all;
+}
+
+bool is_for_documents(const std::vector<std::string>& extended_key_usages) {
+    const auto has = [&](const char* identifier) {
+        return std::find(extended_key_usages.begin(), extended_key_usages.end(), identifier) !=
+               extended_key_usages.end();
+    };
+    constexpr const char* k_document_signing = "1.3.6.1.5.5.7.3.36";
+    constexpr const char* k_document_signing_microsoft = "1.3.6.1.4.1.311.10.3.12";
+    constexpr const char* k_document_signing_adobe = "1.2.840.113583.1.1.5";
+    constexpr const char* k_email = "1.3.6.1.5.5.7.3.4";
+    constexpr const char* k_any = "2.5.29.37.0";
+    constexpr const char* k_client = "1.3.6.1.5.5.7.3.2";
+    constexpr const char* k_web_server = "1.3.6.1.5.5.7.3.1";
+    return has(k_document_signing) || has(k_document_signing_microsoft) || has(k_document_signing_adobe) ||
+           has(k_email) || has(k_any) || (has(k_client) && !has(k_web_server));
 }
 
 }  // namespace
@@ -105,6 +142,24 @@ std::string weakness_of_key(X509* certificate) {
     return "key that is neither RSA nor ECDSA";
 }
 
+std::string unfitness_for_documents(X509* certificate) {
+    const std::uint32_t flags = X509_get_extension_flags(certificate);
+    if ((flags & EXFLAG_INVALID) != 0) {
+        return "its extensions cannot be read";
+    }
+    if (X509_check_ca(certificate) != 0) {
+        return "it is that of an authority, which may issue certificates";
+    }
+    if ((flags & EXFLAG_KUSAGE) != 0 &&
+        (X509_get_key_usage(certificate) & (KU_DIGITAL_SIGNATURE | KU_NON_REPUDIATION)) == 0) {
+        return "its key usage has neither digitalSignature nor nonRepudiation";
+    }
+    if ((flags & EXFLAG_XKUSAGE) != 0 && !is_for_documents(extended_key_usages(certificate))) {
+        return "its extended key usage is for something else, such as web servers or time stamps";
+    }
+    return {};
+}
+
 std::size_t ecdsa_part_size(X509* certificate) {
     EVP_PKEY* key = X509_get0_pubkey(certificate);
     if (key == nullptr || EVP_PKEY_get_base_id(key) != EVP_PKEY_EC) {
@@ -151,12 +206,12 @@ std::vector<gum::Diagnostic> check_chain(const std::string& where, const std::ve
                     "signatures are made with RSA of 2048 bits or more, or ECDSA with P-256, P-384 or P-521",
                     "ask the laboratory for a document signed with such a key"));
     }
-    if ((X509_get_extension_flags(signer) & EXFLAG_KUSAGE) != 0 &&
-        (X509_get_key_usage(signer) & (KU_DIGITAL_SIGNATURE | KU_NON_REPUDIATION)) == 0) {
-        findings.push_back(finding("GC-SIGN-0132", where,
-                                   "the certificate of " + subject_of(signer) + " is not for signing documents",
-                                   "its key usage has digitalSignature or nonRepudiation (RFC 5280, 4.2.1.3)",
-                                   "ask the laboratory which certificate is meant"));
+    if (const std::string unfitness = unfitness_for_documents(signer); !unfitness.empty()) {
+        findings.push_back(
+            finding("GC-SIGN-0132", where,
+                    "the certificate of " + subject_of(signer) + " is not for signing documents: " + unfitness,
+                    "documents are signed with the certificate of a person or a laboratory, made for that",
+                    "ask the laboratory which certificate is meant"));
     }
 
     const Handle<X509_STORE> store(X509_STORE_new());

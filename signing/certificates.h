@@ -28,6 +28,14 @@ namespace gumcert::signing {
 /// "RSA" or "ECDSA"; "" for another kind of key.
 [[nodiscard]] std::string kind_of_key(X509* certificate);
 
+/// Why a certificate is not one that signs documents; "" where it is. Such a one
+/// - may not issue certificates: no CA:TRUE, or a key usage without keyCertSign (RFC 5280, 4.2.1.9),
+/// - has digitalSignature or nonRepudiation where it states its key usage (RFC 5280, 4.2.1.3),
+/// - is for documents (RFC 9336), e-mail, anything, or for the log-in of a client that is no web server, where it
+/// states
+///   its extended key usage (RFC 5280, 4.2.1.12).
+[[nodiscard]] std::string unfitness_for_documents(X509* certificate);
+
 /// Bytes of one coordinate of the curve: 32, 48 or 66; 0 for a key of another kind.
 [[nodiscard]] std::size_t ecdsa_part_size(X509* certificate);
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "signing/openssl_handles.h"
@@ -27,6 +29,17 @@ void add_error(SignatureReport& report, const char* code, const std::string& whe
 /// \param claimed_time  "" where the signature claims none
 void check_signer(SignatureReport& report, const std::string& where, const std::vector<CertificateHandle>& chain,
                   const std::vector<Bytes>& trusted, const std::string& claimed_time, std::int64_t now);
+
+/// A text of a document that nobody vouches for, to be shown: what is hidden, steers a terminal or is not UTF-8 is
+/// written as \u{9B} or \x{80}, so that it cannot look like a line of the program; cut after 300 characters.
+[[nodiscard]] std::string shown_text(std::string_view text);
+
+/// The texts of a report, and of messages, made fit to be shown.
+void show_safely(SignatureReport& report);
+void show_safely(std::vector<gum::Diagnostic>& messages);
+
+/// More signatures or attachments than this are not looked at one by one: each costs a pass over the whole file.
+inline constexpr std::size_t k_most_signatures = 16;
 
 /// Sets `valid`: no finding of severity error.
 void conclude(SignatureReport& report);

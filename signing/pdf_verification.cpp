@@ -134,7 +134,9 @@ private:
             n[static_cast<std::size_t>(i)] = good ? item.getIntValue() : 0;
         }
         const auto size = static_cast<long long>(file_.size());
-        good = good && n[0] == 0 && n[1] > 0 && n[2] > n[1] + 1 && n[2] <= size && n[3] >= 0 && n[3] <= size - n[2];
+        // Each number is compared before it is reckoned with: they are of the file, and may be the largest there are.
+        good = good && n[0] == 0 && n[1] > 0 && n[2] > 1 && n[2] <= size && n[1] < n[2] - 1 && n[3] >= 0 &&
+               n[3] <= size - n[2];
         if (!good) {
             error("GC-SIGN-0141", "its ByteRange is no range of this file",
                   "the ranges are the file before and behind the digits of the signature");
@@ -155,9 +157,9 @@ private:
             return std::nullopt;
         }
         cms_bytes_ = *value;
-        report_.covers.push_back("bytes 0 to " + std::to_string(range.gap_at) + " and " +
-                                 std::to_string(range.gap_end) + " to " + std::to_string(range.end) + " of " +
-                                 std::to_string(file_.size()));
+        report_.covers.push_back("the whole file without the digits of this signature: " +
+                                 std::to_string(range.gap_at + range.end - range.gap_end) + " of " +
+                                 std::to_string(file_.size()) + " bytes");
         if (range.end != file_.size()) {
             report_.not_covered.push_back(std::to_string(file_.size() - range.end) + " bytes behind what was signed");
             error("GC-SIGN-0142",
@@ -198,6 +200,8 @@ private:
                   "the signature brings the signer's certificate");
             return;
         }
+        // The value is verified with this certificate and no other: two may have the same issuer and serial number.
+        CMS_SignerInfo_set1_signer_cert(info, signer);
         check_algorithms(info);
         check_attributes(info, pades, signer, certificates.get());
         if (report_.findings.empty() || only_later_bytes()) {
@@ -338,12 +342,44 @@ std::vector<Object> signatures_of(QPDF& pdf) {
     return found;
 }
 
+Object entry(Object dictionary, const char* key) {
+    return dictionary.isDictionary() ? dictionary.getKey(key) : Object::newNull();
+}
+
+/// The contents of attached files, or what stands in their place; at most one more than are looked at. (The helper of
+/// qpdf for attachments prints where a file is damaged.)
+std::vector<Object> attached_streams(QPDF& pdf) {
+    std::vector<Object> streams;
+    Object names = entry(entry(pdf.getRoot(), "/Names"), "/EmbeddedFiles");
+    if (!names.isDictionary()) {
+        return streams;
+    }
+    constexpr bool k_without_repair = false;
+    QPDFNameTreeObjectHelper tree(names, pdf, k_without_repair);
+    for (const auto& [name, specification] : tree) {
+        Object of_file = entry(specification, "/EF");
+        Object stream = entry(of_file, "/UF");
+        streams.push_back(stream.isStream() ? stream : entry(of_file, "/F"));
+        if (streams.size() > k_most_signatures) {
+            break;
+        }
+    }
+    return streams;
+}
+
 std::vector<SignatureReport> attachment_reports(QPDF& pdf, const std::string& name, const std::vector<Bytes>& trusted,
                                                 std::int64_t now) {
     std::vector<SignatureReport> reports;
-    QPDFEmbeddedFileDocumentHelper helper(pdf);
-    for (const auto& [file_name, specification] : helper.getEmbeddedFiles()) {
-        Object stream = specification->getEmbeddedFileStream();
+    const std::vector<Object> files = attached_streams(pdf);
+    if (files.size() > k_most_signatures) {
+        SignatureReport report;
+        add_error(report, "GC-SIGN-0145", name,
+                  "more than " + std::to_string(k_most_signatures) + " files are attached",
+                  "a certificate has one attachment or a few", k_ask_again);
+        reports.push_back(std::move(report));
+        return reports;
+    }
+    for (Object stream : files) {
         if (!stream.isStream()) {
             continue;
         }
@@ -383,7 +419,10 @@ Verification verify_pdf(const Bytes& pdf, const std::string& name, const std::ve
         if (document.isEncrypted()) {
             throw std::runtime_error("it is encrypted");
         }
-        for (const Object& signature : signatures_of(document)) {
+        std::vector<Object> signatures = signatures_of(document);
+        // One that is not valid is enough for the answer.
+        signatures.resize(std::min(signatures.size(), k_most_signatures));
+        for (const Object& signature : signatures) {
             const std::string where = name + ", signature " + std::to_string(verification.signatures.size() + 1);
             verification.signatures.push_back(PdfSignatureCheck(pdf, signature, where).run(trusted, now));
         }
@@ -391,11 +430,12 @@ Verification verify_pdf(const Bytes& pdf, const std::string& name, const std::ve
     } catch (const gum::DiagnosedError&) {
         throw;
     } catch (const std::exception& failure) {
-        throw gum::InputError(gum::Diagnostic{.code = "GC-SIGN-0052",
-                                              .where = name,
-                                              .what = std::string("the PDF cannot be read: ") + failure.what(),
-                                              .rule = "signatures are checked in sound PDF files",
-                                              .action = k_ask_again});
+        throw gum::InputError(
+            gum::Diagnostic{.code = "GC-SIGN-0052",
+                            .where = name,
+                            .what = shown_text(std::string("the PDF cannot be read: ") + failure.what()),
+                            .rule = "signatures are checked in sound PDF files",
+                            .action = k_ask_again});
     }
     return verification;
 }

@@ -47,6 +47,12 @@ std::vector<Bytes> chain_from(const fs::path& file) {
                "signatures are made with RSA of 2048 bits or more, or ECDSA with P-256, P-384 or P-521",
                "use a certificate with such a key");
     }
+    if (const std::string unfitness = unfitness_for_documents(own.get()); !unfitness.empty()) {
+        refuse("GC-SIGN-0018", file.string(),
+               "the first certificate, " + subject_of(own.get()) + ", is not for signing documents: " + unfitness,
+               "the signer's own certificate stands first, and has CA:FALSE and key usage digitalSignature",
+               "put it first, or have one made for signing documents (docs/signing.md)");
+    }
     return chain;
 }
 
@@ -208,8 +214,14 @@ std::unique_ptr<Signer> signer_from_files(const fs::path& key, const fs::path& c
     KeyHandle own(PEM_read_bio_PrivateKey(in.get(), nullptr, give_passphrase, &phrase));
     ERR_clear_error();
     if (own == nullptr) {
-        refuse("GC-SIGN-0014", key.string(), "no private key in it, or not with this passphrase",
-               "the key stands in a PEM file, encrypted or not", "name the file with the private key");
+        const bool encrypted = pem.find("ENCRYPTED") != std::string::npos;
+        refuse("GC-SIGN-0014", key.string(),
+               !encrypted           ? "no private key in it"
+               : passphrase.empty() ? "the private key is encrypted, and no passphrase is stated"
+                                    : "the private key is encrypted, and this passphrase does not open it",
+               "the key stands in a PEM file, encrypted or not",
+               encrypted ? "name with passphrase_file the file with its passphrase"
+                         : "name the file with the private key");
     }
     const CertificateHandle certificate = certificate_from_der(chain.front());
     const bool belongs = X509_check_private_key(certificate.get(), own.get()) == 1;

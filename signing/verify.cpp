@@ -25,6 +25,21 @@ bool looks_like_xml(const Bytes& file) {
     return first != Bytes::npos && file[first] == '<';
 }
 
+[[noreturn]] void refuse_file(const std::string& name, const char* what, const char* action) {
+    throw gum::InputError(gum::Diagnostic{.code = "GC-SIGN-0050",
+                                          .where = name,
+                                          .what = what,
+                                          .rule = "signatures are checked in digital certificates (XML) and PDF",
+                                          .action = action});
+}
+
+bool looks_like_html(const Bytes& file) {
+    std::string start = file.substr(0, 200);
+    std::transform(start.begin(), start.end(), start.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return start.find("<!doctype html") != std::string::npos || start.find("<html") != std::string::npos;
+}
+
 }  // namespace
 
 Verification verify_signatures(const Bytes& file, const std::string& name, const std::vector<Bytes>& trusted,
@@ -33,15 +48,18 @@ Verification verify_signatures(const Bytes& file, const std::string& name, const
     if (file.starts_with("%PDF-")) {
         verification = verify_pdf(file, name, trusted, now);
         verification.kind = "pdf";
+    } else if (looks_like_html(file)) {
+        refuse_file(name, "an HTML page, which carries no signature", "name the PDF or the XML beside it");
     } else if (looks_like_xml(file)) {
         verification.kind = "dcc";
         verification.signatures = verify_xml(file, name, trusted, now);
     } else {
-        throw gum::InputError(gum::Diagnostic{.code = "GC-SIGN-0050",
-                                              .where = name,
-                                              .what = "neither an XML document nor a PDF",
-                                              .rule = "signatures are checked in digital certificates (XML) and PDF",
-                                              .action = "name the certificate itself"});
+        refuse_file(name, "neither an XML document nor a PDF", "name the certificate itself");
+    }
+    for (auto* reports : {&verification.signatures, &verification.attachment_signatures}) {
+        for (SignatureReport& report : *reports) {
+            show_safely(report);
+        }
     }
     verification.valid = !verification.signatures.empty() && all_valid(verification.signatures) &&
                          all_valid(verification.attachment_signatures);

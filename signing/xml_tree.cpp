@@ -26,6 +26,10 @@ struct XmlTextFree {
 };
 using XmlText = std::unique_ptr<xmlChar, XmlTextFree>;
 
+struct ParserFree {
+    void operator()(xmlParserCtxt* parser) const { xmlFreeParserCtxt(parser); }
+};
+
 [[noreturn]] void refuse(const std::string& name, const std::string& what, const char* rule, const char* action) {
     throw gum::InputError(
         gum::Diagnostic{.code = "GC-SIGN-0030", .where = name, .what = what, .rule = rule, .action = action});
@@ -56,13 +60,19 @@ XmlDocument parse_xml(const Bytes& bytes, const std::string& name) {
     if (bytes.size() > INT_MAX) {
         refuse(name, "larger than 2 GB", "a document is read whole", "attach large files beside the certificate");
     }
-    XmlDocument document(xmlReadMemory(bytes.data(), static_cast<int>(bytes.size()), nullptr, nullptr,
-                                       XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING));
-    if (document == nullptr || xmlDocGetRootElement(document.get()) == nullptr) {
+    const QuietLibxml quiet;
+    const std::unique_ptr<xmlParserCtxt, ParserFree> parser(xmlNewParserCtxt());
+    XmlDocument document(parser == nullptr
+                             ? nullptr
+                             : xmlCtxtReadMemory(parser.get(), bytes.data(), static_cast<int>(bytes.size()), nullptr,
+                                                 nullptr, XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING));
+    // A prefix without its namespace is well-formed XML 1.0, but means nothing to those who read by namespaces.
+    if (document == nullptr || parser->nsWellFormed == 0 || xmlDocGetRootElement(document.get()) == nullptr) {
         const xmlError* error = xmlGetLastError();
         const std::string line = error == nullptr ? "" : ":" + std::to_string(error->line);
         xmlResetLastError();
-        refuse(name + line, "not well-formed XML", "a digital certificate is XML 1.0", "ask for the file again");
+        refuse(name + line, "not well-formed XML", "a digital certificate is XML 1.0 with namespaces",
+               "ask for the file again");
     }
     if (document->intSubset != nullptr || document->extSubset != nullptr) {
         refuse(name, "it has a DOCTYPE", "what is signed must not depend on declarations and entities",
@@ -121,7 +131,25 @@ std::string text_of(const xmlNode* node) {
     return std::string(view(value.get()));
 }
 
+std::string name_of(const xmlNode* node) {
+    const std::string_view prefix = node->ns == nullptr ? std::string_view() : view(node->ns->prefix);
+    return std::string(prefix) + (prefix.empty() ? "" : ":") + std::string(view(node->name));
+}
+
+bool is_blank(std::string_view text) {
+    return text.find_first_not_of(" \t\r\n") == std::string_view::npos;
+}
+
+QuietLibxml::QuietLibxml() : before_(xmlStructuredError), context_before_(xmlStructuredErrorContext) {
+    xmlSetStructuredErrorFunc(nullptr, [](void* /*context*/, xmlErrorPtr /*error*/) {});
+}
+
+QuietLibxml::~QuietLibxml() {
+    xmlSetStructuredErrorFunc(context_before_, before_);
+}
+
 Bytes exclusive_canonical_xml(xmlDoc* document, const xmlNode* only, const xmlNode* without) {
+    const QuietLibxml quiet;
     Part part{.only = only, .without = without};
     xmlOutputBuffer* const buffer = xmlAllocOutputBuffer(nullptr);
     const int size = buffer == nullptr

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <libxml/tree.h>
+#include <libxml/xmlerror.h>
 
 #include <memory>
 #include <string>
@@ -13,6 +14,8 @@ namespace gumcert::signing {
 
 inline constexpr const char* k_dsig_namespace = "http://www.w3.org/2000/09/xmldsig#";
 inline constexpr const char* k_xades_namespace = "http://uri.etsi.org/01903/v1.3.2#";
+inline constexpr const char* k_xades_141_namespace = "http://uri.etsi.org/01903/v1.4.1#";
+inline constexpr const char* k_dsig_11_namespace = "http://www.w3.org/2009/xmldsig11#";
 inline constexpr const char* k_signed_properties_type = "http://uri.etsi.org/01903#SignedProperties";
 inline constexpr const char* k_exclusive_c14n = "http://www.w3.org/2001/10/xml-exc-c14n#";
 inline constexpr const char* k_enveloped = "http://www.w3.org/2000/09/xmldsig#enveloped-signature";
@@ -44,6 +47,25 @@ using XmlDocument = std::unique_ptr<xmlDoc, XmlFree>;
 
 /// Text of an element and all in it.
 [[nodiscard]] std::string text_of(const xmlNode* node);
+
+/// Name of an element as the document spells it: "si:value".
+[[nodiscard]] std::string name_of(const xmlNode* node);
+
+/// Whether blanks are all that a text has.
+[[nodiscard]] bool is_blank(std::string_view text);
+
+/// While it lives, libxml2 keeps what it has to say of its inputs and outputs for itself: a library never prints.
+class QuietLibxml {
+public:
+    QuietLibxml();
+    ~QuietLibxml();
+    QuietLibxml(const QuietLibxml&) = delete;
+    QuietLibxml& operator=(const QuietLibxml&) = delete;
+
+private:
+    xmlStructuredErrorFunc before_;
+    void* context_before_;
+};
 
 /// Exclusive canonical XML 1.0 without comments (W3C, Exclusive XML Canonicalization 1.0) of the document or a part.
 /// \param only     the element to take; nullptr: the document

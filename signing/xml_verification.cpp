@@ -100,6 +100,82 @@ bool has_comments(const xmlNode* node) {
     return false;
 }
 
+/// What the text of an element is made of.
+struct Pieces {
+    int texts = 0;  ///< pieces of text with more than blanks, or of a value
+    bool comment = false;
+    bool cdata = false;
+};
+
+Pieces pieces_of(const xmlNode* element) {
+    Pieces pieces;
+    for (const xmlNode* child = element->children; child != nullptr; child = child->next) {
+        const bool cdata = child->type == XML_CDATA_SECTION_NODE;
+        if (child->type == XML_COMMENT_NODE) {
+            pieces.comment = true;
+        } else if ((cdata || child->type == XML_TEXT_NODE) && child->content != nullptr &&
+                   !is_blank(reinterpret_cast<const char*>(child->content))) {
+            ++pieces.texts;
+            pieces.cdata = pieces.cdata || cdata;
+        }
+    }
+    return pieces;
+}
+
+/// The first element whose text is in pieces, although it has the canonical form of one piece: a comment stands in it,
+/// or a part of it is a CDATA section. Programs that read the first piece only take another value out of it than those
+/// that read all. \return nullptr if there is none
+const xmlNode* element_with_split_text(const std::vector<xmlNode*>& elements) {
+    const auto split = [](const xmlNode* element) {
+        const Pieces pieces = pieces_of(element);
+        return pieces.texts > 0 && (pieces.comment || (pieces.cdata && pieces.texts > 1));
+    };
+    const auto found = std::find_if(elements.begin(), elements.end(), split);
+    return found == elements.end() ? nullptr : *found;
+}
+
+/// Whether an element, or one in it, has an attribute with a namespace. Such a one could be taken for the attribute
+/// without: xmlsec looks attributes up by their name alone.
+bool has_foreign_attribute(const xmlNode* element) {
+    for (const xmlAttr* a = element->properties; a != nullptr; a = a->next) {
+        if (a->ns != nullptr) {
+            return true;
+        }
+    }
+    const std::vector<xmlNode*> children = children_of(element);
+    return std::any_of(children.begin(), children.end(), has_foreign_attribute);
+}
+
+bool has_own_text(const xmlNode* element) {
+    return pieces_of(element).texts > 0;
+}
+
+/// Whether an element belongs to the vocabulary of signatures.
+bool is_of_signatures(const xmlNode* element) {
+    const std::string_view name_space =
+        element->ns == nullptr ? std::string_view() : reinterpret_cast<const char*>(element->ns->href);
+    return name_space == k_dsig_namespace || name_space == k_dsig_11_namespace || name_space == k_xades_namespace ||
+           name_space == k_xades_141_namespace || name_space == k_exclusive_c14n;
+}
+
+/// The first element within a signature that is not a signature's, or that has text where a signature has none. The
+/// signature leaves itself out of what it covers, so anything could have been put there later.
+/// \param covered  parts that it covers nevertheless   \return nullptr if there is none
+const xmlNode* foreign_part(const xmlNode* signature, const std::array<const xmlNode*, 2>& covered) {
+    for (const xmlNode* child : children_of(signature)) {
+        if (std::find(covered.begin(), covered.end(), child) != covered.end()) {
+            continue;
+        }
+        if (!is_of_signatures(child) || (is_element(child, k_dsig_namespace, "Object") && has_own_text(child))) {
+            return child;
+        }
+        if (const xmlNode* found = foreign_part(child, covered); found != nullptr) {
+            return found;
+        }
+    }
+    return nullptr;
+}
+
 /// How many elements bear this value as identifier, whatever the spelling of the attribute.
 int count_of_id(const std::vector<xmlNode*>& elements, const std::string& value) {
     int count = 0;
@@ -155,6 +231,16 @@ private:
                   "a signature has one of each");
             return;
         }
+        if (const xmlNode* split = element_with_split_text(elements_); split != nullptr) {
+            error("GC-SIGN-0121",
+                  "the text of the element " + name_of(split) + " in line " + std::to_string(xmlGetLineNo(split)) +
+                      " is split by a comment or a CDATA section, which may have been put in after signing",
+                  "every program reads the same value; comments are not covered by the signature");
+        }
+        if (has_foreign_attribute(info)) {
+            error("GC-SIGN-0110", "SignedInfo has an attribute of another namespace",
+                  "the attributes of SignedInfo are those of XML signatures alone");
+        }
         check_method(info);
         int document_references = 0;
         for (const xmlNode* reference : children_of(info, k_dsig_namespace, "Reference")) {
@@ -171,6 +257,11 @@ private:
         if (document_references != 1) {
             error("GC-SIGN-0112", std::to_string(document_references) + " references to the whole document",
                   "exactly one reference has URI=\"\", so that nothing else can be taken for what was signed");
+        }
+        if (const xmlNode* foreign = foreign_part(signature_, {info, properties_}); foreign != nullptr) {
+            error(
+                "GC-SIGN-0120", "the element " + name_of(foreign) + " within the signature is not covered by it",
+                "a signature holds nothing but its own parts, so that nothing in it can be taken for what was signed");
         }
     }
 
@@ -300,6 +391,7 @@ private:
 
     void check_values() {
         start_xmlsec();
+        const QuietLibxml quiet;
         if (properties_ != nullptr) {
             xmlAttr* id = xmlHasProp(properties_, reinterpret_cast<const xmlChar*>("Id"));
             const std::string value = attribute(properties_, "Id");
@@ -361,7 +453,7 @@ private:
         if (properties_ != nullptr) {
             report_.covers.emplace_back("the signed properties: time of signing and certificate of the signer");
         }
-        if (has_comments(xmlDocGetRootElement(signature_->doc))) {
+        if (has_comments(reinterpret_cast<const xmlNode*>(signature_->doc))) {
             report_.not_covered.emplace_back("comments of the XML");
         }
         for (const xmlNode* object : children_of(signature_, k_dsig_namespace, "Object")) {
@@ -396,19 +488,29 @@ std::vector<SignatureReport> verify_xml(const Bytes& xml, const std::string& nam
     const std::vector<xmlNode*> elements = all_elements(root);
     std::vector<xmlNode*> proper = children_of(root, k_dsig_namespace, "Signature");
     std::vector<SignatureReport> reports;
+    const auto refuse = [&](const char* code, const std::string& what, const char* rule) {
+        SignatureReport report;
+        report.format = "XMLDSig";
+        add_error(report, code, name, what, rule, k_ask_again);
+        reports.push_back(std::move(report));
+    };
+    if (proper.size() > k_most_signatures) {
+        refuse("GC-SIGN-0122", std::to_string(proper.size()) + " signatures",
+               "a certificate has one signature or a few");
+        return reports;
+    }
     for (xmlNode* signature : proper) {
         const std::string where = name + ", signature " + std::to_string(reports.size() + 1);
         reports.push_back(XmlSignatureCheck(signature, elements, where).run(trusted, now));
     }
-    for (xmlNode* element : elements) {
-        const auto holds = [&](const xmlNode* signature) { return is_inside(element, signature); };
-        if (is_element(element, k_dsig_namespace, "Signature") && std::none_of(proper.begin(), proper.end(), holds)) {
-            SignatureReport report;
-            report.format = "XMLDSig";
-            add_error(report, "GC-SIGN-0119", name, "a signature that is not a child of the root element",
-                      "the signature of a digital certificate stands at the end of its root element", k_ask_again);
-            reports.push_back(std::move(report));
-        }
+    const auto misplaced = [&](const xmlNode* element) {
+        return is_element(element, k_dsig_namespace, "Signature") &&
+               std::none_of(proper.begin(), proper.end(),
+                            [&](const xmlNode* signature) { return is_inside(element, signature); });
+    };
+    if (std::any_of(elements.begin(), elements.end(), misplaced)) {
+        refuse("GC-SIGN-0119", "a signature that is not a child of the root element",
+               "the signature of a digital certificate stands at the end of its root element");
     }
     return reports;
 }

@@ -37,15 +37,21 @@ void print_verification(const std::string& file, const signing::Verification& ve
     for (const auto* signatures : {&verification.signatures, &verification.attachment_signatures}) {
         for (const signing::SignatureReport& signature : *signatures) {
             for (const gum::Diagnostic& finding : signature.findings) {
-                print_message(finding, common);
+                if (!common.quiet || finding.severity != gum::Severity::note) {
+                    print_message(finding, common);
+                }
             }
         }
     }
     if (common.quiet) {
         return;
     }
-    const bool any = !verification.signatures.empty() || !verification.attachment_signatures.empty();
-    fmt::print("{}: {}\n", file, verification.valid ? "valid" : any ? "NOT VALID" : "not signed");
+    const bool attachment_alone = verification.signatures.empty() && !verification.attachment_signatures.empty();
+    fmt::print("{}: {}\n", file,
+               verification.valid                ? "valid"
+               : attachment_alone                ? "NOT VALID: the pages are not signed, only what is attached to them"
+               : verification.signatures.empty() ? "not signed"
+                                                 : "NOT VALID");
     for (const signing::SignatureReport& signature : verification.signatures) {
         print_signature(signature, "");
     }

@@ -88,6 +88,15 @@ void check_entry(const certificate::ScopeEntry::Range& range, const CertificateP
 
 void check_entry(const certificate::ScopeEntry& entry, const CertificatePlace& place) {
     demand_some(entry.results, "results", place);
+    for (std::size_t i = 0; i < entry.results.size(); ++i) {
+        if (entry.results[i].find_first_not_of('*') == std::string::npos) {
+            place.below("/results")
+                .child(i)
+                .refuse(k_certificate_any_result,
+                        in_quotes(entry.results[i]) + " covers every result, whatever is measured",
+                        "a line of the scope is for one measurand", "name the results, such as \"EXA\" or \"E*\"");
+        }
+    }
     Names arguments("the argument");
     for (std::size_t i = 0; i < entry.ranges.size(); ++i) {
         arguments.add(entry.ranges[i].argument.name, place.below("/ranges").child(i).below("/argument/name"));

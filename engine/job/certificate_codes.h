@@ -30,6 +30,7 @@ inline constexpr InputCode k_certificate_symbol{"GC-CERT-0120", "the symbol is n
 inline constexpr InputCode k_certificate_profile{"GC-CERT-0121", "not the name of a profile"};
 inline constexpr InputCode k_certificate_placeholder{"GC-CERT-0122", "a sentence has a placeholder that is not known"};
 inline constexpr InputCode k_certificate_contradiction{"GC-CERT-0123", "two statements exclude each other"};
+inline constexpr InputCode k_certificate_any_result{"GC-CERT-0124", "a line of the scope that covers any result"};
 
 inline constexpr std::array k_certificate_codes{k_certificate_unknown_key,
                                                 k_certificate_missing_key,
@@ -53,6 +54,7 @@ inline constexpr std::array k_certificate_codes{k_certificate_unknown_key,
                                                 k_certificate_symbol,
                                                 k_certificate_profile,
                                                 k_certificate_placeholder,
-                                                k_certificate_contradiction};
+                                                k_certificate_contradiction,
+                                                k_certificate_any_result};
 
 }  // namespace gumcert::engine

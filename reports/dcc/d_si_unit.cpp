@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <utility>
+
+#include "gum/quantity/diagnostic.h"
+#include "gum/quantity/unit.h"
 
 namespace gumcert::reports {
 
@@ -81,48 +85,97 @@ private:
     std::string_view rest_;
 };
 
+bool is_unit(const std::string& text) {
+    try {
+        (void)gum::Unit::parse(text);
+        return true;
+    } catch (const gum::InputError&) {
+        return false;
+    }
+}
+
+/// Whether a symbol with a prefix is that multiple of the unit for UDUNITS-2 too: "ft" is a foot and no femtotonne,
+/// "yd" a yard and no yoctoday, "m1" a metre and no thousandth.
+bool is_multiple(std::string_view prefix, std::string_view unit) {
+    if (unit == "1") {
+        return false;
+    }
+    static constexpr std::array<std::pair<std::string_view, int>, 20> k_exponents{
+        {{"da", 1}, {"h", 2},   {"k", 3},   {"M", 6},   {"G", 9},   {"T", 12}, {"P", 15},
+         {"E", 18}, {"Z", 21},  {"Y", 24},  {"d", -1},  {"c", -2},  {"m", -3}, {"u", -6},
+         {"n", -9}, {"p", -12}, {"f", -15}, {"a", -18}, {"z", -21}, {"y", -24}}};
+    const auto exponent =
+        std::find_if(k_exponents.begin(), k_exponents.end(), [&](const auto& e) { return e.first == prefix; });
+    try {
+        const gum::Unit multiple = gum::Unit::parse(std::string(prefix) + std::string(unit));
+        const gum::Unit one = gum::Unit::parse(unit);
+        const double expected = one.difference_to_si(std::pow(10.0, exponent->second));
+        constexpr double k_noise = 1e-12;  // of the division, relative
+        return multiple.dimension() == one.dimension() &&
+               std::abs(multiple.difference_to_si(1.0) - expected) <= k_noise * std::abs(expected);
+    } catch (const gum::InputError&) {
+        return false;
+    }
+}
+
+/// One factor such as "\\milli\\metre\\tothe{2}" behind its first word; `sign` is -1 in the denominator. Nothing for
+/// one that is not known. One itself is "".
+std::optional<std::string> factor_of(std::optional<std::string_view> word, Tokens& tokens, int sign) {
+    const auto prefix = word ? look_up(k_prefixes, *word) : std::nullopt;
+    if (prefix) {
+        word = tokens.word();
+    }
+    const auto unit = word ? look_up(k_units, *word) : std::nullopt;
+    if (!unit || (prefix && !is_multiple(*prefix, *unit))) {
+        return std::nullopt;
+    }
+    int power = sign;
+    if (tokens.at_power()) {
+        const std::optional<int> stated = tokens.power();
+        if (!stated) {
+            return std::nullopt;
+        }
+        power *= *stated;
+    }
+    if (*unit == "1") {
+        return "";  // a factor of one says nothing
+    }
+    return std::string(prefix.value_or("")) + std::string(*unit) + (power == 1 ? "" : std::to_string(power));
+}
+
 }  // namespace
 
 std::optional<std::string> unit_from_d_si(std::string_view text) {
     Tokens tokens(text);
     std::string result;
-    int sign = 1;  // -1 behind \per, for the one unit that follows
-    if (tokens.empty()) {
-        return std::nullopt;
-    }
+    int sign = 1;
+    bool complete = false;  // a unit stands behind the last \per, or there is a unit at all
     while (!tokens.empty()) {
-        auto word = tokens.word();
-        if (word == "per" && sign == 1) {
+        const auto word = tokens.word();
+        if (word == "per") {
+            if (sign == -1) {
+                return std::nullopt;  // D-SI has one \per at most: a second one may mean either
+            }
             sign = -1;
+            complete = false;
             continue;
         }
-        const auto prefix = word ? look_up(k_prefixes, *word) : std::nullopt;
-        if (prefix) {
-            word = tokens.word();
-        }
-        const auto unit = word ? look_up(k_units, *word) : std::nullopt;
-        if (!unit) {
+        const std::optional<std::string> factor = factor_of(word, tokens, sign);
+        if (!factor) {
             return std::nullopt;
         }
-        int power = sign;
-        sign = 1;
-        if (tokens.at_power()) {
-            const std::optional<int> stated = tokens.power();
-            if (!stated) {
-                return std::nullopt;
-            }
-            power *= *stated;
+        complete = true;
+        if (!factor->empty()) {
+            result += (result.empty() ? "" : " ") + *factor;
         }
-        if (*unit == "1" && !prefix) {
-            continue;  // a factor of one says nothing
-        }
-        result += (result.empty() ? "" : " ") + std::string(prefix.value_or("")) + std::string(*unit);
-        result += power == 1 ? "" : std::to_string(power);
     }
-    if (sign == -1) {
-        return std::nullopt;  // \per without a unit behind it
+    if (!complete) {
+        return std::nullopt;
     }
-    return result.empty() ? "1" : result;
+    if (result.empty()) {
+        return "1";
+    }
+    return is_unit(result) ? std::optional(result) : std::nullopt;
 }
 
 }  // namespace gumcert::reports

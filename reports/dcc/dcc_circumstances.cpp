@@ -65,16 +65,18 @@ void software(DccWriter& w) {
     w.xml.close();
 }
 
-/// The certificate of a standard as a link that can be checked: only with the digest of its file.
+/// The certificate of a standard, as a link that can be checked where the digest of its file is stated. The format
+/// wants a procedure and a value in any case.
 void certificate_of(DccWriter& w, const certificate::StandardUsed& s) {
-    if (s.sha256.empty() || without_outer_blanks(s.certificate).empty()) {
+    if (without_outer_blanks(s.certificate).empty()) {
         return;
     }
+    const std::string not_stated = w.words()("dcc", "not_stated").first();
     w.xml.open("dcc:certificate");
     w.text("dcc:referral", w.words()("dcc", "certificate_of_standard"));
     w.optional_string("dcc:referralID", s.certificate);
-    w.xml.element("dcc:procedure", "SHA-256");
-    w.optional_string("dcc:value", s.sha256);
+    w.xml.element("dcc:procedure", s.sha256.empty() ? not_stated : "SHA-256");
+    w.xml.element("dcc:value", s.sha256.empty() ? not_stated : s.sha256);
     const std::string performed = date_or_nothing(w.data().dates.performed_to);
     const std::string valid_to = date_or_nothing(s.valid_to);
     if (!performed.empty() && !valid_to.empty()) {
@@ -100,9 +102,9 @@ void standard(DccWriter& w, const certificate::StandardUsed& s) {
                        (s.issuer_accreditation.empty() ? Text() : Text(" (" + s.issuer_accreditation + ")")));
     line("calibrated", s.calibrated);
     line("valid_to", s.valid_to);
-    line("k", s.k ? Text(d_si_number(*s.k)) : Text());
     // Quantities of equipment have no place for the definition of a unit.
     const bool has_quantity = s.U && !needs_unit_definition(s.unit);
+    line("k", s.k && !has_quantity ? words.number(d_si_number(*s.k)) : Text());
     line("standard_U", s.U && !has_quantity ? words.number(d_si_number(*s.U)) + (" " + s.unit) : Text());
     w.optional_text("dcc:description", description);
     certificate_of(w, s);
@@ -121,6 +123,13 @@ void standard(DccWriter& w, const certificate::StandardUsed& s) {
                                  .ref_type = w.ref_types()("standard_uncertainty"),
                                  .value = d_si_number(*s.U),
                                  .unit = s.unit});
+        if (s.k) {
+            write_plain_quantity(w, {.element = "dcc:measuringEquipmentQuantity",
+                                     .name = words("certificate", "k"),
+                                     .ref_type = w.ref_types()("standard_coverage_factor"),
+                                     .value = d_si_number(*s.k),
+                                     .unit = "1"});
+        }
         w.xml.close();
     }
     w.xml.close();
@@ -139,7 +148,7 @@ void equipment(DccWriter& w) {
 
 void condition(DccWriter& w, const certificate::Condition& c) {
     const Wording& words = w.words();
-    const bool known = c.kind == "temperature" || c.kind == "humidity";
+    const bool known = c.kind == "temperature" || c.kind == "humidity" || c.kind == "pressure";
     const std::string kind = known ? c.kind : "condition";
     const auto line = [&](const char* label, const Text& value) {
         return value.empty() ? Text() : words("certificate", label) + ": " + value;

@@ -1,6 +1,8 @@
 #include "reports/dcc/dcc_document.h"
 
 #include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
 
 #include "reports/asset_files.h"
 #include "reports/dcc/dcc_writer.h"
@@ -9,15 +11,41 @@ namespace gumcert::reports {
 
 namespace {
 
-/// What the evaluation rests on, for whoever repeats it: files by their digest.
+using InputSource = std::pair<std::string, std::string>;  // input quantity, standard or certificate it comes from
+
+/// Where the inputs of the budgets come from, each once, in the order of the budgets: among them the number and the
+/// digest of an imported certificate.
+std::vector<InputSource> sources_of(const EvaluationRecord& record) {
+    std::vector<InputSource> sources;
+    std::set<InputSource> seen;
+    const auto add = [&](const auto& self, const std::vector<BudgetRow>& rows) -> void {
+        for (const BudgetRow& row : rows) {
+            const InputSource source(without_outer_blanks(row.input), without_outer_blanks(row.source));
+            if (!source.second.empty() && seen.insert(source).second) {
+                sources.push_back(source);
+            }
+            self(self, row.components);
+        }
+    };
+    for (const Result& result : record.results) {
+        add(add, result.budget);
+    }
+    return sources;
+}
+
+/// What the evaluation rests on, for whoever repeats it: files by their digest, inputs by their source.
 void write_comment(DccWriter& w) {
-    if (w.record().job_files.empty()) {
+    const std::vector<InputSource> sources = sources_of(w.record());
+    if (w.record().job_files.empty() && sources.empty()) {
         return;
     }
     w.xml.open("dcc:comment");
     w.xml.open("evaluation", {{"xmlns", "urn:gumcert:evaluation"}});
     for (const InputFile& file : w.record().job_files) {
         w.xml.element("inputFile", file.sha256.empty() ? "-" : file.sha256, {{"name", file.name}});
+    }
+    for (const auto& [input, source] : sources) {
+        w.xml.element("inputSource", source, {{"input", input}});
     }
     w.xml.close();
     w.xml.close();

@@ -27,29 +27,37 @@ const Result* result_of(const EvaluationRecord& record, const std::string& name)
     return found == record.results.end() ? nullptr : &*found;
 }
 
+/// Unit of the difference of two values of a result.
+struct DifferenceUnit {
+    std::string d_si;
+    bool one_name = false;  ///< one unit, with a prefix or without, and no product
+
+    explicit DifferenceUnit(const std::string& udunits) : d_si(d_si_unit(unit_of_uncertainty(udunits))) {
+        one_name = std::all_of(udunits.begin(), udunits.end(),
+                               [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); });
+    }
+};
+
 /// Unit of a covariance: the product of the units of two results.
-std::string product_of(const std::string& a, const std::string& b) {
-    const std::string first = d_si_unit(unit_of_uncertainty(a));
-    const std::string second = d_si_unit(unit_of_uncertainty(b));
-    if (first == "\\one") {
-        return second;
+std::string product_of(const DifferenceUnit& a, const DifferenceUnit& b) {
+    if (a.d_si == "\\one") {
+        return b.d_si;
     }
-    if (second == "\\one") {
-        return first;
+    if (b.d_si == "\\one") {
+        return a.d_si;
     }
-    const bool one_unit =
-        std::all_of(a.begin(), a.end(), [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); });
-    return a == b && one_unit ? first + "\\tothe{2}" : first + second;
+    return a.d_si == b.d_si && a.one_name ? a.d_si + "\\tothe{2}" : a.d_si + b.d_si;
 }
 
 void matrix_of(DccWriter& w, const ResultCovariance& c) {
+    const std::vector<DifferenceUnit> units(c.units.begin(), c.units.end());
     w.xml.open("si:covarianceMatrixXMLList");
     for (std::size_t column = 0; column < c.names.size(); ++column) {
         w.xml.open("si:columnXMLList");
         for (std::size_t row = 0; row < c.names.size(); ++row) {
             w.xml.open("si:covarianceXMLList");
             w.xml.element("si:valueXMLList", d_si_number(c.matrix[row][column]));
-            w.xml.element("si:unitXMLList", product_of(c.units[row], c.units[column]));
+            w.xml.element("si:unitXMLList", product_of(units[row], units[column]));
             w.xml.close();
         }
         w.xml.close();
@@ -57,18 +65,33 @@ void matrix_of(DccWriter& w, const ResultCovariance& c) {
     w.xml.close();
 }
 
-/// Factor and probability of the ellipsoid for all results together, where the record states one.
-std::optional<std::pair<std::string, std::string>> region_of(const EvaluationRecord& record) {
-    if (!record.region || !record.region->k_p || record.results.size() != record.covariance->names.size()) {
-        return std::nullopt;
+/// The region for all results together that the record states: the ellipsoid, or the rectangle where the covariance is
+/// singular and there is no ellipsoid.
+struct Region {
+    const char* element = "si:ellipsoidalRegionMUXMLList";
+    std::string k = "NaN", p = "NaN";
+};
+
+Region region_of(const EvaluationRecord& record) {
+    const auto& region = record.region;
+    if (!region || record.results.size() != record.covariance->names.size()) {
+        return {};
     }
-    const std::string k = d_si_coverage_factor(record.region->printed.k_p);
-    return k == "NaN" ? std::nullopt
-                      : std::optional(std::pair(k, d_si_probability(record.region->coverage_probability)));
+    const bool ellipsoid = region->k_p.has_value();
+    if (!ellipsoid && !region->k_q) {
+        return {};
+    }
+    const std::string k = d_si_coverage_factor(ellipsoid ? region->printed.k_p : region->printed.k_q);
+    if (k == "NaN") {
+        return {};
+    }
+    return {.element = ellipsoid ? "si:ellipsoidalRegionMUXMLList" : "si:rectangularRegionMUXMLList",
+            .k = k,
+            .p = d_si_probability(region->coverage_probability)};
 }
 
-/// The value that the certificate prints for a result.
-std::string printed_value(const DccWriter& w, const Result& r) {
+/// What the certificate states for a result; nullptr where it has no row for it.
+const certificate::CertifiedValue* certified_value(const DccWriter& w, const Result& r) {
     const std::string quantity = r.quantity.empty() ? r.name : r.quantity;
     for (const certificate::CertifiedTable& table : w.tables()) {
         for (const certificate::CertifiedColumn& column : table.columns) {
@@ -79,12 +102,30 @@ std::string printed_value(const DccWriter& w, const Result& r) {
                 const bool same_point = r.point.empty() || (table.argument && row < table.argument->printed.size() &&
                                                             table.argument->printed[row] == r.point);
                 if (same_point) {
-                    return required_d_si_number(column.values[row].printed_value, r.name);
+                    return &column.values[row];
                 }
             }
         }
     }
-    return required_d_si_number(r.printed.value, r.name);
+    return nullptr;
+}
+
+/// Which of the joint results are within the scope of accreditation. One whose U was raised to the capability is not:
+/// the uncertainty that follows from the covariance is smaller than the laboratory may state.
+void scope_of_joint_results(DccWriter& w, const std::vector<const certificate::CertifiedValue*>& certified) {
+    if (!w.has_scope()) {
+        return;
+    }
+    std::vector<std::string> in_scope;
+    for (const certificate::CertifiedValue* v : certified) {
+        const bool valid = v != nullptr && !v->scope_entry.empty() && !v->external && !v->raised;
+        in_scope.emplace_back(valid ? "true" : "false");
+    }
+    w.xml.open("dcc:measurementMetaData");
+    w.xml.open("dcc:metaData", {{"refId", "scope"}, {"refType", w.ref_types()("capability")}});
+    w.xml.element("dcc:validXMLList", full_list(in_scope));
+    w.xml.close();
+    w.xml.close();
 }
 
 void joint_quantity(DccWriter& w, const ResultCovariance& c) {
@@ -92,10 +133,13 @@ void joint_quantity(DccWriter& w, const ResultCovariance& c) {
     std::vector<std::string> values;
     std::vector<std::string> units;
     std::vector<std::string> uncertainties;
+    std::vector<const certificate::CertifiedValue*> certified;
     for (std::size_t i = 0; i < c.names.size(); ++i) {
         const Result& r = *result_of(w.record(), c.names[i]);
         labels.push_back(as_token(c.names[i]));
-        values.push_back(printed_value(w, r));
+        certified.push_back(certified_value(w, r));
+        values.push_back(required_d_si_number(
+            certified.back() == nullptr ? r.printed.value : certified.back()->printed_value, r.name));
         units.push_back(d_si_unit(c.units[i]));
         uncertainties.push_back(r.u > 0.0 ? d_si_number(gum::round_significant(r.u, 2)) : "0");
     }
@@ -111,14 +155,15 @@ void joint_quantity(DccWriter& w, const ResultCovariance& c) {
     w.xml.close();
     w.xml.close();
     w.xml.open("si:measurementUncertaintyMultivariateXMLList");
-    w.xml.open("si:ellipsoidalRegionMUXMLList");
+    const Region region = region_of(w.record());
+    w.xml.open(region.element);
     matrix_of(w, c);
-    const auto region = region_of(w.record());
-    w.xml.element("si:coverageFactorXMLList", region ? region->first : "NaN");
-    w.xml.element("si:coverageProbabilityXMLList", region ? region->second : "NaN");
+    w.xml.element("si:coverageFactorXMLList", region.k);
+    w.xml.element("si:coverageProbabilityXMLList", region.p);
     w.xml.close();
     w.xml.close();
     w.xml.close();
+    scope_of_joint_results(w, certified);
     w.xml.close();
 }
 

@@ -12,6 +12,7 @@ void write_plain_quantity(DccWriter& w, const PlainQuantity& quantity) {
     w.xml.open(quantity.element, {{"refType", quantity.ref_type}});
     w.text("dcc:name", quantity.name);
     w.xml.open("si:real");
+    w.optional_string("si:label", quantity.label);
     w.xml.element("si:value", quantity.value);
     w.xml.element("si:unit", d_si_unit(quantity.unit));
     w.xml.close();
@@ -28,6 +29,7 @@ void write_plain_list(DccWriter& w, const PlainList& list) {
     w.xml.open("dcc:quantity", {{"refType", list.ref_type}});
     w.text("dcc:name", list.name);
     w.xml.open("si:realListXMLList");
+    w.optional_string("si:labelXMLList", list.label);
     w.xml.element("si:valueXMLList", full_list(list.values));
     w.xml.element("si:unitXMLList", d_si_unit(list.unit));
     w.xml.close();

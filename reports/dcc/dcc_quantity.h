@@ -12,8 +12,9 @@ struct PlainQuantity {
     std::string element;  ///< "dcc:quantity", "dcc:measuringEquipmentQuantity" …
     Text name;
     std::string ref_type;
-    std::string value;  ///< as D-SI writes numbers
-    std::string unit;   ///< UDUNITS-2
+    std::string value;       ///< as D-SI writes numbers
+    std::string unit;        ///< UDUNITS-2
+    std::string label = {};  ///< result that the number belongs to; "" for none
 };
 void write_plain_quantity(DccWriter& writer, const PlainQuantity& quantity);
 
@@ -23,6 +24,7 @@ struct PlainList {
     std::string ref_type;
     std::vector<std::string> values;  ///< as D-SI writes numbers
     std::string unit;                 ///< UDUNITS-2
+    std::string label = {};           ///< result that the numbers belong to; "" for none
 };
 void write_plain_list(DccWriter& writer, const PlainList& list);
 

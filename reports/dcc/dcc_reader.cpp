@@ -31,6 +31,7 @@ struct Form {
 struct Context {
     std::string role = "result";
     std::string result, result_en;  ///< name of what it is part of, as it stands and for the job language
+    std::size_t table = 0;
 };
 
 bool is_name_character(char c) {
@@ -56,6 +57,27 @@ std::string as_name(std::string_view text) {
     }
     if (!name.empty() && name.front() >= '0' && name.front() <= '9') {
         name.insert(0, "q_");
+    }
+    return name;
+}
+
+/// A symbol as a name: its capital letters stay. "" for one that does not begin with a letter.
+std::string name_of_label(std::string_view label) {
+    std::string name;
+    for (const char c : label) {
+        const bool capital = c >= 'A' && c <= 'Z';
+        if (name.empty() && !capital && !(c >= 'a' && c <= 'z')) {
+            return "";
+        }
+        if (capital || is_name_character(c)) {
+            name += c;
+        } else if (name.back() != '_') {
+            name += '_';
+        }
+    }
+    name = name.substr(0, k_longest_name);
+    while (!name.empty() && name.back() == '_') {
+        name.pop_back();
     }
     return name;
 }
@@ -102,6 +124,7 @@ private:
     void add_position(const XmlElement& coordinate, const Context& context);
     void add_rows(const XmlElement& quantity, const Context& context, const Form& main,
                   const std::vector<const Form*>& others, const std::string& note);
+    [[nodiscard]] static std::string base_name(const XmlElement& quantity, const Context& context, const Form& form);
     [[nodiscard]] std::string free_name(const std::string& base, const std::string& result, std::size_t rows);
 
     std::vector<Form> forms_of(const XmlElement& element);
@@ -112,13 +135,15 @@ private:
     Form nested_list(const XmlElement& element);
     void uncertainty_from(const XmlElement& stated, std::span<ImportedNumber> numbers);
     void uncertainty_in(const XmlElement& holder, std::span<ImportedNumber> numbers);
-    void place_list(const XmlElement& list, std::span<ImportedNumber> numbers, std::string ImportedNumber::*into);
+    void wrong_length(const XmlElement& at, std::size_t entries, std::size_t values, const std::string& what);
+    bool place_list(const XmlElement& list, std::span<ImportedNumber> numbers, std::string ImportedNumber::*into);
     void unit(const std::string& d_si, const XmlElement& at, ImportedNumber& number);
 
     std::string file_;
     ImportedCertificate& out_;
     std::set<std::string, std::less<>> names_;
     std::set<std::string, std::less<>> unknown_units_;  // each one is remarked once
+    std::size_t tables_ = 0;
 };
 
 void Reader::unit(const std::string& d_si, const XmlElement& at, ImportedNumber& number) {
@@ -133,11 +158,13 @@ void Reader::unit(const std::string& d_si, const XmlElement& at, ImportedNumber&
 
 /// `stated` is an element such as si:expandedMU or si:coverageIntervalXMLList; what it says goes to every number.
 void Reader::uncertainty_from(const XmlElement& stated, std::span<ImportedNumber> numbers) {
+    bool whole = true;  // U without its k, or one end of an interval, is no uncertainty
     const auto place = [&](std::initializer_list<const char*> names, std::string ImportedNumber::*into) {
         for (const char* name : names) {
             for (const std::string& spelling : {"si:" + std::string(name), "si:" + std::string(name) + "XMLList"}) {
                 if (const XmlElement* const child = stated.child(spelling); child != nullptr) {
-                    place_list(*child, numbers, into);
+                    const bool fits = place_list(*child, numbers, into);
+                    whole = whole && (fits || into == &ImportedNumber::p || into == &ImportedNumber::distribution);
                 }
             }
         }
@@ -150,7 +177,12 @@ void Reader::uncertainty_from(const XmlElement& stated, std::span<ImportedNumber
     place({"intervalMax"}, &ImportedNumber::high);
     place({"distribution"}, &ImportedNumber::distribution);
     for (ImportedNumber& number : numbers) {
-        for (std::string* text : {&number.u, &number.U, &number.k, &number.low, &number.high}) {
+        if (!whole) {
+            for (std::string* text : {&number.u, &number.U, &number.k, &number.p, &number.low, &number.high}) {
+                text->clear();
+            }
+        }
+        for (std::string* text : {&number.u, &number.U, &number.k, &number.p, &number.low, &number.high}) {
             if (*text == "NaN") {
                 text->clear();  // how D-SI says that there is none
             }
@@ -165,19 +197,25 @@ void Reader::uncertainty_from(const XmlElement& stated, std::span<ImportedNumber
     }
 }
 
-/// One entry for all numbers, or one for each.
-void Reader::place_list(const XmlElement& list, std::span<ImportedNumber> numbers, std::string ImportedNumber::*into) {
+void Reader::wrong_length(const XmlElement& at, std::size_t entries, std::size_t values, const std::string& what) {
+    remark("GC-DCC-0022", at, std::to_string(entries) + " entries beside " + std::to_string(values) + " values",
+           "one entry stands for all values, else there is one for each", "look at the certificate; " + what);
+}
+
+/// One entry for all numbers, or one for each. \return whether the lengths fit
+bool Reader::place_list(const XmlElement& list, std::span<ImportedNumber> numbers, std::string ImportedNumber::*into) {
     const std::vector<std::string> words = xml_list(list.text);
     if (words.size() != 1 && words.size() != numbers.size()) {
-        remark("GC-DCC-0022", list,
-               std::to_string(words.size()) + " entries beside " + std::to_string(numbers.size()) + " values",
-               "one entry stands for all values, else there is one for each",
-               "look at the certificate; the uncertainty was not imported");
-        return;
+        wrong_length(list, words.size(), numbers.size(),
+                     into == &ImportedNumber::p || into == &ImportedNumber::distribution
+                         ? "these entries were not imported"
+                         : "the uncertainty was not imported");
+        return false;
     }
     for (std::size_t row = 0; row < numbers.size(); ++row) {
         numbers[row].*into = words[words.size() == 1 ? 0 : row];
     }
+    return true;
 }
 
 /// The uncertainty that stands in a D-SI element, in any of the spellings of D-SI 1.3 to 2.2.1.
@@ -204,6 +242,7 @@ void Reader::uncertainty_in(const XmlElement& holder, std::span<ImportedNumber> 
 Form Reader::real(const XmlElement& element) {
     ImportedNumber number;
     number.value = element.child_text("si:value");
+    number.label = element.child_text("si:label");
     unit(element.child_text("si:unit"), element, number);
     uncertainty_in(element, {&number, 1});
     if (element.name == "si:constant") {
@@ -222,6 +261,7 @@ Form Reader::real_list(const XmlElement& element) {
     for (const XmlElement* one : element.children_named("si:real")) {
         ImportedNumber number;
         number.value = one->child_text("si:value");
+        number.label = one->child_text("si:label");
         const std::string own = one->child_text("si:unit");
         unit(own.empty() ? element.child_text("si:listUnit") : own, *one, number);
         uncertainty_in(*one, {&number, 1});
@@ -235,14 +275,23 @@ Form Reader::real_list(const XmlElement& element) {
 
 Form Reader::xml_list_of_reals(const XmlElement& element) {
     Form form{.numbers = {}, .list = true};
-    const XmlElement* const values = element.child("si:valueXMLList");
-    const XmlElement* const units = element.child("si:unitXMLList");
-    const std::vector<std::string> words = values == nullptr ? std::vector<std::string>() : xml_list(values->text);
-    const std::vector<std::string> unit_words = units == nullptr ? std::vector<std::string>() : xml_list(units->text);
-    for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto words_of = [&](const char* name) {
+        const XmlElement* const child = element.child(name);
+        return child == nullptr ? std::vector<std::string>() : xml_list(child->text);
+    };
+    const std::vector<std::string> values = words_of("si:valueXMLList");
+    const std::vector<std::string> units = words_of("si:unitXMLList");
+    const std::vector<std::string> labels = words_of("si:labelXMLList");
+    if (units.size() > 1 && units.size() != values.size()) {
+        wrong_length(element, units.size(), values.size(), "the values are imported without a unit");
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) {
         ImportedNumber number;
-        number.value = words[i];
-        unit(entry(unit_words, i, words.size()).value_or(""), element, number);
+        number.value = values[i];
+        number.label = entry(labels, i, values.size()).value_or("");
+        if (const auto stated = entry(units, i, values.size()); stated) {
+            unit(*stated, element, number);
+        }
         form.numbers.push_back(number);
     }
     uncertainty_in(element, form.numbers);
@@ -347,20 +396,32 @@ std::string Reader::free_name(const std::string& base, const std::string& result
     return name;
 }
 
+/// The beginning of the names of a quantity: its symbol where it has an uncertainty (an input of a model is called by
+/// it), else its name in English, its reference type, or what it is part of.
+std::string Reader::base_name(const XmlElement& quantity, const Context& context, const Form& form) {
+    const bool one_label = std::all_of(form.numbers.begin(), form.numbers.end(),
+                                       [&](const ImportedNumber& n) { return n.label == form.numbers.front().label; });
+    std::string base = one_label && form.has_uncertainty() && context.role == "result"
+                           ? name_of_label(form.numbers.front().label)
+                           : "";
+    if (base.empty()) {
+        base = as_name(content_in(quantity.child("dcc:name"), "en"));
+    }
+    if (base.empty()) {
+        base = name_of_ref_type(quantity.attribute("refType"));
+    }
+    if (base.empty()) {
+        base = as_name(context.result_en);
+    }
+    return base.empty() ? "quantity" : base;
+}
+
 void Reader::add_rows(const XmlElement& quantity, const Context& context, const Form& main,
                       const std::vector<const Form*>& others, const std::string& note) {
-    const XmlElement* const name = quantity.child("dcc:name");
-    const std::string ref_type = quantity.attribute("refType");
-    std::string base = as_name(content_in(name, "en"));
-    if (base.empty()) {
-        base = name_of_ref_type(ref_type);
-    }
-    if (base.empty()) {
-        base = context.result_en.empty() ? "quantity" : as_name(context.result_en);
-    }
-    base = base.empty() ? "quantity" : base;
     const std::size_t rows = main.numbers.size();
-    base = free_name(base, as_name(context.result_en), rows);
+    if (rows == 0) {
+        return;
+    }
     if (out_.quantities.size() + rows > k_most_numbers) {
         throw gum::InputError(gum::Diagnostic{.code = "GC-DCC-0004",
                                               .where = place_of(quantity, file_),
@@ -368,15 +429,17 @@ void Reader::add_rows(const XmlElement& quantity, const Context& context, const 
                                               .rule = "certificates are read up to a hundred thousand numbers",
                                               .action = "ask the issuer for the tables as files of their own"});
     }
+    const std::string base = free_name(base_name(quantity, context, main), as_name(context.result_en), rows);
     for (std::size_t row = 0; row < rows; ++row) {
         ImportedQuantity imported;
         static_cast<ImportedNumber&>(imported) = main.numbers[row];
         imported.name = rows > 1 ? base + "_" + std::to_string(row + 1) : base;
         imported.result = context.result;
-        imported.quantity = first_content(name);
-        imported.ref_type = ref_type;
+        imported.quantity = first_content(quantity.child("dcc:name"));
+        imported.ref_type = quantity.attribute("refType");
         imported.id = quantity.attribute("id");
         imported.role = context.role;
+        imported.table = context.table;
         if (main.list) {
             imported.row = row;
         }
@@ -392,6 +455,11 @@ void Reader::add_quantity(const XmlElement& quantity, const Context& context) {
     std::string note;
     if (quantity.child("dcc:relativeUncertainty") != nullptr) {
         note = "the certificate also states a relative uncertainty";
+    }
+    if (const XmlElement* const words = quantity.child("dcc:charsXMLList"); words != nullptr && context.table > 0) {
+        out_.words.push_back({.table = context.table,
+                              .quantity = first_content(quantity.child("dcc:name")),
+                              .words = xml_list(words->text)});
     }
     for (const XmlElement& child : quantity.children) {
         const std::vector<Form> forms = forms_of(child);
@@ -435,6 +503,11 @@ void Reader::walk(const XmlElement& element, Context context) {
             context.role = role;
         }
     }
+    if (element.name == "dcc:list") {
+        context.table = ++tables_;
+    } else if (element.name == "dcc:metaData") {
+        context.table = 0;  // limits and the like are no columns of the table
+    }
     const bool named =
         element.name == "dcc:result" || element.name == "dcc:measurementResult" || context.role != "result";
     if (const XmlElement* const name = element.child("dcc:name");
@@ -447,7 +520,7 @@ void Reader::walk(const XmlElement& element, Context context) {
         return;
     }
     if (element.child("si:valueXMLList") != nullptr) {  // dcc:relativeUncertaintyXmlList
-        add_rows(element, {context.role, context.result, "relative_uncertainty"}, xml_list_of_reals(element), {},
+        add_rows(element, {context.role, context.result, "relative_uncertainty", 0}, xml_list_of_reals(element), {},
                  "a relative uncertainty of the quantity before");
         return;
     }

@@ -17,6 +17,7 @@ struct ImportedNumber {
     std::string kind = "none";          ///< "expanded", "standard", "coverage_interval", "none"
     std::string U, k, p, u, low, high;  ///< "" where absent
     std::string distribution;
+    std::string label;  ///< si:label: the symbol of the quantity; "" without
 };
 
 /// One number of a foreign certificate, ready to be an input of a budget. Where the document states the same number in
@@ -29,8 +30,16 @@ struct ImportedQuantity : ImportedNumber {
     /// "statement", "equipment", "method", "item", "location"
     std::string role = "result";
     std::optional<std::size_t> row;  ///< in a list, from 0
+    std::size_t table = 0;           ///< quantities of one dcc:list share a number; 0 outside of any
     std::vector<ImportedNumber> also;
     std::string remark;
+};
+
+/// A column of words beside columns of numbers, such as the names of the points.
+struct ImportedWords {
+    std::size_t table = 0;  ///< as ImportedQuantity::table
+    std::string quantity;
+    std::vector<std::string> words;  ///< one a row
 };
 
 struct ImportedCertificate {
@@ -38,6 +47,7 @@ struct ImportedCertificate {
     std::string identifier, laboratory, item, issued, performed_from, performed_to;
     std::string sha256;  ///< of the file
     std::vector<ImportedQuantity> quantities;
+    std::vector<ImportedWords> words;
     std::vector<gum::Diagnostic> remarks;
 };
 

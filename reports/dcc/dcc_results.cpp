@@ -42,7 +42,8 @@ std::string distribution_of(const CertifiedValue& v) {
     if (v.coverage == "convolution" || v.coverage == "monte_carlo") {
         return v.coverage;
     }
-    return v.coverage == "student_t" && v.nu_eff ? "student_t" : "normal";
+    // As many degrees of freedom as are printed as infinite leave nothing of Student's t.
+    return v.coverage == "student_t" && d_si_number(v.printed_nu_eff) != k_nothing ? "student_t" : "normal";
 }
 
 /// One column of one table, and what its lists need.
@@ -165,12 +166,16 @@ void words_quantity(DccWriter& w, const Text& name, const std::string& ref_type,
 }
 
 void numbers_quantity(DccWriter& w, const Column& c, const Text& name, const std::string& ref_type,
-                      const std::vector<std::string>& entries, const std::string& unit) {
+                      const std::vector<std::string>& entries, const std::string& unit, const std::string& label = {}) {
     if (c.list) {
-        write_plain_list(w, {.name = name, .ref_type = ref_type, .values = entries, .unit = unit});
+        write_plain_list(w, {.name = name, .ref_type = ref_type, .values = entries, .unit = unit, .label = label});
     } else {
-        write_plain_quantity(
-            w, {.element = "dcc:quantity", .name = name, .ref_type = ref_type, .value = entries.front(), .unit = unit});
+        write_plain_quantity(w, {.element = "dcc:quantity",
+                                 .name = name,
+                                 .ref_type = ref_type,
+                                 .value = entries.front(),
+                                 .unit = unit,
+                                 .label = label});
     }
 }
 
@@ -295,7 +300,7 @@ void degrees_of_freedom(DccWriter& w, const Column& c) {
         c.entries([](const CertifiedValue& v) { return d_si_number(v.printed_nu_eff); });
     if (std::any_of(entries.begin(), entries.end(), [](const std::string& e) { return e != k_nothing; })) {
         numbers_quantity(w, c, w.words().filled("dcc", "degrees_of_freedom", {{"name", c.column.result}}),
-                         w.ref_types()("degrees_of_freedom"), entries, "1");
+                         w.ref_types()("degrees_of_freedom"), entries, "1", as_token(c.column.result));
     }
 }
 

@@ -4,11 +4,14 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string_view>
 
+#include "gum/quantity/unit.h"
 #include "reports/certificate_view.h"
+#include "reports/dcc/d_si_unit.h"
 #include "reports/dcc/dcc_document.h"
 #include "reports/dcc/dcc_element.h"
 
@@ -113,6 +116,7 @@ private:
     void units_outside_of_the_si();
     void relative_uncertainties();
     void relative_uncertainty(const XmlElement& quantity);
+    bool contradicts(const XmlElement& relative, const XmlElement& form, double scale);
     void no_empty_elements();
 
     const XmlElement& root_;
@@ -411,44 +415,79 @@ std::vector<std::string> words_inside(const XmlElement& element, std::initialize
     return words;
 }
 
-void Rules::relative_uncertainty(const XmlElement& quantity) {
-    const XmlElement& relative = *quantity.child("dcc:relativeUncertainty");
-    const std::vector<std::string> stated = words_inside(relative, {"si:value", "si:valueXMLList"});
-    const std::vector<std::string> unit = words_inside(relative, {"si:unit", "si:unitXMLList"});
-    const double scale = !unit.empty() && unit.front() == "\\percent" ? 0.01 : 1.0;
+std::optional<PrintedNumber> number_at(const std::vector<std::string>& words, std::size_t i) {
+    if (words.empty() || (words.size() > 1 && i >= words.size())) {
+        return std::nullopt;
+    }
+    return printed_number(words.size() == 1 ? words.front() : words[i]);
+}
+
+/// How much one is in a unit of dimension one: 0.01 for \percent. Nothing for another unit, or one that is not known.
+std::optional<double> ratio_of(const std::vector<std::string>& unit) {
+    const auto known = unit.empty() ? std::optional<std::string>("1") : unit_from_d_si(unit.front());
+    if (!known) {
+        return std::nullopt;
+    }
+    const gum::Unit read = gum::Unit::parse(*known);
+    return read.dimension().is_one() ? std::optional(read.difference_to_si(1.0)) : std::nullopt;
+}
+
+/// Numbers with their unit: si:real, si:realListXMLList, alone or each in si:hybrid.
+void for_each_form(const XmlElement& quantity, const std::function<void(const XmlElement&)>& visit) {
     for (const XmlElement& form : quantity.children) {
-        if (!form.name.starts_with("si:")) {
-            continue;
-        }
-        const std::vector<std::string> values = words_inside(form, {"si:value", "si:valueXMLList"});
-        const std::vector<std::string> expanded =
-            words_inside(form, {"si:valueExpandedMU", "si:valueExpandedMUXMLList", "si:uncertainty",
-                                "si:uncertaintyXMLList", "si:valueStandardMU", "si:valueStandardMUXMLList"});
-        const auto at = [](const std::vector<std::string>& words, std::size_t i) {
-            return words.empty() || (words.size() > 1 && i >= words.size())
-                       ? std::nullopt
-                       : printed_number(words.size() == 1 ? words.front() : words[i]);
-        };
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            const auto value = at(values, i);
-            const auto U = at(expanded, i);
-            const auto w = at(stated, i);
-            if (!value || !U || !w || value->value == 0.0) {
-                continue;
-            }
-            const double expected = U->value / std::abs(value->value);
-            const double allowed = scale * w->half_unit + U->half_unit / std::abs(value->value) +
-                                   expected * value->half_unit / std::abs(value->value);
-            constexpr double k_noise = 1e-9;
-            if (std::abs(scale * w->value - expected) > allowed * (1.0 + k_noise)) {
-                report("GC-DCC-0110", relative,
-                       "relative uncertainty " + stated[stated.size() == 1 ? 0 : i] + " of value " + values[i] +
-                           " with uncertainty " + expanded[expanded.size() == 1 ? 0 : i],
-                       "the relative uncertainty is the absolute one divided by the value", "correct one of them");
-                return;  // the other rows of the list will have the same reason
-            }
+        if (form.name == "si:hybrid") {
+            for_each_form(form, visit);
+        } else if (form.name == "si:real" || form.name == "si:realListXMLList") {
+            visit(form);
         }
     }
+}
+
+void Rules::relative_uncertainty(const XmlElement& quantity) {
+    const XmlElement& relative = *quantity.child("dcc:relativeUncertainty");
+    const std::optional<double> scale = ratio_of(words_inside(relative, {"si:unit", "si:unitXMLList"}));
+    if (!scale) {
+        return;
+    }
+    bool reported = false;
+    for_each_form(quantity, [&](const XmlElement& form) {
+        const std::vector<std::string> unit = words_inside(form, {"si:unit", "si:unitXMLList"});
+        // On a scale with an origin of its own a ratio to the value means nothing.
+        const bool has_origin = !unit.empty() && unit.front() == "\\degreecelsius";
+        if (!reported && !has_origin) {
+            reported = contradicts(relative, form, *scale);
+        }
+    });
+}
+
+/// Reports the first row where the relative uncertainty is not the absolute one divided by the value; the others will
+/// have the same reason. \param scale  of the relative uncertainty
+bool Rules::contradicts(const XmlElement& relative, const XmlElement& form, double scale) {
+    const std::vector<std::string> stated = words_inside(relative, {"si:value", "si:valueXMLList"});
+    const std::vector<std::string> values = words_inside(form, {"si:value", "si:valueXMLList"});
+    const std::vector<std::string> expanded =
+        words_inside(form, {"si:valueExpandedMU", "si:valueExpandedMUXMLList", "si:uncertainty",
+                            "si:uncertaintyXMLList", "si:valueStandardMU", "si:valueStandardMUXMLList"});
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const auto value = number_at(values, i);
+        const auto U = number_at(expanded, i);
+        const auto w = number_at(stated, i);
+        if (!value || !U || !w || value->value == 0.0) {
+            continue;
+        }
+        const double expected = U->value / std::abs(value->value);
+        const double allowed = scale * w->half_unit + U->half_unit / std::abs(value->value) +
+                               expected * value->half_unit / std::abs(value->value);
+        constexpr double k_noise = 1e-9;
+        if (std::abs(scale * w->value - expected) > allowed * (1.0 + k_noise)) {
+            report("GC-DCC-0110", relative,
+                   "relative uncertainty " + stated[stated.size() == 1 ? 0 : i] + " of value " + values[i] +
+                       " with uncertainty " + expanded[expanded.size() == 1 ? 0 : i],
+                   "the relative uncertainty is the absolute one divided by the value", "correct one of them");
+            return true;
+        }
+    }
+    return false;
 }
 
 // Rule 11, but for signatures, which have rules of their own.

@@ -4,9 +4,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
+#include "reports/dcc/d_si_unit.h"
 #include "reports/record/certified_tables.h"
 
 namespace gumcert::reports {
@@ -209,8 +212,29 @@ std::string d_si_probability(double value) {
     return value >= 0.0 && value <= 1.0 ? written(value, std::chars_format::fixed) : std::string(k_not_a_number);
 }
 
-std::string d_si_unit(const std::string& udunits) {
-    if (const auto unit = gum::unit_in_d_si(udunits); unit) {
+namespace {
+
+/// Whether a unit of D-SI is the unit that is meant: it is read back, because a symbol such as "ft" or "yd" looks like
+/// a prefix with a unit.
+bool means_the_same(const std::string& d_si, const std::string& udunits) {
+    const std::optional<std::string> back = unit_from_d_si(d_si);
+    if (!back) {
+        return false;
+    }
+    try {
+        const gum::Unit a = gum::Unit::parse(*back);
+        const gum::Unit b = gum::Unit::parse(udunits);
+        constexpr double k_noise = 1e-12;  // of powers of the factors, relative
+        const double size = b.difference_to_si(1.0);
+        return a.dimension() == b.dimension() && a.is_celsius_temperature() == b.is_celsius_temperature() &&
+               std::abs(a.difference_to_si(1.0) - size) <= k_noise * std::abs(size);
+    } catch (const gum::InputError&) {
+        return false;
+    }
+}
+
+std::string checked_d_si_unit(const std::string& udunits) {
+    if (const auto unit = gum::unit_in_d_si(udunits); unit && means_the_same(*unit, udunits)) {
         return *unit;
     }
     std::string text = "|";
@@ -218,6 +242,22 @@ std::string d_si_unit(const std::string& udunits) {
         text += (text.size() == 1 ? "" : "_") + word;  // lists split at blanks
     }
     return text;
+}
+
+}  // namespace
+
+std::string d_si_unit(const std::string& udunits) {
+    // A certificate has hundreds of quantities in a few units, and the check takes 20 µs.
+    constexpr std::size_t k_most_kept = 100;
+    thread_local std::map<std::string, std::string> kept;
+    if (const auto found = kept.find(udunits); found != kept.end()) {
+        return found->second;
+    }
+    std::string unit = checked_d_si_unit(udunits);
+    if (kept.size() < k_most_kept) {
+        kept.emplace(udunits, unit);
+    }
+    return unit;
 }
 
 std::string as_token(const std::string& text) {

@@ -153,9 +153,12 @@ CertifiedTable reversal(const RotaryTable& r) {
 CertifiedTable ranges(const RotaryTable& r) {
     CertifiedTable table{.id = "ranges", .argument = {}, .columns = {}};
     for (const RangeRow& range : r.ranges) {
-        const std::optional<double> k = range.u > 0.0 ? std::optional(range.U / range.u) : std::nullopt;
+        // Records of earlier releases hold no k.
+        const std::optional<double> k = range.k         ? range.k
+                                        : range.u > 0.0 ? std::optional(range.U / range.u)
+                                                        : std::nullopt;
         table.columns.push_back(column("range_" + range.name, range.name, unit_of_motion(r, range.name),
-                                       {value_of(range.value, range.u, range.U, k, std::nullopt, range.printed)}));
+                                       {value_of(range.value, range.u, range.U, k, range.nu_eff, range.printed)}));
     }
     return table;
 }

@@ -622,6 +622,8 @@ void describe(Archive& a, Struct& r) {
     a("U", r.U, Range::not_negative);
     a("printed", r.printed);
     a.added("u", r.u, Range::not_negative);
+    a.added("k", r.k, Range::positive);
+    a.added("nu_eff", r.nu_eff, Range::positive);
     a.added("monte_carlo", r.monte_carlo);
 }
 

@@ -274,6 +274,7 @@ struct RangeRow {
     Printed printed;
     double u = 0.0;
     std::optional<MonteCarloSummary> monte_carlo = {};
+    std::optional<double> k = {}, nu_eff = {};  ///< records of earlier releases hold no k; none of ν = infinite
 };
 
 struct RotaryTable {

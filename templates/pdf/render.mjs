@@ -4,18 +4,43 @@
 // Each line of standard input is a request, JSON: {"template": "…/certificate.typ", "further_fonts": true|false}. The
 // files of the document are in WORKSPACE: view.json, and certificate.xml if one is attached. The answer is one line of
 // JSON on standard output:
-//   {"status": "done", "memory": bytes}        WORKSPACE/certificate.pdf is there
-//   {"status": "refused", "messages": ["…"]}   by Typst
-//   {"status": "failed", "messages": ["…"]}    a file, a defect
-// The end of standard input ends the process.
+//   {"status": "done", "memory": bytes}                      WORKSPACE/certificate.pdf is there
+//   {"status": "template", "messages": ["…"]}                the template cannot be set
+//   {"status": "refused", "messages": ["…"]}                 what it gives is no PDF/A-3a
+//   {"status": "failed", "messages": ["…"], "code": "…"}     a file, a defect; the code is that of the system
+// The end of standard input ends the process. Then, or when the program that started it has gone, its folder goes as
+// well: it holds the customer's data.
 import fs from 'node:fs';
 import path from 'node:path';
 import readline from 'node:readline';
 import { createRequire } from 'node:module';
+import { Worker } from 'node:worker_threads';
 
 const [modules, workspace, ...fontFolders] = process.argv.slice(2);
 const { NodeCompiler } = createRequire(path.join(modules, 'x.js'))('@myriaddreamin/typst-ts-node-compiler');
 const main = path.join(workspace, 'certificate.typ');
+
+// The folder that was made for this process, with the workspace in it.
+const folder = path.dirname(workspace);
+function removeFolder() {
+  if (path.basename(folder).startsWith('gumcert-')) fs.rmSync(folder, { recursive: true, force: true });
+}
+
+// An interrupt of the terminal reaches this process, too. It ends by the end of its input, and so cleans up; and while
+// Typst is at work, which may be for long, another thread sees when the program has gone.
+for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP']) process.on(signal, () => {});
+const watch = `
+  const { workerData } = require('node:worker_threads');
+  const fs = require('node:fs');
+  setInterval(() => {
+    if (process.ppid === workerData.parent) return;
+    if (workerData.folder) fs.rmSync(workerData.folder, { recursive: true, force: true });
+    process.kill(process.pid, 'SIGKILL');
+  }, 500);`;
+new Worker(watch, {
+  eval: true,
+  workerData: { parent: process.ppid, folder: path.basename(folder).startsWith('gumcert-') ? folder : '' },
+}).unref();
 
 // The compiler keeps its fonts. Opening further folders takes time, so it is done for the first document that asks.
 const compilers = {};
@@ -44,6 +69,12 @@ function writeSymbols() {
   }
 }
 
+// "certificate.typ:12:5: unclosed delimiter"; the place where Typst knows it.
+function textOf({ message, path: file, range }) {
+  const place = range ? `:${range.start.line + 1}:${range.start.character + 1}` : '';
+  return (file ? `${path.basename(file)}${place}: ` : '') + message;
+}
+
 function messagesOf(error) {
   const quoted = [...String(error.message).matchAll(/message: "((?:[^"\\]|\\.)*)"/g)];
   return quoted.length > 0 ? quoted.map((m) => m[1].replaceAll('\\"', '"')) : [String(error.message)];
@@ -53,10 +84,10 @@ function setDocument({ template, further_fonts: furtherFonts }) {
   copyTemplates(template);
   writeSymbols();
   const compiler = compilerWith(furtherFonts === true);
-  const texts = (error) => (error ? compiler.fetchDiagnostics(error).map((d) => d.message) : []);
+  const texts = (error) => (error ? compiler.fetchDiagnostics(error).map(textOf) : []);
   // The files have the same names for every document: what was read before is forgotten.
   const compiled = compiler.compile({ mainFilePath: main, resetRead: true });
-  if (!compiled.result) return { status: 'refused', messages: texts(compiled.takeError()) };
+  if (!compiled.result) return { status: 'template', messages: texts(compiled.takeError()) };
   // A warning, such as a font that is not there, would change the look in silence.
   const warnings = texts(compiled.takeWarnings());
   if (warnings.length > 0) return { status: 'refused', messages: warnings };
@@ -67,7 +98,6 @@ function setDocument({ template, further_fonts: furtherFonts }) {
     return { status: 'refused', messages: messagesOf(error) };
   }
   fs.writeFileSync(path.join(workspace, 'certificate.pdf'), pdf);
-  compiler.evictCache(3);
   return { status: 'done', memory: process.memoryUsage.rss() };
 }
 
@@ -76,7 +106,10 @@ for await (const line of readline.createInterface({ input: process.stdin })) {
   try {
     answer = setDocument(JSON.parse(line));
   } catch (error) {
-    answer = { status: 'failed', messages: [String(error.message)] };
+    answer = { status: 'failed', messages: [String(error.message)], code: String(error.code ?? '') };
   }
   fs.writeSync(process.stdout.fd, JSON.stringify(answer) + '\n');
+  // While the other side reads the document, what the last three did not use is forgotten.
+  for (const compiler of Object.values(compilers)) compiler.evictCache(3);
 }
+removeFolder();

@@ -115,8 +115,9 @@ TEST_F(Render, TextHoldsTheResultsAndGoesToStandardOutput) {
     const Ended ended = render(record(), "text", "-");
     ASSERT_EQ(ended.code, 0) << ended.err;
     const json document = json::parse(bytes_of(record()));
+    const std::string text = with_ascii_minus(ended.out);
     for (const auto& [name, result] : document["results"].items()) {
-        EXPECT_NE(ended.out.find(result["printed"]["value"].get<std::string>()), std::string::npos) << name;
+        EXPECT_NE(text.find(result["printed"]["value"].get<std::string>()), std::string::npos) << name;
         EXPECT_NE(ended.out.find(result["printed"]["U"].get<std::string>()), std::string::npos) << name;
     }
     ASSERT_EQ(render(record(), "text", (folder() / "certificate.txt").string()).code, 0);

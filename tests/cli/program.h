@@ -42,6 +42,15 @@ inline void write_bytes(const fs::path& file, const std::string& bytes) {
     }
 }
 
+/// A document with the ASCII sign in place of U+2212, the minus that documents print.
+inline std::string with_ascii_minus(std::string text) {
+    const std::string minus = "\u2212";
+    for (std::size_t at = text.find(minus); at != std::string::npos; at = text.find(minus, at)) {
+        text.replace(at, minus.size(), "-");
+    }
+    return text;
+}
+
 inline std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> lines;
     std::istringstream stream(text);

@@ -66,6 +66,24 @@ TEST(CapabilityInputs, HoldTheValuesOfTheInputsInTheirUnits) {
     EXPECT_TRUE(inputs.distributions.empty());
 }
 
+// The trials that are drawn again are those of the evaluation: its interval has its ends at the same ranks.
+TEST(CapabilityInputs, HoldTheTrialsWhereUComesFromMonteCarlo) {
+    const engine::BudgetJob job =
+        budget(R"("a": {"value": 0, "unit": "mm", "u": 0.002}, "b": {"value": 0, "unit": "1", "u": 1})", "y = a*b",
+               R"(, "outputs": {"y": {"unit": "um"}}, "monte_carlo": {"trials": 30000, "seed": 5})");
+    const BudgetResult result = evaluate_budget(job, 1);
+    ASSERT_EQ(result.points.at(0).outputs.at(0).coverage, "monte_carlo");
+    const CapabilityInputs inputs = capability_inputs(job, result);
+    const TrialDistribution trials = count_trials(inputs.trials.at("y"));
+    EXPECT_EQ(trials.counted, 30000U);
+    const gum::CoverageInterval& interval = result.points[0].outputs[0].monte_carlo->symmetric;  // [m]
+    const gum::Unit um = gum::Unit::parse("um");
+    const double low = trials.function(um.from_si(interval.low) - 1e-9);
+    const double high = trials.function(um.from_si(interval.high) + 1e-9);
+    EXPECT_NEAR(high - low, 0.9545, 2.0 / 30000.0);
+    EXPECT_NEAR(low, 0.02275, 2.0 / 30000.0);
+}
+
 TEST(CapabilityInputs, HoldTheDistributionOfAConvolution) {
     const engine::BudgetJob job =
         budget(R"("x": {"value": 10, "unit": "mm", "half_width": 0.1, "distribution": "uniform"})", "y = x");

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "certificate/statement_of_uncertainty.h"
+#include "gum/monte_carlo.h"
 #include "tests/support/sample_budget_record.h"
 #include "tests/support/sample_certificate.h"
 
@@ -211,7 +213,8 @@ TEST(Certify, RoundsByTheProfileAndByTheJob) {
     record.options_json = R"({"reporting": {"rounding": "up"}})";
     EXPECT_EQ(certified(record, data, profile).printed_U, "1.5E+3");
     profile.digits = 1;
-    EXPECT_EQ(certified(one_result(299792.458, 1450.0, "m"), data, profile).printed_U, "1E+3");
+    EXPECT_EQ(certified(one_result(299792.458, 1450.0, "m"), data, profile).printed_U, "2E+3");  // 1E+3 is 31 % less
+    EXPECT_EQ(certified(one_result(299792.458, 1030.0, "m"), data, profile).printed_U, "1E+3");
     EXPECT_EQ(certified(one_result(299792.458, 1450.0, "m"), data, profile).printed_value, "3.00E+5");
 }
 
@@ -232,6 +235,28 @@ TEST(Certify, CarriesTheCapabilityToTheProbabilityOfTheResult) {
     EXPECT_NEAR(*v.capability, 2.0 * 2.5758293 / 1.9599640, 1e-6);
     EXPECT_EQ(v.printed_U, "2.7");
     EXPECT_THAT(ids(record), Contains("K03"));
+}
+
+TEST(Certify, BlocksAnUncertaintyOfLessThanAbout95Percent) {
+    EvaluationRecord record = one_result(100.0, 2.3, "m");
+    record.results[0].coverage_probability = 0.6827;
+    certify(record, data_with(test::capability_of_one_value(0.1, "m")), {});
+    EXPECT_THAT(ids(record), Contains("K03"));
+    EXPECT_TRUE(record.certificate->blocked);
+    EXPECT_FALSE(record.certificate->symbol);
+}
+
+TEST(Certify, HidesNoUncertaintyOfZeroUnderACapability) {
+    EvaluationRecord record = one_result(100.0, 0.0, "m");
+    certify(record, data_with(test::capability_of_one_value(0.1, "m")), {});
+    EXPECT_THAT(ids(record), Contains("R07-4a"));
+    EXPECT_FALSE(record.certificate->symbol);
+    record = one_result(100.0, 0.0, "m");
+    CertificateData data = data_with(test::capability_of_one_value(0.1, "m"));
+    data.status = "not_accredited";
+    certify(record, data, {});
+    EXPECT_THAT(ids(record), Contains("R07-4a"));
+    EXPECT_FALSE(record.certificate->blocked);
 }
 
 // --- scope ---
@@ -264,6 +289,20 @@ TEST(Certify, TakesTheSignWhereTheScopeSpeaksOfNegativeValues) {
     EXPECT_EQ(certified(one_result(-5.0, 0.2, "degC"), data).scope_entry, "S");
     EXPECT_EQ(certified(one_result(-30.0, 0.2, "degC"), data).scope_entry, "");
     EXPECT_EQ(certified(one_result(30.0, 0.2, "degC"), data).scope_entry, "S");
+}
+
+TEST(Certify, TakesACelsiusTemperatureWithItsSign) {
+    CertificateData data = data_with(test::capability_of_one_value(0.1, "K"));
+    data.accreditation->scope[0].ranges = {
+        {.argument = {.name = "t", .unit = "degC", .of = "value"}, .low = 0.0, .high = 50.0}};
+    EXPECT_EQ(certified(one_result(30.0, 0.2, "degC"), data).scope_entry, "S");
+    const CertifiedValue cold = certified(one_result(-30.0, 0.2, "degC"), data);
+    EXPECT_EQ(cold.scope_entry, "");
+    EXPECT_THAT(cold.outside_because, HasSubstr("-30"));
+    // The magnitude of a deviation is meant where the scope speaks of no sign.
+    data.accreditation->scope[0].capability = test::capability_of_one_value(0.01, "um");
+    data.accreditation->scope[0].ranges[0].argument.unit = "um";
+    EXPECT_EQ(certified(one_result(-30.0, 0.2, "um"), data).scope_entry, "S");
 }
 
 TEST(Certify, TakesTheLargestOfSeveralCapabilities) {
@@ -400,6 +439,60 @@ TEST(Certify, DecidesWithTheCapabilityWhereItReplacesU) {
     EXPECT_NEAR(v.verdict->guard_band, 0.2, 1e-15);
 }
 
+// Seen on paper: rule w = U, U = 0.78 (a capability of 0.771), guard band "0.77", acceptance limits beside it from
+// 0.771.
+TEST(Certify, PrintsAGuardBandAndLimitsThatCanBeCheckedByHand) {
+    CertificateData data = data_with_rule("DR-03", 1230.0, 1240.0, "m");
+    data.accreditation->scope[0].capability.U = 0.771;
+    const CertifiedValue v = certified(one_result(1234.56789, 0.1227, "m"), data);
+    EXPECT_EQ(v.printed_U, "0.78");
+    EXPECT_EQ(v.verdict->printed.guard_band, "0.78");
+    EXPECT_EQ(v.verdict->printed.acceptance_lower, "1230.78");
+    EXPECT_EQ(v.verdict->printed.acceptance_upper, "1239.22");
+    EXPECT_EQ(v.verdict->printed.test_uncertainty_ratio, "6.41");  // 5/0.78
+    EXPECT_NEAR(v.verdict->guard_band, 0.771, 1e-12);
+}
+
+TEST(Certify, PrintsAValueOutsideOfTheLimitsWhereItFails) {
+    // AU = 10 − 0.83 · 0.027 = 9.97759: rounded to the place of the value it would be 9.978, which the value is.
+    CertificateData data = data_with_rule("DR-04", 9.0, 10.0, "m");
+    data.specifications[0].rule.guard_factor = 0.83;
+    const CertifiedValue v = certified(one_result(9.978, 0.027, "m"), data);
+    EXPECT_EQ(v.printed_value, "9.978");
+    EXPECT_EQ(v.verdict->verdict, "fail");
+    EXPECT_EQ(v.verdict->verdict_from_printed, "fail");
+    EXPECT_EQ(v.verdict->printed.acceptance_upper, "9.977");
+    EXPECT_EQ(v.verdict->printed.acceptance_lower, "9.023");
+    EXPECT_EQ(v.verdict->printed.guard_band, "0.023");
+}
+
+TEST(Certify, PrintsARatioThatIsNotReachedAsNotReached) {
+    CertificateData data = data_with_rule("DR-02", 9.0, 10.0, "m");
+    data.specifications[0].rule.test_uncertainty_ratio = 4.0;
+    const Verdict v = *certified(one_result(9.5, 0.12505, "m"), data).verdict;  // 0.5/0.12505 = 3.9984, printed U 0.13
+    EXPECT_EQ(v.verdict, "not_applicable");
+    EXPECT_EQ(v.printed.test_uncertainty_ratio, "3.84");
+}
+
+TEST(Certify, PrintsTheRiskOfRejectingAGoodItem) {
+    CertificateData data = data_with_rule("DR-04", 0.0, 10.0, "m");
+    data.specifications[0].rule.guard_factor = 6.0;
+    const Verdict v = *certified(one_result(9.1, 0.2, "m"), data).verdict;
+    EXPECT_EQ(v.verdict, "fail");
+    EXPECT_EQ(v.printed.specific_risk, ">99.99");
+}
+
+TEST(Certify, DecidesWithTheCapabilityWhereRoundingLiftsUToIt) {
+    CertificateData data = data_with_rule("DR-03", 9.0, 10.0, "m");
+    data.accreditation->scope[0].capability.U = 0.12;
+    Profile profile;
+    profile.rounding = "up";
+    const CertifiedValue v = certified(one_result(9.5, 0.114, "m"), data, profile);
+    EXPECT_EQ(v.printed_U, "0.12");
+    EXPECT_FALSE(v.raised);
+    EXPECT_NEAR(v.verdict->guard_band, 0.12, 1e-12);
+}
+
 TEST(Certify, TakesTheDistributionOfAConvolution) {
     EvaluationRecord record = one_result(9.97, 0.0954, "m");  // rectangular, half-width 0.1
     record.results[0].coverage = "convolution";
@@ -416,19 +509,64 @@ TEST(Certify, TakesTheDistributionOfAConvolution) {
     EXPECT_NEAR(normal.conformance_probability, 0.698, 1e-3);  // Φ(0.03 / 0.057735)
 }
 
-TEST(Certify, TakesTheTrialsOfMonteCarlo) {
+/// y = x, rectangular between 9.7 and 10.1.
+class UniformModel final : public gum::MeasurementModel {
+public:
+    UniformModel() {
+        gum::InputGroup x;
+        x.name = "x";
+        x.unit = "m";
+        x.value = Eigen::VectorXd::Constant(1, 9.9);
+        x.covariance = Eigen::MatrixXd::Constant(1, 1, 0.04 / 3.0);
+        x.marginals = {gum::Distribution::uniform(9.9, 0.2)};
+        inputs_ = {x};
+        outputs_ = {{"y", "m"}};
+    }
+    const std::vector<gum::InputGroup>& inputs() const override { return inputs_; }
+    const std::vector<gum::OutputQuantity>& outputs() const override { return outputs_; }
+    Eigen::VectorXd evaluate(const Eigen::VectorXd& x) const override { return x; }
+    Eigen::MatrixXd jacobian(const Eigen::VectorXd&) const override { return Eigen::MatrixXd::Identity(1, 1); }
+
+private:
+    std::vector<gum::InputGroup> inputs_;
+    std::vector<gum::OutputQuantity> outputs_;
+};
+
+TEST(Certify, CountsTheTrialsOfMonteCarlo) {
+    const auto model = std::make_shared<const UniformModel>();
+    CapabilityInputs inputs;
+    inputs.trials["l"] = {.model = model, .unit = gum::Unit::parse("m"), .seed = 7, .streams = {}, .trials = 9999};
     EvaluationRecord record = with_trials(9.9, 9.7, 10.1);
-    reports::MonteCarloSummary& m = *record.results[0].monte_carlo;
-    m.trials = 1000;
-    m.histogram_low = 9.6;
-    m.histogram_high = 10.2;
-    m.histogram = {100, 300, 300, 150, 100, 40};  // 990 of 1000; 5 lie beyond each end
-    const Verdict v = *certified(record, data_with_rule("DR-01", 9.0, 10.0, "m")).verdict;
-    EXPECT_NEAR(v.conformance_probability, (5.0 + 100.0 + 300.0 + 300.0 + 150.0 - 5.0) / 1000.0, 1e-9);
-    EXPECT_THAT(v.note, HasSubstr("Monte Carlo"));
-    m.histogram.clear();
+    const Verdict v = *certified(record, data_with_rule("DR-01", 9.0, 10.0, "m"), {}, inputs).verdict;
+    int inside = 0;
+    for (std::uint64_t trial = 0; trial < 9999; ++trial) {
+        const double y = gum::monte_carlo_trial(*model, 7, trial)(0);
+        inside += y >= 9.0 && y <= 10.0 ? 1 : 0;
+    }
+    EXPECT_NEAR(v.conformance_probability, inside / 9999.0, 1e-14);
+    EXPECT_NEAR(v.conformance_probability, 0.75, 0.02);
+    EXPECT_THAT(v.note, HasSubstr("9999 Monte Carlo trials"));
+    EXPECT_THAT(v.note, HasSubstr("is 0.4 %"));  // √(0.75 · 0.25/9999)
     EXPECT_THAT(certified(record, data_with_rule("DR-01", 9.0, 10.0, "m")).verdict->note,
                 HasSubstr("normal distribution"));
+}
+
+TEST(CountTrials, GivesTheSameForAnyNumberOfThreads) {
+    TrialsOfOutput of{.model = std::make_shared<const UniformModel>(),
+                      .unit = gum::Unit::parse("mm"),
+                      .seed = 3,
+                      .streams = {},
+                      .trials = 50001};
+    const TrialDistribution one = count_trials(of);
+    of.threads = 3;
+    const TrialDistribution three = count_trials(of);
+    EXPECT_EQ(one.counted, 50001U);
+    for (const double x : {9699.0, 9712.0, 9900.0, 10099.9, 10101.0}) {
+        EXPECT_EQ(one.function(x), three.function(x));
+    }
+    EXPECT_EQ(one.function(9699.0), 0.0);
+    EXPECT_EQ(one.function(10101.0), 1.0);
+    EXPECT_NEAR(one.function(9900.0), 0.5, 0.01);
 }
 
 TEST(Certify, SaysWhyNothingCanBeDecided) {
@@ -530,13 +668,13 @@ TEST(Certify, PrintsOneTextForOneNumberEverywhere) {
     EXPECT_THAT(ids(record), Contains("X03"));
 }
 
-TEST(Certify, FindsTheDegreesOfFreedomOfARangeFromItsCoverageFactor) {
+TEST(Certify, PrintsTheDegreesOfFreedomOfARange) {
     EvaluationRecord record = test::sample_record();
-    record.coverage_probability = 0.9545;
     reports::RangeRow& range = record.rotary->ranges[0];
-    range.U = 2.2837 * range.u;  // t of 95.45 % and 10 degrees of freedom: 2.28 in golden vector 1
-    record.rotary->ranges[1].U = 2.0000024 * record.rotary->ranges[1].u;  // normal
+    range.k = 2.28;
+    range.nu_eff = 10.0;
     certify(record, test::sample_certificate_data(), {});
+    EXPECT_EQ(column(record, "ranges", "range_EXA").values.at(0).printed_k, "2.28");
     EXPECT_EQ(column(record, "ranges", "range_EXA").values.at(0).printed_nu_eff, "10");
     EXPECT_EQ(column(record, "ranges", "range_EYA").values.at(0).printed_nu_eff, "∞");
 }

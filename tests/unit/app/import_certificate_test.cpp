@@ -69,7 +69,7 @@ TEST(ImportCertificate, MakesAJobOfWhatHasAnUncertainty) {
     const std::string source = job["inputs"]["length"]["source"];
     EXPECT_TRUE(source.starts_with("certificate EX-1 \"a\", Example Laboratory, SHA-256 ")) << source;
     EXPECT_NE(imported.job.find("\"value\": 1.50, \"U\": 0.020, \"k\": 2.0"), std::string::npos);  // its own digits
-    EXPECT_EQ(codes(imported.remarks), std::vector<std::string>{"GC-DCC-0032"});
+    EXPECT_EQ(codes(imported.remarks), (std::vector<std::string>{"GC-DCC-0034", "GC-DCC-0032"}));  // without Nominal
 }
 
 TEST(ImportCertificate, LeavesOutWhatCannotBeAnInput) {
@@ -81,7 +81,76 @@ TEST(ImportCertificate, LeavesOutWhatCannotBeAnInput) {
     ASSERT_EQ(job["inputs"].size(), 1U);
     EXPECT_EQ(job["inputs"]["c"]["constant"], true);
     EXPECT_EQ(codes(imported.remarks),
-              (std::vector<std::string>{"GC-DCC-0021", "GC-DCC-0031", "GC-DCC-0031", "GC-DCC-0031"}));
+              (std::vector<std::string>{"GC-DCC-0021", "GC-DCC-0031", "GC-DCC-0031", "GC-DCC-0031", "GC-DCC-0034"}));
+}
+
+/// What the reader of jobs would refuse is left out at the import, with the reason.
+TEST(ImportCertificate, LeavesOutFactorsAndProbabilitiesThatAreNone) {
+    const auto without_k = [](const std::string& p) {
+        return "<si:measurementUncertaintyUnivariate><si:expandedMU><si:valueExpandedMU>0.1</si:valueExpandedMU>"
+               "<si:coverageFactor>NaN</si:coverageFactor><si:coverageProbability>" +
+               p + "</si:coverageProbability></si:expandedMU></si:measurementUncertaintyUnivariate>";
+    };
+    for (const std::string& uncertainty :
+         {expanded("0.1", "0"), expanded("0.1", "-2"), expanded("-0.1", "2"), expanded("1e400", "2"), without_k("95"),
+          without_k("0"), without_k("1"), without_k("NaN"), standard("-1"), standard("1e-400")}) {
+        const ImportedJob imported = import_certificate(
+            with_quantities(quantity("good", "1", expanded("0.1", "1")) + quantity("bad", "1", uncertainty)), "a.xml");
+        const nlohmann::json job = nlohmann::json::parse(imported.job);
+        EXPECT_EQ(job["inputs"].size(), 1U) << uncertainty;
+        EXPECT_EQ(codes(imported.remarks), std::vector<std::string>{"GC-DCC-0031"}) << uncertainty;
+    }
+    // U without k is taken, with the factor of a normal distribution, and told.
+    const ImportedJob imported = import_certificate(with_quantities(quantity("a", "1", without_k("0.95"))), "a.xml");
+    EXPECT_EQ(nlohmann::json::parse(imported.job)["inputs"]["a"]["p"], 0.95);
+    EXPECT_EQ(codes(imported.remarks), std::vector<std::string>{"GC-DCC-0031"});
+    EXPECT_THROW((void)import_certificate(with_quantities(quantity("a", "1e-400", standard("1"))), "a.xml"),
+                 gum::InputError);
+}
+
+std::string column(const std::string& name, const std::string& values, const std::string& unit, const std::string& U,
+                   const std::string& ref_type = "basic_measuredValue", const std::string& label = "") {
+    return "<dcc:quantity refType='" + ref_type + "'><dcc:name><dcc:content>" + name +
+           "</dcc:content></dcc:name><si:realListXMLList>" +
+           (label.empty() ? "" : "<si:labelXMLList>" + label + "</si:labelXMLList>") + "<si:valueXMLList>" + values +
+           "</si:valueXMLList><si:unitXMLList>" + unit + "</si:unitXMLList>" +
+           (U.empty() ? ""
+                      : "<si:expandedUncXMLList><si:uncertaintyXMLList>" + U +
+                            "</si:uncertaintyXMLList><si:coverageFactorXMLList>2</si:coverageFactorXMLList>"
+                            "<si:coverageProbabilityXMLList>0.95</si:coverageProbabilityXMLList>"
+                            "<si:distributionXMLList>student_t</si:distributionXMLList></si:expandedUncXMLList>") +
+           "</si:realListXMLList></dcc:quantity>";
+}
+
+/// A row of a table says where it was measured; degrees of freedom of our own certificates belong to U.
+TEST(ImportCertificate, CarriesTheRowOfATable) {
+    const ImportedJob imported = import_certificate(
+        with_quantities("<dcc:list>" + column("Reference value", "33.098 99.971", "\\degreecelsius", "") +
+                        "<dcc:quantity><dcc:name><dcc:content>Point</dcc:content></dcc:name><dcc:charsXMLList>low high"
+                        "</dcc:charsXMLList></dcc:quantity>" +
+                        column("Error", "0.072 0.089", "\\kelvin", "0.061", "basic_measurementError", "E") +
+                        column("nu", "NaN 12.5", "\\one", "", "gumcert_effectiveDegreesOfFreedom", "E") +
+                        "</dcc:list><dcc:list>" + column("Elsewhere", "7 8", "\\metre", "") + "</dcc:list>"),
+        "a.xml");
+    const nlohmann::json inputs = nlohmann::json::parse(imported.job)["inputs"];
+    ASSERT_EQ(inputs.size(), 2U) << imported.job;
+    EXPECT_EQ(inputs["E_2"]["description"], "Error, row 2 (Point high, Reference value 99.971 degC)");
+    EXPECT_EQ(inputs["E_2"]["nu"], 12.5);
+    EXPECT_FALSE(inputs["E_1"].contains("nu"));
+    // One of them has a t-distribution without degrees of freedom; two numbers stand beside no input.
+    EXPECT_EQ(codes(imported.remarks), (std::vector<std::string>{"GC-DCC-0033", "GC-DCC-0034", "GC-DCC-0032"}));
+    EXPECT_NE(imported.remarks[0].what.find("of 1 input"), std::string::npos);
+    EXPECT_EQ(imported.remarks[1].what, "2 results without uncertainty are left out");
+}
+
+TEST(ImportCertificate, RemarksTheSameOfAColumnOnce) {
+    const ImportedJob imported =
+        import_certificate(with_quantities("<dcc:list>" + column("A", "1 2 3", "|inch", "0.1") +
+                                           column("B", "1 2 3", "\\metre", "0.1") + "</dcc:list>"),
+                           "a.xml");
+    ASSERT_EQ(codes(imported.remarks),
+              (std::vector<std::string>{"GC-DCC-0021", "GC-DCC-0031", "GC-DCC-0033", "GC-DCC-0032"}));
+    EXPECT_EQ(imported.remarks[1].where, "a.xml: a_1 to a_3");
 }
 
 TEST(ImportCertificate, RefusesACertificateWithoutNumbers) {

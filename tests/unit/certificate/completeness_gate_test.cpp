@@ -206,6 +206,61 @@ TEST(CompletenessGate, TakesNoReasonForAnotherItem) {
     EXPECT_THAT(ids(completeness_findings(c)), testing::ElementsAre("R07-d", "R16"));
 }
 
+TEST(CompletenessGate, TakesNoReasonForWhatMakesACertificate) {
+    const auto found = [](const std::string& letter, auto remove) {
+        Certificate c = passed_certificate();
+        remove(c);
+        c.data.omissions = {{.clause = "7.8.2.1 " + letter, .reason = "It is known to the customer."}};
+        return ids(completeness_findings(c));
+    };
+    using testing::ElementsAre;
+    EXPECT_THAT(found("b", [](Certificate& c) { c.data.laboratory.name = {}; }), ElementsAre("R07-b", "R16"));
+    EXPECT_THAT(found("d", [](Certificate& c) { c.data.number.clear(); }), ElementsAre("R07-d", "R16"));
+    EXPECT_THAT(found("i", [](Certificate& c) { c.data.dates.performed_from.clear(); }),
+                testing::IsSupersetOf({"R07-i", "R16"}));
+    EXPECT_THAT(found("j", [](Certificate& c) { c.data.dates.issued.clear(); }), ElementsAre("R07-j", "R16"));
+    EXPECT_THAT(found("m", [](Certificate& c) { c.tables.clear(); }), testing::IsSupersetOf({"R07-m", "R16"}));
+    EXPECT_THAT(found("o", [](Certificate& c) { c.data.persons.authorised_by.reset(); }), ElementsAre("R07-o", "R16"));
+    EXPECT_THAT(found("z", [](Certificate&) {}), ElementsAre("R16"));
+    EXPECT_THAT(found("k", [](Certificate&) {}), testing::IsEmpty());
+}
+
+TEST(CompletenessGate, TakesADashForNothing) {
+    const auto found = [](auto change) {
+        Certificate c = passed_certificate();
+        change(c.data);
+        return ids(completeness_findings(c));
+    };
+    using testing::ElementsAre;
+    EXPECT_THAT(found([](CertificateData& d) { d.laboratory.name = "-"; }), ElementsAre("R07-b"));
+    EXPECT_THAT(found([](CertificateData& d) { d.laboratory.name.by_language[1].second = "–"; }), ElementsAre("R07-b"));
+    EXPECT_THAT(found([](CertificateData& d) { d.laboratory.address.lines = {"-", "."}; }), ElementsAre("R07-b"));
+    EXPECT_THAT(found([](CertificateData& d) { d.number = "---"; }), ElementsAre("R07-d"));
+    EXPECT_THAT(found([](CertificateData& d) { d.customer.name = "?"; }), ElementsAre("R07-e"));
+    EXPECT_THAT(found([](CertificateData& d) { d.item.serial_number = d.item.identification = "N/A"; }),
+                ElementsAre("R07-g"));
+    EXPECT_THAT(found([](CertificateData& d) { d.item.condition = "-"; }), ElementsAre("R07-g"));
+    EXPECT_THAT(found([](CertificateData& d) { d.persons.authorised_by->name = "-"; }), ElementsAre("R07-o"));
+    EXPECT_THAT(found([](CertificateData& d) {
+                    d.conditions[0].maximum = 99.0;
+                    d.method.deviations = {"-"};
+                    d.method.no_deviations = false;
+                }),
+                testing::UnorderedElementsAre("R07-n", "E01"));
+    EXPECT_THAT(found([](CertificateData& d) {
+                    d.item.condition = {};
+                    d.omissions = {{.clause = "7.8.2.1 g", .reason = "-"}};
+                }),
+                ElementsAre("R07-g", "R16"));
+}
+
+TEST(CompletenessGate, WantsTheDateOfTheCalibrationOfAStandard) {
+    Certificate c = passed_certificate();
+    c.data.standards[0].calibrated.clear();
+    expect_finding(only(completeness_findings(c)), "R07-4c", iso("7.8.4.1 c"), FindingSeverity::major,
+                   "/standards/0/calibrated");
+}
+
 TEST(CompletenessGate, WantsADeviationWhereConditionsLeftTheLimits) {
     Certificate c = passed_certificate();
     c.data.conditions[0].maximum = 21.2;

@@ -62,6 +62,19 @@ TEST(StatementOfUncertainty, KeepsTwoDigitsOfACapabilityWhereUHasOne) {
     EXPECT_EQ(stated(5.678, 0.14, 0.12, one), "5.7 ± 0.2");  // 0.1 would be below
 }
 
+// EA-4/02 M:2022: rounding may not make U smaller by more than 5 %. With two digits it cannot (10.5 gives 10: 4.8 %).
+TEST(StatementOfUncertainty, RoundsUpwardsWhereOneDigitWouldTakeMuchAway) {
+    const PrintRule one{.digits = 1, .rounding = gum::RoundingMode::half_even};
+    EXPECT_EQ(stated(5.678, 0.14, {}, one), "5.7 ± 0.2");
+    EXPECT_EQ(stated(5.678, 0.0106, {}, one), "5.68 ± 0.02");
+    EXPECT_EQ(stated(5.678, 0.0105, {}, one), "5.68 ± 0.01");  // 4.8 %
+    EXPECT_EQ(stated(5.678, 0.96, {}, one), "6 ± 1");
+    EXPECT_EQ(stated(5.678, 0.105), "5.68 ± 0.10");
+    // The capability is held against the rounding that was asked for: 1.6 is stated, not 1.1 rounded upwards.
+    EXPECT_EQ(stated(5.678, 1.1, 1.6, one), "5.7 ± 1.6");
+    EXPECT_TRUE(state_uncertainty(5.678, 1.1, 1.6, one).raised);
+}
+
 TEST(StatementOfUncertainty, SaysThatUIsBelowWhereItIsNotRaised) {
     const StatedPair pair = state_uncertainty(693.1, 11.4, 12.0, {}, false);
     EXPECT_EQ(pair.U, "11");
@@ -88,16 +101,33 @@ TEST(StatementOfUncertainty, PrintsCoverageFactorAndDegreesOfFreedom) {
 }
 
 TEST(StatementOfUncertainty, PrintsRisksInPercent) {
-    EXPECT_EQ(printed_risk(0.02275), "2.3");
-    EXPECT_EQ(printed_risk(0.5), "50");
-    EXPECT_EQ(printed_risk(1.0e-9), "<0.01");
-    EXPECT_EQ(printed_risk(0.0), "<0.01");
-    EXPECT_EQ(printed_conformance(0.977250), "97.7");
-    EXPECT_EQ(printed_conformance(0.99865), "99.86");
-    EXPECT_EQ(printed_conformance(1.0 - 1e-9), ">99.99");
-    EXPECT_EQ(printed_conformance(1.0), ">99.99");
-    EXPECT_EQ(printed_conformance(0.30), "30");
-    EXPECT_EQ(printed_conformance(0.0123), "1.2");
+    EXPECT_EQ(printed_probability(0.02275), "2.3");
+    EXPECT_EQ(printed_probability(0.5), "50");
+    EXPECT_EQ(printed_probability(1.0e-9), "<0.01");
+    EXPECT_EQ(printed_probability(0.0), "<0.01");
+    EXPECT_EQ(printed_probability(0.977250), "97.7");
+    EXPECT_EQ(printed_probability(0.99865), "99.86");
+    EXPECT_EQ(printed_probability(1.0 - 1e-9), ">99.99");
+    EXPECT_EQ(printed_probability(1.0), ">99.99");
+    EXPECT_EQ(printed_probability(0.30), "30");
+    EXPECT_EQ(printed_probability(0.0123), "1.2");
+    EXPECT_EQ(printed_probability(0.995), "99.50");  // two digits of it would be 1.0E+2
+    EXPECT_EQ(printed_probability(0.9996), "99.960");
+}
+
+TEST(StatementOfUncertainty, PrintsAcceptanceLimitsToTheSafeSide) {
+    EXPECT_EQ(printed_at_most(9.97759, 3), "9.977");
+    EXPECT_EQ(printed_at_least(9.97711, 3), "9.978");
+    EXPECT_EQ(printed_at_most(-9.97711, 3), "-9.978");
+    EXPECT_EQ(printed_at_least(-9.97759, 3), "-9.977");
+    EXPECT_EQ(printed_at_most(9.978, 3), "9.978");
+    EXPECT_EQ(printed_at_most(0.3 - 0.1, 1), "0.2");  // 0.19999999999999998
+    EXPECT_EQ(printed_at_least(0.1 + 0.2, 1), "0.3");
+    EXPECT_EQ(printed_at_least(0.0, 2), "0.00");
+    EXPECT_EQ(printed_at_most(-0.0, 2), "0.00");
+    EXPECT_EQ(printed_at_most(49999933.4, 0), "49999933");
+    EXPECT_EQ(printed_at_least(1401.0, -2), "1.5E+3");
+    EXPECT_EQ(printed_at_most(0.999999, 2), "0.99");
 }
 
 TEST(StatementOfUncertainty, ReadsItsOwnTexts) {

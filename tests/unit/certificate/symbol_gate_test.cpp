@@ -38,6 +38,8 @@ TEST(SymbolGate, FindsWhatForbidsTheSymbol) {
     const std::vector<Case> cases = {
         {"no accreditation", [](Certificate& c) { c.data.accreditation.reset(); }, "X08", "ILAC-P8", k_critical,
          "/accreditation"},
+        {"a dash", [](Certificate& c) { c.data.accreditation->number = "–"; }, "X08", "ILAC-P8", k_critical,
+         "/accreditation/number"},
         {"no number", [](Certificate& c) { c.data.accreditation->number.clear(); }, "X08", "ILAC-P8", k_critical,
          "/accreditation/number"},
         {"not yet valid", [](Certificate& c) { c.data.accreditation->valid_from = "2026-11-19"; }, "X04", "ILAC-P8",

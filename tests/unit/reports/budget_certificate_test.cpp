@@ -95,7 +95,7 @@ TEST(BudgetCertificate, BudgetHasTheLayoutOfTableH1) {
     EXPECT_THAT(cells(budget, 5),
                 ElementsAre("alpha_s", "1.15E-5 K⁻¹", "1.2E-6 K⁻¹", "rectangular", "B", "∞", "0 nm·K", "0", "0.0"));
     // A Celsius temperature has an uncertainty in kelvin, and a sensitivity coefficient per kelvin.
-    EXPECT_THAT(cells(budget, 7), ElementsAre("theta", "-0.10 °C", "0.41 K", "normal", "B", "∞", "0 nm/K", "0", "0.0"));
+    EXPECT_THAT(cells(budget, 7), ElementsAre("theta", "−0.10 °C", "0.41 K", "normal", "B", "∞", "0 nm/K", "0", "0.0"));
     EXPECT_THAT(cells(budget, 9), ElementsAre("l", "50000838 nm", "–", "t", "–", "16.7", "–", "32", "100"));
     EXPECT_EQ(budget["rows"][9]["kind"], "closing");
 }
@@ -103,7 +103,7 @@ TEST(BudgetCertificate, BudgetHasTheLayoutOfTableH1) {
 TEST(BudgetCertificate, ShowsTheCorrelationOfTheInputs) {
     const json view = view_of(test::sample_two_results_record());
     const json& budget = table(view, "budget-0");
-    EXPECT_THAT(cells(budget, 3), ElementsAre("correlation", "–", "–", "–", "–", "–", "–", "-0.1806", "-647.3"));
+    EXPECT_THAT(cells(budget, 3), ElementsAre("correlation", "–", "–", "–", "–", "–", "–", "−0.1806", "−647.3"));
     EXPECT_THAT(cells(budget, 0),
                 ElementsAre("V", "4.9990 V", "0.0032 V", "t", "A", "4", "25.55 Ω/V", "0.0818", "132.6"));
     EXPECT_THAT(text_of(test::sample_two_results_record()),
@@ -191,12 +191,12 @@ const std::vector<std::string> k_two_results = {
     " X reactance 219.85 – 0.30 Ω – – (b) ",
     " 0 = X - V/I*sin(phi) ",
     " The equations are solved for X. ",
-    " correlation – – – – – – -0.1806 -647.3 ",
-    " R 1 -0.588 ",
-    " X -0.588 1 ",
+    " correlation – – – – – – −0.1806 −647.3 ",
+    " R 1 −0.588 ",
+    " X −0.588 1 ",
     " k_p = 2.49 ",
     " k_q = 2.21 ",
-    " y1 -0.1712 0.0029 °C 1 -0.9300 ",
+    " y1 −0.1712 0.0029 °C 1 −0.9300 ",
     " Residual standard deviation 0.0035 K ",
     " Sum of squares of the residuals 0.00011 K² ",
     " V 5 4.9990 0.0072 0.0032 – V 0.31 0.88 ",

@@ -82,18 +82,41 @@ TEST(CertificateIdentity, SaysWhoWhatWhenAndWhere) {
 
 TEST(CertificateIdentity, SummarisesTheVerdictsWithTheirRule) {
     EvaluationRecord record = test::certified_rotary_record();
-    EXPECT_THAT(rows_of(page_of(record), "summary").at(1),
-                HasSubstr("Conformity=pass: 36 of 36 values: Drawing 1234, decision rule DR-03, guarded acceptance"));
+    EXPECT_THAT(
+        rows_of(page_of(record), "summary").at(1),
+        HasSubstr("Conformity=Drawing 1234, B, 3.2; EAA: pass (36 of 36 values); decision rule DR-03, guarded"));
     for (certificate::CertifiedColumn& column : record.certificate->tables[0].columns) {
         if (column.result == "EAA") {
             column.values[4].verdict->verdict = "fail";
         }
     }
     EXPECT_THAT(rows_of(page_of(record), "summary").at(1),
-                HasSubstr("pass: 35 of 36 values; fail: 1 of 36 values: Drawing 1234"));
+                HasSubstr("EAA: pass (35 of 36 values), fail (1 of 36 values); decision rule"));
     record.certificate->data.specifications.clear();
     EXPECT_THAT(rows_of(page_of(record), "summary"),
                 ElementsAre("Results=see the following pages", "Conformity=No statement of conformity was requested."));
+}
+
+TEST(CertificateIdentity, StatesTheOneResultInALine) {
+    EvaluationRecord record = test::certified_budget_record();
+    certificate::Certificate& c = *record.certificate;
+    ASSERT_EQ(c.tables.size(), 1U);
+    ASSERT_EQ(c.tables[0].columns.size(), 1U);
+    c.tables[0].columns[0].values.resize(1);
+    certificate::CertifiedValue& value = c.tables[0].columns[0].values[0];
+    value = test::certified_value(-1.0, 0.1, 2.16, {}, {.value = "-1.00", .U = "0.22", .unit = "nm"}, "L1");
+    c.tables[0].columns[0].printed_unit = "nm";
+    value.printed_k = "2.16";
+    const auto line = [&] { return rows_of(page_of(record), "summary").at(0); };
+    EXPECT_EQ(line(), "Results=l = −1.00\u00A0nm ± 0.22\u00A0nm, k = 2.16");
+    c.profile.plus_minus_in_tables = false;
+    EXPECT_EQ(line(), "Results=l = −1.00\u00A0nm, U = 0.22\u00A0nm, k = 2.16");
+    value.interval = {-1.2, -0.7};
+    value.printed_low = "-1.20";
+    value.printed_high = "-0.70";
+    EXPECT_THAT(line(), HasSubstr("coverage interval from −1.20\u00A0nm to −0.70\u00A0nm"));
+    value.scope_entry = "";
+    EXPECT_EQ(line(), "Results=see the following pages") << "the mark * is explained there";
 }
 
 TEST(CertificateIdentity, NamesTheCertificateThatItAmends) {

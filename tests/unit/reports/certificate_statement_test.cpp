@@ -150,9 +150,26 @@ TEST(CertificateStatement, PrintsTheCertifiedTextsUntouched) {
     v.printed_U = "9.9E+1";
     const std::string text = results(record);
     EXPECT_THAT(text, HasSubstr("\n0|1.0E+2|9.9E+1|4.17|"));
-    EXPECT_THAT(text, HasSubstr("range_EXA|Range of EXA|2.99|0.59|*|µm|"));
+    EXPECT_THAT(text, HasSubstr("\nEXA|2.99|0.59|*|µm|"));
     EXPECT_THAT(text, HasSubstr("* Outside of the accreditation of the laboratory."));
     EXPECT_THAT(text, HasSubstr("The item was not adjusted"));
+    EXPECT_THAT(text, Not(HasSubstr("–: not applicable."))) << "no cell is empty";
+    record.certificate->tables[1].columns[0].values[0].printed_U.clear();
+    EXPECT_THAT(results(record), HasSubstr("–: not applicable."));
+}
+
+TEST(CertificateStatement, PrintsTheMinusSignOfAHyphen) {
+    EvaluationRecord record = test::certified_rotary_record();
+    record.certificate->tables[0].columns[0].values[0].printed_value = "-0.12";
+    EXPECT_THAT(results(record), HasSubstr("\n0|−0.12|"));
+}
+
+TEST(CertificateStatement, PrintsTheEndsOfAConditionWithEqualDecimals) {
+    EvaluationRecord record = test::certified_rotary_record();
+    record.certificate->data.conditions[0].maximum = 20.0;
+    const std::string text = text_of(sections_of(record, method_sections), "conditions");
+    EXPECT_THAT(text, HasSubstr("Quantity|Least value|Greatest value|U|Unit|Sensor|"));
+    EXPECT_THAT(text, HasSubstr("Air temperature|19.8|20.0|"));
 }
 
 TEST(CertificateStatement, NormalDistributionWithOneFactor) {
@@ -243,7 +260,7 @@ TEST(CertificateStatement, StatesTheDecisionWithItsInputs) {
     EXPECT_THAT(text, HasSubstr("Decision rule=DR-03: guarded acceptance, w = U (ILAC-G8:09/2019, 4.2.2)\n"));
     EXPECT_THAT(text, HasSubstr("Agreed=Example Customer, purchasing, 2026-11-02, Contract 88-2026\n"));
     EXPECT_THAT(text, HasSubstr("Conformity was decided by rule DR-03: A_U = T_U − U, A_L = T_L + U."));
-    EXPECT_THAT(text, HasSubstr("Largest specific probability of false acceptance: 2.3"));
+    EXPECT_THAT(text, HasSubstr("Largest specific probability of false acceptance that the rule allows: 2.3"));
     EXPECT_THAT(text, HasSubstr("Result|θ/°|Value/″|U/″|T_L/″|T_U/″|A_L/″|A_U/″|TUR|p_c/%|Specific risk/%|Verdict|\n"));
     EXPECT_THAT(text, HasSubstr("EAA|0|3.70|0.76|\u221210.00|10.00|\u22129.24|9.24|21|100.0|0.0|pass|\n"));
     EXPECT_THAT(text, HasSubstr("nothing is claimed between the points"));

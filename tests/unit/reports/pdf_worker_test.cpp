@@ -2,12 +2,15 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 
 #include "gum/quantity/diagnostic.h"
 #include "reports/pdf_conformity.h"
@@ -204,9 +207,126 @@ TEST_F(PdfWorkerTest, AProcessThatTakesTooLongIsStopped) {
     expect_nothing_left();
 }
 
+TEST_F(PdfWorkerTest, AFaultOfTheTemplateIsToldWithItsPlace) {
+    SKIP_WITHOUT_PDF();
+    PdfWorker worker(assets_);
+    const std::pair<const char*, const char*> faults[] = {
+        {"#let x = (\n", "certificate.typ:1:10: unclosed delimiter"},
+        {"text\n #let = 1\n", "certificate.typ: expected pattern"},
+        {"#while true { }\n", "certificate.typ"},
+        {"#nothing\n", "unknown variable: nothing"},
+        {"#image(\"symbol.png\")\n", "file not found"},
+    };
+    for (const auto& [text, said] : faults) {
+        put("templates/pdf/certificate.typ", text);
+        try {
+            static_cast<void>(worker.set(view("x"), ""));
+            ADD_FAILURE() << "accepted: " << text;
+        } catch (const gum::NoResultError& e) {
+            EXPECT_EQ(e.diagnostics().front().code, "GC-REPORT-0011");
+            EXPECT_THAT(e.what(), HasSubstr(said));
+            EXPECT_THAT(e.what(), HasSubstr("correct the template"));
+            EXPECT_THAT(e.what(), testing::Not(HasSubstr("fonts")));
+        }
+    }
+    put("templates/pdf/certificate.typ", k_template);
+    EXPECT_TRUE(worker.set(view("x"), "").starts_with("%PDF-"));
+}
+
+constexpr const char* k_endless = "#for i in range(100000) { for j in range(100000) { let k = i * j } }\n";
+
+TEST_F(PdfWorkerTest, ATemplateWithoutEndIsStopped) {
+    SKIP_WITHOUT_PDF();
+    assets_.pdf_time_limit = std::chrono::seconds(2);
+    put("templates/pdf/certificate.typ", k_endless);
+    PdfWorker worker(assets_);
+    try {
+        static_cast<void>(worker.set(view("x"), ""));
+        FAIL() << "no message";
+    } catch (const gum::StorageError& e) {
+        EXPECT_THAT(e.what(), HasSubstr("not finished after 2 s"));
+    }
+    expect_nothing_left();
+}
+
+TEST_F(PdfWorkerTest, AProcessThatIsKilledAtWorkIsReportedAsSuch) {
+    SKIP_WITHOUT_PDF();
+    put("templates/pdf/render.mjs", "process.stdin.once('data', () => process.kill(process.pid, 'SIGKILL'));");
+    PdfWorker worker(assets_);
+    try {
+        static_cast<void>(worker.set(view("x"), ""));
+        FAIL() << "no message";
+    } catch (const gum::StorageError& e) {
+        EXPECT_THAT(e.what(), HasSubstr("ended by signal 9"));
+        EXPECT_THAT(e.what(), HasSubstr("try again"));
+    }
+    expect_nothing_left();
+}
+
+TEST_F(PdfWorkerTest, NothingStaysBehindWhenTheProgramIsKilled) {
+    SKIP_WITHOUT_PDF();
+    put("templates/pdf/certificate.typ", k_endless);
+    const pid_t program = ::fork();
+    ASSERT_GE(program, 0);
+    if (program == 0) {
+        try {
+            PdfWorker worker(assets_);
+            static_cast<void>(worker.set(view("the customer's data"), ""));
+        } catch (...) {
+            ::_exit(1);
+        }
+        ::_exit(0);
+    }
+    const auto wait_for = [&](auto condition) {
+        for (int i = 0; i < 300 && !condition(); ++i) {
+            ::usleep(100'000);
+        }
+        return condition();
+    };
+    const auto at_work = [&] {
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "work")) {
+            if (fs::exists(entry.path() / "document" / "certificate.typ")) {
+                return true;
+            }
+        }
+        return false;
+    };
+    EXPECT_TRUE(wait_for(at_work));
+    ::kill(program, SIGKILL);
+    ::waitpid(program, nullptr, 0);
+    EXPECT_TRUE(wait_for([&] { return fs::is_empty(folder_ / "work"); }));
+}
+
+TEST_F(PdfWorkerTest, WhatIsMissingIsNamed) {
+    SKIP_WITHOUT_PDF();
+    const auto told = [&](const RenderAssets& with) {
+        PdfWorker worker(with);
+        try {
+            static_cast<void>(worker.set(view("x"), ""));
+        } catch (const gum::StorageError& e) {
+            return std::string(e.what());
+        }
+        return std::string("set");
+    };
+    RenderAssets without = assets_;
+    without.node_program.clear();
+    EXPECT_THAT(told(without), testing::AllOf(HasSubstr("node"), HasSubstr("not found"), HasSubstr("scripts/setup")));
+    without = assets_;
+    without.node_modules = folder_ / "nowhere";
+    EXPECT_THAT(told(without), testing::AllOf(HasSubstr("typst"), HasSubstr("not found"), HasSubstr("scripts/setup")));
+    without = assets_;
+    without.temporary_folder = folder_ / "nowhere";
+    EXPECT_THAT(told(without), testing::AllOf(HasSubstr("nowhere"), HasSubstr("cannot make"), HasSubstr("TMPDIR")));
+    without = assets_;
+    without.node_program = folder_ / "templates" / "pdf" / "render.mjs";  // no program
+    EXPECT_THAT(told(without), HasSubstr("cannot be started"));
+    expect_nothing_left();
+}
+
 TEST_F(PdfWorkerTest, AnswersThatAreNoneAreRefused) {
     SKIP_WITHOUT_PDF();
-    for (const char* answer : {"nonsense", "[]", "{}", "{\"status\": \"done\"}", "{\"status\": \"failed\"}"}) {
+    for (const char* answer : {"nonsense", "[]", "{}", "{\"status\": \"done\"}", "{\"status\": \"failed\"}",
+                               "{\"status\": \"failed\", \"messages\": [\"no room\"], \"code\": \"ENOSPC\"}"}) {
         put("templates/pdf/render.mjs",
             "process.stdin.once('data', () => console.log('" + std::string(answer) + "'));");
         PdfWorker worker(assets_);

@@ -63,8 +63,8 @@ std::string text_of(const EvaluationRecord& record) {
 TEST(RotaryCertificate, LocationErrorsSayWhereMonteCarloAgrees) {
     const auto rows = rows_of(view_of(test::sample_record()), "location-errors");
     ASSERT_EQ(rows.size(), 4U);
-    EXPECT_THAT(rows[0], ElementsAre("EY0A", "position of the axis average line along y", "−59.43", "0.29", "µm",
-                                     "2.00", "380", "validated"));
+    EXPECT_THAT(rows[0], ElementsAre("EY0A", "position of the axis average line along y in the frame of the fixture",
+                                     "−59.43", "0.29", "µm", "2.00", "380", "validated"));
     EXPECT_EQ(rows[2].back(), "not validated");
     EvaluationRecord without = test::sample_record();
     for (TableParameter& p : without.rotary->location_errors) {
@@ -79,7 +79,8 @@ TEST(RotaryCertificate, PositioningHasParametersAndTargets) {
     const json view = view_of(test::sample_record());
     EXPECT_EQ(rows_of(view, "positioning").size(), 12U);
     EXPECT_THAT(rows_of(view, "positioning")[5],
-                ElementsAre("R_up", "parameter of the positioning", "4.25", "0.22", "″", "2.00", "380", "validated"));
+                ElementsAre("R_up", "unidirectional repeatability of positioning, positive approach", "4.25", "0.22",
+                            "″", "2.00", "380", "validated"));
     EXPECT_THAT(rows_of(view, "positioning-targets")[1], ElementsAre("30", "0.96", "0.35", "0.21", "0.24", "0.61"));
     const std::string text = text_of(test::sample_record());
     EXPECT_THAT(text, HasSubstr("from 5 runs in the positive (↑) and 5 runs in the negative (↓) sense of approach"));

@@ -5,6 +5,7 @@
 #include "signing/qpdf_objects.h"
 #include "signing/signer.h"
 #include "signing/verify.h"
+#include "tests/unit/signing/plain_pdf.h"
 #include "tests/unit/signing/test_keys.h"
 
 namespace gumcert::signing {
@@ -17,30 +18,6 @@ using namespace test;
 const std::string k_dcc =
     "<dcc:digitalCalibrationCertificate xmlns:dcc=\"https://ptb.de/dcc\" schemaVersion=\"3.3.0\">10.0023"
     "</dcc:digitalCalibrationCertificate>";
-
-std::string written(QPDF& pdf) {
-    QPDFWriter writer(pdf);
-    writer.setOutputMemory();
-    writer.setStaticID(true);
-    writer.write();
-    const auto buffer = writer.getBufferSharedPointer();
-    return {reinterpret_cast<const char*>(buffer->getBuffer()), buffer->getSize()};
-}
-
-/// A page with a text, and a file attached unless it is empty.
-std::string plain_pdf(const std::string& attachment = {}) {
-    QPDF pdf;
-    pdf.emptyPDF();
-    auto page = QPDFObjectHandle::parse("<< /Type /Page /MediaBox [0 0 595 842] /Resources << >> >>");
-    page.replaceKey("/Contents", QPDFObjectHandle::newStream(&pdf, "0 0 100 100 re S % U = 0.12"));
-    pdf.addPage(pdf.makeIndirectObject(page), false);
-    if (!attachment.empty()) {
-        auto stream = QPDFEFStreamObjectHelper::createEFStream(pdf, attachment);
-        QPDFEmbeddedFileDocumentHelper(pdf).replaceEmbeddedFile(
-            "certificate.xml", QPDFFileSpecObjectHelper::createFileSpec(pdf, "certificate.xml", stream));
-    }
-    return written(pdf);
-}
 
 Verification verify(const Bytes& pdf, const Laboratory& laboratory) {
     return verify_signatures(pdf, "certificate.pdf", laboratory.trusted(), k_now);

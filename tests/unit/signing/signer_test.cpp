@@ -65,6 +65,16 @@ TEST(SignerFromFiles, RefusesWhatDoesNotFit) {
     EXPECT_EQ(code_of([&] { return signer_from_files(folder / "key.pem", folder / "weak.pem"); }), "GC-SIGN-0012");
     one.folder.put("curve.pem", pem(make_identity(ec_key("secp256k1"))));
     EXPECT_EQ(code_of([&] { return signer_from_files(folder / "key.pem", folder / "curve.pem"); }), "GC-SIGN-0012");
+    // What verification would refuse is found before anything is signed: an authority's certificate, another usage.
+    const auto code_with = [&](const CertificateOptions& options) {
+        const Identity unfit = make_identity(ec_key(), options);
+        one.folder.put("unfit.pem", pem(unfit));
+        one.folder.put("unfit.key", key_pem(unfit));
+        return code_of([&] { return signer_from_files(folder / "unfit.key", folder / "unfit.pem"); });
+    };
+    EXPECT_EQ(code_with({.key_usage = "", .authority = true}), "GC-SIGN-0018");  // as openssl req -x509 makes it
+    EXPECT_EQ(code_with({.key_usage = "critical,keyEncipherment"}), "GC-SIGN-0018");
+    EXPECT_EQ(code_with({.extended_key_usage = "serverAuth"}), "GC-SIGN-0018");
 }
 
 TEST(SignerFromFiles, AnEncryptedKeyNeedsItsPassphraseAndNobodyIsAsked) {

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gum/quantity/diagnostic.h"
@@ -49,8 +50,9 @@ struct Identity {
 
 struct CertificateOptions {
     std::string name = "Example Calibration Laboratory";
-    const char* key_usage = "critical,digitalSignature";
-    bool authority = false;
+    const char* key_usage = "critical,digitalSignature";  ///< "": none
+    const char* extended_key_usage = "";                  ///< "": none
+    bool authority = false;                               ///< may issue certificates, if its key usage says so
     std::int64_t from = k_signing_time - 100 * k_day;
     std::int64_t to = k_signing_time + 300 * k_day;
 };
@@ -77,7 +79,13 @@ inline Identity make_identity(Key key, const CertificateOptions& options = {}, c
     X509_set_issuer_name(certificate.get(),
                          issuer == nullptr ? name : X509_get_subject_name(issuer->certificate.get()));
     add_extension(certificate.get(), NID_basic_constraints, options.authority ? "critical,CA:TRUE" : "CA:FALSE");
-    add_extension(certificate.get(), NID_key_usage, options.authority ? "critical,keyCertSign" : options.key_usage);
+    const std::string usage = options.key_usage;
+    if (!usage.empty()) {
+        add_extension(certificate.get(), NID_key_usage, usage.c_str());
+    }
+    if (*options.extended_key_usage != '\0') {
+        add_extension(certificate.get(), NID_ext_key_usage, options.extended_key_usage);
+    }
     X509_sign(certificate.get(), issuer == nullptr ? key.get() : issuer->key.get(), EVP_sha256());
     return {.key = key, .certificate = certificate};
 }
@@ -139,11 +147,45 @@ struct Laboratory {
     std::unique_ptr<Signer> signer;
 
     explicit Laboratory(Key key, const CertificateOptions& options = {})
-        : root(make_identity(ec_key(), {.name = "Example Root", .authority = true})),
+        : root(make_identity(ec_key(),
+                             {.name = "Example Root", .key_usage = "critical,keyCertSign", .authority = true})),
           own(make_identity(std::move(key), options, &root)) {
         signer = signer_from_files(folder.put("key.pem", key_pem(own)), folder.put("chain.pem", pem(own) + pem(root)));
     }
     [[nodiscard]] std::vector<Bytes> trusted() const { return {der(root)}; }
+};
+
+/// Signs with whatever it is given, as the program of somebody else would. It shows `decoy` when it is asked first:
+/// then sign_dcc() and sign_pdf() find a certificate in force.
+class CarelessSigner : public Signer {
+public:
+    CarelessSigner(Key key, std::vector<Identity> chain, const Identity* decoy = nullptr) : key_(std::move(key)) {
+        for (const Identity& identity : chain) {
+            chain_.push_back(der(identity));
+        }
+        decoy_ = decoy == nullptr ? chain_ : std::vector<Bytes>{der(*decoy)};
+    }
+    [[nodiscard]] const std::vector<Bytes>& certificates() const override { return asked_++ == 0 ? decoy_ : chain_; }
+    [[nodiscard]] std::string algorithm() const override {
+        return EVP_PKEY_get_base_id(key_.get()) == EVP_PKEY_RSA ? "RSA" : "ECDSA";
+    }
+    [[nodiscard]] Bytes sign_sha256(const Bytes& digest) const override {
+        EVP_PKEY_CTX* context = EVP_PKEY_CTX_new(key_.get(), nullptr);
+        EVP_PKEY_sign_init(context);
+        EVP_PKEY_CTX_set_signature_md(context, EVP_sha256());
+        std::size_t size = 1024;
+        Bytes signature(size, '\0');
+        EVP_PKEY_sign(context, reinterpret_cast<unsigned char*>(signature.data()), &size,
+                      reinterpret_cast<const unsigned char*>(digest.data()), digest.size());
+        EVP_PKEY_CTX_free(context);
+        signature.resize(size);
+        return signature;
+    }
+
+private:
+    Key key_;
+    std::vector<Bytes> chain_, decoy_;
+    mutable int asked_ = 0;
 };
 
 inline bool program_exists(const std::string& name) {

@@ -94,6 +94,7 @@ inline std::vector<BadData> bad_certificate_data() {
         {"profile", "/profile", "\"../ilac\"", k_certificate_profile, "templates/profiles"},
         {"profile_file", "/profile", "\"/ilac.json\"", k_certificate_file, "beside the job"},
         {"deviations", "/method/no_deviations", "true", k_certificate_contradiction, "either there are deviations"},
+        {"any_result", "/accreditation/scope/0/results/0", "\"*\"", k_certificate_any_result, "covers every result"},
     };
 }
 

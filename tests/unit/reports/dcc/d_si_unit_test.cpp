@@ -27,6 +27,9 @@ TEST(DSiUnit, ReadsUnitsOfTheNotation) {
         {"\\one\\per\\kelvin", "K-1"},
         {"\\arcsecond", "arcsec"},
         {"\\nano\\metre\\per\\kelvin", "nm K-1"},
+        // Everything behind \per is in the denominator: J/(kg K), as the PTB's own parser reads it.
+        {"\\joule\\per\\kilogram\\kelvin", "J kg-1 K-1"},
+        {"\\watt\\per\\metre\\tothe{2}\\kelvin", "W m-2 K-1"},
     };
     for (const auto& [d_si, udunits] : units) {
         EXPECT_EQ(unit_from_d_si(d_si), udunits) << d_si;
@@ -37,9 +40,19 @@ TEST(DSiUnit, ReadsUnitsOfTheNotation) {
 TEST(DSiUnit, SaysNothingOfWhatItDoesNotKnow) {
     for (const char* text : {"", "|inch", "metre", "\\", "\\furlong", "\\micro", "\\metre\\per", "\\per\\per\\second",
                              "\\metre\\tothe{0.5}", "\\metre\\tothe{2", "\\metre\\tothe{}", "\\metre ", "\\metre2",
-                             "\\Metre", "\\metre\\tothe{1000}"}) {
+                             "\\Metre", "\\metre\\tothe{1000}", "\\metre\\per\\second\\per\\second", "\\metre\\per"}) {
         EXPECT_FALSE(unit_from_d_si(text)) << text;
     }
+}
+
+/// A prefix and a symbol side by side can spell another unit: ft, yd, cd, m1 (metre), u1 (atomic mass unit).
+TEST(DSiUnit, TakesNoMultipleForAnotherUnit) {
+    for (const char* text : {"\\femto\\tonne", "\\yocto\\day", "\\centi\\day", "\\pico\\tonne", "\\atto\\tonne",
+                             "\\kilo\\tonne", "\\milli\\one", "\\micro\\one", "\\deci\\one", "\\kilo\\one"}) {
+        EXPECT_FALSE(unit_from_d_si(text)) << text << " " << unit_from_d_si(text).value_or("");
+    }
+    EXPECT_EQ(unit_from_d_si("\\milli\\minute"), "mmin");
+    EXPECT_EQ(unit_from_d_si("\\mega\\gram"), "Mg");
 }
 
 TEST(DSiUnit, IsTheInverseOfTheUnitsThatWeWrite) {

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "reports/dcc/dcc_element.h"
 #include "reports/dcc/dcc_reader.h"
+#include "reports/dcc/dcc_writer.h"
 #include "tests/unit/reports/dcc/dcc_samples.h"
 
 namespace gumcert::reports {
@@ -288,6 +290,127 @@ TEST(DccDocument, DefinesUnitsThatAreNotInDSi) {
     const std::string document = checked(record);
     EXPECT_TRUE(contains(texts(document, "si:unit"), "|inch"));
     EXPECT_EQ(texts(document, "dcc:nonSIDefinition").at(0), "1 inch = 0.0254 m");
+}
+
+/// "ft" looks like the femtotonne, "yd" like the yoctoday.
+TEST(DccDocument, TakesNoSymbolForAPrefixWithAnotherUnit) {
+    for (const char* unit : {"ft", "yd", "kt", "pt"}) {
+        EvaluationRecord record = certified_budget();
+        record.certificate->tables[0].columns[0].unit = unit;
+        const std::string document = checked(record);
+        EXPECT_TRUE(contains(texts(document, "si:unit"), std::string("|") + unit)) << unit;
+        EXPECT_EQ(document.find("tonne"), std::string::npos);
+        EXPECT_EQ(document.find("\\day"), std::string::npos);
+    }
+}
+
+/// As the published good-practice files: every standard under basic_measurementStandard, its certificate as an element.
+TEST(DccDocument, StatesEveryStandardWithItsCertificateAndCoverageFactor) {
+    EvaluationRecord record = certified_budget();
+    certificate::StandardUsed first = record.certificate->data.standards.at(0);
+    first.U = 0.025;
+    first.k = 2.5;
+    first.unit = "um";
+    certificate::StandardUsed second = first;
+    second.role = "working";
+    second.certificate = "CL-7";
+    second.sha256.clear();
+    record.certificate->data.standards = {first, second};
+    const std::string document = checked(record);
+    std::vector<std::string> ref_types;
+    for_each_element(read_dcc_root(document, "document"), [&](const XmlElement& e) {
+        if (e.name == "dcc:measuringEquipment") {
+            ref_types.push_back(e.attribute("refType"));
+            EXPECT_NE(e.child("dcc:certificate"), nullptr);
+        }
+    });
+    EXPECT_EQ(ref_types, (std::vector<std::string>{"basic_measurementStandard gumcert_referenceStandard",
+                                                   "basic_measurementStandard gumcert_workingStandard"}));
+    EXPECT_EQ(texts(document, "dcc:referralID"), (std::vector<std::string>{first.certificate, "CL-7"}));
+    EXPECT_EQ(texts(document, "dcc:procedure"), (std::vector<std::string>{"SHA-256", "not stated"}));
+    const auto k = named(document, "gumcert_coverageFactorOfStandard");
+    ASSERT_EQ(k.size(), 2U);
+    EXPECT_EQ(k[0].value, "2.5");
+    EXPECT_EQ(named(document, "gumcert_expandedUncertaintyOfStandard").at(0).value, "0.025");
+}
+
+TEST(DccDocument, NamesPressureAmongTheConditions) {
+    EvaluationRecord record = certified_budget();
+    certificate::Condition& condition = record.certificate->data.conditions.at(0);
+    condition.kind = "pressure";
+    condition.unit = "hPa";
+    condition.minimum = 1010.0;
+    condition.maximum = 1019.0;
+    const std::string document = checked(record);
+    const auto minimum = named(document, "gumcert_pressureMin");
+    ASSERT_EQ(minimum.size(), 1U);
+    EXPECT_EQ(minimum[0].value + " " + minimum[0].unit, "1010 hPa");
+    EXPECT_EQ(named(document, "gumcert_pressureMax").size(), 1U);
+}
+
+TEST(DccDocument, LabelsDegreesOfFreedomByTheirResult) {
+    const EvaluationRecord record = certified_rotary_table();
+    std::set<std::string> labels;
+    for (const ImportedQuantity& q : named(checked(record), "gumcert_effectiveDegreesOfFreedom")) {
+        labels.insert(q.label);
+    }
+    std::set<std::string> expected;
+    for (const certificate::CertifiedTable& table : record.certificate->tables) {
+        for (const certificate::CertifiedColumn& column : table.columns) {
+            if (std::any_of(column.values.begin(), column.values.end(), [](const certificate::CertifiedValue& v) {
+                    return d_si_number(v.printed_nu_eff) != "NaN";
+                })) {
+                expected.insert(column.result);
+            }
+        }
+    }
+    EXPECT_EQ(labels, expected);
+    EXPECT_GE(labels.size(), 6U);
+}
+
+/// The standard uncertainty beside a covariance is not raised to the capability: such a result leaves the
+/// accreditation.
+TEST(DccDocument, MarksJointResultsWithinTheScope) {
+    EvaluationRecord record = test::certified(test::sample_two_results_record(), "length");
+    std::vector<certificate::CertifiedColumn>& columns = record.certificate->tables.front().columns;
+    ASSERT_EQ(columns.size(), 2U);
+    EXPECT_TRUE(contains(texts(checked(record), "dcc:validXMLList"), "true true"));
+    columns[0].values[0].raised = true;
+    EXPECT_TRUE(contains(texts(checked(record), "dcc:validXMLList"), "false true"));
+    columns[0].values[0].raised = false;
+    columns[1].values[0].scope_entry.clear();
+    EXPECT_TRUE(contains(texts(checked(record), "dcc:validXMLList"), "true false"));
+}
+
+/// A singular covariance has no ellipsoid; the certificate prints the hyper-rectangle then.
+TEST(DccDocument, StatesTheRectangleWhereThereIsNoEllipsoid) {
+    EvaluationRecord record = test::sample_two_results_record();
+    ASSERT_TRUE(record.region);
+    record.region->k_p.reset();
+    record.region->printed.k_p.clear();
+    record.region->k_q = 2.23;
+    record.region->printed.k_q = "2.23";
+    const std::string document = checked(record);
+    EXPECT_EQ(document.find("ellipsoidalRegion"), std::string::npos);
+    EXPECT_NE(document.find("<si:rectangularRegionMUXMLList>"), std::string::npos);
+    EXPECT_EQ(texts(document, "si:coverageFactorXMLList"), std::vector<std::string>{"2.23"});
+    record.region.reset();
+    EXPECT_EQ(texts(checked(record), "si:coverageFactorXMLList"), std::vector<std::string>{"NaN"});
+}
+
+/// An imported certificate is the source of an input: its number and digest are passed on.
+TEST(DccDocument, PassesOnWhereInputsComeFrom) {
+    EvaluationRecord record = certified_budget();
+    record.results.at(0).budget.at(0).source = "certificate EX-7, SHA-256 " + std::string(64, 'd');
+    record.results.at(0).budget.at(0).input = "l_s";
+    record.results.push_back(record.results[0]);  // the same input in another budget
+    std::vector<std::string> sources;
+    for_each_element(read_dcc_root(checked(record), "document"), [&](const XmlElement& e) {
+        if (e.name == "{urn:gumcert:evaluation}inputSource" && e.attribute("input") == "l_s") {
+            sources.push_back(e.text);
+        }
+    });
+    EXPECT_EQ(sources, std::vector<std::string>{"certificate EX-7, SHA-256 " + std::string(64, 'd')});
 }
 
 TEST(DccDocument, ListsPointsOfABudget) {

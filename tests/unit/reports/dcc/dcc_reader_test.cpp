@@ -149,6 +149,59 @@ TEST(DccReader, NamesEveryQuantityDifferently) {
     EXPECT_EQ(names, (std::set<std::string>{"measured_value", "length_measured_value", "length_measured_value_v2"}));
 }
 
+/// U whose factors cannot be told apart is no uncertainty, not one with a factor taken from p.
+TEST(DccReader, LeavesOutAnUncertaintyWhoseListsDoNotFit) {
+    const auto read = [](const std::string& U, const std::string& k, const std::string& p, const std::string& unit) {
+        return read_dcc(with_quantities(quantity(
+                            "<si:realListXMLList><si:valueXMLList>1 2 3</si:valueXMLList><si:unitXMLList>" + unit +
+                            "</si:unitXMLList><si:measurementUncertaintyUnivariateXMLList>"
+                            "<si:expandedMUXMLList><si:valueExpandedMUXMLList>" +
+                            U + "</si:valueExpandedMUXMLList><si:coverageFactorXMLList>" + k +
+                            "</si:coverageFactorXMLList><si:coverageProbabilityXMLList>" + p +
+                            "</si:coverageProbabilityXMLList></si:expandedMUXMLList>"
+                            "</si:measurementUncertaintyUnivariateXMLList></si:realListXMLList>")),
+                        "file.xml");
+    };
+    for (const ImportedCertificate& c :
+         {read("0.1 0.2", "2", "0.95", "\\metre"), read("0.1", "2 3", "0.95", "\\metre")}) {
+        ASSERT_EQ(c.quantities.size(), 3U);
+        EXPECT_EQ(summary(c.quantities[1]), "2 m none");
+        ASSERT_EQ(c.remarks.size(), 1U);
+        EXPECT_EQ(c.remarks[0].code, "GC-DCC-0022");
+    }
+    // Without the probabilities U and k are still whole; without the units the numbers have none.
+    EXPECT_EQ(summary(read("0.1", "2", "0.95 0.9", "\\metre").quantities.at(1)), "2 m expanded U=0.1 k=2");
+    const ImportedCertificate units = read("0.1", "2", "0.95", "\\metre \\volt");
+    EXPECT_EQ(units.quantities.at(1).unit, "");
+    ASSERT_EQ(units.remarks.size(), 1U);
+    EXPECT_EQ(units.remarks[0].code, "GC-DCC-0022");
+}
+
+TEST(DccReader, NamesResultsByTheirSymbol) {
+    const auto list = [](const std::string& label) {
+        return quantity("<si:realListXMLList><si:labelXMLList>" + label +
+                        "</si:labelXMLList><si:valueXMLList>1 2</si:valueXMLList><si:unitXMLList>\\metre"
+                        "</si:unitXMLList><si:measurementUncertaintyUnivariateXMLList><si:standardMUXMLList>"
+                        "<si:valueStandardMUXMLList>0.1</si:valueStandardMUXMLList></si:standardMUXMLList>"
+                        "</si:measurementUncertaintyUnivariateXMLList></si:realListXMLList>");
+    };
+    const ImportedCertificate c = read_dcc(
+        with_quantities(list("E_A,1") + list("1st") +
+                        "<dcc:quantity><dcc:name><dcc:content>Point</dcc:content></dcc:name><dcc:charsXMLList>low "
+                        "high</dcc:charsXMLList></dcc:quantity>"),
+        "f");
+    ASSERT_EQ(c.quantities.size(), 4U);
+    EXPECT_EQ(c.quantities[1].name, "E_A_1_2");
+    EXPECT_EQ(c.quantities[1].label, "E_A,1");
+    EXPECT_EQ(c.quantities[3].name, "measured_value_2");  // no name begins with a digit
+    EXPECT_EQ(c.quantities[3].table, c.quantities[1].table);
+    EXPECT_GT(c.quantities[1].table, 0U);
+    ASSERT_EQ(c.words.size(), 1U);
+    EXPECT_EQ(c.words[0].table, c.quantities[1].table);
+    EXPECT_EQ(c.words[0].quantity, "Point");
+    EXPECT_EQ(c.words[0].words, (std::vector<std::string>{"low", "high"}));
+}
+
 TEST(DccReader, RefusesOtherDocumentsAndVersions) {
     const auto code = [](const std::string& xml) {
         try {

@@ -97,6 +97,33 @@ TEST(DccRules, FindWhatBreaksEachOfThem) {
     }
 }
 
+/// 0.10 of 1.0 in other units of dimension one, and units that are no ratio.
+TEST(DccRules, ReadRelativeUncertaintiesInTheirUnit) {
+    const auto relative = [](const std::string& value, const std::string& unit) {
+        std::string text = with(">0.10</si:valueXMLList>", ">" + value + "</si:valueXMLList>");
+        const std::string one = "\\one</si:unitXMLList></dcc:relative";
+        return text.replace(text.find(one), one.size(), unit + "</si:unitXMLList></dcc:relative");
+    };
+    EXPECT_EQ(breaches(relative("10", "\\percent")), Codes());
+    EXPECT_EQ(breaches(relative("1.0e5", "\\ppm")), Codes());
+    EXPECT_EQ(breaches(relative("100", "\\milli\\metre\\per\\metre")), Codes());
+    EXPECT_EQ(breaches(relative("13", "\\percent")), Codes{"GC-DCC-0110 error"});
+    EXPECT_EQ(breaches(relative("1.2e5", "\\ppm")), Codes{"GC-DCC-0110 error"});
+    EXPECT_EQ(breaches(relative("3", "\\nano\\metre\\per\\kelvin")), Codes());  // no ratio: nothing to compare
+}
+
+/// In si:hybrid every unit has numbers of its own; a Celsius temperature has no ratio to its uncertainty.
+TEST(DccRules, CompareRelativeUncertaintiesInOneUnit) {
+    const std::string list =
+        k_good.substr(k_good.find("<si:realListXMLList>"),
+                      k_good.find("<dcc:relativeUncertainty>") - k_good.find("<si:realListXMLList>"));
+    std::string other = list;
+    other.replace(other.find("1.0 2.0"), 7, "20.0 30.0");
+    other.replace(other.find("\\metre"), 6, "\\degreecelsius");
+    EXPECT_EQ(breaches(with(list, "<si:hybrid>" + other + list + "</si:hybrid>")), Codes());
+    EXPECT_EQ(breaches(with(list, "<si:hybrid>" + list + other + "</si:hybrid>")), Codes());
+}
+
 TEST(DccRules, AcceptADefinedUnitOutsideOfTheSi) {
     std::string text = with("\\metre</si:unitXMLList>", "|inch</si:unitXMLList>");
     text.replace(text.find("<dcc:metaData>"), std::string("<dcc:metaData>").size(),

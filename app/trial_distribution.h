@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "gum/quantity/measurement_model.h"
+#include "gum/quantity/unit.h"
+
+namespace gumcert::app {
+
+/// Which trials: those that gum::run_monte_carlo drew for one output.
+struct TrialsOfOutput {
+    std::shared_ptr<const gum::MeasurementModel> model;
+    Eigen::Index output = 0;
+    gum::Unit unit;  ///< of the result
+    std::uint64_t seed = 1;
+    std::vector<std::uint64_t> streams;  ///< as gum::MonteCarloOptions::streams
+    std::uint64_t trials = 0;
+    unsigned threads = 1;
+};
+
+/// Distribution of an output as its trials give it.
+struct TrialDistribution {
+    std::function<double(double)> function;  ///< share of the trials with y ≤ x, x in the unit of the result
+    std::uint64_t counted = 0;               ///< trials
+};
+
+constexpr std::uint64_t k_most_counted_trials = std::uint64_t{1} << 24;  // 128 MiB
+
+/// Draws the trials once more, to the last bit the same ones, and counts: no cells of a histogram come between the
+/// trials and a conformance probability. Of more than k_most_counted_trials the first ones are taken.
+[[nodiscard]] TrialDistribution count_trials(const TrialsOfOutput& of);
+
+}  // namespace gumcert::app

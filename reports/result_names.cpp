@@ -1,0 +1,117 @@
+#include "reports/result_names.h"
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace gumcert::reports {
+
+namespace {
+
+constexpr const char* k_group = "result_name";
+
+/// Tables whose names begin with what they are.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> k_prefixes = {
+    {{"ranges", "range_"}, {"reversal", "reversal_"}}};
+
+std::string_view prefix_of(const std::string& table, const std::string& result) {
+    for (const auto& [id, prefix] : k_prefixes) {
+        if (table == id && result.starts_with(prefix) && result.size() > prefix.size()) {
+            return prefix;
+        }
+    }
+    return {};
+}
+
+/// "x" for 'x', 'X' and 'A'; "" for other letters.
+std::string coordinate_of(char letter) {
+    switch (letter) {
+        case 'x':
+        case 'X':
+        case 'A':
+            return "x";
+        case 'y':
+        case 'Y':
+        case 'B':
+            return "y";
+        case 'z':
+        case 'Z':
+        case 'C':
+            return "z";
+        default:
+            return "";
+    }
+}
+
+Text along(const char* name, const std::string& coordinate, const Wording& words) {
+    return words.filled(k_group, name, {{"coordinate", coordinate}});
+}
+
+/// "O_y", "S_z"
+Text set_up_meaning(const std::string& result, const Wording& words) {
+    const bool offset = result.starts_with("O_");
+    const std::string coordinate = result.size() == 3 ? coordinate_of(result[2]) : "";
+    const bool known = (offset || result.starts_with("S_")) && !coordinate.empty();
+    return known ? along(offset ? "offset" : "tilt", coordinate, words) : Text();
+}
+
+/// "EY0A": E, the coordinate or the angle, 0, the axis (ISO 230-7).
+Text location_meaning(const std::string& result, const Wording& words) {
+    if (result.size() != 4 || result[0] != 'E' || result[2] != '0') {
+        return {};
+    }
+    const std::string coordinate = coordinate_of(result[1]);
+    const bool linear = result[1] >= 'X';
+    return coordinate.empty() ? Text() : along(linear ? "location" : "orientation", coordinate, words);
+}
+
+Text positioning_meaning(const std::string& result, const Wording& words) {
+    static constexpr std::array<std::string_view, 12> k_parameters = {
+        "M", "E", "E_up", "E_down", "R", "R_up", "R_down", "B", "B_mean", "A", "A_up", "A_down"};
+    for (const std::string_view parameter : k_parameters) {
+        if (result == parameter) {
+            return words(k_group, result);
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+Text result_meaning(const std::string& table, const std::string& result, const Text& recorded, const Wording& words) {
+    Text meaning;
+    if (table == "set_up") {
+        meaning = set_up_meaning(result, words);
+    } else if (table == "location_errors") {
+        meaning = location_meaning(result, words);
+    } else if (table == "positioning") {
+        meaning = positioning_meaning(result, words);
+    }
+    return meaning.empty() ? recorded : meaning;
+}
+
+Text result_meaning(const certificate::CertifiedTable& table, const certificate::CertifiedColumn& column,
+                    const Wording& words) {
+    return result_meaning(table.id, column.result, words.localised(column.name), words);
+}
+
+std::string name_in_table(const std::string& table, const std::string& result) {
+    return result.substr(prefix_of(table, result).size());
+}
+
+Text name_of_result(const std::string& table, const std::string& result, const Wording& words) {
+    const std::string_view prefix = prefix_of(table, result);
+    return prefix.empty() ? Text(result)
+                          : words.filled(k_group, prefix == "range_" ? "range" : "reversal",
+                                         {{"name", result.substr(prefix.size())}});
+}
+
+Text source_name(const std::string& recorded, const Wording& words) {
+    return words.has("budget_source", recorded) ? words("budget_source", recorded) : Text(recorded);
+}
+
+Text distribution_name(const std::string& recorded, const Wording& words) {
+    return words.has("distribution_name", recorded) ? words("distribution_name", recorded) : Text(recorded);
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "certificate/certified_results.h"
+#include "reports/document_text.h"
+#include "reports/wording.h"
+
+#include <string>
+
+namespace gumcert::reports {
+
+// Names that the program itself gives to results, sources of uncertainty and distributions are in the wording; every
+// other text is printed as the record holds it.
+
+/// What a result of a rotary table stands for: "O_y" of "set_up", "EY0A" of "location_errors", "E_up" of "positioning".
+/// \param table     id of the certified table
+/// \param recorded  what is printed for any other result, in the languages of the document
+[[nodiscard]] Text result_meaning(const std::string& table, const std::string& result, const Text& recorded,
+                                  const Wording& words);
+[[nodiscard]] Text result_meaning(const certificate::CertifiedTable& table, const certificate::CertifiedColumn& column,
+                                  const Wording& words);
+
+/// Name of a result where its table stands: "EXA" for "range_EXA" in the table of the ranges.
+[[nodiscard]] std::string name_in_table(const std::string& table, const std::string& result);
+
+/// Name of a result anywhere else: "range of EXA".
+[[nodiscard]] Text name_of_result(const std::string& table, const std::string& result, const Wording& words);
+
+/// A source or an input quantity of the budget of a rotary table: "length noise".
+[[nodiscard]] Text source_name(const std::string& recorded, const Wording& words);
+
+/// A distribution of the record: "rectangular" for "uniform".
+[[nodiscard]] Text distribution_name(const std::string& recorded, const Wording& words);
+
+}  // namespace gumcert::reports

@@ -1,0 +1,167 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "signing/signer.h"
+#include "signing/verify.h"
+#include "tests/unit/signing/plain_pdf.h"
+#include "tests/unit/signing/test_keys.h"
+
+// Certificates that must not make a signature valid, in XML and in PDF alike.
+
+namespace gumcert::signing {
+namespace {
+
+using testing::HasSubstr;
+using namespace test;
+
+const std::string k_dcc =
+    "<dcc:digitalCalibrationCertificate xmlns:dcc=\"https://ptb.de/dcc\" schemaVersion=\"3.3.0\">10.0023"
+    "</dcc:digitalCalibrationCertificate>";
+
+Identity root_named(const std::string& name) {
+    return make_identity(ec_key(), {.name = name, .key_usage = "critical,keyCertSign", .authority = true});
+}
+
+/// The first errors of a digital certificate and a PDF; "valid" is what must not be.
+std::vector<std::string> errors_with(const std::vector<Identity>& chain, const std::vector<Bytes>& trusted,
+                                     const Identity* decoy = nullptr, std::int64_t signing_time = k_signing_time) {
+    std::vector<std::string> errors;
+    for (const bool pdf : {false, true}) {
+        const CarelessSigner signer(chain.front().key, chain, decoy);
+        const Bytes document =
+            pdf ? sign_pdf(plain_pdf(), signer, signing_time) : sign_dcc(k_dcc, signer, signing_time);
+        const Verification verification = verify_signatures(document, "certificate", trusted, k_now);
+        EXPECT_EQ(verification.signatures.size(), 1U);
+        errors.push_back(verification.valid ? "valid" : first_error(verification.signatures.at(0)));
+    }
+    return errors;
+}
+
+/// The first error of both formats, which must be the same.
+std::string error_with(const std::vector<Identity>& chain, const std::vector<Bytes>& trusted,
+                       const Identity* decoy = nullptr, std::int64_t signing_time = k_signing_time) {
+    const std::vector<std::string> errors = errors_with(chain, trusted, decoy, signing_time);
+    EXPECT_EQ(errors[0], errors[1]);
+    return errors[0];
+}
+
+TEST(CertificateAttack, AGoodCertificateIsAccepted) {
+    const Identity root = root_named("Example Root");
+    const Identity own = make_identity(rsa_key(), {}, &root);
+    EXPECT_EQ(error_with({own, root}, {der(root)}), "valid");
+    EXPECT_EQ(error_with({own}, {der(root)}), "valid");
+    EXPECT_EQ(error_with({own}, {der(own)}), "valid");
+}
+
+TEST(CertificateAttack, NotInForceAtTheTimeOfSigning) {
+    const Identity root = root_named("Example Root");
+    const Identity decoy = make_identity(ec_key());
+    const Identity expired =
+        make_identity(ec_key(), {.from = k_signing_time - 10 * k_day, .to = k_signing_time - k_day}, &root);
+    EXPECT_EQ(error_with({expired, root}, {der(root)}, &decoy), "GC-SIGN-0133");
+    const Identity early =
+        make_identity(ec_key(), {.from = k_signing_time + k_day / 2, .to = k_signing_time + 9 * k_day}, &root);
+    EXPECT_EQ(error_with({early, root}, {der(root)}, &decoy), "GC-SIGN-0133");
+    // Trusted by itself, it must be in force all the same.
+    EXPECT_EQ(error_with({expired}, {der(expired)}, &decoy), "GC-SIGN-0133");
+    // The root was not in force.
+    const Identity old_root = make_identity(ec_key(), {.name = "Old Root",
+                                                       .key_usage = "critical,keyCertSign",
+                                                       .authority = true,
+                                                       .from = 0,
+                                                       .to = k_signing_time - k_day});
+    const Identity of_old_root = make_identity(ec_key(), {}, &old_root);
+    EXPECT_EQ(error_with({of_old_root, old_root}, {der(old_root)}), "GC-SIGN-0133");
+    EXPECT_EQ(error_with({make_identity(ec_key(), {}, &root)}, {der(root)}, nullptr, k_now + k_day), "GC-SIGN-0134");
+}
+
+TEST(CertificateAttack, NotForSigning) {
+    const Identity root = root_named("Example Root");
+    const auto with = [&](const CertificateOptions& options) {
+        const Identity own = make_identity(ec_key(), options, &root);
+        return error_with({own, root}, {der(root)});
+    };
+    EXPECT_EQ(with({.key_usage = "critical,keyEncipherment"}), "GC-SIGN-0132");
+    EXPECT_EQ(with({.key_usage = "keyAgreement"}), "GC-SIGN-0132");
+    EXPECT_EQ(with({.key_usage = "critical,nonRepudiation"}), "valid");
+    EXPECT_EQ(with({.key_usage = ""}), "valid");
+    // The key of an authority, with and without the usage that says so.
+    EXPECT_EQ(with({.key_usage = "critical,keyCertSign,digitalSignature", .authority = true}), "GC-SIGN-0132");
+    EXPECT_EQ(with({.key_usage = "", .authority = true}), "GC-SIGN-0132");
+    EXPECT_EQ(with({.key_usage = "digitalSignature", .authority = true}), "valid");  // it cannot issue any
+    EXPECT_EQ(error_with({root}, {der(root)}), "GC-SIGN-0132");
+    // Web servers, programs and time-stamping services have certificates of the same authorities.
+    EXPECT_EQ(with({.extended_key_usage = "serverAuth"}), "GC-SIGN-0132");
+    EXPECT_EQ(with({.extended_key_usage = "codeSigning"}), "GC-SIGN-0132");
+    EXPECT_EQ(with({.extended_key_usage = "critical,timeStamping"}), "GC-SIGN-0132");
+    EXPECT_EQ(with({.extended_key_usage = "emailProtection,clientAuth"}), "valid");
+    EXPECT_EQ(with({.extended_key_usage = "1.3.6.1.5.5.7.3.36"}), "valid");
+    EXPECT_EQ(with({.extended_key_usage = "clientAuth"}), "valid");
+    EXPECT_EQ(with({.extended_key_usage = "serverAuth,clientAuth"}), "GC-SIGN-0132");
+    EXPECT_EQ(with({.extended_key_usage = "anyExtendedKeyUsage"}), "valid");
+}
+
+TEST(CertificateAttack, WeakKeys) {
+    const Identity root = root_named("Example Root");
+    const Identity small = make_identity(rsa_key(1024), {}, &root);
+    EXPECT_EQ(error_with({small, root}, {der(root)}), "GC-SIGN-0131");
+    EXPECT_EQ(error_with({small}, {der(small)}), "GC-SIGN-0131");
+    // An authority with a weak key in between.
+    const Identity weak_authority = make_identity(
+        rsa_key(1024), {.name = "Weak Authority", .key_usage = "critical,keyCertSign", .authority = true}, &root);
+    const Identity own = make_identity(ec_key(), {}, &weak_authority);
+    EXPECT_EQ(error_with({own, weak_authority, root}, {der(root)}), "GC-SIGN-0130");
+}
+
+TEST(CertificateAttack, AChainOfOnesOwn) {
+    const Identity root = root_named("Example Root");
+    const Identity own = make_identity(ec_key(), {}, &root);
+    // Everything is named like the trusted ones.
+    const Identity same_name = root_named("Example Root");
+    const Identity forged = make_identity(ec_key(), {}, &same_name);
+    EXPECT_EQ(error_with({forged, same_name}, {der(root)}), "GC-SIGN-0130");
+    EXPECT_EQ(error_with({forged, same_name, root}, {der(root)}), "GC-SIGN-0130");
+    EXPECT_EQ(error_with({forged}, {der(root)}), "GC-SIGN-0130");
+    EXPECT_EQ(error_with({make_identity(ec_key())}, {der(root), der(own)}), "GC-SIGN-0130");
+    // The laboratory itself is no authority: what its key has signed is not trusted.
+    const Identity of_the_laboratory = make_identity(ec_key(), {.name = "Somebody"}, &own);
+    EXPECT_EQ(error_with({of_the_laboratory, own, root}, {der(root)}), "GC-SIGN-0130");
+    EXPECT_EQ(error_with({of_the_laboratory, own}, {der(own)}), "GC-SIGN-0130");
+    // The certificate that is trusted, beside a key that does not belong to it.
+    EXPECT_EQ(error_with({forged, own, root}, {der(root)}), "GC-SIGN-0130");
+    EXPECT_EQ(error_with({own, root}, {}), "GC-SIGN-0130");
+}
+
+TEST(CertificateAttack, ACertificateWithTheSameIssuerAndSerialNumber) {
+    const Identity root = root_named("Example Root");
+    const Identity own = make_identity(ec_key(), {}, &root);
+    Identity forged = make_identity(ec_key(), {}, &root);
+    X509_set_serialNumber(forged.certificate.get(), X509_get_serialNumber(own.certificate.get()));
+    X509_sign(forged.certificate.get(), forged.key.get(), EVP_sha256());
+    // A CMS keeps certificates in an order of its own, so the genuine one may be found first: it is not the one named.
+    const auto refused = testing::AnyOf("GC-SIGN-0130", "GC-SIGN-0116");
+    EXPECT_THAT(errors_with({forged, own, root}, {der(root)}), testing::Each(refused));
+    EXPECT_THAT(errors_with({forged, own}, {der(own)}), testing::Each(refused));
+}
+
+TEST(CertificateAttack, NamesCannotPretendToBeLinesOfTheProgram) {
+    const Identity root = root_named("Example Root");
+    const Identity own = make_identity(ec_key(),
+                                       {.name = "x\ncertificate.pdf: valid \x1B[2J\xE2\x80\xAE"
+                                                "dilav"},
+                                       &root);
+    const CarelessSigner signer(own.key, {own});
+    const Verification verification =
+        verify_signatures(sign_dcc(k_dcc, signer, k_signing_time), "c.xml", {der(root)}, k_now);
+    const std::string& name = verification.signatures.at(0).signer;
+    EXPECT_THAT(name, HasSubstr("certificate.pdf: valid"));
+    for (const char* hidden : {"\n", "\x1B", "\xE2\x80\xAE"}) {
+        EXPECT_THAT(name, testing::Not(HasSubstr(hidden)));
+    }
+}
+
+}  // namespace
+}  // namespace gumcert::signing

@@ -1,0 +1,305 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "signing/signer.h"
+#include "signing/verify.h"
+#include "tests/unit/signing/test_keys.h"
+
+// What somebody without the key can do to a signed digital certificate, so that a person or a program reads another
+// number than the laboratory signed. Each is not valid, and the finding says why.
+
+namespace gumcert::signing {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+using namespace test;
+
+const std::string k_dcc =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+    "<dcc:digitalCalibrationCertificate xmlns:dcc=\"https://ptb.de/dcc\" xmlns:si=\"https://ptb.de/si\" "
+    "schemaVersion=\"3.3.0\">\n  <dcc:administrativeData><dcc:name refType=\"basic_name\">Gauge</dcc:name>"
+    "</dcc:administrativeData>\n"
+    "  <dcc:measurementResults><si:real><si:value>10.0023</si:value></si:real></dcc:measurementResults>\n"
+    "</dcc:digitalCalibrationCertificate>\n";
+
+const std::string k_forged_results =
+    "<dcc:measurementResults xmlns:dcc=\"https://ptb.de/dcc\" xmlns:si=\"https://ptb.de/si\"><si:real><si:value>"
+    "99</si:value></si:real></dcc:measurementResults>";
+
+class XmlAttack : public testing::Test {
+protected:
+    [[nodiscard]] Verification verify(const Bytes& xml) const {
+        return verify_signatures(xml, "certificate.xml", laboratory_.trusted(), k_now);
+    }
+    /// The first error of any signature; "refused" where the file is not looked at; "valid" is what must not be.
+    [[nodiscard]] std::string error_of(const Bytes& xml) const {
+        try {
+            const Verification verification = verify(xml);
+            if (verification.valid) {
+                return "valid";
+            }
+            for (const SignatureReport& report : verification.signatures) {
+                if (!first_error(report).empty()) {
+                    return first_error(report);
+                }
+            }
+            return verification.signatures.empty() ? "no signature" : "not valid without a reason";
+        } catch (const gum::InputError& refused) {
+            return refused.diagnostics().front().code;
+        }
+    }
+    [[nodiscard]] std::string signature() const {
+        const std::size_t from = good_.find("<ds:Signature ");
+        return good_.substr(from, good_.find("</ds:Signature>") + 15 - from);
+    }
+    [[nodiscard]] std::string in_signature(const std::string& text) const {
+        return replaced(good_, "</ds:Signature>", text + "</ds:Signature>");
+    }
+
+    Laboratory laboratory_{ec_key()};
+    Bytes good_ = sign_dcc(k_dcc, *laboratory_.signer, k_signing_time);
+};
+
+TEST_F(XmlAttack, TheDocumentItselfIsValid) {
+    EXPECT_EQ(error_of(good_), "valid");
+}
+
+TEST_F(XmlAttack, TheSignedDocumentIsMovedIntoAnother) {
+    const std::string whole = good_.substr(good_.find("<dcc:digital"));
+    const auto outer = [](const std::string& inside) {
+        return "<dcc:digitalCalibrationCertificate xmlns:dcc=\"https://ptb.de/dcc\" schemaVersion=\"3.3.0\">" +
+               k_forged_results + inside + "</dcc:digitalCalibrationCertificate>";
+    };
+    EXPECT_EQ(error_of(outer(whole)), "GC-SIGN-0119");
+    EXPECT_EQ(error_of(outer("<dcc:comment>" + whole + "</dcc:comment>")), "GC-SIGN-0119");
+    EXPECT_EQ(error_of(outer(signature())), "GC-SIGN-0117");
+    // The old root stands within the signature of the new one.
+    const std::string old_root = replaced(whole, signature(), "");
+    EXPECT_EQ(error_of(outer(
+                  replaced(signature(), "</ds:Signature>", "<ds:Object>" + old_root + "</ds:Object></ds:Signature>"))),
+              "GC-SIGN-0120");
+}
+
+TEST_F(XmlAttack, AnotherRootStandsWithinTheSignature) {
+    const std::string forged_root =
+        "<dcc:digitalCalibrationCertificate xmlns:dcc=\"https://ptb.de/dcc\" schemaVersion=\"3.3.0\">" +
+        k_forged_results + "</dcc:digitalCalibrationCertificate>";
+    // Where the signature leaves itself out, anything could be put in. A reader who looks for elements by name would
+    // find it.
+    EXPECT_EQ(error_of(in_signature("<ds:Object>" + forged_root + "</ds:Object>")), "GC-SIGN-0120");
+    EXPECT_EQ(error_of(in_signature(k_forged_results)), "GC-SIGN-0120");
+    EXPECT_EQ(error_of(replaced(good_, "</ds:Object>", forged_root + "</ds:Object>")), "GC-SIGN-0120");
+    EXPECT_EQ(error_of(replaced(good_, "<ds:Object>", "<ds:Object>" + forged_root)), "GC-SIGN-0120");
+    EXPECT_EQ(error_of(replaced(good_, "</ds:KeyInfo>", forged_root + "</ds:KeyInfo>")), "GC-SIGN-0120");
+    EXPECT_EQ(error_of(replaced(good_, "</xades:QualifyingProperties>",
+                                "<xades:UnsignedProperties>" + k_forged_results +
+                                    "</xades:UnsignedProperties></xades:QualifyingProperties>")),
+              "GC-SIGN-0120");
+    EXPECT_EQ(error_of(in_signature("<ds:Object><value xmlns=\"\">99</value></ds:Object>")), "GC-SIGN-0120");
+    EXPECT_EQ(error_of(in_signature("<ds:Object>U = 99</ds:Object>")), "GC-SIGN-0120");
+}
+
+TEST_F(XmlAttack, UnsignedPropertiesOfXadesAreSaidNotToBeCovered) {
+    const Bytes stamped = replaced(good_, "</xades:QualifyingProperties>",
+                                   "<xades:UnsignedProperties><xades:UnsignedSignatureProperties>"
+                                   "<xades:SignatureTimeStamp><xades:EncapsulatedTimeStamp>MIIB"
+                                   "</xades:EncapsulatedTimeStamp></xades:SignatureTimeStamp>"
+                                   "</xades:UnsignedSignatureProperties></xades:UnsignedProperties>"
+                                   "</xades:QualifyingProperties>");
+    EXPECT_EQ(error_of(stamped), "valid");
+    EXPECT_THAT(verify(stamped).signatures.at(0).not_covered, Contains(HasSubstr("unsigned properties")));
+    EXPECT_THAT(verify(good_).signatures.at(0).not_covered, testing::IsEmpty());
+}
+
+TEST_F(XmlAttack, ReferencesToOtherThanTheWholeDocument) {
+    const std::string id = replaced(good_, "<dcc:measurementResults>", "<dcc:measurementResults Id=\"r\">");
+    for (const char* uri : {"#r", "#xpointer(/)", "#xpointer(id('r'))", "file:///etc/passwd", "http://example.org/",
+                            "other.xml", "#", " "}) {
+        EXPECT_EQ(error_of(replaced(id, "URI=\"\"", "URI=\"" + std::string(uri) + '"')), "GC-SIGN-0112") << uri;
+    }
+    EXPECT_EQ(error_of(replaced(good_, " URI=\"\"", "")), "GC-SIGN-0112");
+    EXPECT_EQ(error_of(replaced(good_, "URI=\"\"", "Uri=\"\"")), "GC-SIGN-0112");
+    // The signed properties may not stand for the document.
+    EXPECT_EQ(error_of(replaced(good_, "URI=\"\"", "URI=\"#gumcert-signed-properties\"")), "GC-SIGN-0112");
+    // Twice the document, and no document.
+    const std::size_t from = good_.find("<ds:Reference Id=");
+    const std::string reference = good_.substr(from, good_.find("</ds:Reference>") + 15 - from);
+    EXPECT_EQ(error_of(replaced(good_, reference, reference + reference)), "GC-SIGN-0112");
+    EXPECT_EQ(error_of(replaced(good_, reference, "")), "GC-SIGN-0112");
+    // A list of references within the signature, none of which anybody checks.
+    EXPECT_EQ(error_of(replaced(good_, reference,
+                                reference +
+                                    "<ds:Reference Type=\"http://www.w3.org/2000/09/xmldsig#Manifest\" "
+                                    "URI=\"#m\"><ds:DigestMethod Algorithm=\"" +
+                                    std::string("http://www.w3.org/2001/04/xmlenc#sha256") +
+                                    "\"/><ds:DigestValue>AA==</ds:DigestValue></ds:Reference>")),
+              "GC-SIGN-0112");
+}
+
+TEST_F(XmlAttack, TransformsThatLeaveOutParts) {
+    const std::string enveloped = "<ds:Transform Algorithm=\"http://www.w3.org/2000/09/xmldsig#enveloped-signature\"/>";
+    const std::string canonical = "<ds:Transform Algorithm=\"http://www.w3.org/2001/10/xml-exc-c14n#\"/>";
+    const std::string xpath =
+        "<ds:Transform Algorithm=\"http://www.w3.org/TR/1999/REC-xpath-19991116\"><ds:XPath "
+        "xmlns:si=\"https://ptb.de/si\">not(ancestor-or-self::si:value)</ds:XPath></ds:Transform>";
+    const std::string xpath2 =
+        "<ds:Transform Algorithm=\"http://www.w3.org/2002/06/xmldsig-filter2\"><XPath "
+        "xmlns=\"http://www.w3.org/2002/06/xmldsig-filter2\" Filter=\"subtract\">//*</XPath></ds:Transform>";
+    const std::string xslt =
+        "<ds:Transform Algorithm=\"http://www.w3.org/TR/1999/REC-xslt-19991116\"><xsl:stylesheet version=\"1.0\" "
+        "xmlns:xsl=\"http://www.w3.org/1999/XSL/Transform\"><xsl:template match=\"/\">a"
+        "</xsl:template></xsl:stylesheet></ds:Transform>";
+    const std::string base64 = "<ds:Transform Algorithm=\"http://www.w3.org/2000/09/xmldsig#base64\"/>";
+    const std::string comments = "<ds:Transform Algorithm=\"http://www.w3.org/2001/10/xml-exc-c14n#WithComments\"/>";
+    for (const std::string& other : {xpath, xpath2, xslt, base64, comments, enveloped}) {
+        EXPECT_EQ(error_of(replaced(good_, enveloped + canonical, enveloped + other)), "GC-SIGN-0113") << other;
+        EXPECT_EQ(error_of(replaced(good_, enveloped + canonical, enveloped + canonical + other)), "GC-SIGN-0113");
+        EXPECT_EQ(error_of(replaced(good_, enveloped + canonical, other + canonical)),
+                  other == enveloped ? "valid" : "GC-SIGN-0113");
+        // Of the signed properties, and in a second list, which our eye might overlook.
+        EXPECT_EQ(error_of(replaced(good_, "<ds:Transforms>" + canonical, "<ds:Transforms>" + other)), "GC-SIGN-0113");
+        EXPECT_EQ(error_of(replaced(good_, canonical + "</ds:Transforms>",
+                                    "</ds:Transforms><ds:Transforms>" + other + "</ds:Transforms>")),
+                  "GC-SIGN-0113");
+    }
+    // An algorithm of another namespace beside the real attribute.
+    EXPECT_EQ(
+        error_of(replaced(good_, enveloped + canonical,
+                          enveloped + "<ds:Transform xmlns:x=\"urn:x\" x:Algorithm=\"http://www.w3.org/2000/09/"
+                                      "xmldsig#base64\" Algorithm=\"http://www.w3.org/2001/10/xml-exc-c14n#\"/>")),
+        "GC-SIGN-0110");
+}
+
+TEST_F(XmlAttack, SecondPartsOfTheSignature) {
+    const auto part = [&](const std::string& name) {
+        const std::size_t from = good_.find('<' + name + '>');
+        return good_.substr(from, good_.find("</" + name + '>') + name.size() + 3 - from);
+    };
+    const std::string info = part("ds:SignedInfo");
+    const std::string value = part("ds:SignatureValue");
+    const std::string key = part("ds:KeyInfo");
+    EXPECT_EQ(error_of(replaced(good_, info, info + info)), "GC-SIGN-0110");
+    EXPECT_EQ(error_of(replaced(good_, value, value + value)), "GC-SIGN-0110");
+    EXPECT_EQ(error_of(replaced(good_, info, "")), "GC-SIGN-0110");
+    EXPECT_EQ(error_of(replaced(good_, value, "")), "GC-SIGN-0110");
+    EXPECT_NE(error_of(replaced(good_, key, key + key)), "valid");
+    EXPECT_EQ(error_of(replaced(good_, key, "")), "GC-SIGN-0115");
+    EXPECT_NE(error_of(replaced(good_, info, value + info)), "valid");
+    EXPECT_NE(error_of(replaced(good_, info, "<ds:Object>" + info + "</ds:Object>" + info)), "valid");
+    EXPECT_NE(error_of(replaced(good_, signature(), signature() + signature())), "valid");
+    // Another signature of ours, taken from another document.
+    const Bytes other = sign_dcc(replaced(k_dcc, "10.0023", "99"), *laboratory_.signer, k_signing_time);
+    const std::size_t from = other.find("<ds:Signature ");
+    const std::string foreign = other.substr(from, other.find("</ds:Signature>") + 15 - from);
+    EXPECT_EQ(error_of(replaced(good_, signature(), foreign)), "GC-SIGN-0117");
+}
+
+TEST_F(XmlAttack, CommentsInsideOfValues) {
+    // Canonical XML leaves comments out, so the digest stays; a program that reads the first piece of text reads 10.
+    for (const char* split : {"10<!-- -->.0023", "10.0<!---->023", "<!-- 99 -->10.0023", "10.0023<!-- 99 -->"}) {
+        const Bytes changed = replaced(good_, "10.0023", split);
+        EXPECT_EQ(error_of(changed), "GC-SIGN-0121") << split;
+        EXPECT_THAT(verify(changed).signatures.at(0).findings.at(0).what, HasSubstr("si:value"));
+    }
+    // Between elements a comment changes nothing that anybody reads as a value; the report says it is not covered.
+    const Bytes between = replaced(good_, "<si:real>", "<!-- a comment --><si:real>");
+    EXPECT_EQ(error_of(between), "valid");
+    EXPECT_THAT(verify(between).signatures.at(0).not_covered, Contains("comments of the XML"));
+    for (const Bytes& outside : {good_ + "<!-- behind -->", replaced(good_, "?>\n<dcc:", "?><!-- before --><dcc:")}) {
+        EXPECT_THAT(verify(outside).signatures.at(0).not_covered,
+                    testing::AnyOf(Contains("comments of the XML"), Contains("nothing can be relied on")));
+    }
+}
+
+TEST_F(XmlAttack, OtherPiecesInsideOfValues) {
+    EXPECT_EQ(error_of(replaced(good_, "10.0023", "10<![CDATA[.0023]]>")), "GC-SIGN-0121");
+    EXPECT_EQ(error_of(replaced(good_, "10.0023", "10<?x ?>.0023")), "GC-SIGN-0117");
+    EXPECT_EQ(error_of(replaced(good_, "10.0023", "10&unknown;.0023")), "GC-SIGN-0030");
+    EXPECT_EQ(error_of(replaced(good_, "?>\n<dcc:", "?>\n<!DOCTYPE x [<!ENTITY v \"10.0023\">]>\n<dcc:")),
+              "GC-SIGN-0030");
+    EXPECT_EQ(error_of(replaced(replaced(good_, "?>\n<dcc:", "?>\n<!DOCTYPE x [<!ENTITY v \"10.0023\">]>\n<dcc:"),
+                                ">10.0023<", ">&v;<")),
+              "GC-SIGN-0030");
+    // The same text in another spelling is the same number for everybody.
+    EXPECT_EQ(error_of(replaced(good_, "10.0023", "1&#48;.0023")), "valid");
+    EXPECT_EQ(error_of(replaced(good_, "10.0023", "<![CDATA[10.0023]]>")), "valid");
+    EXPECT_EQ(error_of(replaced(good_, "<si:real>", "<![CDATA[  ]]><si:real>")), "GC-SIGN-0117");
+    // Invisible characters.
+    EXPECT_EQ(error_of(replaced(good_, "10.0023", "10.0023\xE2\x80\x8B")), "GC-SIGN-0117");
+}
+
+TEST_F(XmlAttack, WhatIsOutsideOfTheRoot) {
+    EXPECT_EQ(error_of(replaced(good_, "?>\n", "?>\n<?xml-stylesheet href=\"http://example.org/x.xsl\"?>")),
+              "GC-SIGN-0117");
+    EXPECT_EQ(error_of(good_ + "<?after x?>"), "GC-SIGN-0117");
+    EXPECT_EQ(error_of(good_ + good_), "GC-SIGN-0030");
+    EXPECT_EQ(error_of(good_ + "99"), "GC-SIGN-0030");
+}
+
+TEST_F(XmlAttack, NamespacesAreRedefined) {
+    EXPECT_EQ(error_of(replaced(good_, "xmlns:si=\"https://ptb.de/si\"", "xmlns:si=\"https://example.org/si\"")),
+              "GC-SIGN-0117");
+    EXPECT_EQ(error_of(replaced(good_, "<si:value>", "<si:value xmlns:si=\"urn:other\">")), "GC-SIGN-0117");
+    EXPECT_EQ(error_of(replaced(good_, "<si:value>", "<si:value xmlns=\"urn:other\" unit=\"m\">")), "GC-SIGN-0117");
+    // A signature that is none: its prefix means something else.
+    EXPECT_EQ(error_of(replaced(good_, "xmlns:ds=\"http://www.w3.org/2000/09/xmldsig#\"", "xmlns:ds=\"urn:other\"")),
+              "no signature");
+    EXPECT_EQ(error_of(replaced(good_, "<xades:SigningTime>", "<xades:SigningTime xmlns:xades=\"urn:other\">")),
+              "GC-SIGN-0117");
+}
+
+TEST_F(XmlAttack, TheSignedPropertiesAreReplaced) {
+    const std::size_t from = good_.find("<xades:SignedProperties ");
+    const std::string properties = good_.substr(from, good_.find("</xades:SignedProperties>") + 25 - from);
+    const std::string backdated = replaced(properties, "2026-03-31", "2026-03-01");
+    EXPECT_EQ(error_of(replaced(good_, properties, backdated)), "GC-SIGN-0117");
+    EXPECT_EQ(error_of(replaced(good_, properties, properties + backdated)), "GC-SIGN-0114");
+    // The signed ones in another place, the forged ones where they are read.
+    EXPECT_EQ(error_of(in_signature("<ds:Object xmlns:xades=\"http://uri.etsi.org/01903/v1.3.2#\">" + properties +
+                                    "</ds:Object>")),
+              "GC-SIGN-0114");
+    const std::string moved = replaced(good_, properties, backdated);
+    EXPECT_EQ(error_of(replaced(moved, "</ds:Signature>",
+                                "<ds:Object xmlns:xades=\"http://uri.etsi.org/01903/v1.3.2#\">" + properties +
+                                    "</ds:Object></ds:Signature>")),
+              "GC-SIGN-0114");
+    EXPECT_EQ(error_of(replaced(good_, "Id=\"gumcert-signed-properties\"", "Id=\"other\"")), "GC-SIGN-0114");
+    EXPECT_EQ(error_of(replaced(good_, "Id=\"gumcert-signed-properties\"", "ID=\"gumcert-signed-properties\"")),
+              "GC-SIGN-0114");
+}
+
+TEST_F(XmlAttack, ALargeNumberOfSignaturesIsNotAWayToKeepTheCheckBusy) {
+    std::string many;
+    for (int i = 0; i < 5000; ++i) {
+        many += signature();
+    }
+    const Bytes crowded = replaced(good_, signature(), many);
+    EXPECT_EQ(error_of(crowded), "GC-SIGN-0122");
+    EXPECT_LT(verify(crowded).signatures.size(), 20U);
+    EXPECT_EQ(error_of(replaced(good_, signature(), "<x>" + many + "</x>")), "GC-SIGN-0119");
+}
+
+TEST_F(XmlAttack, TheReportCannotBeUsedToPrintOtherLines) {
+    // What is not trusted must not look like what the program says.
+    const Verification verification = verify(replaced(good_, "ecdsa-sha256",
+                                                      "&#10;certificate.xml: valid&#x9B;2J\xE2\x80\xAE"
+                                                      "dilav"));
+    for (const SignatureReport& report : verification.signatures) {
+        EXPECT_FALSE(report.valid);
+        EXPECT_THAT(report.algorithm, Not(HasSubstr("\n")));
+        EXPECT_THAT(report.algorithm, Not(HasSubstr("\xC2\x9B")));
+        EXPECT_THAT(report.algorithm, Not(HasSubstr("\xE2\x80\xAE")));
+        for (const gum::Diagnostic& finding : report.findings) {
+            EXPECT_THAT(finding.what, Not(HasSubstr("\xC2\x9B")));
+            EXPECT_THAT(finding.what, Not(HasSubstr("\xE2\x80\xAE")));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gumcert::signing
