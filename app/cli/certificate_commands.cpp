@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include <cstdint>
 #include <filesystem>
 
@@ -90,12 +92,13 @@ ExitCode verify_files(const std::vector<std::string>& files, const std::string& 
     const std::vector<signing::Bytes> trusted = signing::read_trust_store(trust_store);
     ExitCode code = done;
     for (const std::string& file : files) {
-        const signing::Verification verification =
-            signing::verify_signatures(app::read_file(file), file, trusted, seconds_now());
-        print_verification(file, verification, common);
-        if (!verification.valid) {
-            code = negative_answer;
-        }
+        const ExitCode one = explained(common, [&] {
+            const signing::Verification verification =
+                signing::verify_signatures(app::read_file(file), file, trusted, seconds_now());
+            print_verification(file, verification, common);
+            return verification.valid ? done : negative_answer;
+        });
+        code = std::max(code, one);
     }
     return code;
 }

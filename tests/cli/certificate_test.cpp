@@ -178,6 +178,12 @@ TEST_F(Certificate, IsSignedAndVerified) {
         EXPECT_NE(verified.out.find("Example Calibration Laboratory"), std::string::npos) << verified.out;
     }
 
+    // A file that cannot be read does not hide the others.
+    const Ended two = gumcert(
+        {"verify", (folder() / "nothing.pdf").string(), (output() / "certificate.pdf").string(), "--trust", trust});
+    EXPECT_EQ(two.code, 5);
+    EXPECT_NE(two.out.find("certificate.pdf: valid"), std::string::npos) << two.out;
+
     std::string changed = bytes_of(output() / "certificate.xml");
     const std::string element = "<si:value>";
     const std::size_t at = changed.find(element);
