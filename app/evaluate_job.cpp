@@ -4,11 +4,13 @@
 #include "app/certificate_inputs.h"
 #include "app/certify.h"
 #include "app/evaluate_budget.h"
+#include "app/evaluate_comparison.h"
 #include "app/evaluate_rotary_table.h"
 #include "app/read_file.h"
 #include "app/rotary_table_record.h"
 #include "encoding/sha2.h"
 #include "engine/job/budget_job.h"
+#include "engine/job/comparison_job.h"
 #include "engine/job/rotary_table_job.h"
 
 namespace gumcert::app {
@@ -86,7 +88,36 @@ Evaluation evaluate_rotary_table_job(const std::filesystem::path& job_file, cons
     return evaluation;
 }
 
+Evaluation evaluate_comparison_job(const std::filesystem::path& job_file, unsigned threads, const Progress& progress) {
+    const engine::ComparisonJob job = engine::read_comparison_job(job_file);
+    Evaluation evaluation;
+    evaluation.record = evaluate_comparison(job, digests(job_file, job.files), threads, progress);
+    return evaluation;
+}
+
+/// The reader of its kind tells all problems of a job whose kind cannot be read for sure.
+void read_as(const std::string& kind, const std::filesystem::path& job_file) {
+    if (kind == "budget") {
+        (void)engine::read_budget_job(job_file);
+    } else if (kind == "comparison") {
+        (void)engine::read_comparison_job(job_file);
+    } else {
+        (void)engine::read_rotary_table_job(job_file);
+    }
+}
+
 }  // namespace
+
+void require_comparison_job(const std::filesystem::path& job_file) {
+    const std::optional<std::string> kind = engine::probable_job_kind(job_file);
+    if (kind && *kind != "comparison") {
+        throw gum::InputError(gum::Diagnostic{.code = "GC-COMPARE-0140",
+                                              .where = job_file.string() + "#/kind",
+                                              .what = "a job of kind \"" + *kind + "\" is not a comparison",
+                                              .rule = "gumcert compare evaluates jobs of kind \"comparison\"",
+                                              .action = "use gumcert evaluate or gumcert run for this job"});
+    }
+}
 
 std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_file,
                                                const reports::EvaluationRecord& record) {
@@ -104,11 +135,7 @@ Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string
         kind = engine::job_kind(job_file);
     } catch (const gum::InputError&) {
         // The reader of its kind tells the other problems of the job together with this one.
-        if (engine::probable_job_kind(job_file) == "budget") {
-            (void)engine::read_budget_job(job_file);
-        } else {
-            (void)engine::read_rotary_table_job(job_file);
-        }
+        read_as(engine::probable_job_kind(job_file).value_or(""), job_file);
         throw;
     }
     if (kind == "budget") {
@@ -117,10 +144,13 @@ Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string
     if (kind == "rotary_table") {
         return evaluate_rotary_table_job(job_file, covariance_file, threads, templates, progress);
     }
-    throw gum::InputError(gum::Diagnostic{"GC-INPUT-0900", job_file.string() + "#/kind",
-                                          "\"" + kind + "\" cannot be evaluated by this version",
-                                          "this version evaluates jobs of the kinds \"budget\" and \"rotary_table\"",
-                                          "see CHANGELOG.md for what each version brings", gum::Severity::error});
+    if (kind == "comparison") {
+        return evaluate_comparison_job(job_file, threads, progress);
+    }
+    throw gum::InputError(gum::Diagnostic{
+        "GC-INPUT-0900", job_file.string() + "#/kind", "\"" + kind + "\" cannot be evaluated by this version",
+        "this version evaluates jobs of the kinds \"budget\", \"rotary_table\" and \"comparison\"",
+        "see CHANGELOG.md for what each version brings", gum::Severity::error});
 }
 
 }  // namespace gumcert::app

@@ -20,6 +20,10 @@ struct Evaluation {
 [[nodiscard]] std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_file,
                                                              const reports::EvaluationRecord& record);
 
+/// Refuses a job of another kind than `comparison`; what is wrong with its text is left for the reader to tell.
+/// \throws gum::InputError  GC-COMPARE-0140
+void require_comparison_job(const std::filesystem::path& job_file);
+
 /// Called now and then with a sentence on what is being done.
 using Progress = std::function<void(const std::string&)>;
 

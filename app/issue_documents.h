@@ -18,21 +18,22 @@ struct IssueOptions {
     reports::PdfWorker* worker = nullptr;     ///< for many documents; none: a process for each PDF
 };
 
-enum class DocumentForm { html, pdf, dcc, text };
+enum class DocumentForm { html, pdf, dcc, text, csv };
 
 /// Refuses to sign what is not issued: a specimen, or a certificate that critical findings block.
 /// \throws gum::InputError  GC-SIGN-0001
 void require_signable(const reports::EvaluationRecord& record);
 
 /// One form of the document. The digital certificate is signed first and stands in the PDF as it was signed; then the
-/// PDF is signed. HTML and text carry no signature.
-/// \throws gum::InputError, gum::NoResultError, gum::StorageError
+/// PDF is signed. HTML, text and CSV carry no signature. The report of a comparison has no digital certificate.
+/// \throws gum::InputError  GC-REPORT-0041 a digital certificate of a comparison, -0040 CSV of another record
+/// \throws gum::NoResultError, gum::StorageError
 [[nodiscard]] std::string issue_document(const reports::EvaluationRecord& record, DocumentForm form,
                                          const IssueOptions& options);
 
-/// The forms that `gumcert run` writes.
+/// The forms that `gumcert run` writes: `csv` for a comparison, else `dcc`.
 struct IssuedDocuments {
-    std::string html, pdf, dcc;
+    std::string html, pdf, dcc, csv = {};
 };
 [[nodiscard]] IssuedDocuments issue_documents(const reports::EvaluationRecord& record, const IssueOptions& options);
 

@@ -6,8 +6,16 @@
 
 namespace gumcert::app {
 
-/// Comparison of the error motions with the readings of the reference method of a job (ISO 13528: E_n numbers).
-/// \param displacement  of the contact point, angle by angle, x, y, z, [m]
+/// Comparison of the error motions with the readings of the reference method of a job: at every point and direction,
+/// with the full covariance of the displacement and that of the reference values.
+///
+/// The reference values are the mean readings, and their covariance that of the indicator: resolution and repeatability
+/// of each point apart, the maximum permissible error common to a direction or of each point apart. With a budget of
+/// the reference, values, uncertainties and covariance are those of the budget, evaluated at every point. \param
+/// displacement  of the contact point, angle by angle, x, y, z, [m] \throws InputError    GC-REFERENCE-0008 a
+/// correlation that the covariances do not allow; those of compare_methods() \throws NoResultError GC-REFERENCE-0006 a
+/// reference value without uncertainty, -0007 without expanded uncertainty;
+///                        those of evaluate_budget()
 [[nodiscard]] reports::Comparison reference_comparison(const engine::RotaryTableJob& job,
                                                        const gum::Propagation& displacement);
 

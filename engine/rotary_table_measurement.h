@@ -102,14 +102,27 @@ struct ReferenceReading {
     double reading = 0.0;       ///< displacement of the contact point, [m]
 };
 
+/// What is known of the correlation between the reference value and the value of the table at the same point.
+enum class ReferenceCorrelation { unknown, none, given };
+
 /// Readings of a dial indicator on a point of the table, and what is known of the indicator.
 struct ReferenceMethod {
     std::string name;
     std::vector<ReferenceReading> readings;
     Eigen::Vector3d contact_point = Eigen::Vector3d::Zero();  ///< in T, [m]
-    double resolution = 0.0;                                  ///< full step of the indication, [m]
-    double maximum_permissible_error = 0.0;                   ///< half width, [m]
-    double repeatability = 0.0;                               ///< standard deviation of one reading, [m]
+    // What the indicator is known by where no budget of the reference value is given; all 0 then.
+    double resolution = 0.0;                 ///< full step of the indication, [m]
+    double maximum_permissible_error = 0.0;  ///< half width, [m]
+    double repeatability = 0.0;              ///< standard deviation of one reading, [m]
+    /// The error of the indication is one unknown error of all points of a direction; else one of its own at each.
+    bool mpe_common = true;
+
+    ReferenceCorrelation correlation = ReferenceCorrelation::unknown;
+    double r = 0.0;  ///< with `given`: of both values at each point, −1 … 1
+    std::string published_source = {};
+    std::array<std::optional<double>, 3> published_mean_abs_En = {};  ///< in x, y, z, of that publication
+    double audited_factor = 1.0;     ///< on every uncertainty of the reference, once the finding is corrected
+    std::string audit_finding = {};  ///< "": there is none
 };
 
 /// ISO 230-7 names of the six error motions in the order d_x, d_y, d_z, e_a, e_b, e_c, e.g. "EXA" … "ECA".

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "gum/argument_check.h"
@@ -9,6 +10,17 @@
 
 namespace gumcert::gum {
 namespace {
+
+constexpr double k_warning_limit_of_z = 2.0;
+constexpr double k_action_limit_of_z = 3.0;
+
+double difference_of(double value, double reference) {
+    require_finite(value, "laboratory value");
+    require_finite(reference, "reference value");
+    const double difference = value - reference;
+    require_finite(difference, "difference of laboratory and reference value");
+    return difference;
+}
 
 double difference_uncertainty_for_score(double laboratory, double reference, double correlation, const char* symbol) {
     const double combined = uncertainty_of_difference(laboratory, reference, correlation);
@@ -39,11 +51,8 @@ double uncertainty_of_difference(double laboratory, double reference, double cor
 }
 
 ComparisonScore score(const ComparedValue& laboratory, const ComparedValue& reference, double correlation) {
-    require_finite(laboratory.value, "laboratory value");
-    require_finite(reference.value, "reference value");
     ComparisonScore result;
-    result.difference = laboratory.value - reference.value;
-    require_finite(result.difference, "difference of laboratory and reference value");
+    result.difference = difference_of(laboratory.value, reference.value);
     result.u_difference = difference_uncertainty_for_score(laboratory.standard_uncertainty,
                                                            reference.standard_uncertainty, correlation, "u");
     result.U_difference = difference_uncertainty_for_score(laboratory.expanded_uncertainty,
@@ -51,6 +60,53 @@ ComparisonScore score(const ComparedValue& laboratory, const ComparedValue& refe
     result.en = result.difference / result.U_difference;
     result.zeta = result.difference / result.u_difference;
     return result;
+}
+
+std::optional<double> worst_plausible_en(const ComparedValue& laboratory, const ComparedValue& reference) {
+    const double difference = score(laboratory, reference).difference;
+    const double larger = std::max(laboratory.expanded_uncertainty, reference.expanded_uncertainty);
+    const double smaller = std::min(laboratory.expanded_uncertainty, reference.expanded_uncertainty);
+    if (larger == smaller) {
+        return std::nullopt;
+    }
+    // With r = smaller/larger: larger² + smaller² − 2 smaller², written so that nothing cancels.
+    return difference / std::sqrt((larger - smaller) * (larger + smaller));
+}
+
+double z_score(double value, double assigned_value, double sigma_pt) {
+    return z_prime_score(value, assigned_value, sigma_pt, 0.0);
+}
+
+double z_prime_score(double value, double assigned_value, double sigma_pt, double u_assigned_value) {
+    require_positive(sigma_pt, "standard deviation for proficiency assessment");
+    require_not_negative(u_assigned_value, "uncertainty of the assigned value");
+    return difference_of(value, assigned_value) / std::hypot(sigma_pt, u_assigned_value);
+}
+
+std::optional<double> percent_difference(double value, double assigned_value) {
+    const double difference = difference_of(value, assigned_value);
+    if (assigned_value == 0.0) {
+        return std::nullopt;
+    }
+    return 100.0 * difference / std::abs(assigned_value);
+}
+
+double percent_of_allowed(double value, double assigned_value, double largest_allowed) {
+    require_positive(largest_allowed, "largest error allowed");
+    return 100.0 * difference_of(value, assigned_value) / largest_allowed;
+}
+
+Signal signal_of_z(double score) {
+    require_finite(score, "score");
+    if (std::abs(score) >= k_action_limit_of_z) {
+        return Signal::action;
+    }
+    return std::abs(score) >= k_warning_limit_of_z ? Signal::warning : Signal::none;
+}
+
+Signal signal_of_en(double score) {
+    require_finite(score, "E_n");
+    return std::abs(score) > 1.0 ? Signal::action : Signal::none;
 }
 
 ComparisonSummary summarise(std::span<const ComparisonScore> scores) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 namespace gumcert::gum {
@@ -39,6 +40,31 @@ struct ComparisonScore {
 /// passes, and a reference with U_X ≥ U_x validates nothing.
 [[nodiscard]] ComparisonScore score(const ComparedValue& laboratory, const ComparedValue& reference,
                                     double correlation = 0.0);
+
+/// E_n with all that the smaller uncertainty can hold in common: r = min(U_x, U_X) / max(U_x, U_X), the correlation
+/// where the whole of the smaller uncertainty comes from a source that both sides share with unit sensitivity. Where
+/// both methods may share a standard and nobody knows, E_n lies between this one and that for r = 0.
+/// E_n = D / √|U_x² − U_X²|
+/// \throws InputError  as score()
+/// \return nothing where the two uncertainties are equal: then no finite E_n bounds what a shared source can do
+[[nodiscard]] std::optional<double> worst_plausible_en(const ComparedValue& laboratory, const ComparedValue& reference);
+
+/// z = (x − X) / σ_pt.                                                                 (ISO 13528:2022, clause 9)
+/// \throws InputError  GC-GUM-0001, GC-GUM-0003 for σ_pt
+[[nodiscard]] double z_score(double value, double assigned_value, double sigma_pt);
+/// z' = (x − X) / √(σ_pt² + u²(X)).                                                    (ISO 13528:2022, clause 9)
+[[nodiscard]] double z_prime_score(double value, double assigned_value, double sigma_pt, double u_assigned_value);
+/// D% = 100 (x − X) / |X|; nothing where X is 0. Only for quantities on a ratio scale.
+/// \throws InputError  GC-GUM-0001
+[[nodiscard]] std::optional<double> percent_difference(double value, double assigned_value);
+/// P_A = 100 (x − X) / δ_E, D as percentage of the largest error allowed.
+/// \throws InputError  GC-GUM-0001, GC-GUM-0003 for δ_E
+[[nodiscard]] double percent_of_allowed(double value, double assigned_value, double largest_allowed);
+
+/// What a score calls for: |z|, |z'| and |ζ| warn from 2 and act from 3; |E_n| acts above 1 and |D| above δ_E.
+enum class Signal { none, warning, action };
+[[nodiscard]] Signal signal_of_z(double score);
+[[nodiscard]] Signal signal_of_en(double score);
 
 /// Companion numbers of the scores of several points.
 struct ComparisonSummary {

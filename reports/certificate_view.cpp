@@ -8,6 +8,8 @@
 #include "reports/certificate_plots.h"
 #include "reports/certificate_rotary_sections.h"
 #include "reports/certificate_statement_sections.h"
+#include "reports/comparison_identity.h"
+#include "reports/comparison_sections.h"
 #include "reports/record/canonical_json.h"
 #include "reports/svg_plot.h"
 #include "reports/wording.h"
@@ -32,6 +34,8 @@ namespace {
 using nlohmann::json;
 using Facts = std::vector<std::pair<Text, Text>>;  // label and value
 using Rows = std::vector<std::vector<Text>>;
+
+constexpr const char* k_comparison_kind = "comparison";
 
 std::string coordinate_of(const std::string& axis) {
     return axis == "A" ? "x" : axis == "B" ? "y" : "z";
@@ -240,59 +244,6 @@ void uncertainty(CertificateBuilder& builder, const Wording& words, const Evalua
     }
 }
 
-void comparison(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
-    builder.section("comparison");
-    builder.paragraph(words("sentence", "comparison"));
-    Facts rows = {{words("label", "reference_method"), c.reference_name}};
-    if (c.contact_point_mm.size() == 3) {
-        const Text separator = words("document", "separator");
-        const auto coordinate = [&](std::size_t i) { return words.number(plain(c.contact_point_mm[i])); };
-        rows.emplace_back(words("label", "contact_point"),
-                          "(" + coordinate(0) + separator + coordinate(1) + separator + coordinate(2) + ") mm");
-    }
-    builder.definitions(rows);
-    Rows lines;
-    for (const ComparisonSummary& s : c.summary) {
-        lines.push_back({s.direction == "all" ? words("label", "all") : Text(s.direction), plain(s.points),
-                         s.printed.mean_abs_En, s.printed.max_abs_En, s.printed.rms_En, plain(s.count_above_1)});
-    }
-    builder.table("comparison-summary", words("sentence", "comparison_summary"),
-                  {{words("label", "direction"), ""},
-                   {words("label", "points"), "", true},
-                   {words("label", "mean_abs_En"), "", true},
-                   {words("label", "max_abs_En"), "", true},
-                   {words("label", "rms_En"), "", true},
-                   {words("label", "count_above_1"), "", true}},
-                  lines);
-    for (const std::string& remark : c.remarks) {
-        builder.paragraph(remark);
-    }
-    if (!c.points.empty()) {
-        figure(builder, words("sentence", "figure_En"), En_plot(c, words));
-        figure(builder, words("sentence", "figure_displacement"), displacement_plot(c, words));
-    }
-    if (!c.reference_budget.empty()) {
-        budget_table(builder, words, "reference-budget", words("sentence", "reference_budget"), c.reference_budget,
-                     "µm");
-    }
-    lines.clear();
-    for (const ComparisonPoint& p : c.points) {
-        lines.push_back({p.direction, p.printed.angle, p.printed.value, p.printed.U, p.printed.reference_value,
-                         p.printed.reference_U, p.printed.D, p.printed.U_D, p.printed.En});
-    }
-    builder.table("comparison-points", words("sentence", "comparison_points"),
-                  {{words("label", "direction"), ""},
-                   {words("label", "angle"), "°", true},
-                   {words("label", "measured"), "µm", true},
-                   {words("label", "U"), "µm", true},
-                   {words("label", "reference"), "µm", true},
-                   {words("label", "U"), "µm", true},
-                   {words("label", "difference"), "µm", true},
-                   {"U(D)", "µm", true},
-                   {words("label", "En"), "", true}},
-                  lines);
-}
-
 void messages(CertificateBuilder& builder, const Wording& words, const std::vector<gum::Diagnostic>& diagnostics) {
     builder.section("messages");
     builder.paragraph(words("sentence", "messages"));
@@ -356,11 +307,48 @@ void certified_sections(CertificateBuilder& builder, const Wording& words, const
     }
 }
 
+/// A certificate or a specimen of one: its first page in `identity`, then its sections.
+void certificate_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record,
+                          json& identity) {
+    if (record.certificate) {
+        identity.push_back(identity_page(builder, words, record));
+        certified_sections(builder, words, record);
+    } else {
+        specimen_sections(builder, words, record);
+    }
+    if (record.rotary) {
+        fixture(builder, words, *record.rotary);
+        rotary_monte_carlo(builder, words, record);
+        adjustment(builder, words, *record.rotary);
+        reliability(builder, words, *record.rotary);
+        geometry(builder, words, *record.rotary);
+    }
+    if (record.comparison) {
+        reference_comparison_section(builder, words, *record.comparison);
+    }
+}
+
+/// Head and foot of the pages of a comparison report.
+json comparison_running_texts(const Wording& words, const EvaluationRecord& record) {
+    const ComparisonIdentity identity = comparison_identity(record, words);
+    const Text type = words("document", "comparison_type");
+    const Text head = identity.number.empty() ? type
+                                              : words.filled("certificate", "certificate_of_head",
+                                                             {{"type", type}, {"number", identity.number}});
+    const std::string issuer = identity.laboratory.empty() ? record.comparison->organiser : identity.laboratory.first();
+    const std::string title = shortened(printable(record.title), 80);
+    return {{"header_left", issuer.empty() ? title : shortened(printable(issuer), 80)},
+            {"header_right", printable(head.first())},
+            {"footer_left", "gumcert-comparison-1 · " + record.software.name + " " + record.software.version}};
+}
+
 /// "2026-11-21" as {year, month, day} without leading zeros; 1970-01-01 where no date is stated, because PDF/A demands
 /// one and that of the computer would change the bytes with every run.
-json date_of_creation(const EvaluationRecord& record) {
+json date_of_creation(const EvaluationRecord& record, const Wording& words) {
     std::array<int, 3> parts = {1970, 1, 1};
-    const std::string date = record.certificate ? record.certificate->data.dates.issued : "";
+    const std::string date = record.certificate                 ? record.certificate->data.dates.issued
+                             : record.kind == k_comparison_kind ? comparison_identity(record, words).issued
+                                                                : "";
     if (date.size() == 10 && date[4] == '-' && date[7] == '-') {
         std::array<int, 3> read = {};
         const auto digits = [&](std::size_t from, std::size_t count, int& v) {
@@ -440,24 +428,15 @@ std::string shortened(const std::string& text, std::size_t most) {
 nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::json& wording) {
     const Wording words(wording);
     const std::vector<std::string>& languages = words.languages();
+    const bool is_comparison = record.kind == k_comparison_kind && record.comparison;
     CertificateBuilder builder(words);
-    json view = running_texts(words, record);
+    json view = is_comparison ? comparison_running_texts(words, record) : running_texts(words, record);
     view["identity"] = json::array();
-    if (record.certificate) {
-        view["identity"].push_back(identity_page(builder, words, record));
-        certified_sections(builder, words, record);
+    if (is_comparison) {
+        comparison_report_sections(builder, words, record);
+        identification(builder, words, record);
     } else {
-        specimen_sections(builder, words, record);
-    }
-    if (record.rotary) {
-        fixture(builder, words, *record.rotary);
-        rotary_monte_carlo(builder, words, record);
-        adjustment(builder, words, *record.rotary);
-        reliability(builder, words, *record.rotary);
-        geometry(builder, words, *record.rotary);
-    }
-    if (record.comparison) {
-        comparison(builder, words, *record.comparison);
+        certificate_sections(builder, words, record, view["identity"]);
     }
     if (!record.diagnostics.empty()) {
         messages(builder, words, record.diagnostics);
@@ -465,19 +444,19 @@ nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::
     input(builder, words, record);
 
     view["language"] = words.language();
-    view["mark"] = certificate_marks(words, record);
+    view["mark"] = is_comparison ? json::array() : certificate_marks(words, record);
     view["running_title"] = shortened(printable(record.title), 80);
     view["pages"] = pages(words);
-    view["created"] = date_of_creation(record);
+    view["created"] = date_of_creation(record, words);
     view["attachment"] = json::array();
     view["closing"] = json::array();
-    if (!record.certificate) {  // the first page of a certificate says it
-        const Text only = words("document", "only_items");
+    if (is_comparison || !record.certificate) {  // the first page of a certificate says it
+        const Text only = words("document", is_comparison ? "comparison_only_items" : "only_items");
         view["closing"].push_back({{"text", only.first()}, {"also", also(only, languages)}});
     }
-    put(view, "type", words("document", "type"), languages);
+    put(view, "type", words("document", is_comparison ? "comparison_type" : "type"), languages);
     put(view, "title", record.title, languages);
-    put(view, "end_mark", words("document", "end_mark"), languages);
+    put(view, "end_mark", words("document", is_comparison ? "comparison_end_mark" : "end_mark"), languages);
     view["sections"] = builder.take();
     return view;
 }

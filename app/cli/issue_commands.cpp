@@ -84,6 +84,14 @@ void report_withheld(const std::string& where, const std::vector<fs::path>& docu
     }
 }
 
+/// Documents of a record as they stand in a folder: of a comparison a table beside its report, else a digital
+/// certificate beside the printed one.
+std::vector<fs::path> document_files(const reports::EvaluationRecord& record, const fs::path& folder) {
+    return record.kind == "comparison"
+               ? std::vector{folder / "comparison.html", folder / "comparison.pdf", folder / "comparison.csv"}
+               : std::vector{folder / "certificate.html", folder / "certificate.pdf", folder / "certificate.xml"};
+}
+
 /// \return true when the answer is negative
 bool run_job(const fs::path& job, const fs::path& folder, Issuer& issuer, const DocumentOptions& options,
              const CommonOptions& common, ProgressLine& progress) {
@@ -91,8 +99,7 @@ bool run_job(const fs::path& job, const fs::path& folder, Issuer& issuer, const 
         app::evaluate_job(job, "covariance.csv", static_cast<unsigned>(common.threads), templates_if_any(options.share),
                           [&](const std::string& text) { progress(text); });
     const reports::EvaluationRecord& record = evaluation.record;
-    const std::vector<fs::path> documents = {folder / "certificate.html", folder / "certificate.pdf",
-                                             folder / "certificate.xml"};
+    const std::vector<fs::path> documents = document_files(record, folder);
     std::vector<app::OutputFile> files{{folder / "record.json", reports::to_canonical_json(record)}};
     if (!evaluation.covariance_csv.empty()) {
         files.push_back({folder / "covariance.csv", evaluation.covariance_csv});
@@ -103,7 +110,7 @@ bool run_job(const fs::path& job, const fs::path& folder, Issuer& issuer, const 
         app::IssuedDocuments issued = app::issue_documents(record, issuer.options());
         files.push_back({documents[0], std::move(issued.html)});
         files.push_back({documents[1], std::move(issued.pdf)});
-        files.push_back({documents[2], std::move(issued.dcc)});
+        files.push_back({documents[2], std::move(record.kind == "comparison" ? issued.csv : issued.dcc)});
     }
     for (const app::OutputFile& file : files) {
         app::require_not_an_input(file.path, app::input_files(job, record));
@@ -149,6 +156,7 @@ app::DocumentForm form_of(const std::string& format) {
     return format == "html"  ? app::DocumentForm::html
            : format == "pdf" ? app::DocumentForm::pdf
            : format == "dcc" ? app::DocumentForm::dcc
+           : format == "csv" ? app::DocumentForm::csv
                              : app::DocumentForm::text;
 }
 
@@ -234,6 +242,12 @@ ExitCode evaluate_to_record(const fs::path& job, const std::string& output, cons
                    evaluation.blocked ? " --draft" : "");
     }
     return code;
+}
+
+ExitCode compare_to_record(const fs::path& job, const std::string& output, const std::string& share,
+                           const CommonOptions& common) {
+    app::require_comparison_job(job);
+    return evaluate_to_record(job, output, share, common);
 }
 
 ExitCode render_records(const std::vector<std::string>& records, const std::string& format,

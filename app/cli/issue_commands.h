@@ -26,6 +26,10 @@ struct DocumentOptions {
 [[nodiscard]] ExitCode evaluate_to_record(const std::filesystem::path& job, const std::string& output,
                                           const std::string& share, const CommonOptions& common);
 
+/// `gumcert compare`: the same for a job of kind comparison, and for no other.
+[[nodiscard]] ExitCode compare_to_record(const std::filesystem::path& job, const std::string& output,
+                                         const std::string& share, const CommonOptions& common);
+
 /// `gumcert render`: one form of the document of each record.
 [[nodiscard]] ExitCode render_records(const std::vector<std::string>& records, const std::string& format,
                                       const DocumentOptions& options, const CommonOptions& common);

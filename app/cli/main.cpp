@@ -45,6 +45,7 @@ constexpr const char* k_footer =
     "  gumcert run examples/rotary_table/job.json     evaluate, write record, HTML, PDF and DCC into job-out/\n"
     "  gumcert run examples/gauge_block/job.json      an uncertainty budget, with Monte Carlo; docs/budget_job.md\n"
     "  gumcert run examples/certificate/end_gauge.json   an accredited certificate; docs/certificate_data.md\n"
+    "  gumcert run examples/comparison/key_comparison.json   do laboratories agree? docs/comparison_job.md\n"
     "  gumcert plan examples/rotary_table/plan.json   the uncertainty to expect, before anything is measured\n"
     "  gumcert simulate examples/rotary_table/simulation.json   measurements with a known truth, evaluated\n"
     "\n"
@@ -97,7 +98,8 @@ CLI::App& add_run(CLI::App& program, Arguments& a) {
     command.footer(
         "Example: gumcert run examples/rotary_table/job.json -o /tmp/certificate\n"
         "Writes record.json, covariance.csv, certificate.html, certificate.pdf and certificate.xml (the digital\n"
-        "certificate), all or none. Without certificate data in the job the documents are specimens\n"
+        "certificate), all or none; of a comparison record.json, comparison.html, comparison.pdf and\n"
+        "comparison.csv. Without certificate data in the job the documents are specimens\n"
         "(docs/certificate_data.md). Findings of severity critical block the documents of a certificate: the record "
         "is\n"
         "written, and the exit code is 1. Of several jobs each is done on its own; the exit code is the highest.");
@@ -114,12 +116,39 @@ CLI::App& add_evaluate(CLI::App& program, Arguments& a) {
     return command;
 }
 
+CLI::App& add_compare(CLI::App& program, Arguments& a) {
+    CLI::App& command = *program.add_subcommand(
+        "compare", "Do results agree, and what does that prove? Evaluate a comparison and write its record");
+    command.add_option("JOB", a.job, "Job file (JSON) of kind comparison")->required();
+    command.add_option("-o,--output", a.output,
+                       "Record file, or - for standard output; default: the job's name with -record.json");
+    command.add_option("--share", a.share, k_share_help);
+    command.footer(
+        "Between laboratories, the job names participants with their results (value and u, or U with k) and how the\n"
+        "assigned value is found: one laboratory's result, a given value, a weighted mean, a robust mean, the largest\n"
+        "consistent subset … Scores En, zeta, z, z', D with the correlation of each result with the assigned value.\n"
+        "For a method against a reference method, the job names lab and reference with their points.\n"
+        "  {\"schema\": \"gumcert/job/1\", \"kind\": \"comparison\", \"unit\": \"mm\",\n"
+        "   \"assigned_value\": \"weighted_mean\",\n"
+        "   \"participants\": [{\"id\": \"A\", \"value\": 12.31, \"u\": 0.10},\n"
+        "                    {\"id\": \"B\", \"value\": 12.18, \"U\": 0.30, \"k\": 2}]}\n"
+        "Example: gumcert compare job.json -o record.json\n"
+        "         gumcert render record.json --format pdf      the report; also html, text and csv\n"
+        "         gumcert run job.json                         both at once\n"
+        "|En| at or below 1 says that a difference is not larger than its U, no more: U that is stated too large "
+        "always\n"
+        "passes. The numbers that show it stand beside every En. docs/comparison_job.md");
+    return command;
+}
+
 CLI::App& add_render(CLI::App& program, Arguments& a) {
     CLI::App& command = *program.add_subcommand("render", "Make documents from records, without evaluating");
     command.add_option("RECORD", a.records, "Record files (JSON)")->required();
-    command.add_option("--format", a.format, "html, pdf, dcc (digital certificate, XML) or text")
+    command
+        .add_option("--format", a.format,
+                    "html, pdf, dcc (digital certificate, XML), text, or csv (scores of a comparison)")
         ->required()
-        ->check(CLI::IsMember({"html", "pdf", "text", "dcc"}));
+        ->check(CLI::IsMember({"html", "pdf", "text", "dcc", "csv"}));
     command.add_option("-o,--output", a.documents.output,
                        "File, or - for standard output; with several records a folder. Default: beside the record");
     add_document_options(command, a.documents);
@@ -190,6 +219,7 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
     program.set_version_flag("--version", version_text, "Version, commit and SHA-256 of this program");
     CLI::App& run = add_run(program, a);
     CLI::App& evaluate = add_evaluate(program, a);
+    CLI::App& compare = add_compare(program, a);
     CLI::App& render = add_render(program, a);
     CLI::App& import = add_import(program, a);
     CLI::App& verify = add_verify(program, a);
@@ -201,7 +231,8 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
             "File; its ending says the form: .txt, .json, .html or .pdf. Default: text to the terminal");
         command->add_option("--share", a.share, k_share_help);
     }
-    for (CLI::App* command : {&program, &run, &evaluate, &render, &import, &verify, &simulate_command, &plan_command}) {
+    for (CLI::App* command :
+         {&program, &run, &evaluate, &compare, &render, &import, &verify, &simulate_command, &plan_command}) {
         add_common(*command, a.common);
     }
     try {
@@ -220,6 +251,9 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
     }
     if (evaluate.parsed()) {
         return evaluate_to_record(a.job, a.output, a.share, a.common);
+    }
+    if (compare.parsed()) {
+        return compare_to_record(a.job, a.output, a.share, a.common);
     }
     if (render.parsed()) {
         return render_records(a.records, a.format, a.documents, a.common);

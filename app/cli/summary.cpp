@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <string>
 
+#include "gum/quantity/unit.h"
+
 namespace gumcert::cli {
 
 namespace {
@@ -45,6 +47,111 @@ void print_results(const reports::EvaluationRecord& record) {
     }
 }
 
+/// "10.05 ± 0.12 mm"; without ± where there is no uncertainty.
+std::string with_uncertainty(const std::string& value, const std::string& U, const std::string& unit) {
+    const std::string shown = gum::unit_for_people(unit);
+    return value + (U.empty() ? "" : " ± " + U) + (shown.empty() ? "" : " " + shown);
+}
+
+/// The score of a result that decides.
+std::string deciding_score(const reports::ComparisonPoint& point, const std::string& score) {
+    const std::string& text = score == "z"         ? point.printed.z
+                              : score == "z_prime" ? point.printed.z_prime
+                              : score == "zeta"    ? point.printed.zeta
+                              : score == "D"       ? point.printed.P_A
+                                                   : point.printed.En;
+    return text.empty() ? "–" : text;
+}
+
+const char* score_symbol(const std::string& score) {
+    return score == "z_prime" ? "z'" : score == "D" ? "P_A %" : score.c_str();
+}
+
+void print_item(const reports::Comparison& comparison, const reports::ComparisonItemEvaluation& item) {
+    constexpr std::size_t k_most_lines = 30;
+    const std::string name = item.name.empty() ? item.id : item.name;
+    const std::string round = item.round.empty() ? "" : "round " + item.round;
+    if (!name.empty() || !round.empty()) {
+        fmt::print("\n{}{}{}\n", name, name.empty() || round.empty() ? "" : ", ", round);
+    }
+    fmt::print("  assigned value ({}) {}{}\n", item.method,
+               with_uncertainty(item.printed.value, item.printed.U, item.unit),
+               item.printed.k.empty() ? "" : "   (k = " + item.printed.k + ")");
+    if (item.consistency) {
+        fmt::print("  consistency: chi-square {} on {} degrees of freedom, p = {}{}\n",
+                   item.consistency->printed.chi_square, item.consistency->degrees_of_freedom,
+                   item.consistency->printed.p_value, item.consistency->consistent ? "" : "   NOT consistent");
+    }
+    for (const std::string& id : item.not_consistent) {
+        fmt::print("  not in the largest consistent subset: {}\n", id);
+    }
+    std::size_t lines = 0;
+    std::size_t left_out = 0;
+    for (const reports::ComparisonPoint& point : comparison.points) {
+        if (point.item != item.id || point.round != item.round) {
+            continue;
+        }
+        if (++lines > k_most_lines) {
+            ++left_out;
+            continue;
+        }
+        fmt::print("  {:<12} {:<26} D {:>10}", point.participant,
+                   with_uncertainty(point.printed.value, point.printed.U, item.unit), point.printed.D);
+        if (!item.score.empty()) {
+            fmt::print("   {} {:>6}", score_symbol(item.score), deciding_score(point, item.score));
+        }
+        fmt::print("{}\n", point.signal == "none" || point.signal.empty() ? "" : "   " + point.signal);
+    }
+    if (left_out > 0) {
+        fmt::print("  … and {} more, all of them in the record\n", left_out);
+    }
+}
+
+void print_laboratories(const reports::Comparison& comparison) {
+    constexpr std::size_t k_most_items = 5;
+    for (std::size_t i = 0; i < comparison.items.size() && i < k_most_items; ++i) {
+        print_item(comparison, comparison.items[i]);
+    }
+    if (comparison.items.size() > k_most_items) {
+        fmt::print("\n… and {} more items, all of them in the record\n", comparison.items.size() - k_most_items);
+    }
+    std::size_t warnings = 0;
+    std::size_t actions = 0;
+    for (const reports::ComparisonPoint& point : comparison.points) {
+        warnings += point.signal == "warning" ? 1U : 0U;
+        actions += point.signal == "action" ? 1U : 0U;
+    }
+    fmt::print("\n{} results: {} with an action signal, {} with a warning signal\n", comparison.points.size(), actions,
+               warnings);
+}
+
+/// What a comparison of methods shows, for people.
+const char* verdict_text(const std::string& verdict) {
+    return verdict == "validated"                     ? "validated"
+           : verdict == "agreement_reference_limited" ? "agreement, limited by the uncertainty of the reference"
+           : verdict == "uncertainty_too_large" ? "agreement, but the uncertainties are larger than the differences"
+           : verdict == "reference_not_better"  ? "no contradiction; the reference is not better than the method"
+           : verdict == "correlation_unknown"   ? "agreement only if both methods share nothing"
+           : verdict == "disagreement"          ? "disagreement"
+                                                : "";
+}
+
+void print_methods(const reports::Comparison& comparison) {
+    fmt::print("\n{}{} with {}:\n", comparison.method_name, comparison.method_name.empty() ? "Comparison" : "",
+               comparison.reference_name);
+    for (const reports::ComparisonSummary& row : comparison.summary) {
+        fmt::print("  {:<6}  mean |En| {}   max |En| {}   above 1: {} of {}", row.direction, row.printed.mean_abs_En,
+                   row.printed.max_abs_En, row.count_above_1, row.points);
+        if (!row.printed.p_low.empty()) {
+            fmt::print("   p_low {}", row.printed.p_low);
+        }
+        if (!row.verdict.empty()) {
+            fmt::print("\n          {}", verdict_text(row.verdict));
+        }
+        fmt::print("\n");
+    }
+}
+
 }  // namespace
 
 void print_summary(const reports::EvaluationRecord& record) {
@@ -80,12 +187,10 @@ void print_summary(const reports::EvaluationRecord& record) {
     if (record.kind == "budget") {
         print_results(record);
     }
-    if (record.comparison) {
-        fmt::print("\nComparison with {}:\n", record.comparison->reference_name);
-        for (const reports::ComparisonSummary& row : record.comparison->summary) {
-            fmt::print("  {:<3}  mean |En| {}   max |En| {}   above 1: {} of {}\n", row.direction,
-                       row.printed.mean_abs_En, row.printed.max_abs_En, row.count_above_1, row.points);
-        }
+    if (record.comparison && record.comparison->form == "laboratories") {
+        print_laboratories(*record.comparison);
+    } else if (record.comparison) {
+        print_methods(*record.comparison);
     }
 }
 

@@ -17,6 +17,7 @@
 #include "engine/job/csv_table.h"
 #include "engine/job/job_files.h"
 #include "engine/job/json_document.h"
+#include "engine/job/reference_budget.h"
 #include "engine/job/rotary_table_study.h"
 #include "gum/quantity/units.h"
 
@@ -68,9 +69,13 @@ constexpr std::array<std::string_view, 3> k_expansion_keys{"value", "u", "distri
 constexpr std::array<std::string_view, 4> k_repeatability_keys{"mode", "u_linear_um", "u_axial_arcsec",
                                                                "u_tilt_arcsec"};
 constexpr std::array<std::string_view, 3> k_outliers_keys{"test", "alpha", "action"};
-constexpr std::array<std::string_view, 3> k_reference_keys{"name", "readings", "description"};
-constexpr std::array<std::string_view, 6> k_indicator_keys{"contact_point_mm", "resolution_um",    "mpe_um",
-                                                           "repeatability_um", "temperature_degC", "note"};
+constexpr std::array<std::string_view, 7> k_reference_keys{"name",        "readings",  "description", "budget",
+                                                           "correlation", "published", "audited"};
+constexpr std::array<std::string_view, 2> k_published_keys{"source", "mean_abs_En"};
+constexpr std::array<std::string_view, 3> k_direction_keys{"x", "y", "z"};
+constexpr std::array<std::string_view, 2> k_audited_keys{"factor", "finding"};
+constexpr std::array<std::string_view, 7> k_indicator_keys{
+    "contact_point_mm", "resolution_um", "mpe_um", "mpe_common", "repeatability_um", "temperature_degC", "note"};
 
 const std::vector<JobKeys>& all_keys() {
     static const std::vector<JobKeys> k_all = [] {
@@ -82,6 +87,9 @@ const std::vector<JobKeys>& all_keys() {
                                  {"/table_repeatability", k_repeatability_keys},
                                  {"/outliers", k_outliers_keys},
                                  {"/reference_method", k_reference_keys},
+                                 {"/reference_method/published", k_published_keys},
+                                 {"/reference_method/published/mean_abs_En", k_direction_keys},
+                                 {"/reference_method/audited", k_audited_keys},
                                  {"/monte_carlo", k_monte_carlo_keys},
                                  {"/monte_carlo/adaptive", k_adaptive_keys}};
         const std::span<const JobKeys> studies = rotary_table_study_keys();
@@ -273,6 +281,7 @@ private:
         }
         const std::optional<std::string> readings_name = name_in(reference, "readings", true);
         const std::optional<std::string> description_name = name_in(reference, "description", true);
+        const std::optional<std::string> reference_budget_name = name_in(reference, "budget", false);
 
         // The lengths are read after the fixture because they name its reflectors; the lists of names and problems keep
         // the order of the documentation.
@@ -310,12 +319,20 @@ private:
         if (reference) {
             ReferenceMethod& method = job_.reference.emplace();
             method.name = reference_name.value_or("");
+            bool readings_are_whole = false;
             if (readings) {
+                const std::size_t refused = readings->problems->refusals();
+                const ProblemList& of_readings = *readings->problems;
                 read_readings(std::move(*readings), method);
+                readings_are_whole = of_readings.refusals() == refused && lengths_are_whole_;
             }
             if (description) {
-                read_indicator(*description, method);
+                read_indicator(*description, method, reference->has("budget"));
             }
+            read_reference_correlation(*reference, method);
+            read_published(*reference, method, readings_are_whole);
+            read_audited(*reference, method);
+            read_budget_of_reference(reference_budget_name, readings_are_whole);
         }
         job_.certificate = read_certificate(files_, *document, problems);
         read_fixture_budget(budget_name);
@@ -1255,7 +1272,7 @@ private:
         }
     }
 
-    void read_indicator(const File& file, ReferenceMethod& method) {
+    void read_indicator(const File& file, ReferenceMethod& method, bool has_budget) {
         const std::optional<JsonDocument> document = read_json_document(file.bytes, *file.problems);
         if (!document) {
             return;
@@ -1267,11 +1284,19 @@ private:
         if (const auto point = object->required_numbers("contact_point_mm", 3, k_fixture_coordinate)) {
             method.contact_point = Eigen::Vector3d((*point)[0], (*point)[1], (*point)[2]) * k_millimetre;
         }
-        const auto resolution = object->required_number("resolution_um", not_negative("µm"));
-        const auto mpe = object->required_number("mpe_um", not_negative("µm"));
-        const auto repeatability = object->required_number("repeatability_um", not_negative("µm"));
+        const auto stated = [&](std::string_view key) {
+            return has_budget ? object->optional_number(key, not_negative("µm"))
+                              : object->required_number(key, not_negative("µm"));
+        };
+        const auto resolution = stated("resolution_um");
+        const auto mpe = stated("mpe_um");
+        method.mpe_common = object->optional_boolean("mpe_common").value_or(true);
+        const auto repeatability = stated("repeatability_um");
         (void)object->optional_number("temperature_degC", k_temperature);
         (void)object->optional_string("note");
+        if (has_budget) {
+            return;  // it states what is known; the file may be one of another job
+        }
         if (resolution && mpe && repeatability && *resolution == 0.0 && *mpe == 0.0 && *repeatability == 0.0) {
             file.problems->refuse(k_no_indicator_uncertainty, object->where(),
                                   "resolution_um, mpe_um and repeatability_um are all 0 µm",
@@ -1280,6 +1305,89 @@ private:
         method.resolution = resolution.value_or(0.0) * k_micrometre;
         method.maximum_permissible_error = mpe.value_or(0.0) * k_micrometre;
         method.repeatability = repeatability.value_or(0.0) * k_micrometre;
+    }
+
+    void read_reference_correlation(const JsonObject& reference, ReferenceMethod& method) const {
+        const nlohmann::json* const value = reference.find("correlation");
+        if (value == nullptr) {
+            return;
+        }
+        if (value->is_number()) {
+            method.correlation = ReferenceCorrelation::given;
+            method.r = reference.optional_number("correlation", between(-1.0, 1.0, "")).value_or(0.0);
+        } else if (value->is_string() && *value == "none") {
+            method.correlation = ReferenceCorrelation::none;
+        } else if (!value->is_string() || *value != "unknown") {
+            reference.refuse(k_reference_correlation, "correlation", "the value is " + described(*value),
+                             "the correlation of both methods is a number from -1 to 1, \"none\" or \"unknown\"",
+                             "write \"unknown\" where it is not known whether both use one standard or sensor");
+        }
+    }
+
+    void read_published(const JsonObject& reference, ReferenceMethod& method, bool readings_are_whole) const {
+        const auto published = reference.optional_object("published", k_published_keys);
+        if (!published) {
+            return;
+        }
+        method.published_source = published->required_name("source", 1000).value_or("");
+        const auto means = published->required_object("mean_abs_En", k_direction_keys);
+        if (!means) {
+            return;
+        }
+        bool any = false;
+        for (std::size_t d = 0; d < k_direction_keys.size(); ++d) {
+            const std::string_view key = k_direction_keys[d];
+            any = any || means->has(key);
+            method.published_mean_abs_En[d] = means->optional_number(key, between(0.0, 1e6, ""));
+            const bool is_read = std::any_of(method.readings.begin(), method.readings.end(),
+                                             [&](const ReferenceReading& reading) { return reading.direction == d; });
+            if (method.published_mean_abs_En[d] && readings_are_whole && !is_read) {
+                means->refuse(k_published_direction, key, "the readings have no direction " + in_quotes(key),
+                              "a published mean |En| stands beside that of the same direction",
+                              "remove it, or correct the direction");
+            }
+        }
+        if (!any) {
+            published->refuse(k_missing_key, "mean_abs_En", "no direction is stated",
+                              "at least one of \"x\", \"y\", \"z\" has a published mean |En|",
+                              "state it, or remove \"published\"");
+        }
+    }
+
+    static void read_audited(const JsonObject& reference, ReferenceMethod& method) {
+        const auto audited = reference.optional_object("audited", k_audited_keys);
+        if (!audited) {
+            return;
+        }
+        const NumberRange factor{.low = 0.0,
+                                 .high = 1e3,
+                                 .low_open = true,
+                                 .hint =
+                                     "state what the uncertainty of the reference is to be multiplied by, such as "
+                                     "0.577 for a maximum permissible error that was taken as a standard "
+                                     "uncertainty"};
+        method.audited_factor = audited->required_number("factor", factor).value_or(1.0);
+        method.audit_finding = audited->required_name("finding", 1000).value_or("");
+    }
+
+    void read_budget_of_reference(const std::optional<std::string>& name, bool readings_are_whole) {
+        const std::optional<File> file = open(name);
+        if (!file) {
+            return;
+        }
+        job_.reference_budget_file = *name;
+        try {
+            const std::vector<ReferencePoint> points =
+                readings_are_whole ? reference_points(job_.reference->readings) : std::vector<ReferencePoint>{};
+            auto budget = std::make_shared<const BudgetJob>(
+                read_reference_budget(source_, file->problems->file(), points, job_.measurement.angles_deg));
+            files_.add(budget->files, budget->warnings);
+            job_.reference_budget = std::move(budget);
+        } catch (const gum::InputError& error) {
+            files_.add(error);
+        } catch (const gum::StorageError& error) {
+            files_.add(error);
+        }
     }
 
     const FileSource& source_;

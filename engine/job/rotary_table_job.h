@@ -73,6 +73,11 @@ struct RotaryTableJob {
     /// The fixture covariance is zero until then.
     std::shared_ptr<const BudgetJob> fixture_budget;
     std::string fixture_budget_file;
+    /// Budget of the reference value, kind `budget`, with one output, a length, and the mean reading at one point as
+    /// the value of its input `reading`. Its points are those of reference_points(), in that order; the application
+    /// evaluates it.
+    std::shared_ptr<const BudgetJob> reference_budget;
+    std::string reference_budget_file;
     /// The fixture covariance is that of the source paper, eqs. (10) to (12), on purpose.
     bool source_paper_fixture = false;
     /// Columns u of the coordinates file where the covariance comes from elsewhere, 3n, order x1 y1 z1 …, [m]; empty
@@ -86,8 +91,8 @@ struct RotaryTableJob {
     nlohmann::json document;                   ///< the job file as read
     std::optional<certificate::CertificateData> certificate;  ///< from the job or a file of its own
     /// Names as the job gives them, each once: the job file, lengths, stations, environment, fixture coordinates,
-    /// fixture covariance, readings and description of the reference method, certificate, fixture budget with its
-    /// files.
+    /// fixture covariance, readings and description of the reference method, budget of the reference with its files,
+    /// certificate, fixture budget with its files.
     std::vector<std::string> files;
     std::vector<gum::Diagnostic> warnings;
 };

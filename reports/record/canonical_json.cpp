@@ -17,9 +17,19 @@ namespace {
 
 using nlohmann::json;
 
-[[noreturn]] void refuse(std::string code, const std::string& pointer, std::string what, std::string rule) {
+/// Where a value stands. The pointer is made only where a value is refused.
+struct Step {
+    const Step* outer = nullptr;
+    std::string_view key = {};
+};
+
+std::string pointer_of(const Step* at) {
+    return at == nullptr ? std::string() : pointer_of(at->outer) + "/" + pointer_token(at->key);
+}
+
+[[noreturn]] void refuse(std::string code, const Step* at, std::string what, std::string rule) {
     throw gum::NoResultError(gum::Diagnostic{.code = std::move(code),
-                                             .where = "record#" + pointer,
+                                             .where = "record#" + pointer_of(at),
                                              .what = std::move(what),
                                              .rule = std::move(rule),
                                              .action = "nothing was written; check the input that leads to it"});
@@ -29,20 +39,20 @@ class Writer {
 public:
     std::string text;
 
-    void value(const json& v, const std::string& pointer, std::size_t depth) {
+    void value(const json& v, const Step* at, std::size_t depth) {
         if (depth > k_max_json_depth) {
-            refuse("GC-RECORD-0004", pointer, "nested deeper than " + std::to_string(k_max_json_depth) + " levels",
+            refuse("GC-RECORD-0004", at, "nested deeper than " + std::to_string(k_max_json_depth) + " levels",
                    "a record is at most that deep");
         }
         switch (v.type()) {
             case json::value_t::object:
-                object(v, pointer, depth);
+                object(v, at, depth);
                 return;
             case json::value_t::array:
-                array(v, pointer, depth);
+                array(v, at, depth);
                 return;
             case json::value_t::string:
-                string(v.get_ref<const std::string&>(), pointer);
+                string(v.get_ref<const std::string&>(), at);
                 return;
             case json::value_t::boolean:
                 text += v.get<bool>() ? "true" : "false";
@@ -54,7 +64,7 @@ public:
                 number(v.get<std::uint64_t>());
                 return;
             case json::value_t::number_float:
-                real(v.get<double>(), pointer);
+                real(v.get<double>(), at);
                 return;
             case json::value_t::null:
                 text += "null";
@@ -63,7 +73,7 @@ public:
             case json::value_t::discarded:
                 break;
         }
-        refuse("GC-RECORD-0003", pointer, "a value that JSON cannot hold", "a record is JSON");
+        refuse("GC-RECORD-0003", at, "a value that JSON cannot hold", "a record is JSON");
     }
 
 private:
@@ -74,9 +84,9 @@ private:
         text.append(buffer, end);
     }
 
-    void real(double v, const std::string& pointer) {
+    void real(double v, const Step* at) {
         if (!std::isfinite(v)) {
-            refuse("GC-RECORD-0001", pointer, std::isnan(v) ? "not a number (NaN)" : "infinite",
+            refuse("GC-RECORD-0001", at, std::isnan(v) ? "not a number (NaN)" : "infinite",
                    "every number of a record is finite");
         }
         if (v == 0.0 && std::signbit(v)) {
@@ -95,10 +105,10 @@ private:
         number(v);
     }
 
-    void string(std::string_view s, const std::string& pointer) {
+    void string(std::string_view s, const Step* at) {
         static constexpr char k_hex[] = "0123456789abcdef";
         if (!is_utf8(s)) {
-            refuse("GC-RECORD-0002", pointer, "text that is not valid UTF-8", "texts of a record are UTF-8");
+            refuse("GC-RECORD-0002", at, "text that is not valid UTF-8", "texts of a record are UTF-8");
         }
         text += '"';
         for (const char c : s) {
@@ -142,7 +152,7 @@ private:
         text.append(depth, ' ');
     }
 
-    void object(const json& v, const std::string& pointer, std::size_t depth) {
+    void object(const json& v, const Step* at, std::size_t depth) {
         if (v.empty()) {
             text += "{}";
             return;
@@ -155,15 +165,16 @@ private:
             }
             first = false;
             new_line(depth + 1);
-            string(key, pointer);
+            string(key, at);
             text += ": ";
-            value(item, pointer + "/" + pointer_token(key), depth + 1);
+            const Step inside{at, key};
+            value(item, &inside, depth + 1);
         }
         new_line(depth);
         text += '}';
     }
 
-    void array(const json& v, const std::string& pointer, std::size_t depth) {
+    void array(const json& v, const Step* at, std::size_t depth) {
         bool plain = true;
         for (const json& item : v) {
             plain = plain && !item.is_structured();
@@ -176,7 +187,9 @@ private:
                 text += i == 0 ? "" : ",";
                 new_line(depth + 1);
             }
-            value(v[i], pointer + "/" + std::to_string(i), depth + 1);
+            const std::string index = std::to_string(i);
+            const Step inside{at, index};
+            value(v[i], &inside, depth + 1);
         }
         if (!plain) {
             new_line(depth);
@@ -244,7 +257,7 @@ std::string pointer_token(std::string_view key) {
 
 std::string canonical_json(const nlohmann::json& value) {
     Writer writer;
-    writer.value(value, "", 0);
+    writer.value(value, nullptr, 0);
     writer.text += '\n';
     return std::move(writer.text);
 }

@@ -2,6 +2,7 @@
 
 #include "certificate/certificate_fields.h"
 #include "reports/record/canonical_json.h"
+#include "reports/record/comparison_fields.h"
 
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <functional>
 #include <initializer_list>
 #include <limits>
 #include <map>
@@ -75,7 +77,7 @@ concept Is = std::same_as<std::remove_const_t<Type>, Whole>;
 
 // Each struct of the record is described once, by a function `describe(archive, value)`; the writer and the reader both
 // walk that description. So the two cannot disagree on a key. Those of a certificate are in
-// certificate/certificate_fields.h.
+// certificate/certificate_fields.h, those of a comparison in reports/record/comparison_fields.h.
 
 template <class Archive, Is<Printed> Struct>
 void describe(Archive& a, Struct& r) {
@@ -627,47 +629,6 @@ void describe(Archive& a, Struct& r) {
     a.added("monte_carlo", r.monte_carlo);
 }
 
-template <class Archive, Is<ComparisonPoint> Struct>
-void describe(Archive& a, Struct& r) {
-    a("direction", r.direction, {"x", "y", "z"});
-    a("angle_deg", r.angle_deg);
-    a("value", r.value);
-    a("u", r.u, Range::not_negative);
-    a("U", r.U, Range::not_negative);
-    a("reference_value", r.reference_value);
-    a("reference_u", r.reference_u, Range::not_negative);
-    a("reference_U", r.reference_U, Range::not_negative);
-    a("D", r.D);
-    a("u_D", r.u_D, Range::not_negative);
-    a("U_D", r.U_D, Range::not_negative);
-    a("En", r.En);
-    a("zeta", r.zeta);
-    a.group("printed", [&](auto& b) {
-        b("angle", r.printed.angle);
-        b("value", r.printed.value);
-        b("U", r.printed.U);
-        b("reference_value", r.printed.reference_value);
-        b("reference_U", r.printed.reference_U);
-        b("D", r.printed.D);
-        b("U_D", r.printed.U_D);
-        b("En", r.printed.En);
-    });
-}
-
-template <class Archive, Is<ComparisonSummary> Struct>
-void describe(Archive& a, Struct& r) {
-    a("points", r.points);
-    a("count_above_1", r.count_above_1);
-    a("mean_abs_En", r.mean_abs_En, Range::not_negative);
-    a("max_abs_En", r.max_abs_En, Range::not_negative);
-    a("rms_En", r.rms_En, Range::not_negative);
-    a.group("printed", [&](auto& b) {
-        b("mean_abs_En", r.printed.mean_abs_En);
-        b("max_abs_En", r.printed.max_abs_En);
-        b("rms_En", r.printed.rms_En);
-    });
-}
-
 template <class Archive, Is<InputFile> Struct>
 void describe(Archive& a, Struct& r) {
     a("name", r.name);
@@ -689,16 +650,6 @@ void describe(Archive& a, Struct& r) {
     a("rule", r.rule);
     a("action", r.action);
     a.severity("severity", r.severity);
-}
-
-template <class Archive, Is<Comparison> Struct>
-void describe(Archive& a, Struct& r) {
-    a("reference_name", r.reference_name);
-    a("contact_point_mm", r.contact_point_mm, Range::any);
-    a("reference_budget", r.reference_budget);
-    a("points", r.points);
-    a.summary("summary", r.summary);
-    a("remarks", r.remarks);
 }
 
 template <class Archive, Is<RotaryTable> Struct>
@@ -987,6 +938,67 @@ void check_results(const EvaluationRecord& r, const Report& report) {
     }
 }
 
+/// What must hold between the parts of a comparison, so that a document can be made of it. Calls
+/// `report(pointer, what, rule)` for each breach.
+template <class Report>
+void check_comparison(const Comparison& c, const Report& report) {
+    const auto correlation = [&](const std::string& at, double r) {
+        if (!(std::abs(r) <= 1.0 + 1e-9)) {
+            report(at, shortest(r), "a correlation coefficient lies between -1 and 1");
+        }
+    };
+    const auto at = [](const char* list, std::size_t i) { return std::string("/") + list + "/" + std::to_string(i); };
+    std::set<std::string> participants;
+    for (std::size_t i = 0; i < c.participants.size(); ++i) {
+        if (!participants.insert(c.participants[i].id).second) {
+            report(at("participants", i) + "/id", '"' + c.participants[i].id + '"', "a participant is listed once");
+        }
+    }
+    std::set<std::pair<std::string, std::string>> items;
+    for (std::size_t i = 0; i < c.items.size(); ++i) {
+        const ComparisonItemEvaluation& item = c.items[i];
+        if (!items.emplace(item.id, item.round).second) {
+            report(at("items", i) + "/id", '"' + item.id + '"', "an item is listed once in a round");
+        }
+        if (item.consistency && item.consistency->pairs && item.consistency->incompatible_pairs &&
+            *item.consistency->incompatible_pairs > *item.consistency->pairs) {
+            report(at("items", i) + "/consistency/incompatible_pairs",
+                   std::to_string(*item.consistency->incompatible_pairs),
+                   "not more than the " + std::to_string(*item.consistency->pairs) + " pairs");
+        }
+    }
+    for (std::size_t i = 0; i < c.points.size(); ++i) {
+        const ComparisonPoint& p = c.points[i];
+        if (p.correlation) {
+            correlation(at("points", i) + "/correlation", *p.correlation);
+        }
+        if (c.form != "laboratories") {
+            continue;
+        }
+        if (!participants.contains(p.participant)) {
+            report(at("points", i) + "/participant", '"' + p.participant + '"', "must be one of the participants");
+        }
+        if (!items.contains({p.item, p.round})) {
+            report(at("points", i) + "/item", '"' + p.item + "\" in round \"" + p.round + '"',
+                   "must be one of the items, in its round");
+        }
+    }
+    for (std::size_t i = 0; i < c.shared_sources.size(); ++i) {
+        correlation(at("shared_sources", i) + "/correlation", c.shared_sources[i].correlation);
+    }
+    for (std::size_t i = 0; i < c.youden.size(); ++i) {
+        correlation(at("youden", i) + "/correlation", c.youden[i].correlation);
+    }
+    if (c.correlation_given) {
+        correlation("/correlation_given", *c.correlation_given);
+    }
+    for (std::size_t i = 0; i + 1 < c.summary.size(); ++i) {
+        if (c.summary[i].direction == "all") {
+            report("/summary/all", "before other directions", "the summary of all directions comes last");
+        }
+    }
+}
+
 /// What must hold between the parts of a certificate, so that a document can be made of it. Calls
 /// `report(pointer, what, rule)` for each breach.
 template <class Report>
@@ -1029,8 +1041,15 @@ void check_certificate(const certificate::Certificate& c, const Report& report) 
     }
 }
 
-constexpr std::array<const char*, 4> k_summary_order = {"x", "y", "z", "all"};
 constexpr std::array<const char*, 3> k_severities = {"note", "warning", "error"};
+
+/// Where a value stands. Its JSON pointer is made where it is needed: a record has a million values, and few problems.
+struct Place {
+    const std::string& parent;  ///< JSON pointer of the object or array around it
+    std::string_view key;
+
+    [[nodiscard]] std::string pointer() const { return parent + "/" + pointer_token(key); }
+};
 
 class Writer {
 public:
@@ -1039,7 +1058,7 @@ public:
 
     template <class Type>
     void operator()(const char* key, const Type& v, Range range = Range::any) {
-        object[key] = to_json(v, pointer_ + "/" + key, range);
+        object[key] = to_json(v, {pointer_, key}, range);
     }
 
     void operator()(const char* key, const std::string& v, std::initializer_list<const char*> allowed) {
@@ -1126,12 +1145,11 @@ public:
 
     void summary(const char* key, const std::vector<ComparisonSummary>& v) {
         json all = json::object();
-        for (const ComparisonSummary& s : v) {
-            const std::string at = pointer_ + "/" + key + "/" + pointer_token(s.direction);
-            if (std::find(k_summary_order.begin(), k_summary_order.end(), s.direction) == k_summary_order.end()) {
-                refuse(at, '"' + s.direction + '"', "a direction is x, y, z or all");
-            }
-            insert(all, s.direction, structure(s, at), at);
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            const std::string at = pointer_ + "/" + key + "/" + pointer_token(v[i].direction);
+            json item = structure(v[i], at);
+            item["order"] = i;
+            insert(all, v[i].direction, std::move(item), at);
         }
         object[key] = std::move(all);
     }
@@ -1163,7 +1181,7 @@ public:
             inner("unit", v[i].unit);
             json shares = json::object();
             for (std::size_t s = 0; s < std::min(sources.size(), v[i].shares.size()); ++s) {
-                shares[sources[s]] = to_json(v[i].shares[s], inner.pointer_ + "/shares", Range::any);
+                shares[sources[s]] = to_json(v[i].shares[s], {inner.pointer_, "shares"}, Range::any);
             }
             inner.object["shares"] = std::move(shares);
             all.push_back(std::move(inner.object));
@@ -1226,41 +1244,43 @@ private:
     }
 
     template <class Type>
-    static json to_json(const Type& v, const std::string& at, Range range) {
+    static json to_json(const Type& v, const Place& at, Range range) {
         if constexpr (std::same_as<Type, double>) {
             if (!std::isfinite(v)) {
                 throw gum::NoResultError(
                     gum::Diagnostic{.code = "GC-RECORD-0001",
-                                    .where = "record#" + at,
+                                    .where = "record#" + at.pointer(),
                                     .what = shortest(v),
                                     .rule = "every number of a record is finite",
                                     .action = "nothing was written; check the input that leads to it"});
             }
             if (!inside(v, range)) {
-                refuse(at, shortest(v), rule_of(range));
+                refuse(at.pointer(), shortest(v), rule_of(range));
             }
             return v;
         } else if constexpr (std::same_as<Type, std::int64_t> || std::same_as<Type, int>) {
             if (!inside(static_cast<double>(v), range)) {
-                refuse(at, std::to_string(v), rule_of(range));
+                refuse(at.pointer(), std::to_string(v), rule_of(range));
             }
             return v;
         } else if constexpr (std::same_as<Type, certificate::LocalisedText>) {
-            return text_to_json(v, at);
+            return text_to_json(v, at.pointer());
         } else if constexpr (std::same_as<Type, std::pair<double, double>>) {
-            return json::array({to_json(v.first, at + "/0", range), to_json(v.second, at + "/1", range)});
+            const std::string inside = at.pointer();
+            return json::array({to_json(v.first, {inside, "0"}, range), to_json(v.second, {inside, "1"}, range)});
         } else if constexpr (std::same_as<Type, bool> || std::same_as<Type, std::string>) {
             return v;
         } else if constexpr (requires { v.has_value(); }) {
             return v.has_value() ? to_json(*v, at, range) : json();
         } else if constexpr (requires { v.size(); }) {
+            const std::string inside = at.pointer();
             json all = json::array();
             for (std::size_t i = 0; i < v.size(); ++i) {
-                all.push_back(to_json(v[i], at + "/" + std::to_string(i), range));
+                all.push_back(to_json(v[i], {inside, std::to_string(i)}, range));
             }
             return all;
         } else {
-            return structure(v, at);
+            return structure(v, at.pointer());
         }
     }
 };
@@ -1313,7 +1333,7 @@ public:
     template <class Type>
     void operator()(const char* key, Type& v, Range range = Range::any) {
         if (const json* item = find(key)) {
-            from_json(*item, v, pointer_ + "/" + pointer_token(key), range);
+            from_json(*item, v, {pointer_, key}, range);
         }
     }
 
@@ -1322,10 +1342,9 @@ public:
         if (item == nullptr) {
             return;
         }
-        const std::string at = pointer_ + "/" + key;
-        from_json(*item, v, at, Range::any);
+        from_json(*item, v, {pointer_, key}, Range::any);
         if (item->is_string() && std::find(allowed.begin(), allowed.end(), v) == allowed.end()) {
-            unknown_word(at, v, allowed);
+            unknown_word(pointer_ + "/" + key, v, allowed);
         }
     }
 
@@ -1368,13 +1387,11 @@ public:
     /// A key that a later release added to the schema: where it is missing, the value stays as it is.
     template <class Type>
     void added(const char* key, Type& v, Range range = Range::any) {
-        known_.insert(key);
-        if (object_.contains(key)) {
-            (*this)(key, v, range);
+        if (const json* item = find_if_there(key)) {
+            from_json(*item, v, {pointer_, key}, range);
         }
     }
     void added(const char* key, std::string& v, std::initializer_list<const char*> allowed) {
-        known_.insert(key);
         if (object_.contains(key)) {
             (*this)(key, v, allowed);
         }
@@ -1449,21 +1466,43 @@ public:
         }
     }
 
+    /// Records of earlier releases hold no order of the directions: then they come by name, "all" last.
     void summary(const char* key, std::vector<ComparisonSummary>& v) {
         const json* all = find_object(key);
         if (all == nullptr) {
             return;
         }
-        Reader inner(*all, pointer_ + "/" + key, problems_);
-        for (const char* direction : k_summary_order) {
-            if (all->contains(direction)) {
-                ComparisonSummary s;
-                s.direction = direction;
-                inner(direction, s);
-                v.push_back(std::move(s));
+        std::map<std::int64_t, ComparisonSummary> in_order;
+        const auto size = static_cast<std::int64_t>(all->size());
+        const bool ordered =
+            std::any_of(all->begin(), all->end(), [](const json& i) { return i.is_object() && i.contains("order"); });
+        std::int64_t next = 0;
+        for (const auto& [direction, item] : all->items()) {
+            const std::string at = pointer_ + "/" + key + "/" + pointer_token(direction);
+            if (!item.is_object()) {
+                wrong_type(item, at, "an object");
+                continue;
             }
+            ComparisonSummary s;
+            s.direction = direction;
+            std::int64_t order = direction == "all" ? size - 1 : next++;
+            Reader inner(item, at, problems_);
+            describe(inner, s);
+            if (ordered) {
+                order = -1;
+                inner("order", order);
+            }
+            inner.finish();
+            if (order < 0 || order >= size || in_order.contains(order)) {
+                problems_.add("GC-RECORD-0016", at + "/order", std::to_string(order),
+                              "the orders of all directions are 0, 1, 2 …, each once", k_restore);
+                continue;
+            }
+            in_order.emplace(order, std::move(s));
         }
-        inner.finish();
+        for (auto& [order, s] : in_order) {
+            v.push_back(std::move(s));
+        }
     }
 
     void errors(const char* key, std::vector<ErrorsAtAngle>& v, const RotaryTable& rotary) {
@@ -1532,7 +1571,7 @@ public:
         std::set<std::string> names;
         for (const TableParameter& p : v) {
             names.insert(p.name);
-            known_.insert(p.name);
+            static_cast<void>(find_if_there(p.name));
             same(&object_, pointer_, p.name, p.value);
             same(U, pointer_ + "/U", p.name, p.U);
         }
@@ -1549,8 +1588,13 @@ public:
 
     /// To be called when every known key was asked for: what is left in the object is unknown.
     void finish() {
+        std::sort(known_.begin(), known_.end(), std::less<>());
+        known_.erase(std::unique(known_.begin(), known_.end()), known_.end());
+        if (known_.size() == object_.size()) {
+            return;
+        }
         for (const auto& [key, item] : object_.items()) {
-            if (!known_.contains(key)) {
+            if (!std::binary_search(known_.begin(), known_.end(), &key, std::less<>())) {
                 problems_.add("GC-RECORD-0014", pointer_ + "/" + pointer_token(key), "unknown key",
                               "a record holds the keys of schema gumcert/record/1 and no others", k_restore);
             }
@@ -1561,17 +1605,24 @@ private:
     const json& object_;
     std::string pointer_;
     Problems& problems_;
-    std::set<std::string> known_;
+    std::vector<const std::string*> known_;  ///< the keys of the object that were asked for
 
-    const json* find(const std::string& key) {
-        known_.insert(key);
+    const json* find_if_there(std::string_view key) {
         const auto found = object_.find(key);
         if (found == object_.end()) {
-            problems_.add("GC-RECORD-0013", pointer_ + "/" + pointer_token(key), "missing",
-                          "every key of schema gumcert/record/1 is present", k_restore);
             return nullptr;
         }
+        known_.push_back(&found.key());
         return &*found;
+    }
+
+    const json* find(std::string_view key) {
+        const json* item = find_if_there(key);
+        if (item == nullptr) {
+            problems_.add("GC-RECORD-0013", pointer_ + "/" + pointer_token(key), "missing",
+                          "every key of schema gumcert/record/1 is present", k_restore);
+        }
+        return item;
     }
 
     const json* find_object(const char* key) {
@@ -1627,45 +1678,46 @@ private:
         }
     }
 
-    void number(const json& item, double& v, const std::string& at, Range range) {
+    void number(const json& item, double& v, const Place& at, Range range) {
         if (!item.is_number()) {
-            wrong_type(item, at, "a number");
+            wrong_type(item, at.pointer(), "a number");
             return;
         }
         v = item.get<double>();
         // Whole numbers above 2^53 that a double cannot hold would lose digits in silence.
         constexpr double k_two_to_53 = 9007199254740992.0;
         if (!item.is_number_float() && std::abs(v) > k_two_to_53) {
-            problems_.add("GC-RECORD-0016", at, item.dump(), "must be a number that a double holds exactly", k_restore);
+            problems_.add("GC-RECORD-0016", at.pointer(), item.dump(), "must be a number that a double holds exactly",
+                          k_restore);
         } else if (!inside(v, range)) {
-            problems_.add("GC-RECORD-0016", at, shortest(v), rule_of(range), k_restore);
+            problems_.add("GC-RECORD-0016", at.pointer(), shortest(v), rule_of(range), k_restore);
         }
     }
 
     template <class Type>
-    void from_json(const json& item, Type& v, const std::string& at, Range range) {
+    void from_json(const json& item, Type& v, const Place& at, Range range) {
         if constexpr (std::same_as<Type, double>) {
             number(item, v, at, range);
         } else if constexpr (std::same_as<Type, bool>) {
             if (item.is_boolean()) {
                 v = item.get<bool>();
             } else {
-                wrong_type(item, at, "true or false");
+                wrong_type(item, at.pointer(), "true or false");
             }
         } else if constexpr (std::same_as<Type, std::string>) {
             if (item.is_string()) {
                 v = item.get<std::string>();
             } else {
-                wrong_type(item, at, "a text");
+                wrong_type(item, at.pointer(), "a text");
             }
         } else if constexpr (std::same_as<Type, std::int64_t>) {
             if (item.is_number_integer() && item <= std::numeric_limits<std::int64_t>::max()) {
                 v = item.get<std::int64_t>();
                 if (!inside(static_cast<double>(v), range)) {
-                    problems_.add("GC-RECORD-0016", at, std::to_string(v), rule_of(range), k_restore);
+                    problems_.add("GC-RECORD-0016", at.pointer(), std::to_string(v), rule_of(range), k_restore);
                 }
             } else {
-                wrong_type(item, at, "a whole number");
+                wrong_type(item, at.pointer(), "a whole number");
             }
         } else if constexpr (std::same_as<Type, int>) {
             std::int64_t whole = 0;
@@ -1673,7 +1725,7 @@ private:
             v = static_cast<int>(
                 std::clamp<std::int64_t>(whole, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
         } else if constexpr (std::same_as<Type, certificate::LocalisedText>) {
-            localised(item, v, at);
+            localised(item, v, at.pointer());
         } else if constexpr (std::same_as<Type, std::pair<double, double>>) {
             std::array<double, 2> ends{};
             from_json(item, ends, at, range);
@@ -1688,30 +1740,31 @@ private:
             list(item, v, at, range);
         } else {
             if (!item.is_object()) {
-                wrong_type(item, at, "an object");
+                wrong_type(item, at.pointer(), "an object");
                 return;
             }
-            Reader inner(item, at, problems_);
+            Reader inner(item, at.pointer(), problems_);
             describe(inner, v);
             inner.finish();
         }
     }
 
     template <class List>
-    void list(const json& item, List& v, const std::string& at, Range range) {
+    void list(const json& item, List& v, const Place& at, Range range) {
         if (!item.is_array()) {
-            wrong_type(item, at, "an array");
+            wrong_type(item, at.pointer(), "an array");
             return;
         }
         if constexpr (requires { v.resize(item.size()); }) {
             v.resize(item.size());
         } else if (item.size() != v.size()) {
-            problems_.add("GC-RECORD-0017", at, std::to_string(item.size()) + " items",
+            problems_.add("GC-RECORD-0017", at.pointer(), std::to_string(item.size()) + " items",
                           "must be " + std::to_string(v.size()), k_restore);
             return;
         }
+        const std::string inside = at.pointer();
         for (std::size_t i = 0; i < v.size(); ++i) {
-            from_json(item[i], v[i], at + "/" + std::to_string(i), range);
+            from_json(item[i], v[i], {inside, std::to_string(i)}, range);
         }
     }
 };
@@ -1735,11 +1788,13 @@ public:
     bool end_array() override { return close(); }
 
     bool key(string_t& name) override {
-        key_ = std::move(name);
-        if (stack_.back()->contains(key_)) {
-            problems_.add("GC-RECORD-0012", pointer() + "/" + pointer_token(key_), "the key appears twice",
+        const auto [place, added] = stack_.back()->emplace(std::move(name), nullptr);
+        if (!added) {
+            problems_.add("GC-RECORD-0012", pointer() + "/" + pointer_token(place.key()), "the key appears twice",
                           "a key is used once in an object", k_restore);
         }
+        key_ = &place.key();
+        item_ = &*place;
         return true;
     }
 
@@ -1758,7 +1813,8 @@ private:
     Problems& problems_;
     std::vector<json*> stack_;
     std::vector<std::string> path_;
-    std::string key_;
+    const std::string* key_ = nullptr;  ///< of the object that is open, where the next value goes to
+    json* item_ = nullptr;
 
     [[nodiscard]] std::string pointer() const {
         std::string text;
@@ -1778,9 +1834,8 @@ private:
             parent.push_back(std::move(v));
             return &parent.back();
         }
-        json& item = parent[key_];
-        item = std::move(v);
-        return &item;
+        *item_ = std::move(v);
+        return item_;
     }
 
     bool put(json v) {
@@ -1796,7 +1851,7 @@ private:
             return false;
         }
         if (!stack_.empty()) {
-            path_.push_back(stack_.back()->is_array() ? std::to_string(stack_.back()->size()) : pointer_token(key_));
+            path_.push_back(stack_.back()->is_array() ? std::to_string(stack_.back()->size()) : pointer_token(*key_));
         }
         stack_.push_back(place(std::move(v)));
         return true;
@@ -1822,6 +1877,11 @@ std::string to_canonical_json(const EvaluationRecord& record) {
     const auto refuse = [](const std::string& at, std::string what, std::string rule) {
         Writer::refuse(at, std::move(what), std::move(rule));
     };
+    if (record.comparison) {
+        check_comparison(*record.comparison, [&](const std::string& at, std::string what, std::string rule) {
+            refuse("/comparison" + at, std::move(what), std::move(rule));
+        });
+    }
     check_results(record, refuse);
     if (record.certificate) {
         check_certificate(*record.certificate, refuse);
@@ -1874,6 +1934,11 @@ EvaluationRecord record_from_json(const std::string& text, const std::string& wh
     if (record.rotary) {
         check_rotary(*record.rotary, [&](const std::string& at, std::string what, std::string rule) {
             report("/rotary" + at, std::move(what), std::move(rule));
+        });
+    }
+    if (record.comparison) {
+        check_comparison(*record.comparison, [&](const std::string& at, std::string what, std::string rule) {
+            report("/comparison" + at, std::move(what), std::move(rule));
         });
     }
     check_results(record, report);

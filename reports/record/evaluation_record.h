@@ -3,6 +3,7 @@
 #include "certificate/certified_results.h"
 #include "gum/quantity/diagnostic.h"
 #include "reports/record/budget_evaluation.h"
+#include "reports/record/comparison_evaluation.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -311,25 +312,66 @@ struct RotaryTable {
     std::optional<FixtureBudget> fixture_budget;
 };
 
-/// One point of a comparison (ISO 13528: E_n number).
+/// One compared value: of a method against a reference method at one point, or of a laboratory for one item. Units are
+/// that of the comparison or of the item. What cannot be said is absent.
 struct ComparisonPoint {
-    std::string direction;  ///< "x", "y", "z"
-    double angle_deg = 0.0;
-    double value = 0.0, u = 0.0, U = 0.0;                                ///< from the error motions, [µm]
-    double reference_value = 0.0, reference_u = 0.0, reference_U = 0.0;  ///< [µm]
-    double D = 0.0, u_D = 0.0, U_D = 0.0, En = 0.0, zeta = 0.0;          ///< [µm], [1]
+    std::string direction = {};            ///< "x", "y", "z" of a rotary table, or what the job calls it; "" without
+    std::optional<double> angle_deg = {};  ///< rotary tables
+    double value = 0.0;
+    std::optional<double> u = {}, U = {};  ///< none: the laboratory states no uncertainty
+    double reference_value = 0.0;          ///< or the assigned value
+    std::optional<double> reference_u = {}, reference_U = {};
+    double D = 0.0;
+    std::optional<double> u_D = {}, U_D = {}, En = {}, zeta = {};
     struct {
-        std::string angle, value, U, reference_value, reference_U, D, U_D, En;
-    } printed;
+        std::string angle = {}, value = {}, U = {}, reference_value = {}, reference_U = {}, D = {}, U_D = {}, En = {};
+        std::string zeta = {}, z = {}, z_prime = {}, D_percent = {}, P_A = {}, En_audited = {}, En_worst = {}, k = {};
+    } printed = {};
+
+    std::string name = {};                                ///< of the point of a comparison of methods
+    std::optional<double> position = {};                  ///< of it, in Comparison::position_unit
+    std::string participant = {}, item = {}, round = {};  ///< between laboratories: ids
+    bool contributes = true;                              ///< to the assigned value
+    std::string reason = {};                              ///< why not
+    std::optional<double> k = {}, nu = {}, reference_k = {};
+    std::optional<double> correlation = {};  ///< r of value and reference value, as used in u_D and U_D
+    std::optional<double> z = {}, z_prime = {}, D_percent = {}, P_A = {};
+    std::optional<double> En_worst = {};    ///< for the worst plausible correlation, where r is not known
+    std::optional<double> En_audited = {};  ///< with findings on the uncertainties corrected
+    std::string signal = {};                ///< "none", "warning", "action" of the score that decides; "" without score
+    std::string realism = {};  ///< of u: "plausible", "small", "large" against u(X) and 1.5 s*; "" where not judged
+    std::optional<double> U_over_CMC = {};
+    std::optional<double> U_over_median = {};  ///< of the U of all other laboratories
 };
 
+/// Companion numbers of several scores.
 struct ComparisonSummary {
-    std::string direction;  ///< "x", "y", "z" or "all"
+    std::string direction;  ///< "x", "y", "z", "all" …; the key in the record
     std::int64_t points = 0, count_above_1 = 0;
     double mean_abs_En = 0.0, max_abs_En = 0.0, rms_En = 0.0;
     struct {
-        std::string mean_abs_En, max_abs_En, rms_En;
-    } printed;
+        std::string mean_abs_En = {}, max_abs_En = {}, rms_En = {};
+        std::string rms_En_low = {}, rms_En_high = {}, p_low = {}, p_high = {}, D_fail = {}, D_fail_largest = {};
+        std::string effective_points = {}, p_mahalanobis = {}, vector_En = {}, ratio_reference = {};
+        std::string max_abs_En_worst = {}, mean_abs_En_audited = {}, max_abs_En_audited = {};
+        std::string published_mean_abs_En = {};
+    } printed = {};
+    std::optional<double> rms_En_low = {}, rms_En_high = {};  ///< 95 % band where uncertainties are right
+    std::optional<double> p_low = {}, p_high = {};            ///< given the correlations of the points
+    std::optional<double> D_fail = {};  ///< smallest U_D of the points: the smallest deviation that would have failed
+    std::optional<double> D_fail_largest = {};
+    std::optional<double> effective_points = {};
+    std::optional<double> mahalanobis_square = {}, p_mahalanobis = {}, vector_En = {};
+    std::optional<std::int64_t> rank = {};
+    std::optional<double> ratio_reference = {};  ///< rms U of the reference / rms U of the method
+    std::optional<double> max_abs_En_worst = {};
+    std::optional<std::int64_t> count_above_1_worst = {};
+    std::optional<double> mean_abs_En_audited = {}, max_abs_En_audited = {};
+    std::optional<std::int64_t> count_above_1_audited = {};
+    std::optional<double> published_mean_abs_En = {};  ///< of a publication that the job names
+    std::string verdict = {};  ///< "validated", "agreement_reference_limited", "uncertainty_too_large",
+                               ///< "reference_not_better", "correlation_unknown", "disagreement"; "" where not judged
+    std::optional<BiasLineSummary> bias = {};
 };
 
 struct Comparison {
@@ -339,6 +381,25 @@ struct Comparison {
     std::vector<ComparisonPoint> points;
     std::vector<ComparisonSummary> summary;  ///< one a direction, then "all"
     std::vector<std::string> remarks;        ///< what the numbers can and cannot tell
+
+    std::string form = "rotary_table";  ///< "rotary_table", "methods" or "laboratories"
+    std::string method_name = {};       ///< of the laboratory's side in a comparison of methods
+    std::string unit = "um";            ///< of a comparison of methods
+    std::string position_name = {}, position_unit = {};
+    std::string organiser = {};
+    std::vector<BudgetRow> method_budget = {};  ///< of one value of the laboratory's side, where a budget job gives it
+    std::string correlation = {};               ///< of the two methods: "none", "given", "unknown", "shared_sources"
+    std::optional<double> correlation_given = {};
+    std::vector<SharedSource> shared_sources = {};
+    std::string audit_finding = {};  ///< what En_audited corrects; findings of both sides one after the other
+    std::string published_source = {};
+    std::optional<double> tolerance = {};
+    std::string printed_tolerance = {};
+
+    std::vector<ComparisonItemEvaluation> items = {};  ///< form "laboratories"
+    std::vector<ParticipantSummary> participants = {};
+    std::vector<VectorScore> vectors = {};
+    std::vector<YoudenDiagram> youden = {};
 };
 
 struct Software {
@@ -359,7 +420,7 @@ struct EvaluationRecord {
     static constexpr const char* k_schema = "gumcert/record/1";
 
     Software software;
-    std::string kind;  ///< "rotary_table"
+    std::string kind;  ///< "budget", "rotary_table" or "comparison"
     std::string title;
     double coverage_probability = 0.9545;
     std::string printed_coverage;  ///< "95.45 %"

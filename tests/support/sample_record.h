@@ -453,19 +453,19 @@ inline reports::EvaluationRecord sample_record() {
             p.reference_u = 0.63;
             p.reference_U = 1.26;
             p.D = p.value - p.reference_value;
-            p.u_D = std::hypot(p.u, p.reference_u);
-            p.U_D = 2.0 * p.u_D;
+            p.u_D = std::hypot(*p.u, *p.reference_u);
+            p.U_D = 2.0 * *p.u_D;
             p.En =
-                p.D / p.U_D * (i == 9 && p.direction == "z" ? 1.9 : 1.0) - (i == 30 && p.direction == "x" ? 0.9 : 0.0);
-            p.zeta = 2.0 * p.En;
-            p.printed = {.angle = decimals(p.angle_deg, 0),
+                p.D / *p.U_D * (i == 9 && p.direction == "z" ? 1.9 : 1.0) - (i == 30 && p.direction == "x" ? 0.9 : 0.0);
+            p.zeta = 2.0 * *p.En;
+            p.printed = {.angle = decimals(*p.angle_deg, 0),
                          .value = decimals(p.value, 2),
-                         .U = decimals(p.U, 2),
+                         .U = decimals(*p.U, 2),
                          .reference_value = decimals(p.reference_value, 1),
-                         .reference_U = decimals(p.reference_U, 1),
+                         .reference_U = decimals(*p.reference_U, 1),
                          .D = decimals(p.D, 1),
-                         .U_D = decimals(p.U_D, 1),
-                         .En = decimals(p.En, 2)};
+                         .U_D = decimals(*p.U_D, 1),
+                         .En = decimals(*p.En, 2)};
             c.points.push_back(p);
         }
     }

@@ -142,6 +142,86 @@ TEST(Scores, RefuseWhatGivesNoScore) {
               "a score divides by it, so it must be greater than 0 — State the uncertainty of at least one side.");
 }
 
+TEST(WorstPlausibleEn, AllOfTheSmallerUncertaintyIsCommon) {
+    // D = 1, U_x = 1, U_X = 0.8: r = 0.8 is both the worst of the examples above and the plausible limit.
+    const ComparedValue laboratory = with_k_2(1.0, 1.0);
+    const ComparedValue reference = with_k_2(0.0, 0.8);
+    EXPECT_TRUE(prints_as(*worst_plausible_en(laboratory, reference), "1.667"));
+    EXPECT_DOUBLE_EQ(*worst_plausible_en(laboratory, reference), score(laboratory, reference, 0.8).en);
+    EXPECT_DOUBLE_EQ(*worst_plausible_en(reference, laboratory), -score(laboratory, reference, 0.8).en);
+}
+
+TEST(WorstPlausibleEn, HasNoBoundForEqualUncertainties) {
+    EXPECT_FALSE(worst_plausible_en(with_k_2(1.0, 0.5), with_k_2(0.0, 0.5)));
+    EXPECT_EQ(*worst_plausible_en(with_k_2(1.0, 0.5), with_k_2(0.0, 0.0)), 2.0);  // nothing can be common
+    EXPECT_EQ(code_of<InputError>([] { (void)worst_plausible_en({1.0, 0.0, 0.0}, {0.0, 0.0, 0.0}); }), "GC-GUM-0031");
+}
+
+/// ISO 13528:2022, E.4, tables E.6 and E.7: mercury in feed.
+struct PublishedScores {
+    const char* laboratory;
+    double x, U, k;
+    const char *percent, *allowed, *z, *z_prime, *zeta, *en;
+};
+constexpr std::array<PublishedScores, 11> k_mercury{
+    {{"L04", 0.013, 0.003, 2, "-70.5", "-156.6", "-4.70", "-3.99", "-7.10", "-3.55"},
+     {"L23", 0.0135, 0.00108, 1.732, "-69.3", "-154.0", "-4.62", "-3.93", "-7.35", "-3.69"},
+     {"L15", 0.014, 0.0005, 2, "-68.2", "-151.5", "-4.55", "-3.86", "-7.30", "-3.65"},
+     {"L09", 0.017, 0.008, 2, "-61.4", "-136.4", "-4.09", "-3.47", "-4.71", "-2.36"},
+     {"L12", 0.0239, 0.0036, 2, "-45.7", "-101.5", "-3.05", "-2.59", "-4.49", "-2.24"},
+     {"L29", 0.039, 0.007, 2, "-11.4", "-25.3", "-0.76", "-0.64", "-0.93", "-0.46"},
+     {"L21", 0.04, 0.03, 2, "-9.1", "-20.2", "-0.61", "-0.51", "-0.26", "-0.13"},
+     {"L16", 0.0424, 0.008, 2, "-3.6", "-8.1", "-0.24", "-0.21", "-0.28", "-0.14"},
+     {"L10", 0.045, 0.007, 2, "2.3", "5.1", "0.15", "0.13", "0.19", "0.09"},
+     {"L18", 0.046, 0.007, 2, "4.5", "10.1", "0.30", "0.26", "0.37", "0.19"},
+     {"L01", 0.053, 0.007, 2, "20.5", "45.5", "1.36", "1.16", "1.67", "0.83"}}};
+
+TEST(Scores, OfMercuryInFeed) {
+    const ComparedValue assigned{.value = 0.044, .standard_uncertainty = 0.0041, .expanded_uncertainty = 0.0082};
+    for (const PublishedScores& of : k_mercury) {
+        const ComparedValue laboratory{
+            .value = of.x, .standard_uncertainty = of.U / of.k, .expanded_uncertainty = of.U};
+        const ComparisonScore scores = score(laboratory, assigned);
+        EXPECT_TRUE(prints_as(*percent_difference(of.x, assigned.value), of.percent)) << of.laboratory;
+        EXPECT_TRUE(prints_as(percent_of_allowed(of.x, assigned.value, 0.0198), of.allowed)) << of.laboratory;
+        EXPECT_TRUE(prints_as(z_score(of.x, assigned.value, 0.0066), of.z)) << of.laboratory;
+        EXPECT_TRUE(prints_as(z_prime_score(of.x, assigned.value, 0.0066, 0.0041), of.z_prime)) << of.laboratory;
+        EXPECT_TRUE(prints_as(scores.zeta, of.zeta)) << of.laboratory;
+        EXPECT_TRUE(prints_as(scores.en, of.en)) << of.laboratory;
+        const bool far_off = of.x < 0.03;
+        EXPECT_EQ(signal_of_en(scores.en), far_off ? Signal::action : Signal::none) << of.laboratory;
+        EXPECT_EQ(signal_of_z(z_score(of.x, assigned.value, 0.0066)), far_off ? Signal::action : Signal::none);
+    }
+}
+
+TEST(Scores, PercentKeepsTheSignOfTheDifference) {
+    EXPECT_DOUBLE_EQ(*percent_difference(-9.0, -10.0), 10.0);
+    EXPECT_FALSE(percent_difference(1.0, 0.0));
+}
+
+TEST(Scores, ZPrimeAtTheLimitOfTheCriterion) {
+    // u(X) = 0.3 sigma_pt: z' = 0.958 z.
+    EXPECT_TRUE(prints_as(z_prime_score(1.0, 0.0, 1.0, 0.3) / z_score(1.0, 0.0, 1.0), "0.958"));
+}
+
+TEST(Signals, BeginAtTheirLimits) {
+    EXPECT_EQ(signal_of_z(1.999), Signal::none);
+    EXPECT_EQ(signal_of_z(-2.0), Signal::warning);
+    EXPECT_EQ(signal_of_z(2.999), Signal::warning);
+    EXPECT_EQ(signal_of_z(-3.0), Signal::action);
+    EXPECT_EQ(signal_of_en(-1.0), Signal::none);
+    EXPECT_EQ(signal_of_en(1.0000001), Signal::action);
+    EXPECT_EQ(code_of<InputError>([] { (void)signal_of_z(std::nan("")); }), "GC-GUM-0001");
+    EXPECT_EQ(code_of<InputError>([] { (void)signal_of_en(std::nan("")); }), "GC-GUM-0001");
+}
+
+TEST(Scores, RefuseWhatDividesByNothing) {
+    EXPECT_EQ(code_of<InputError>([] { (void)z_score(1.0, 0.0, 0.0); }), "GC-GUM-0003");
+    EXPECT_EQ(code_of<InputError>([] { (void)z_prime_score(1.0, 0.0, 1.0, -0.1); }), "GC-GUM-0002");
+    EXPECT_EQ(code_of<InputError>([] { (void)percent_of_allowed(1.0, 0.0, 0.0); }), "GC-GUM-0003");
+    EXPECT_EQ(code_of<InputError>([] { (void)percent_difference(std::nan(""), 1.0); }), "GC-GUM-0001");
+}
+
 TEST(Summary, CompanionNumbers) {
     std::vector<ComparisonScore> points;
     for (const double difference : {0.3, -0.4, 1.2, -2.0}) {

@@ -4,6 +4,7 @@
 #include "reports/certificate_view.h"
 #include "reports/render.h"
 #include "reports/wording.h"
+#include "tests/support/sample_comparison_record.h"
 #include "tests/unit/reports/certified_sample.h"
 #include "tests/unit/reports/document_text.h"
 
@@ -80,10 +81,9 @@ std::string sign_of(const std::string& language) {
 }
 
 std::vector<std::pair<std::string, EvaluationRecord>> all_records() {
-    return {{"rotary", test::certified_rotary_record()},
-            {"budget", test::certified_budget_record()},
-            {"rotary specimen", test::sample_record()},
-            {"budget specimen", test::sample_budget_record()}};
+    return {{"rotary", test::certified_rotary_record()},          {"budget", test::certified_budget_record()},
+            {"rotary specimen", test::sample_record()},           {"budget specimen", test::sample_budget_record()},
+            {"laboratories", test::sample_laboratories_record()}, {"methods", test::sample_methods_record()}};
 }
 
 /// What is in one and not in the other, to say where two documents differ.

@@ -101,6 +101,13 @@ Files complete_campaign(bool with_budget = false) {
         }
         files["covariance.csv"] += "\n";
     }
+    replace(job, "\"description\"",
+            with_budget ? R"("budget": "indicator_budget.json", "correlation": 0.25, "description")"
+                        : R"("correlation": "none", "published": {"source": "a paper",
+        "mean_abs_En": {"x": 0.77, "y": 0.39, "z": 0.32}}, "audited": {"factor": 0.5, "finding": "f"}, "description")");
+    files["dial_indicator.csv"] += "z,0.0,1,0.5\n";
+    files["indicator_budget.json"] = R"({"schema": "gumcert/job/1", "kind": "budget", "model": ["X = reading + d"],
+        "inputs": {"reading": {"value": 0, "unit": "um", "constant": true}, "d": {"value": 0, "unit": "um", "u": 1}}})";
     files["fixture_budget.json"] = test::small_fixture_budget();
     files["fixture_points.csv"] = test::small_fixture_points();
     return files;
@@ -255,6 +262,10 @@ TEST_F(JobSchemaTest, AgreesWithTheReaderOnValues) {
         {"/outliers/alpha", {"0.49", "0.5", "0"}},
         {"/outliers/action", {"\"report\"", "\"remove\"", "\"keep\""}},
         {"/reference_method/name", {"\"n\"", "\"\""}},
+        {"/reference_method/correlation", {"-1", "0.5", "1.5", "\"unknown\"", "\"some\"", "true"}},
+        {"/reference_method/published/mean_abs_En", {"{\"z\": 1}", "{}"}},
+        {"/reference_method/published/mean_abs_En/x", {"0", "-1"}},
+        {"/reference_method/audited/factor", {"2", "0", "1001"}},
         {"/certificate", {"{}", "1", "\"\"", "\"/certificate.json\""}},
         {"/monte_carlo/trials", {"1e6", "0", "1e11", "1000000.5"}},
         {"/length_uncertainty/resolution_um", {"0", "0.1", "-0.1"}},

@@ -1,5 +1,6 @@
 #include "reports/record/evaluation_record.h"
 #include "tests/support/sample_budget_record.h"
+#include "tests/support/sample_comparison_record.h"
 #include "tests/support/sample_record.h"
 
 #define VALIJSON_USE_EXCEPTIONS 1
@@ -101,6 +102,57 @@ TEST_F(RecordSchema, RefusesBudgetsThatTheReaderRefuses) {
     }
 }
 
+TEST_F(RecordSchema, AcceptsComparisons) {
+    for (const EvaluationRecord& r : {test::sample_laboratories_record(), test::sample_methods_record()}) {
+        EXPECT_TRUE(accepts(json::parse(to_canonical_json(r)))) << messages_;
+    }
+}
+
+TEST_F(RecordSchema, RefusesComparisonsThatTheReaderRefuses) {
+    const json between = json::parse(to_canonical_json(test::sample_laboratories_record()));
+    const json methods = json::parse(to_canonical_json(test::sample_methods_record()));
+    const std::vector<std::pair<const json*, std::function<void(json&)>>> breaks = {
+        {&between, [](json& c) { c["items"][0].erase("value"); }},
+        {&between, [](json& c) { c["items"][0]["u"] = -0.1; }},
+        {&between, [](json& c) { c["items"][0]["k"] = 0; }},
+        {&between, [](json& c) { c["items"][0]["score"] = "Q"; }},
+        {&between, [](json& c) { c["items"][0]["missing"] = "L006"; }},
+        {&between, [](json& c) { c["items"][0]["weights"][0]["share"] = 1; }},
+        {&between, [](json& c) { c["items"][0]["consistency"]["p_value"] = 1.2; }},
+        {&between, [](json& c) { c["items"][0]["consistency"]["pairs"] = 1.5; }},
+        {&between, [](json& c) { c["items"][0]["estimates"][1]["used"] = "no"; }},
+        {&between, [](json& c) { c["items"][0]["homogeneity"]["s_s"] = nullptr; }},
+        {&between, [](json& c) { c["items"][0]["stability"].erase("stable"); }},
+        {&between, [](json& c) { c["items"][0]["consensus"]["printed"]["ratio"] = 1; }},
+        {&between, [](json& c) { c["items"][0]["pairs"][0]["U"] = -1; }},
+        {&between, [](json& c) { c["points"][0]["signal"] = "alarm"; }},
+        {&between, [](json& c) { c["points"][0]["realism"] = "good"; }},
+        {&between, [](json& c) { c["points"][0]["contributes"] = 1; }},
+        {&between, [](json& c) { c["points"][0]["nu"] = 0; }},
+        {&between, [](json& c) { c["points"][0]["correlation"] = 1.1; }},
+        {&between, [](json& c) { c["participants"][0]["p_low"] = -0.1; }},
+        {&between, [](json& c) { c["vectors"][0].erase("quantities"); }},
+        {&between, [](json& c) { c["youden"][0]["ellipse"][0].push_back(1); }},
+        {&between, [](json& c) { c["youden"][0]["correlation"] = -1.5; }},
+        {&between, [](json& c) { c["youden"][0]["points"][0].erase("first"); }},
+        {&between, [](json& c) { c["shared_sources"][0]["correlation"] = 2; }},
+        {&methods, [](json& c) { c["correlation"] = "guessed"; }},
+        {&methods, [](json& c) { c["correlation_given"] = 1.5; }},
+        {&methods, [](json& c) { c["tolerance"] = -1; }},
+        {&methods, [](json& c) { c["summary"]["up"]["verdict"] = "passed"; }},
+        {&methods, [](json& c) { c["summary"]["up"]["p_high"] = 2; }},
+        {&methods, [](json& c) { c["summary"]["up"]["bias"]["against"] = "time"; }},
+        {&methods, [](json& c) { c["summary"]["up"]["bias"].erase("slope"); }},
+        {&methods, [](json& c) { c["summary"]["up"]["printed"]["D_fail"] = 1.3; }},
+    };
+    for (std::size_t i = 0; i < breaks.size(); ++i) {
+        json broken = *breaks[i].first;
+        breaks[i].second(broken["comparison"]);
+        EXPECT_FALSE(accepts(broken)) << "break " << i;
+        EXPECT_THROW(static_cast<void>(record_from_json(broken.dump(), "x")), gum::InputError) << "break " << i;
+    }
+}
+
 TEST_F(RecordSchema, RefusesWhatTheReaderRefuses) {
     const json whole = json::parse(to_canonical_json(test::sample_record()));
     const std::vector<std::function<void(json&)>> breaks = {
@@ -136,7 +188,9 @@ TEST_F(RecordSchema, RefusesWhatTheReaderRefuses) {
         [](json& r) { r["rotary"]["external_reliability"][0]["extra"] = 1; },
         [](json& r) { r["rotary"]["monte_carlo"]["trials"] = 0; },
         [](json& r) { r["rotary"]["fixture_budget"]["method"] = "guess"; },
-        [](json& r) { r["comparison"]["summary"]["w"] = r["comparison"]["summary"]["x"]; },
+        [](json& r) { r["comparison"]["summary"]["x"] = 1; },
+        [](json& r) { r["comparison"]["summary"]["x"]["order"] = -1; },
+        [](json& r) { r["comparison"]["form"] = "proficiency"; },
         [](json& r) { r["comparison"]["points"][0]["U_D"] = -1; },
         [](json& r) { r["diagnostics"][0]["severity"] = "fatal"; },
     };

@@ -1,0 +1,272 @@
+#include "app/assigned_value.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/shared_sources.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/random_effects.h"
+#include "gum/robust_statistics.h"
+
+namespace gumcert::app {
+
+namespace {
+
+using engine::AssignedValueMethod;
+
+[[noreturn]] void refuse(const std::string& code, const std::string& where, const std::string& what,
+                         const std::string& rule, const std::string& action) {
+    throw gum::InputError(gum::Diagnostic{.code = code, .where = where, .what = what, .rule = rule, .action = action});
+}
+
+std::string word_of(AssignedValueMethod method) {
+    return std::string(engine::assigned_value_words()[static_cast<std::size_t>(method)]);
+}
+
+bool takes_uncertainties(const engine::AssignedValueRequest& request) {
+    switch (request.method) {
+        case AssignedValueMethod::weighted_mean:
+        case AssignedValueMethod::largest_consistent_subset:
+        case AssignedValueMethod::dersimonian_laird:
+        case AssignedValueMethod::mandel_paule:
+        case AssignedValueMethod::power_moderated_mean:
+            return true;
+        case AssignedValueMethod::median:
+            return request.median_by_trials;
+        default:
+            return false;
+    }
+}
+
+bool takes_independent_results(AssignedValueMethod method) {
+    return method == AssignedValueMethod::dersimonian_laird || method == AssignedValueMethod::mandel_paule ||
+           method == AssignedValueMethod::power_moderated_mean || method == AssignedValueMethod::vangel_rukhin;
+}
+
+/// Names of some participants for a message.
+std::string names_of(const engine::ComparisonJob& job, const LaboratoryData& data,
+                     const std::vector<std::size_t>& positions) {
+    constexpr std::size_t k_most_names = 5;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(positions.size(), k_most_names); ++i) {
+        names += (i > 0 ? ", " : "") + job.participants[data.results[positions[i]]->participant].id;
+    }
+    return positions.size() > k_most_names ? names + " and " + std::to_string(positions.size() - k_most_names) + " more"
+                                           : names;
+}
+
+void require_usable(const engine::ComparisonJob& job, const LaboratoryData& data) {
+    const engine::AssignedValueRequest& request = data.item->assigned_value;
+    const std::string method = word_of(request.method);
+    if (data.contributing.empty()) {
+        refuse("GC-COMPARE-0100", data.where, "no result is left that contributes to the assigned value",
+               method + " is computed from the results", "Let results contribute, or give an assigned value.");
+    }
+    if (takes_uncertainties(request) && !data.all_have_u(data.contributing)) {
+        std::vector<std::size_t> without;
+        std::copy_if(data.contributing.begin(), data.contributing.end(), std::back_inserter(without),
+                     [&](std::size_t i) { return !data.has_u(i); });
+        refuse("GC-COMPARE-0101", data.where, "no uncertainty is stated by " + names_of(job, data, without),
+               method + " weighs results by their uncertainties",
+               "State u, or U and k, let these results not contribute, or take median or algorithm_a.");
+    }
+    if (takes_independent_results(request.method) && data.at(data.contributing).covariance.size() > 0) {
+        refuse("GC-COMPARE-0102", data.where, "results that contribute are correlated with each other",
+               method + " takes them as independent, and its uncertainty would be too small",
+               "Take weighted_mean or largest_consistent_subset, or let only one of them contribute.");
+    }
+}
+
+Eigen::Index size_of(const LaboratoryData& data) {
+    return static_cast<Eigen::Index>(data.size());
+}
+
+/// A value that is linear in the results: weights, and covariance with every result.
+AssignedValue linear_value(const LaboratoryData& data, const std::vector<std::size_t>& positions,
+                           const gum::ReferenceValue& reference) {
+    AssignedValue assigned;
+    assigned.value = reference.value;
+    assigned.u = reference.u;
+    assigned.weights = Eigen::VectorXd::Zero(size_of(data));
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        assigned.weights[static_cast<Eigen::Index>(positions[i])] = reference.weights[static_cast<Eigen::Index>(i)];
+    }
+    assigned.covariance = Eigen::VectorXd::Zero(size_of(data));
+    std::vector<std::size_t> with_u;
+    for (std::size_t i = 0; i < data.size(); ++i) {
+        if (data.has_u(i)) {
+            with_u.push_back(i);
+        }
+    }
+    if (with_u.size() >= 2 && reference.u > 0.0) {
+        gum::ReferenceValue of_all = reference;
+        of_all.weights = assigned.weights(with_u);
+        const gum::DegreesOfEquivalence degrees = gum::degrees_of_equivalence(data.at(with_u), of_all);
+        for (std::size_t i = 0; i < with_u.size(); ++i) {
+            const auto at = static_cast<Eigen::Index>(with_u[i]);
+            assigned.covariance[at] = degrees.correlation[static_cast<Eigen::Index>(i)] * data.u[at] * reference.u;
+        }
+    }
+    return assigned;
+}
+
+AssignedValue robust_value(const LaboratoryData& data, const gum::RobustEstimate& estimate) {
+    AssignedValue assigned;
+    assigned.value = estimate.location;
+    // A scale of 0 says that more than half of the results are equal, not that the value is exactly known.
+    assigned.u = estimate.scale > 0.0 ? std::optional(estimate.u) : std::nullopt;
+    assigned.correlation_known = false;
+    assigned.covariance = Eigen::VectorXd::Zero(size_of(data));
+    return assigned;
+}
+
+AssignedValue median_by_trials(const engine::ComparisonJob& job, const LaboratoryData& data) {
+    const engine::AssignedValueRequest& request = data.item->assigned_value;
+    const gum::MedianTrials trials =
+        gum::median_trials(data.at(data.contributing), request.trials, request.seed, job.coverage_probability);
+    AssignedValue assigned;
+    assigned.value = trials.median;
+    assigned.u = trials.u;
+    assigned.covariance = Eigen::VectorXd::Zero(size_of(data));
+    for (std::size_t i = 0; i < data.contributing.size(); ++i) {
+        // u²(x_i − y) = u_i² + u²(y) − 2 cov(x_i, y), all three over the same trials.
+        const auto at = static_cast<Eigen::Index>(data.contributing[i]);
+        const double u_d = trials.u_d[static_cast<Eigen::Index>(i)];
+        assigned.covariance[at] = 0.5 * (data.u[at] * data.u[at] + trials.u * trials.u - u_d * u_d);
+    }
+    return assigned;
+}
+
+AssignedValue largest_subset(const LaboratoryData& data, double alpha) {
+    const gum::ConsistentSubset subset = gum::largest_consistent_subset(data.at(data.contributing), alpha);
+    AssignedValue assigned = linear_value(data, data.contributing, subset.mean);
+    for (std::size_t i = 0; i < data.contributing.size(); ++i) {
+        if (!std::binary_search(subset.members.begin(), subset.members.end(), i)) {
+            assigned.not_consistent.push_back(data.contributing[i]);
+        }
+    }
+    assigned.subset = subset.test;
+    assigned.subset_unique = subset.unique;
+    return assigned;
+}
+
+AssignedValue value_of_reference_laboratory(const LaboratoryData& data) {
+    const engine::ComparisonResult& result = *data.results[*data.reference];
+    const auto at = static_cast<Eigen::Index>(*data.reference);
+    AssignedValue assigned;
+    assigned.value = result.value;
+    assigned.u = result.uncertainty->u;
+    assigned.degrees_of_freedom = result.uncertainty->degrees_of_freedom;
+    assigned.stated = result.uncertainty;
+    assigned.weights = Eigen::VectorXd::Zero(size_of(data));
+    assigned.weights[at] = 1.0;
+    assigned.covariance = Eigen::VectorXd::Zero(size_of(data));
+    if (data.covariance.size() > 0) {
+        assigned.covariance = data.covariance.col(at);
+    }
+    assigned.covariance[at] = data.u[at] * data.u[at];
+    return assigned;
+}
+
+AssignedValue given_value(const engine::ComparisonJob& job, const LaboratoryData& data) {
+    const engine::AssignedValueRequest& request = data.item->assigned_value;
+    AssignedValue assigned;
+    assigned.value = request.value;
+    assigned.u = request.uncertainty ? request.uncertainty->u : 0.0;
+    assigned.stated = request.uncertainty;
+    if (request.uncertainty) {
+        assigned.degrees_of_freedom = request.uncertainty->degrees_of_freedom;
+    }
+    assigned.covariance = Eigen::VectorXd::Zero(size_of(data));
+    for (std::size_t i = 0; !request.sources.empty() && i < data.size(); ++i) {
+        for (const SourceCovariance& shared :
+             shared_covariance(data.results[i]->sources, request.sources, job.independent_sources)) {
+            assigned.covariance[static_cast<Eigen::Index>(i)] += shared.covariance;
+        }
+    }
+    return assigned;
+}
+
+AssignedValue mean_of_replicates(const LaboratoryData& data) {
+    const std::optional<Replicates> stated = replicates(data);
+    if (!stated) {
+        refuse("GC-COMPARE-0105", data.where,
+               "not every result states the standard deviation s and the number n of its observations",
+               "vangel_rukhin is computed from them", "State s and n ≥ 2 of every result, or take mandel_paule.");
+    }
+    return linear_value(data, data.contributing, gum::vangel_rukhin({stated->x, stated->s, stated->observations}));
+}
+
+AssignedValue consensus(const engine::ComparisonJob& job, const LaboratoryData& data) {
+    const engine::AssignedValueRequest& request = data.item->assigned_value;
+    const std::vector<std::size_t>& chosen = data.contributing;
+    const Eigen::VectorXd x = data.values(chosen);
+    const std::span<const double> values(x.data(), static_cast<std::size_t>(x.size()));
+    switch (request.method) {
+        case AssignedValueMethod::arithmetic_mean: {
+            AssignedValue mean = linear_value(data, chosen, gum::arithmetic_mean(x));
+            mean.degrees_of_freedom = static_cast<double>(chosen.size() - 1);
+            return mean;
+        }
+        case AssignedValueMethod::median:
+            return request.median_by_trials ? median_by_trials(job, data)
+                                            : robust_value(data, gum::median_with_made(values));
+        case AssignedValueMethod::algorithm_a:
+            return robust_value(
+                data, gum::algorithm_a(values, request.exact_constants ? gum::AlgorithmAConstants::exact
+                                                                       : gum::AlgorithmAConstants::published));
+        case AssignedValueMethod::q_hampel:
+            return robust_value(data, gum::q_hampel(values));
+        case AssignedValueMethod::largest_consistent_subset:
+            return largest_subset(data, request.alpha);
+        case AssignedValueMethod::dersimonian_laird:
+            return linear_value(data, chosen, gum::dersimonian_laird(data.at(chosen)));
+        case AssignedValueMethod::mandel_paule:
+            return linear_value(data, chosen, gum::mandel_paule(data.at(chosen)));
+        case AssignedValueMethod::vangel_rukhin:
+            return mean_of_replicates(data);
+        case AssignedValueMethod::power_moderated_mean:
+            return linear_value(data, chosen,
+                                request.power ? gum::power_moderated_mean(data.at(chosen), *request.power)
+                                              : gum::power_moderated_mean(data.at(chosen)));
+        default:
+            return linear_value(data, chosen, gum::weighted_mean(data.at(chosen)));
+    }
+}
+
+}  // namespace
+
+AssignedValue assigned_value(const engine::ComparisonJob& job, const LaboratoryData& data) {
+    const AssignedValueMethod method = data.item->assigned_value.method;
+    AssignedValue assigned;
+    at_item(data.where, [&] {
+        if (method == AssignedValueMethod::reference) {
+            assigned = value_of_reference_laboratory(data);
+        } else if (method == AssignedValueMethod::given) {
+            assigned = given_value(job, data);
+        } else {
+            require_usable(job, data);
+            assigned = consensus(job, data);
+        }
+    });
+    return assigned;
+}
+
+std::optional<Replicates> replicates(const LaboratoryData& data) {
+    Replicates stated;
+    const auto n = static_cast<Eigen::Index>(data.contributing.size());
+    stated.x.resize(n);
+    stated.s.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const engine::ComparisonResult& result = *data.results[data.contributing[static_cast<std::size_t>(i)]];
+        if (!result.standard_deviation || !(*result.standard_deviation > 0.0) || result.observations < 2) {
+            return std::nullopt;
+        }
+        stated.x[i] = result.value;
+        stated.s[i] = *result.standard_deviation;
+        stated.observations.push_back(result.observations);
+    }
+    return n < 2 ? std::nullopt : std::optional(stated);
+}
+
+}  // namespace gumcert::app

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "app/laboratory_data.h"
+#include "gum/reference_value.h"
+
+namespace gumcert::app {
+
+/// Assigned value of an item as its results, a laboratory or the job characterise it; what homogeneity and stability of
+/// the item add is not in it. Positions are those of LaboratoryData.
+struct AssignedValue {
+    double value = 0.0;
+    std::optional<double> u;  ///< 0: taken as exactly known; none: cannot be stated
+    double degrees_of_freedom = std::numeric_limits<double>::infinity();
+    std::optional<engine::ResultUncertainty> stated;  ///< where one result, or the job, states it
+    /// n, where the value is linear in the results, y = Σ w_i x_i; empty else
+    Eigen::VectorXd weights;
+    /// False for a consensus that is not linear in the results: how it correlates with them is not computed.
+    bool correlation_known = true;
+    Eigen::VectorXd covariance;                  ///< n, cov(x_i, X)
+    std::vector<std::size_t> not_consistent;     ///< contributing results outside the largest consistent subset
+    std::optional<gum::ConsistencyTest> subset;  ///< test of the largest consistent subset
+    bool subset_unique = true;
+};
+
+/// The assigned value by the method that the item asks for.
+///
+/// \throws InputError     GC-COMPARE-0100 no result left, -0101 a method by uncertainties and results without one,
+/// -0102
+///                        a method for independent results and correlated ones, -0105 results without the number and
+///                        standard deviation of observations; those of gum, with the item in `where`
+/// \throws NoResultError  those of gum: a singular covariance, no consistent results, no convergence
+[[nodiscard]] AssignedValue assigned_value(const engine::ComparisonJob& job, const LaboratoryData& data);
+
+/// Means and standard deviations of single observations of the contributing results, for Vangel and Rukhin; nothing
+/// where one of them states none.
+struct Replicates {
+    Eigen::VectorXd x, s;
+    std::vector<std::size_t> observations;
+};
+[[nodiscard]] std::optional<Replicates> replicates(const LaboratoryData& data);
+
+}  // namespace gumcert::app

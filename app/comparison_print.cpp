@@ -1,0 +1,49 @@
+#include "app/comparison_print.h"
+
+#include "app/record_parts.h"
+#include "gum/rounding.h"
+
+namespace gumcert::app {
+
+namespace {
+
+constexpr int k_digits_of_u = 2;
+constexpr int k_digits_without_u = 4;
+constexpr int k_decimals_of_score = 2;
+
+/// No negative zero.
+std::string all_digits(double value) {
+    return shortest(value == 0.0 ? 0.0 : value);
+}
+
+}  // namespace
+
+std::string printed_value(double value, const std::optional<double>& U) {
+    return U && *U > 0.0 ? gum::round_to_uncertainty(value, *U, k_digits_of_u).value : all_digits(value);
+}
+
+std::string printed_difference(double difference, const std::optional<double>& U, const std::optional<double>& scale) {
+    if (U && *U > 0.0) {
+        return printed_value(difference, U);
+    }
+    return scale && *scale > 0.0 ? printed_value(difference, scale)
+                                 : gum::round_significant(difference, k_digits_without_u);
+}
+
+std::string printed_uncertainty(const std::optional<double>& u) {
+    return u ? gum::round_significant(*u, k_digits_of_u) : "";
+}
+
+std::string printed_as_stated(const std::optional<double>& number) {
+    return number ? all_digits(*number) : "";
+}
+
+std::string printed_score(const std::optional<double>& score) {
+    return score ? gum::round_to_quantum(*score, k_decimals_of_score) : "";
+}
+
+std::string printed_probability(const std::optional<double>& probability) {
+    return probability ? gum::round_significant(*probability, k_digits_of_u) : "";
+}
+
+}  // namespace gumcert::app

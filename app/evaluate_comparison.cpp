@@ -1,0 +1,60 @@
+#include "app/evaluate_comparison.h"
+
+#include <nlohmann/json.hpp>
+
+#include "app/laboratory_covariance.h"
+#include "app/laboratory_estimates.h"
+#include "app/laboratory_notes.h"
+#include "app/record_parts.h"
+#include "gum/proficiency_scheme.h"
+
+namespace gumcert::app {
+
+namespace {
+
+/// Limits and constants in force that the job does not state.
+nlohmann::json options_of(const engine::ComparisonJob& job) {
+    if (job.methods) {
+        return {{"form", "methods"}};
+    }
+    return {{"form", "laboratories"},
+            {"assigned_value_criterion", gum::k_assigned_value_criterion},
+            {"metrological_compatibility_kappa", 2.0},
+            {"most_laboratories_in_pairs", k_most_laboratories_in_pairs},
+            {"most_results_of_pair_count", k_most_results_of_pair_count},
+            {"most_correlated_laboratories", k_most_correlated_laboratories},
+            {"youden_ellipse_probability", 0.95}};
+}
+
+/// A job of this kind may carry certificate data by mistake.
+std::vector<gum::Diagnostic> notes_on(const engine::ComparisonJob& job, const reports::Comparison& comparison) {
+    std::vector<gum::Diagnostic> notes;
+    if (!job.methods) {
+        notes = laboratory_diagnostics(comparison);
+    }
+    if (job.certificate) {
+        notes.push_back({.code = "GC-COMPARE-0125",
+                         .where = "job, certificate",
+                         .what = "a comparison report is no calibration certificate",
+                         .rule = "no accreditation symbol is put on it, and the checks before issue are not made",
+                         .action = "Put certificate data into the job of the calibration.",
+                         .severity = gum::Severity::note});
+    }
+    return notes;
+}
+
+}  // namespace
+
+reports::EvaluationRecord evaluate_comparison(const engine::ComparisonJob& job,
+                                              const std::vector<reports::InputFile>& files, unsigned threads,
+                                              const std::function<void(const std::string&)>& progress) {
+    reports::Comparison comparison =
+        job.methods ? evaluate_methods(job) : evaluate_laboratories(job, threads, progress);
+    const std::vector<gum::Diagnostic> notes = notes_on(job, comparison);
+    reports::EvaluationRecord record = record_head(
+        "comparison", {job.title, job.coverage_probability, job.document, job.warnings, notes}, options_of(job), files);
+    record.comparison = std::move(comparison);
+    return record;
+}
+
+}  // namespace gumcert::app

@@ -1,0 +1,262 @@
+#include "app/method_remarks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+
+#include "app/comparison_print.h"
+#include "gum/quantity/unit.h"
+
+namespace gumcert::app {
+
+namespace {
+
+using reports::Comparison;
+using reports::ComparisonPoint;
+using reports::ComparisonSummary;
+
+constexpr double k_significant = 0.025;  // of p_low and p_high
+constexpr double k_nearly_all = 0.95;    // of the points count as independent
+constexpr double k_negligible_reference = 1.0 / 3.0;
+constexpr double k_noise_of_positions = 5.0;  // spread of reference values over their u, for a slope to mean much
+constexpr double k_visible_beyond = 0.05;     // of a standard uncertainty, a point
+
+std::string count_of(std::int64_t count, const std::string& noun) {
+    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+/// The sentences of one comparison.
+class Remarks {
+public:
+    Remarks(const MethodFindings& findings, Comparison& record) : findings_(findings), record_(record) {
+        const std::string unit = gum::unit_for_people(gum::unit_of_difference(findings.unit));
+        unit_ = unit.empty() ? "" : " " + unit;
+    }
+
+    void add() {
+        number_of_points();
+        unknown_correlation();
+        reference_uncertainty();
+        too_small_differences();
+        too_large_differences();
+        singular_covariance();
+        failing_differences();
+        bias_lines();
+        audit();
+    }
+
+private:
+    using Holds = std::function<bool(const ComparisonSummary&)>;
+
+    void say(const std::string& sentence) { record_.remarks.push_back(sentence); }
+
+    [[nodiscard]] const ComparisonSummary& whole() const { return record_.summary.back(); }
+
+    /// "" where there is one row only.
+    [[nodiscard]] std::string direction_of(const ComparisonSummary& row) const {
+        if (record_.summary.size() == 1) {
+            return "";
+        }
+        return row.direction == "all" ? " of all directions together" : " of the direction " + row.direction;
+    }
+
+    /// One clause for every row that it holds for, one after the other; "" where it holds for none.
+    [[nodiscard]] std::string clauses(const Holds& holds,
+                                      const std::function<std::string(const ComparisonSummary&)>& number) const {
+        std::string text;
+        for (const ComparisonSummary& row : record_.summary) {
+            if (holds(row)) {
+                text += (text.empty() ? "" : ", ") + number(row) + direction_of(row);
+            }
+        }
+        return text;
+    }
+
+    void number_of_points() {
+        const ComparisonSummary& row = whole();
+        if (row.points < 2) {
+            return;
+        }
+        const std::string points = count_of(row.points, "point");
+        if (*row.effective_points < k_nearly_all * static_cast<double>(row.points)) {
+            say("The " + points + " are not as many independent proofs: they share effects of their set-up, and by " +
+                "their covariance they tell as much as about " + row.printed.effective_points +
+                " independent points. The band of the rms En, p_low and p_high take the covariance into account.");
+        } else {
+            say("The covariances say that the " + points + " are independent of each other, or nearly so. Effects of " +
+                "a common set-up that are not in the covariances would make them fewer.");
+        }
+    }
+
+    void unknown_correlation() {
+        if (!findings_.correlation_unknown) {
+            return;
+        }
+        say("It is not known whether both methods share a standard, a sensor or another source of uncertainty. En is " +
+            std::string("stated for no correlation, and for the worst plausible one, where the whole of the smaller ") +
+            "uncertainty is common to both; the truth lies between them. p_low, p_high and the band of the rms En " +
+            "hold for no correlation.");
+        if (std::find(findings_.worst_has_no_bound.begin(), findings_.worst_has_no_bound.end(), true) !=
+            findings_.worst_has_no_bound.end()) {
+            say("Where both methods have the same expanded uncertainty, all of it could be common to both, and no "
+                "finite En bounds what that would do.");
+        }
+        const ComparisonSummary& row = whole();
+        if (row.count_above_1 == 0 && row.count_above_1_worst.value_or(0) > 0) {
+            say("The agreement rests on the assumption that both methods share nothing: with the worst plausible "
+                "correlation |En| would be above 1 at " +
+                std::to_string(*row.count_above_1_worst) + " of " + count_of(row.points, "point") + ".");
+        }
+    }
+
+    void reference_uncertainty() {
+        const auto ratio = [](const ComparisonSummary& row) { return row.printed.ratio_reference; };
+        const std::string larger = clauses(
+            [](const ComparisonSummary& row) { return row.ratio_reference && !(*row.ratio_reference < 1.0); }, ratio);
+        if (!larger.empty()) {
+            say("The expanded uncertainty of the reference is not smaller than that of the method (rms ratio " +
+                larger +
+                "): |En| at or below 1 shows no contradiction, and cannot confirm the uncertainty of the "
+                "method.");
+        }
+        const std::string limited = clauses(
+            [](const ComparisonSummary& row) {
+                return row.ratio_reference && *row.ratio_reference < 1.0 &&
+                       *row.ratio_reference > k_negligible_reference;
+            },
+            ratio);
+        if (!limited.empty()) {
+            say("The expanded uncertainty of the reference is more than a third of that of the method (rms ratio " +
+                limited + "): part of the agreement is the doing of the reference.");
+        }
+    }
+
+    void too_small_differences() {
+        const std::string rows =
+            clauses([](const ComparisonSummary& row) { return row.p_low && *row.p_low < k_significant; },
+                    [](const ComparisonSummary& row) { return row.printed.p_low; });
+        if (!rows.empty()) {
+            say("The differences are smaller than their uncertainties let expect (p_low " + rows +
+                "): the uncertainties are too large, or the points share more than their covariance says. Such an "
+                "agreement says little about the method.");
+        }
+    }
+
+    void too_large_differences() {
+        const std::string rows =
+            clauses([](const ComparisonSummary& row) { return row.p_high && *row.p_high < k_significant; },
+                    [](const ComparisonSummary& row) { return row.printed.p_high; });
+        if (!rows.empty()) {
+            say("The differences are larger than their uncertainties let expect (p_high " + rows +
+                "): an uncertainty is too small, or an effect is missing.");
+        }
+    }
+
+    void singular_covariance() {
+        const ComparisonSummary& row = whole();
+        if (*row.rank >= row.points) {
+            return;
+        }
+        say("The covariance of the differences has rank " + std::to_string(*row.rank) + " for " +
+            count_of(row.points, "point") +
+            ": some differences follow from others. The joint numbers (vector En, p of the Mahalanobis distance) are "
+            "those of what is free to vary.");
+        if (findings_.beyond_covariance.back() > k_visible_beyond * std::sqrt(static_cast<double>(row.points))) {
+            say("The differences vary in ways in which their covariance lets them not vary at all: the points share "
+                "less than the covariance says.");
+        }
+    }
+
+    void failing_differences() {
+        if (!record_.tolerance) {
+            return;
+        }
+        std::int64_t blind = 0;
+        for (const ComparisonPoint& point : record_.points) {
+            blind += *point.U_D > *record_.tolerance ? 1 : 0;
+        }
+        const std::string tolerance = record_.printed_tolerance + unit_;
+        if (blind > 0) {
+            say("At " + std::to_string(blind) + " of " + count_of(whole().points, "point") +
+                " a deviation as large as the tolerance of " + tolerance +
+                " would have passed: D_fail is larger there, up to " + whole().printed.D_fail_largest + unit_ + ".");
+        } else {
+            say("A deviation as large as the tolerance of " + tolerance +
+                " would have failed at every point: D_fail is " + whole().printed.D_fail_largest + unit_ + " at most.");
+        }
+    }
+
+    /// Whether the reference values of a row spread so little that a line against them shows their own noise.
+    [[nodiscard]] bool is_noise(const ComparisonSummary& row) const {
+        double sum = 0.0;
+        double squares = 0.0;
+        double variance = 0.0;
+        double count = 0.0;
+        double first = 0.0;
+        for (const ComparisonPoint& point : record_.points) {
+            if (point.direction == row.direction || row.direction == "all") {
+                first = count == 0.0 ? point.reference_value : first;
+                const double value = point.reference_value - first;  // large values would lose their digits
+                sum += value;
+                squares += value * value;
+                variance += point.reference_u.value_or(0.0) * point.reference_u.value_or(0.0);
+                count += 1.0;
+            }
+        }
+        const double spread = std::max(0.0, squares / count - sum * sum / (count * count));
+        return spread < k_noise_of_positions * k_noise_of_positions * variance / count;
+    }
+
+    void bias_lines() {
+        std::string noisy;
+        for (const ComparisonSummary& row : record_.summary) {
+            if (!row.bias) {
+                continue;
+            }
+            const reports::BiasLineSummary& bias = *row.bias;
+            const bool constant = std::abs(bias.constant) > bias.U_constant;
+            const bool slope = std::abs(bias.slope) > bias.U_slope;
+            if (constant || slope) {
+                say("The differences" + direction_of(row) + " have a systematic part: the " +
+                    (constant && slope ? "constant and the slope"
+                     : constant        ? "constant"
+                                       : "slope") +
+                    " of the bias line " + (constant && slope ? "are" : "is") +
+                    " larger than the expanded uncertainty.");
+            }
+            if (bias.against == "reference_value" && is_noise(row)) {
+                noisy += (noisy.empty() ? "" : ", ") + (row.direction == "all" ? std::string() : row.direction);
+            }
+        }
+        const bool any = std::any_of(record_.summary.begin(), record_.summary.end(), [&](const ComparisonSummary& row) {
+            return row.bias && row.bias->against == "reference_value" && is_noise(row);
+        });
+        if (any) {
+            say("The reference values" + (noisy.empty() || record_.summary.size() == 1 ? "" : " (" + noisy + ")") +
+                " spread by less than five times their standard uncertainty: the slope of a bias line against them "
+                "contains their own uncertainty, and is no evidence of a scale error.");
+        }
+    }
+
+    void audit() {
+        const ComparisonSummary& row = whole();
+        if (row.count_above_1_audited) {
+            say("With the findings of the audit on the uncertainties corrected, |En| is above 1 at " +
+                std::to_string(*row.count_above_1_audited) + " of " + count_of(row.points, "point") + " instead of " +
+                std::to_string(row.count_above_1) + ".");
+        }
+    }
+
+    const MethodFindings& findings_;
+    Comparison& record_;
+    std::string unit_;
+};
+
+}  // namespace
+
+void add_method_remarks(const MethodFindings& findings, Comparison& record) {
+    Remarks(findings, record).add();
+}
+
+}  // namespace gumcert::app

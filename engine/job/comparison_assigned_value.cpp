@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "engine/job/comparison_items.h"
+#include "engine/job/comparison_keys.h"
+#include "engine/job/monte_carlo_request.h"
+
+namespace gumcert::engine {
+
+namespace {
+
+using nlohmann::json;
+using Method = AssignedValueMethod;
+
+constexpr std::array<std::pair<std::string_view, Method>, 12> k_methods{
+    {{"reference", Method::reference},
+     {"given", Method::given},
+     {"weighted_mean", Method::weighted_mean},
+     {"arithmetic_mean", Method::arithmetic_mean},
+     {"median", Method::median},
+     {"algorithm_a", Method::algorithm_a},
+     {"q_hampel", Method::q_hampel},
+     {"largest_consistent_subset", Method::largest_consistent_subset},
+     {"dersimonian_laird", Method::dersimonian_laird},
+     {"mandel_paule", Method::mandel_paule},
+     {"vangel_rukhin", Method::vangel_rukhin},
+     {"power_moderated_mean", Method::power_moderated_mean}}};
+
+/// Keys that belong to some methods only.
+struct KeyOfMethods {
+    std::string_view key;
+    std::array<Method, 1> methods;
+};
+constexpr std::array<KeyOfMethods, 10> k_keys_of_methods{{{"participant", {Method::reference}},
+                                                          {"value", {Method::given}},
+                                                          {"u", {Method::given}},
+                                                          {"U", {Method::given}},
+                                                          {"k", {Method::given}},
+                                                          {"nu", {Method::given}},
+                                                          {"sources", {Method::given}},
+                                                          {"constants", {Method::algorithm_a}},
+                                                          {"uncertainty", {Method::median}},
+                                                          {"power", {Method::power_moderated_mean}}}};
+
+void refuse_word_alone(const JsonObject& object, Method method) {
+    if (method == Method::reference) {
+        object.refuse(k_assigned_value_incomplete, "assigned_value", "a reference without its participant",
+                      "the assigned value is the result of one participant",
+                      "write {\"method\": \"reference\", \"participant\": …}");
+    } else {
+        object.refuse(k_assigned_value_incomplete, "assigned_value", "a given assigned value without the value",
+                      "a given value is stated with its uncertainty", "write {\"value\": …, \"U\": …, \"k\": …}");
+    }
+}
+
+void warn_of_unused_keys(const ComparisonReading& reading, const JsonObject& object, Method method) {
+    const auto warn = [&](std::string_view key, const std::string& rule) {
+        reading.problems.warn(k_warn_unused_value, object.where(key), "the key " + in_quotes(key) + " is not used",
+                              rule, "remove it, or choose the method that it is for");
+    };
+    for (const KeyOfMethods& entry : k_keys_of_methods) {
+        if (object.has(entry.key) && entry.methods.front() != method) {
+            warn(entry.key,
+                 "the method " + in_quotes(k_methods[static_cast<std::size_t>(method)].first) + " has no use for it");
+        }
+    }
+    for (const std::string_view key : {"trials", "seed"}) {
+        if (object.has(key) && !object.has("uncertainty")) {
+            warn(key, "trials are those of a median with \"uncertainty\": \"trials\"");
+        }
+    }
+}
+
+void read_given(const ComparisonReading& reading, const JsonObject& object, AssignedValueRequest& request) {
+    request.value = object.required_number("value", compared_value()).value_or(0.0);
+    request.uncertainty = read_uncertainty(reading, object, true);
+    if (!object.has("u") && !object.has("U") && !object.has("k")) {
+        reading.problems.warn(k_warn_exact_assigned_value, object.where(),
+                              "the assigned value " + shortest(request.value) + " has no uncertainty",
+                              "it is taken as exactly known, and E_n then judges the laboratories alone",
+                              "add \"u\", or \"U\" and \"k\", unless the value is exact by definition");
+    }
+    request.sources =
+        read_sources(reading, object, request.uncertainty ? std::optional{request.uncertainty->u} : std::nullopt);
+}
+
+void read_median(const JsonObject& object, AssignedValueRequest& request) {
+    constexpr std::array<std::pair<std::string_view, bool>, 2> k_uncertainties{{{"robust", false}, {"trials", true}}};
+    constexpr NumberRange k_trials{.low = 1000.0, .high = 1e8, .hint = "100000 trials are usual"};
+    request.median_by_trials = object.optional_choice("uncertainty", k_uncertainties).value_or(false);
+    request.trials = static_cast<std::size_t>(object.optional_integer("trials", k_trials).value_or(100'000));
+    request.seed =
+        static_cast<std::uint64_t>(object.optional_integer("seed", between(0.0, k_largest_seed, "")).value_or(1));
+}
+
+AssignedValueRequest read_object(const ComparisonReading& reading, const JsonObject& object, Method method) {
+    constexpr std::array<std::pair<std::string_view, bool>, 2> k_constants{{{"published", false}, {"exact", true}}};
+    constexpr NumberRange k_alpha{.low = 0.0,
+                                  .high = 0.5,
+                                  .low_open = true,
+                                  .high_open = true,
+                                  .hint = "state the probability of failing a consistent set, 0.05 is usual"};
+    AssignedValueRequest request;
+    request.method = method;
+    request.where = object.where();
+    request.traceability = object.optional_string("traceability").value_or("");
+    request.alpha = object.optional_number("alpha", k_alpha).value_or(0.05);
+    // All keys are read, also those without use: a wrong one is refused wherever it stands.
+    request.participant = optional_label(object, "participant", reading.problems).value_or("");
+    request.exact_constants = object.optional_choice("constants", k_constants).value_or(false);
+    request.power = object.optional_number("power", between(0.0, 2.0, ""));
+    read_median(object, request);
+    if (method == Method::given) {
+        read_given(reading, object, request);
+    } else {
+        (void)object.optional_number("value", compared_value());
+        (void)read_uncertainty(reading, object, true);
+        (void)read_sources(reading, object, std::nullopt);
+    }
+    if (method == Method::reference) {
+        if (!object.has("participant")) {
+            refuse_word_alone(object, method);
+        }
+    }
+    warn_of_unused_keys(reading, object, method);
+    return request;
+}
+
+}  // namespace
+
+std::span<const std::string_view> assigned_value_words() {
+    static const std::array<std::string_view, k_methods.size()> k_words = [] {
+        std::array<std::string_view, k_methods.size()> words{};
+        std::transform(k_methods.begin(), k_methods.end(), words.begin(),
+                       [](const auto& entry) { return entry.first; });
+        return words;
+    }();
+    return k_words;
+}
+
+std::optional<AssignedValueRequest> read_assigned_value(const ComparisonReading& reading, const JsonObject& object) {
+    const json* value = object.find("assigned_value");
+    if (value == nullptr) {
+        return std::nullopt;
+    }
+    if (value->is_object()) {
+        const auto assigned = object.optional_object("assigned_value", k_assigned_value_keys);
+        if (!assigned->has("method") && !assigned->has("value")) {
+            assigned->refuse(k_assigned_value_incomplete, "", "an assigned value without \"method\" or \"value\"",
+                             "the assigned value is given, or follows from the results by a method",
+                             "add \"method\": " + any_of_words(assigned_value_words()));
+            return std::nullopt;
+        }
+        const auto method =
+            assigned->has("method") ? assigned->optional_choice("method", k_methods) : std::optional{Method::given};
+        return method ? std::optional{read_object(reading, *assigned, *method)} : std::nullopt;
+    }
+    if (!value->is_string()) {
+        object.refuse(k_wrong_type, "assigned_value", described(*value), "must be a word or an object",
+                      value->is_number() ? "write {\"value\": " + described(*value) + ", \"U\": …, \"k\": …}"
+                                         : "choose " + any_of_words(assigned_value_words()));
+        return std::nullopt;
+    }
+    const auto method = object.optional_choice("assigned_value", k_methods);
+    if (!method) {
+        return std::nullopt;
+    }
+    if (*method == Method::reference || *method == Method::given) {
+        refuse_word_alone(object, *method);
+        return std::nullopt;
+    }
+    AssignedValueRequest request;
+    request.method = *method;
+    request.where = object.where("assigned_value");
+    return request;
+}
+
+}  // namespace gumcert::engine

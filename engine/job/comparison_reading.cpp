@@ -1,0 +1,486 @@
+#include "engine/job/comparison_reading.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "engine/job/comparison_keys.h"
+#include "gum/coverage.h"
+#include "gum/expression/equation_system.h"
+
+namespace gumcert::engine {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr double k_same_number = 1e-9;  // of numbers that another program wrote with fewer digits
+
+constexpr NumberRange k_coverage_factor{
+    .low = 0.0, .high = 1e6, .low_open = true, .hint = "state the coverage factor of the certificate, usually 2"};
+
+constexpr const char* k_beyond = "an uncertainty, or its coverage factor, beyond what the program computes with";
+constexpr const char* k_beyond_rule =
+    "u and U lie between 1e-60 and 1e60, and nu is large enough for a coverage factor to exist";
+constexpr const char* k_beyond_action = "check the numbers, and choose a unit in which they are moderate";
+
+/// Units of the results of a budget, without evaluating it.
+std::vector<gum::Unit> output_units(const BudgetJob& budget) {
+    std::vector<gum::Unit> units;
+    if (!budget.model.empty()) {
+        const gum::EquationSystem system =
+            gum::EquationSystem::compile(budget.model, model_inputs(budget), budget.unknowns, model_outputs(budget));
+        for (std::size_t i = 0; i < system.output_count(); ++i) {
+            units.push_back(system.output_unit(i));
+        }
+        return units;
+    }
+    const std::vector<gum::InputSymbol> symbols = model_inputs(budget);
+    for (const gum::InputSymbol& symbol : symbols) {
+        const auto stated = std::find_if(budget.outputs.begin(), budget.outputs.end(),
+                                         [&](const BudgetOutput& output) { return output.name == symbol.name; });
+        if (stated != budget.outputs.end() || budget.outputs.empty()) {
+            units.push_back(stated != budget.outputs.end() && stated->unit ? *stated->unit : symbol.unit);
+        }
+    }
+    return units;
+}
+
+}  // namespace
+
+NumberRange compared_value() {
+    return between(-k_largest_compared, k_largest_compared, "");
+}
+
+NumberRange compared_uncertainty() {
+    return {.low = 0.0,
+            .low_open = true,
+            .hint = "state the uncertainty of the certificate, or none where the laboratory states none"};
+}
+
+// ---- budgets --------------------------------------------------------------------------------------------------------
+
+std::shared_ptr<const BudgetJob> ComparisonBudgets::read(const std::string& name) {
+    if (const auto found = read_.find(name); found != read_.end()) {
+        return found->second;
+    }
+    std::shared_ptr<const BudgetJob>& budget = read_[name];
+    const std::optional<JobFiles::File> file = files_.open(name);
+    if (!file) {
+        return nullptr;
+    }
+    try {
+        budget = std::make_shared<const BudgetJob>(read_budget_job(source_, file->problems->file()));
+        files_.add(budget->files, budget->warnings);
+    } catch (const gum::InputError& error) {
+        files_.add(error);
+    } catch (const gum::StorageError& error) {
+        files_.add(error);
+    }
+    return budget;
+}
+
+bool ComparisonBudgets::has_output_of(const BudgetJob& budget, const gum::Unit& wanted, const std::string& where,
+                                      ProblemList& problems) const {
+    const std::vector<gum::Unit> units = output_units(budget);
+    const auto is_of_kind = [&](const gum::Unit& unit) {
+        return unit.dimension() == wanted.dimension() &&
+               unit.is_celsius_temperature() == wanted.is_celsius_temperature();
+    };
+    if (units.size() == 1 && is_of_kind(units.front())) {
+        return true;
+    }
+    std::vector<std::string> found;
+    for (const gum::Unit& unit : units) {
+        found.push_back(unit.text());
+    }
+    problems.refuse(k_comparison_budget, where,
+                    units.size() == 1
+                        ? "the result of the budget has the unit " + in_quotes(units.front().text())
+                        : "the budget has " + std::to_string(units.size()) + " results, in " + list_of(found),
+                    "it has one result, of a unit of the same kind as " + in_quotes(wanted.text()),
+                    "state one output in the budget, or correct the unit of the comparison");
+    return false;
+}
+
+// ---- labels ---------------------------------------------------------------------------------------------------------
+
+std::string LabelIndex::advice(std::string_view label, std::string otherwise) const {
+    std::vector<std::string_view> known;
+    for (const auto& [name, position] : positions_) {
+        known.push_back(name);
+    }
+    std::sort(known.begin(), known.end());  // the order of a hash table is no order for a message
+    const std::optional<std::string_view> nearest = nearest_word(label, known);
+    return nearest ? "did you mean " + in_quotes(*nearest) + "?" : otherwise;
+}
+
+std::optional<std::string> label_of(const json& value, const std::string& where, ProblemList& problems) {
+    if (value.is_discarded()) {
+        return std::nullopt;
+    }
+    if (value.is_number()) {
+        return shortest(value.get<double>());
+    }
+    if (!value.is_string()) {
+        problems.refuse(k_wrong_type, where, described(value), "must be a text or a number", "correct the value");
+        return std::nullopt;
+    }
+    const auto& text = value.get_ref<const std::string&>();
+    if (const auto objection = name_objection(text)) {
+        problems.refuse(k_text_not_allowed, where, in_quotes(text) + " " + *objection,
+                        "must be one line of at most 256 bytes, without spaces around it and without control or "
+                        "hidden characters",
+                        "correct the text");
+        return std::nullopt;
+    }
+    return text;
+}
+
+std::optional<std::string> optional_label(const JsonObject& object, std::string_view key, ProblemList& problems) {
+    const json* value = object.find(key);
+    return value == nullptr ? std::nullopt : label_of(*value, object.where(key), problems);
+}
+
+std::optional<std::string> required_label(const JsonObject& object, std::string_view key, ProblemList& problems) {
+    object.require(key);
+    return optional_label(object, key, problems);
+}
+
+std::optional<JsonObject> object_at(const ComparisonReading& reading, const std::string& pointer,
+                                    std::span<const std::string_view> keys,
+                                    std::span<const std::string_view> keys_and_bare) {
+    const json& value = reading.document.value.at(json::json_pointer(pointer));
+    if (!value.is_object()) {
+        if (!value.is_discarded()) {
+            reading.problems.refuse(k_wrong_type, reading.document.where(pointer), described(value),
+                                    "must be an object", "write { \"key\": value, … }");
+        }
+        return std::nullopt;
+    }
+    static constexpr std::string_view k_bare = k_bare_keys.front();
+    if (keys_and_bare.empty() || !value.contains(k_bare)) {
+        return JsonObject(reading.document, pointer, keys, reading.problems);
+    }
+    reading.problems.refuse(k_bare_uncertainty, reading.document.where(child_pointer(pointer, k_bare)),
+                            "\"uncertainty\" does not say which uncertainty it is",
+                            "a standard uncertainty is \"u\", an expanded one is \"U\" with its coverage factor \"k\"",
+                            "write \"u\", or \"U\" and \"k\"");
+    return JsonObject(reading.document, pointer, keys_and_bare, reading.problems);
+}
+
+// ---- uncertainties --------------------------------------------------------------------------------------------------
+
+std::optional<UncertaintyObjection> objection(const StatedUncertainty& stated) {
+    if (stated.has_u && (stated.has_U || stated.has_k)) {
+        return UncertaintyObjection{&k_u_and_expanded_u, stated.has_U ? "U" : "k",
+                                    stated.has_U ? "\"u\" and \"U\" are given together"
+                                                 : "a coverage factor \"k\" beside the standard uncertainty \"u\"",
+                                    "a result states u, or U with k", "keep one of the two statements"};
+    }
+    if (stated.has_U && !stated.has_k) {
+        return UncertaintyObjection{&k_no_coverage_factor, "U", "\"U\" without its coverage factor \"k\"",
+                                    "an expanded uncertainty means something only with its coverage factor",
+                                    "add \"k\" from the certificate, or state the standard uncertainty as \"u\""};
+    }
+    if (stated.has_k && !stated.has_U) {
+        return UncertaintyObjection{&k_no_coverage_factor, "k",
+                                    "a coverage factor \"k\" without an expanded uncertainty", "k belongs to U",
+                                    "add \"U\", or remove \"k\""};
+    }
+    return std::nullopt;
+}
+
+std::optional<ResultUncertainty> evaluate(const StatedUncertainty& stated, double coverage_probability) {
+    ResultUncertainty uncertainty;
+    uncertainty.degrees_of_freedom = stated.nu.value_or(uncertainty.degrees_of_freedom);
+    uncertainty.stated_as_expanded = stated.has_U;
+    if (stated.has_U) {
+        uncertainty.U = stated.U.value();
+        uncertainty.k = stated.k.value();
+        uncertainty.u = uncertainty.U / uncertainty.k;
+    } else {
+        try {
+            uncertainty.u = stated.u.value();
+            uncertainty.k = gum::coverage_factor(coverage_probability, uncertainty.degrees_of_freedom);
+            uncertainty.U = uncertainty.k * uncertainty.u;
+        } catch (const gum::DiagnosedError&) {
+            return std::nullopt;
+        }
+    }
+    const NumberRange range = between(k_least_compared_u, k_largest_compared, "");
+    return range.contains(uncertainty.u) && range.contains(uncertainty.U) ? std::optional{uncertainty} : std::nullopt;
+}
+
+void warn_of_small_k(double k, const std::string& where, ProblemList& problems) {
+    if (k < 1.0) {
+        problems.warn(k_warn_small_coverage_factor, where, "a coverage factor of " + shortest(k),
+                      "U = k u with k about 2 for a coverage probability of 95 %",
+                      "check that it is the coverage factor and not the coverage probability");
+    }
+}
+
+std::optional<ResultUncertainty> read_uncertainty(const ComparisonReading& reading, const JsonObject& object,
+                                                  bool may_have_nu) {
+    StatedUncertainty stated;
+    stated.has_u = object.has("u");
+    stated.has_U = object.has("U");
+    stated.has_k = object.has("k");
+    stated.has_nu = may_have_nu && object.has("nu");
+    stated.u = object.optional_number("u", compared_uncertainty());
+    stated.U = object.optional_number("U", compared_uncertainty());
+    stated.k = object.optional_number("k", k_coverage_factor);
+    const json* nu = stated.has_nu ? object.find("nu") : nullptr;
+    bool nu_is_read = !stated.has_nu;
+    if (nu != nullptr && nu->is_string() && nu->get_ref<const std::string&>() == "inf") {
+        nu_is_read = true;
+    } else if (nu != nullptr) {
+        stated.nu = object.optional_number("nu", above_zero(""));
+        nu_is_read = stated.nu.has_value();
+    }
+    if (const auto found = objection(stated)) {
+        object.refuse(*found->code, found->key, found->what, found->rule, found->action);
+        return std::nullopt;
+    }
+    if (stated.k) {
+        warn_of_small_k(*stated.k, object.where("k"), reading.problems);
+    }
+    const bool is_read = stated.has_U ? stated.U && stated.k : stated.u.has_value();
+    if (!is_read || !nu_is_read) {
+        return std::nullopt;
+    }
+    const auto uncertainty = evaluate(stated, reading.job.coverage_probability);
+    if (!uncertainty) {
+        object.refuse(k_not_representable, stated.has_U ? "U" : "u", k_beyond, k_beyond_rule, k_beyond_action);
+    }
+    return uncertainty;
+}
+
+bool check_uncertainty_columns(const CsvTable& table, const UncertaintyColumns& columns, ProblemList& problems) {
+    if (table.rows() == 0) {
+        return false;
+    }
+    if (table.has_column(columns.bare)) {
+        problems.refuse(k_bare_uncertainty, table.where(table.cell(0, columns.bare)),
+                        "the column \"uncertainty\" does not say which uncertainty it is",
+                        "a standard uncertainty is u, an expanded one is U with its coverage factor k",
+                        "name the column u, or U with a column k");
+        return false;
+    }
+    const std::size_t lonely = table.has_column(columns.U) ? columns.U : columns.k;
+    if (table.has_column(columns.U) != table.has_column(columns.k)) {
+        problems.refuse(k_no_coverage_factor, table.where(table.cell(0, lonely)),
+                        table.has_column(columns.U) ? "a column U without a column k" : "a column k without a column U",
+                        "an expanded uncertainty means something only with its coverage factor",
+                        table.has_column(columns.U) ? "add a column k, or state standard uncertainties in a column u"
+                                                    : "name the column of expanded uncertainties U");
+        return false;
+    }
+    return true;
+}
+
+std::optional<ResultUncertainty> read_uncertainty(const CsvTable& table, std::size_t row,
+                                                  const UncertaintyColumns& columns, double coverage_probability,
+                                                  ProblemList& problems) {
+    const auto is_stated = [&](std::size_t column) {
+        return table.has_column(column) && !table.cell(row, column).text.empty();
+    };
+    StatedUncertainty stated;
+    stated.has_u = is_stated(columns.u);
+    stated.has_U = is_stated(columns.U);
+    stated.has_k = is_stated(columns.k);
+    stated.has_nu = is_stated(columns.nu);
+    stated.u = table.number_if_any(row, columns.u, compared_uncertainty());
+    stated.U = table.number_if_any(row, columns.U, compared_uncertainty());
+    stated.k = table.number_if_any(row, columns.k, k_coverage_factor);
+    bool nu_is_read = true;
+    if (stated.has_nu && table.cell(row, columns.nu).text != "inf") {
+        stated.nu = table.number(row, columns.nu, above_zero(""));
+        nu_is_read = stated.nu.has_value();
+    }
+    if (!stated.is_stated()) {
+        return std::nullopt;
+    }
+    if (const auto found = objection(stated)) {
+        const std::size_t column = found->key == "U" ? columns.U : columns.k;
+        problems.refuse(*found->code, table.where(table.cell(row, column)), found->what, found->rule, found->action);
+        return std::nullopt;
+    }
+    if (stated.k && *stated.k < 1.0) {
+        warn_of_small_k(*stated.k, table.where(table.cell(row, columns.k)), problems);
+    }
+    const bool is_read = stated.has_U ? stated.U && stated.k : stated.u.has_value();
+    if (!is_read || !nu_is_read) {
+        return std::nullopt;
+    }
+    const auto uncertainty = evaluate(stated, coverage_probability);
+    if (!uncertainty) {
+        problems.refuse(k_not_representable, table.where(table.cell(row, stated.has_U ? columns.U : columns.u)),
+                        k_beyond, k_beyond_rule, k_beyond_action);
+    }
+    return uncertainty;
+}
+
+bool is_censored(std::string_view text) {
+    return text.starts_with('<') || text.starts_with('>') || text.starts_with("≤") || text.starts_with("≥");
+}
+
+void refuse_censored(std::string_view text, const std::string& where, ProblemList& problems) {
+    problems.refuse(k_censored_result, where, "the result " + in_quotes(text) + " is a limit and no value",
+                    "scores and means need the value that was measured",
+                    "report what was measured, with its uncertainty, or leave the value empty: a missing result");
+}
+
+std::vector<UncertaintySource> read_sources(const ComparisonReading& reading, const JsonObject& object,
+                                            const std::optional<double>& u) {
+    std::vector<UncertaintySource> sources;
+    const json* array = object.optional_array("sources");
+    if (array == nullptr) {
+        return sources;
+    }
+    double sum = 0.0;
+    for_each_object(reading, *array, object.pointer("sources"), k_source_keys, {}, [&](const JsonObject& entry) {
+        const auto name = entry.required_name("source");
+        const auto part = entry.required_number("u", compared_value());
+        if (!name || !part) {
+            return;
+        }
+        if (std::any_of(sources.begin(), sources.end(), [&](const auto& other) { return other.source == *name; })) {
+            entry.refuse(k_repeated_source, "source", "the source " + in_quotes(*name) + " occurs twice",
+                         "a result states one part for each source", "add the parts up, with their signs");
+            return;
+        }
+        sum = std::hypot(sum, *part);
+        sources.push_back({.source = *name, .input = {}, .contribution = *part});
+    });
+    if (u && sum > *u * (1.0 + k_same_number)) {
+        object.refuse(k_parts_exceed_uncertainty, "sources",
+                      "the parts add up to " + shortest(sum) + ", and u of the result is " + shortest(*u),
+                      "parts of an uncertainty are at most as large as the whole",
+                      "state the parts as standard uncertainties of the result, or correct its uncertainty");
+    }
+    return sources;
+}
+
+// ---- arrays and matrices --------------------------------------------------------------------------------------------
+
+std::optional<Eigen::MatrixXd> read_rows(const ComparisonReading& reading, const JsonObject& object,
+                                         std::string_view key, std::size_t least_rows, std::size_t least_columns) {
+    const json* rows = object.optional_array(key);
+    if (rows == nullptr) {
+        return std::nullopt;
+    }
+    if (rows->size() < least_rows) {
+        object.refuse(k_wrong_size, key, std::to_string(rows->size()) + " rows",
+                      "there must be at least " + std::to_string(least_rows), "write one array a row");
+        return std::nullopt;
+    }
+    const std::size_t columns = (*rows)[0].is_array() ? (*rows)[0].size() : least_columns;
+    Eigen::MatrixXd matrix(static_cast<Eigen::Index>(rows->size()), static_cast<Eigen::Index>(columns));
+    bool is_read = true;
+    for (std::size_t i = 0; i < rows->size(); ++i) {
+        const std::string pointer = child_pointer(object.pointer(key), i);
+        const json& row = (*rows)[i];
+        const auto refuse = [&](const InputCode& code, const std::string& what, const std::string& rule) {
+            reading.problems.refuse(code, reading.document.where(pointer), what, rule, "correct the row");
+            is_read = false;
+        };
+        if (!row.is_array()) {
+            if (!row.is_discarded()) {
+                refuse(k_wrong_type, described(row), "must be an array of numbers");
+            }
+            is_read = false;
+            continue;
+        }
+        if (row.size() < least_columns) {
+            refuse(k_wrong_size, "a row of " + std::to_string(row.size()) + " numbers",
+                   "there must be at least " + std::to_string(least_columns));
+            continue;
+        }
+        if (row.size() != columns) {
+            refuse(
+                k_ragged_replicates,
+                "a row of " + std::to_string(row.size()) + " numbers, and the first one has " + std::to_string(columns),
+                "all rows have equally many numbers");
+            continue;
+        }
+        for (std::size_t j = 0; j < columns; ++j) {
+            const NumberRange range = compared_value();
+            if (!row[j].is_number() || !range.contains(row[j].get<double>())) {
+                is_read = false;
+                if (!row[j].is_discarded()) {
+                    reading.problems.refuse(row[j].is_number() ? k_number_out_of_range : k_wrong_type,
+                                            reading.document.where(child_pointer(pointer, j)), described(row[j]),
+                                            row[j].is_number() ? range.rule() : "must be a number",
+                                            "correct the value");
+                }
+                continue;
+            }
+            matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = row[j].get<double>();
+        }
+    }
+    return is_read ? std::optional{std::move(matrix)} : std::nullopt;
+}
+
+std::string list_of(const std::vector<std::string>& names, std::size_t most) {
+    std::string text;
+    const std::size_t shown = std::min(names.size(), most);
+    for (std::size_t i = 0; i < shown; ++i) {
+        text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + in_quotes(names[i]);
+    }
+    return names.size() > shown ? text + " and " + std::to_string(names.size() - shown) + " more" : text;
+}
+
+std::string eigenvalue_text(double eigenvalue) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), eigenvalue, std::chars_format::general, 3);
+    return {text.data(), end.ptr};
+}
+
+std::optional<NegativeEigenvalue> negative_eigenvalue(const Eigen::MatrixXd& correlation) {
+    if (const Eigen::LLT<Eigen::MatrixXd> factor(correlation); factor.info() == Eigen::Success) {
+        return std::nullopt;
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(correlation);
+    const Eigen::Index n = correlation.rows();
+    NegativeEigenvalue found;
+    found.eigenvalue = solver.eigenvalues()(0);
+    // Numbers with the digits that people write must not be refused for their rounding.
+    if (found.eigenvalue >= -k_same_number * solver.eigenvalues()(n - 1)) {
+        return std::nullopt;
+    }
+    const Eigen::VectorXd vector = solver.eigenvectors().col(0);
+    std::vector<std::size_t> order(static_cast<std::size_t>(n));
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto part = [&](std::size_t i) { return std::abs(vector(static_cast<Eigen::Index>(i))); };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return part(a) > part(b) + k_same_number; });
+    for (const std::size_t i : order) {
+        if (found.culprits.size() < 2 || (found.culprits.size() < 6 && part(i) > 0.1)) {
+            found.culprits.push_back(i);
+        }
+    }
+    std::sort(found.culprits.begin(), found.culprits.end());
+    return found;
+}
+
+std::vector<std::string> read_texts(const ComparisonReading& reading, const JsonObject& object, std::string_view key) {
+    std::vector<std::string> texts;
+    if (const json* array = object.optional_array(key)) {
+        for (std::size_t i = 0; i < array->size(); ++i) {
+            const std::string where = reading.document.where(child_pointer(object.pointer(key), i));
+            if (auto text = label_of((*array)[i], where, reading.problems)) {
+                texts.push_back(std::move(*text));
+            }
+        }
+    }
+    return texts;
+}
+
+}  // namespace gumcert::engine

@@ -1,0 +1,177 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "engine/job/budget_job.h"
+#include "engine/job/comparison_codes.h"
+#include "engine/job/comparison_job.h"
+#include "engine/job/csv_table.h"
+#include "engine/job/job_files.h"
+#include "engine/job/json_document.h"
+
+namespace gumcert::engine {
+
+// What the parts of the reader of comparisons share.
+
+/// Values and uncertainties are squared, divided and added: beyond these, in the unit of the item, the sums could
+/// overflow. No quantity that somebody compares comes near.
+inline constexpr double k_largest_compared = 1e60;
+inline constexpr double k_least_compared_u = 1e-60;
+
+[[nodiscard]] NumberRange compared_value();
+[[nodiscard]] NumberRange compared_uncertainty();
+
+/// Budget jobs that results name, each read once.
+class ComparisonBudgets {
+public:
+    ComparisonBudgets(const FileSource& source, JobFiles& files) : source_(source), files_(files) {}
+    /// \return null when it was refused; the problems are told with the others
+    [[nodiscard]] std::shared_ptr<const BudgetJob> read(const std::string& name);
+    /// The unit of its only output; refuses more than one, or a unit of another kind than wanted.
+    /// \param where  of the key that names the budget
+    [[nodiscard]] bool has_output_of(const BudgetJob& budget, const gum::Unit& wanted, const std::string& where,
+                                     ProblemList& problems) const;
+
+private:
+    const FileSource& source_;
+    JobFiles& files_;
+    std::map<std::string, std::shared_ptr<const BudgetJob>> read_;
+};
+
+struct ComparisonReading {
+    const JsonDocument& document;
+    JobFiles& files;
+    ProblemList& problems;  ///< of the job file
+    ComparisonBudgets& budgets;
+    ComparisonJob& job;
+};
+
+/// Ids in the order in which they first appear, found without a search.
+class LabelIndex {
+public:
+    [[nodiscard]] std::optional<std::size_t> find(std::string_view label) const {
+        const auto found = positions_.find(label);
+        return found == positions_.end() ? std::nullopt : std::optional{found->second};
+    }
+    /// \return its position, and whether it is new
+    std::pair<std::size_t, bool> add(std::string_view label) {
+        if (const auto found = find(label)) {
+            return {*found, false};
+        }
+        return {positions_.emplace(std::string(label), positions_.size()).first->second, true};
+    }
+    [[nodiscard]] std::size_t size() const { return positions_.size(); }
+    /// The label nearest to one that is not known, as an advice; `otherwise` without one.
+    [[nodiscard]] std::string advice(std::string_view label, std::string otherwise) const;
+
+private:
+    struct Hash {
+        using is_transparent = void;
+        std::size_t operator()(std::string_view text) const { return std::hash<std::string_view>{}(text); }
+    };
+    std::unordered_map<std::string, std::size_t, Hash, std::equal_to<>> positions_;
+};
+
+/// An id, a round, the name of a point: a text of one line or a number, which is taken as its shortest text.
+[[nodiscard]] std::optional<std::string> label_of(const nlohmann::json& value, const std::string& where,
+                                                  ProblemList& problems);
+[[nodiscard]] std::optional<std::string> optional_label(const JsonObject& object, std::string_view key,
+                                                        ProblemList& problems);
+[[nodiscard]] std::optional<std::string> required_label(const JsonObject& object, std::string_view key,
+                                                        ProblemList& problems);
+
+/// An object with some keys. \return nothing when the value is no object
+/// \param keys_and_bare  the keys and "uncertainty", which is then told as what it is: a number that does not say
+///                       whether it is u or U; empty: it is an unknown key as any other
+[[nodiscard]] std::optional<JsonObject> object_at(const ComparisonReading& reading, const std::string& pointer,
+                                                  std::span<const std::string_view> keys,
+                                                  std::span<const std::string_view> keys_and_bare = {});
+
+/// Calls `use` with every element of an array; those that are no objects are refused.
+template <typename Use>
+void for_each_object(const ComparisonReading& reading, const nlohmann::json& array, const std::string& pointer,
+                     std::span<const std::string_view> keys, std::span<const std::string_view> keys_and_bare,
+                     const Use& use) {
+    for (std::size_t i = 0; i < array.size(); ++i) {
+        if (const auto object = object_at(reading, child_pointer(pointer, i), keys, keys_and_bare)) {
+            use(*object);
+        }
+    }
+}
+
+/// u, U, k and nu of one result as they are stated, before they are looked at together.
+struct StatedUncertainty {
+    std::optional<double> u = {}, U = {}, k = {}, nu = {};
+    bool has_u = false, has_U = false, has_k = false, has_nu = false;  ///< stated, perhaps not readable
+
+    [[nodiscard]] bool is_stated() const { return has_u || has_U || has_k; }
+};
+/// Keys that must stand together, and do not.
+struct UncertaintyObjection {
+    const InputCode* code = nullptr;
+    std::string_view key;
+    std::string what, rule, action;
+};
+[[nodiscard]] std::optional<UncertaintyObjection> objection(const StatedUncertainty& stated);
+
+/// U = t_p(ν) u where u is stated, u = U/k else. \param stated  without objection, its numbers read
+/// \return nothing when no coverage factor exists for its degrees of freedom
+[[nodiscard]] std::optional<ResultUncertainty> evaluate(const StatedUncertainty& stated, double coverage_probability);
+
+/// The keys u | U with k, and nu where the object may have it, of an object. \return nothing when none is stated or it
+/// was refused
+[[nodiscard]] std::optional<ResultUncertainty> read_uncertainty(const ComparisonReading& reading,
+                                                                const JsonObject& object, bool may_have_nu);
+
+/// Columns of a table that state uncertainties: positions as CsvTable knows them.
+struct UncertaintyColumns {
+    std::size_t u = 0, U = 0, k = 0, nu = 0, bare = 0;
+};
+/// Refuses columns that no row can use: a bare uncertainty, U without k. \return true when there was nothing to refuse
+bool check_uncertainty_columns(const CsvTable& table, const UncertaintyColumns& columns, ProblemList& problems);
+[[nodiscard]] std::optional<ResultUncertainty> read_uncertainty(const CsvTable& table, std::size_t row,
+                                                                const UncertaintyColumns& columns,
+                                                                double coverage_probability, ProblemList& problems);
+void warn_of_small_k(double k, const std::string& where, ProblemList& problems);
+
+/// "<0.3" and ">5": results that state no value.
+[[nodiscard]] bool is_censored(std::string_view text);
+void refuse_censored(std::string_view text, const std::string& where, ProblemList& problems);
+
+/// The key `sources`, signed parts of an uncertainty. \param u  of the whole; nothing: not known here
+[[nodiscard]] std::vector<UncertaintySource> read_sources(const ComparisonReading& reading, const JsonObject& object,
+                                                          const std::optional<double>& u);
+
+/// Rows of numbers, all of one length. \return nothing when it was refused
+[[nodiscard]] std::optional<Eigen::MatrixXd> read_rows(const ComparisonReading& reading, const JsonObject& object,
+                                                       std::string_view key, std::size_t least_rows,
+                                                       std::size_t least_columns);
+
+/// Names of a list, for a message: "A", "B" and "C"; after `most` of them "and N more".
+[[nodiscard]] std::string list_of(const std::vector<std::string>& names, std::size_t most = 10);
+
+/// What keeps a symmetric matrix with ones on its diagonal from being a correlation matrix; nothing when it is one.
+struct NegativeEigenvalue {
+    double eigenvalue = 0.0;            ///< the smallest one
+    std::vector<std::size_t> culprits;  ///< rows with the largest parts in its eigenvector
+};
+/// An eigenvalue for a message: three digits.
+[[nodiscard]] std::string eigenvalue_text(double eigenvalue);
+[[nodiscard]] std::optional<NegativeEigenvalue> negative_eigenvalue(const Eigen::MatrixXd& correlation);
+
+/// An array of texts. \return those that could be read
+[[nodiscard]] std::vector<std::string> read_texts(const ComparisonReading& reading, const JsonObject& object,
+                                                  std::string_view key);
+
+}  // namespace gumcert::engine

@@ -1,0 +1,346 @@
+#include "gum/agreement.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "gum/argument_check.h"
+#include "gum/coverage.h"
+#include "gum/propagation.h"
+
+namespace gumcert::gum {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double k_symmetry_tolerance = 1e-9;  // relative to √(V_ii V_jj)
+constexpr double k_largest_correlation = 1.0 + 1e-9;
+constexpr double k_negative_eigenvalue = 1e-8;  // relative to the largest: decimal digits of a stated matrix
+constexpr double k_rank_tolerance = 1e-10;      // relative to the largest eigenvalue
+constexpr double k_well_conditioned = 1e-8;     // smallest pivot of a correlation matrix that Cholesky is used for
+constexpr Index k_most_points_of_eigenvectors = 500;  // their cost grows with the cube
+constexpr double k_equal_factors = 1e-12;             // of coverage, relative
+constexpr double k_tail_of_band = 0.025;              // 95 % between both
+constexpr double k_significant = 0.025;               // of p_low and p_high
+constexpr double k_negligible_reference = 1.0 / 3.0;
+
+std::string point_name(Index i) {
+    return "difference at point " + std::to_string(i + 1);
+}
+
+void require_sizes(const MethodDifferences& differences) {
+    const Index m = differences.d.size();
+    if (m == 0) {
+        refuse("GC-GUM-0032", "comparison", "no points", "a summary needs at least 1 point",
+               "Give the points that both sides measured.");
+    }
+    if (differences.covariance.rows() != m || differences.covariance.cols() != m || differences.U.size() != m ||
+        differences.U_method.size() != m || differences.U_reference.size() != m) {
+        refuse("GC-GUM-0135", "comparison",
+               "covariance " + std::to_string(differences.covariance.rows()) + " by " +
+                   std::to_string(differences.covariance.cols()) + " and " + std::to_string(differences.U.size()) +
+                   " uncertainties for " + std::to_string(m) + " differences",
+               "every difference has its row, its column and its uncertainty", "Give all of them.");
+    }
+    if (m > static_cast<Index>(k_most_points_of_agreement)) {
+        refuse("GC-GUM-0141", "comparison", std::to_string(m) + " points",
+               "the joint distribution of up to " + std::to_string(k_most_points_of_agreement) + " points is computed",
+               "Split the comparison, or leave out points that lie close together.");
+    }
+}
+
+void require_covariance(const MatrixXd& covariance) {
+    const Index m = covariance.rows();
+    for (Index i = 0; i < m; ++i) {
+        require_finite(covariance(i, i), "variance of the " + point_name(i));
+        if (!(covariance(i, i) > 0.0)) {
+            refuse("GC-GUM-0031", "u of the " + point_name(i), "variance " + number_text(covariance(i, i)),
+                   "a score divides by it, so it must be greater than 0",
+                   "State the uncertainty of at least one side.");
+        }
+    }
+    for (Index j = 0; j < m; ++j) {
+        for (Index i = j + 1; i < m; ++i) {
+            const double scale = std::sqrt(covariance(i, i)) * std::sqrt(covariance(j, j));
+            const auto where = [&] {
+                return "covariance of points " + std::to_string(j + 1) + " and " + std::to_string(i + 1);
+            };
+            if (!std::isfinite(covariance(i, j)) || !std::isfinite(covariance(j, i))) {
+                refuse("GC-GUM-0001", where(), number_text(covariance(i, j)), "must be a finite number",
+                       "Correct the covariance.");
+            }
+            if (!(std::abs(covariance(i, j) - covariance(j, i)) <= k_symmetry_tolerance * scale)) {
+                refuse("GC-GUM-0052", where(),
+                       number_text(covariance(i, j)) + " below and " + number_text(covariance(j, i)) +
+                           " above the diagonal",
+                       "a covariance matrix is symmetric", "Correct the covariance.");
+            }
+            if (!(std::abs(covariance(i, j)) <= k_largest_correlation * scale)) {
+                refuse("GC-GUM-0053", where(), "a correlation of " + number_text(covariance(i, j) / scale),
+                       "a correlation coefficient lies between -1 and 1", "Correct the covariance.");
+            }
+        }
+    }
+}
+
+void require_differences(const MethodDifferences& differences) {
+    require_sizes(differences);
+    for (Index i = 0; i < differences.d.size(); ++i) {
+        require_finite(differences.d(i), point_name(i));
+        require_not_negative(differences.U_method(i), "U of the method at point " + std::to_string(i + 1));
+        require_not_negative(differences.U_reference(i), "U of the reference at point " + std::to_string(i + 1));
+        require_finite(differences.U(i), "U of the " + point_name(i));
+        if (!(differences.U(i) > 0.0)) {
+            refuse("GC-GUM-0031", "U of the " + point_name(i), number_text(differences.U(i)),
+                   "a score divides by it, so it must be greater than 0",
+                   "State the uncertainty of at least one side.");
+        }
+    }
+    require_covariance(differences.covariance);
+}
+
+[[noreturn]] void refuse_indefinite(double smallest) {
+    refuse("GC-GUM-0054", "covariance of the differences",
+           "smallest eigenvalue of the correlation matrix is " + number_text(smallest),
+           "a covariance matrix is positive semi-definite",
+           "Correct the correlations of the points and of both methods; they contradict each other.");
+}
+
+void require_semidefinite(double smallest, double largest) {
+    if (!(smallest >= -k_negative_eigenvalue * largest)) {
+        refuse_indefinite(smallest);
+    }
+}
+
+/// Eigenvalues of a symmetric matrix, ascending, those below 0 by rounding set to 0.
+std::vector<double> spectrum(const MatrixXd& matrix) {
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(matrix, Eigen::EigenvaluesOnly);
+    const VectorXd& values = eigen.eigenvalues();
+    require_semidefinite(values(0), values(values.size() - 1));
+    std::vector<double> weights(values.data(), values.data() + values.size());
+    for (double& weight : weights) {
+        weight = std::max(weight, 0.0);
+    }
+    return weights;
+}
+
+/// Columns B as W B, where WᵀW is the inverse of the correlation matrix R, or its pseudo-inverse where R is singular.
+struct Whitened {
+    MatrixXd columns;
+    Index rank = 0;
+    VectorXd beyond;  ///< size of each column outside the range of R: what R says cannot be
+};
+
+Whitened whitened_by_spectrum(const MatrixXd& R, const MatrixXd& B) {
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(R);
+    const VectorXd& values = eigen.eigenvalues();
+    const Index m = R.rows();
+    require_semidefinite(values(0), values(m - 1));
+    const auto first = std::count_if(values.data(), values.data() + m,
+                                     [&](double value) { return value <= k_rank_tolerance * values(m - 1); });
+    const MatrixXd rotated = eigen.eigenvectors().transpose() * B;
+    Whitened result;
+    result.rank = m - first;
+    result.columns = values.tail(result.rank).cwiseSqrt().cwiseInverse().asDiagonal() * rotated.bottomRows(result.rank);
+    result.beyond = rotated.topRows(first).colwise().norm();
+    return result;
+}
+
+/// L with R = L Lᵀ and as many columns as R has rank: Cholesky with the largest remaining variance first.
+MatrixXd root_by_pivots(const MatrixXd& R) {
+    const Index m = R.rows();
+    MatrixXd L(m, m);
+    VectorXd remaining = R.diagonal();
+    Index rank = 0;
+    for (Index pivot = 0; rank < m && remaining.maxCoeff(&pivot) > k_rank_tolerance; ++rank) {
+        VectorXd column = R.col(pivot);
+        column.noalias() -= L.leftCols(rank) * L.row(pivot).head(rank).transpose();
+        L.col(rank) = column / std::sqrt(remaining(pivot));
+        remaining -= L.col(rank).cwiseAbs2();
+        require_semidefinite(remaining.minCoeff(), static_cast<double>(m));
+        remaining(pivot) = 0.0;
+    }
+    return L.leftCols(rank);
+}
+
+/// The same for matrices too large for their eigenvectors. With L = Q T, the pseudo-inverse of L is T⁻¹Qᵀ.
+Whitened whitened_by_pivots(const MatrixXd& R, const MatrixXd& B) {
+    const MatrixXd L = root_by_pivots(R);
+    const Eigen::HouseholderQR<MatrixXd> qr(L);
+    const MatrixXd rotated = qr.householderQ().transpose() * B;
+    Whitened result;
+    result.rank = L.cols();
+    result.columns = qr.matrixQR()
+                         .topLeftCorner(result.rank, result.rank)
+                         .triangularView<Eigen::Upper>()
+                         .solve(rotated.topRows(result.rank));
+    result.beyond = rotated.bottomRows(R.rows() - result.rank).colwise().norm();
+    return result;
+}
+
+Whitened whitened(const MatrixXd& R, const MatrixXd& B) {
+    const Eigen::LLT<MatrixXd> factor(R);
+    if (factor.info() == Eigen::Success && factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() > k_well_conditioned) {
+        return {.columns = factor.matrixL().solve(B), .rank = R.rows(), .beyond = VectorXd::Zero(B.cols())};
+    }
+    return R.rows() > k_most_points_of_eigenvectors ? whitened_by_pivots(R, B) : whitened_by_spectrum(R, B);
+}
+
+void add_scores(const MethodDifferences& differences, const VectorXd& zeta, Agreement& result) {
+    const auto m = static_cast<double>(differences.d.size());
+    double sum_of_squares = 0.0;
+    for (Index i = 0; i < differences.d.size(); ++i) {
+        const double en = std::abs(differences.d(i) / differences.U(i));
+        result.count_above_1 += en > 1.0 ? 1 : 0;
+        result.mean_absolute_en += en / m;
+        result.largest_absolute_en = std::max(result.largest_absolute_en, en);
+        sum_of_squares += en * en;
+        result.sum_of_squared_zeta += zeta(i) * zeta(i);
+    }
+    result.rms_en = std::sqrt(sum_of_squares / m);
+    result.d_fail_smallest = differences.U.minCoeff();
+    result.d_fail_largest = differences.U.maxCoeff();
+    const double of_method = differences.U_method.norm();
+    result.ratio_reference =
+        of_method > 0.0 ? differences.U_reference.norm() / of_method : std::numeric_limits<double>::infinity();
+}
+
+void add_distributions(const MethodDifferences& differences, const VectorXd& u, const MatrixXd& R, Agreement& result) {
+    const auto m = static_cast<double>(u.size());
+    const std::vector<double> of_zeta = spectrum(R);
+    result.p_low = weighted_chi_square_lower_tail(of_zeta, result.sum_of_squared_zeta);
+    result.p_high = weighted_chi_square_upper_tail(of_zeta, result.sum_of_squared_zeta);
+    result.p_low_independent = chi_square_lower_tail(result.sum_of_squared_zeta, m);
+    result.p_high_independent = chi_square_upper_tail(result.sum_of_squared_zeta, m);
+    result.effective_points = m * m / R.squaredNorm();
+    // E_n = ζ u/U: another spectrum only where the coverage factors of the points differ.
+    const VectorXd inverse_k = u.cwiseQuotient(differences.U);
+    const bool equal = inverse_k.maxCoeff() - inverse_k.minCoeff() <= k_equal_factors * inverse_k.maxCoeff();
+    const std::vector<double> of_en = equal ? of_zeta : spectrum(inverse_k.asDiagonal() * R * inverse_k.asDiagonal());
+    const double scale = equal ? inverse_k(0) : 1.0;
+    const auto rms = [&](double probability) {
+        return scale * std::sqrt(weighted_chi_square_quantile(of_en, probability) / m);
+    };
+    result.rms_en_low = rms(k_tail_of_band);
+    result.rms_en_high = rms(1.0 - k_tail_of_band);
+}
+
+}  // namespace
+
+Agreement agreement(const MethodDifferences& differences, double coverage_probability) {
+    require_probability(coverage_probability, "coverage probability");
+    require_differences(differences);
+    const VectorXd u = differences.covariance.diagonal().cwiseSqrt();
+    const VectorXd zeta = differences.d.cwiseQuotient(u);
+    const MatrixXd R = correlation_matrix(differences.covariance);
+    Agreement result;
+    result.points = static_cast<std::size_t>(u.size());
+    add_scores(differences, zeta, result);
+    add_distributions(differences, u, R, result);
+    const Whitened whitened_zeta = whitened(R, zeta);
+    result.rank = static_cast<std::size_t>(whitened_zeta.rank);
+    result.mahalanobis_square = whitened_zeta.columns.squaredNorm();
+    result.beyond_covariance = whitened_zeta.beyond(0);
+    result.p_mahalanobis = chi_square_upper_tail(result.mahalanobis_square, static_cast<double>(result.rank));
+    result.vector_en =
+        std::sqrt(result.mahalanobis_square) /
+        ellipsoid_coverage_factor(coverage_probability, result.rank, std::numeric_limits<double>::infinity());
+    return result;
+}
+
+std::optional<BiasLine> bias_line(const MethodDifferences& differences, const VectorXd& t) {
+    require_differences(differences);
+    const Index m = differences.d.size();
+    if (t.size() != m) {
+        refuse("GC-GUM-0135", "bias line", std::to_string(t.size()) + " positions for " + std::to_string(m) + " points",
+               "every difference has a position", "Give all of them.");
+    }
+    for (Index i = 0; i < m; ++i) {
+        require_finite(t(i), "position of point " + std::to_string(i + 1));
+    }
+    const double centre = t.mean();
+    const VectorXd from_centre = t.array() - centre;
+    const double span = from_centre.cwiseAbs().maxCoeff();
+    if (m < 3 || !(t.maxCoeff() > t.minCoeff()) || !std::isfinite(span)) {
+        return std::nullopt;
+    }
+    const VectorXd u = differences.covariance.diagonal().cwiseSqrt();
+    MatrixXd columns(m, 3);  // the two of the line, with t in units of the span, and the differences
+    columns.col(0) = u.cwiseInverse();
+    columns.col(1) = from_centre.cwiseQuotient(u) / span;
+    columns.col(2) = differences.d.cwiseQuotient(u);
+    const Whitened free = whitened(correlation_matrix(differences.covariance), columns);
+    if (free.rank < 3) {
+        return std::nullopt;
+    }
+    const MatrixXd design = free.columns.leftCols(2);
+    Eigen::ColPivHouseholderQR<MatrixXd> qr;
+    qr.setThreshold(k_rank_tolerance);
+    qr.compute(design);
+    if (qr.rank() < 2) {
+        return std::nullopt;
+    }
+    const Eigen::Vector2d line = qr.solve(free.columns.col(2));
+    const Eigen::Matrix2d covariance = (design.transpose() * design).inverse();
+    BiasLine result;
+    result.centre = centre;
+    result.constant = line(0);
+    result.u_constant = std::sqrt(covariance(0, 0));
+    result.slope = line(1) / span;
+    result.u_slope = std::sqrt(covariance(1, 1)) / span;
+    result.covariance = covariance(0, 1) / span;
+    result.chi_square = (free.columns.col(2) - design * line).squaredNorm();
+    result.p_value = chi_square_upper_tail(result.chi_square, static_cast<double>(free.rank - 2));
+    return result;
+}
+
+double vector_en(const VectorXd& d, const MatrixXd& covariance, double coverage_probability) {
+    require_probability(coverage_probability, "coverage probability");
+    if (d.size() == 0 || covariance.rows() != d.size() || covariance.cols() != d.size()) {
+        refuse("GC-GUM-0135", "vector of differences",
+               std::to_string(d.size()) + " quantities and a covariance " + std::to_string(covariance.rows()) + " by " +
+                   std::to_string(covariance.cols()),
+               "at least 1 quantity, and as many rows and columns", "Give all of them.");
+    }
+    for (Index i = 0; i < d.size(); ++i) {
+        require_finite(d(i), point_name(i));
+    }
+    require_covariance(covariance);
+    const VectorXd u = covariance.diagonal().cwiseSqrt();
+    const Whitened free = whitened(correlation_matrix(covariance), d.cwiseQuotient(u));
+    if (free.rank < d.size()) {
+        refuse("GC-GUM-0031", "covariance of a vector of differences",
+               "rank " + std::to_string(free.rank) + " for " + std::to_string(d.size()) + " quantities",
+               "the score divides by it, so it must not be singular",
+               "Leave out quantities that follow from the others, or correct the correlations.");
+    }
+    return std::sqrt(free.columns.squaredNorm()) / ellipsoid_coverage_factor(coverage_probability,
+                                                                             static_cast<std::size_t>(d.size()),
+                                                                             std::numeric_limits<double>::infinity());
+}
+
+AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<double> worst_plausible_en) {
+    if (agreement.count_above_1 > 0 || !(agreement.p_high >= k_significant)) {
+        return AgreementVerdict::disagreement;
+    }
+    if (worst_plausible_en && !(std::abs(*worst_plausible_en) <= 1.0)) {
+        return AgreementVerdict::correlation_unknown;
+    }
+    if (!(agreement.ratio_reference < 1.0)) {
+        return AgreementVerdict::reference_not_better;
+    }
+    if (!(agreement.p_low >= k_significant)) {
+        return AgreementVerdict::uncertainty_too_large;
+    }
+    return agreement.ratio_reference > k_negligible_reference ? AgreementVerdict::agreement_reference_limited
+                                                              : AgreementVerdict::validated;
+}
+
+}  // namespace gumcert::gum

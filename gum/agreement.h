@@ -1,0 +1,86 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+
+#include "gum/weighted_chi_square.h"
+
+namespace gumcert::gum {
+
+/// Differences of two methods at m points, with everything that ties the points to each other.
+struct MethodDifferences {
+    Eigen::VectorXd d;                      ///< m, D = method − reference
+    Eigen::MatrixXd covariance;             ///< m×m, of D (standard uncertainties), in the square of the unit of D
+    Eigen::VectorXd U;                      ///< m, expanded uncertainty of D: also D_fail of the point
+    Eigen::VectorXd U_method, U_reference;  ///< m, expanded uncertainties of both sides
+};
+
+/// What m correlated points say together.
+struct Agreement {
+    std::size_t points = 0;         ///< m
+    std::size_t count_above_1 = 0;  ///< |E_n| > 1
+    double mean_absolute_en = 0.0, largest_absolute_en = 0.0;
+    double rms_en = 0.0;
+    double rms_en_low = 0.0, rms_en_high = 0.0;  ///< 95 % of all comparisons lie between, uncertainties being right
+    double sum_of_squared_zeta = 0.0;
+    double p_low = 0.0;   ///< P(a sum as small or smaller) given the covariance; small: uncertainties too large
+    double p_high = 0.0;  ///< P(a sum as large or larger); small: uncertainties too small
+    double p_low_independent = 0.0, p_high_independent = 0.0;  ///< as if the points were independent of each other
+    double effective_points = 0.0;  ///< m² / ΣΣ r_ij²: independent points that would tell as much
+    double d_fail_smallest = 0.0, d_fail_largest = 0.0;  ///< of the points
+    double mahalanobis_square = 0.0;                     ///< Dᵀ V⁻¹ D with the pseudo-inverse where V is singular
+    std::size_t rank = 0;
+    double beyond_covariance = 0.0;  ///< size of the vector of ζ outside the range of a singular V, which says it is 0
+    double p_mahalanobis = 0.0;      ///< P(χ²_rank ≥ mahalanobis_square)
+    double vector_en = 0.0;          ///< √mahalanobis_square / k_p, k_p the factor of the joint 95.45 % region (or p)
+    double ratio_reference = 0.0;    ///< rms U of the reference / rms U of the method; infinite where that is 0
+};
+
+/// \param coverage_probability  of the joint region of vector_en
+/// \throws InputError  GC-GUM-0032 no points; GC-GUM-0001; GC-GUM-0031 an uncertainty of a difference is 0;
+///                     GC-GUM-0052 to -0054 for the covariance, -0135 sizes that do not fit, -0141 more than
+///                     k_most_points_of_agreement points
+/// Directions in which V has no variance (eigenvalue of the correlation matrix below 1e-10 of the largest) are left out
+/// of the Mahalanobis numbers, and the rank tells how many remain.
+[[nodiscard]] Agreement agreement(const MethodDifferences& differences, double coverage_probability);
+/// More points are refused: an approximation by the first two moments is wrong by many powers of ten in the lower tail.
+inline constexpr std::size_t k_most_points_of_agreement = 3000;
+
+/// Straight line D = a + b (t − t̄) through the differences by generalised least squares with their covariance.
+struct BiasLine {
+    double centre = 0.0;  ///< t̄, the mean of t, where `constant` holds
+    double constant = 0.0, u_constant = 0.0;
+    double slope = 0.0, u_slope = 0.0;
+    double covariance = 0.0;                 ///< of constant and slope
+    double chi_square = 0.0, p_value = 0.0;  ///< of what the line leaves, rank − 2 degrees of freedom
+};
+
+/// Generalised least squares line through the differences.
+///
+/// Where V is singular, directions without variance are left out: the line is unbiased and its uncertainties hold, but
+/// it is not the best one.
+/// \param t  m, in a unit of its own
+/// \return nothing where all t are equal, there are fewer than 3 points, or the rank of V is too small for a line
+/// \throws InputError  as agreement()
+[[nodiscard]] std::optional<BiasLine> bias_line(const MethodDifferences& differences, const Eigen::VectorXd& t);
+
+/// E_n for a vector of m quantities with covariance V of the difference: √(Dᵀ V⁻¹ D) / k_p, where k_p² is the
+/// p quantile of chi-square with m degrees of freedom. For m = 1 it is |E_n|.         (after JCGM 102:2011, 6.5.2)
+/// \throws InputError  GC-GUM-0001, -0031 V is singular or has a variance of 0, -0052 to -0054, -0135 as above
+[[nodiscard]] double vector_en(const Eigen::VectorXd& d, const Eigen::MatrixXd& covariance,
+                               double coverage_probability);
+
+/// What a comparison of methods may be said to show, strongest objection first.
+enum class AgreementVerdict {
+    disagreement,                 ///< a point with |E_n| > 1, or p_high < 0.025
+    correlation_unknown,          ///< agreement only if both methods share nothing: |E_n| > 1 for the worst plausible r
+    reference_not_better,         ///< U of the reference ≥ U of the method: it cannot validate it
+    uncertainty_too_large,        ///< p_low < 0.025
+    agreement_reference_limited,  ///< U_reference > U_method / 3: agreement, but much of it is the reference's
+    validated,
+};
+/// \param worst_plausible_en  largest |E_n| for the worst plausible correlation; nothing where r is known
+[[nodiscard]] AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<double> worst_plausible_en);
+
+}  // namespace gumcert::gum

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+
+#include "gum/reference_value.h"
+
+namespace gumcert::gum {
+
+/// Number of the result with the smallest standard uncertainty: what values are centred on before they are squared, so
+/// that the digits which all values share are gone. It is the one that a weighted mean lies closest to.
+[[nodiscard]] Eigen::Index most_precise(const LaboratoryResults& results);
+
+/// Correlation matrix of the results; the diagonal of the covariance need not be exactly u².
+/// \param results  with a covariance, of fitting size
+[[nodiscard]] Eigen::MatrixXd correlations_of(const LaboratoryResults& results);
+
+/// A matrix L with L Lᵀ = R, the correlation matrix, for R positive semi-definite.
+/// \return n×n; lower triangular where R is positive definite
+[[nodiscard]] Eigen::MatrixXd root_of_correlations(const Eigen::MatrixXd& correlations);
+
+/// require_results() for a number of results that may be 1.
+void require_results(const LaboratoryResults& results, std::size_t fewest);
+
+}  // namespace gumcert::gum

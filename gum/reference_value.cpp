@@ -1,0 +1,356 @@
+#include "gum/reference_value.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "gum/argument_check.h"
+#include "gum/correlated_results.h"
+#include "gum/coverage.h"
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::gum {
+namespace {
+
+using Eigen::Index;
+
+constexpr double k_epsilon = std::numeric_limits<double>::epsilon();
+constexpr double k_diagonal_tolerance = 1e-9;   // of u², for a covariance that was written with some digits
+constexpr double k_symmetry_tolerance = 1e-12;  // of u_i u_j, for a covariance that was computed
+constexpr double k_smallest_reciprocal_condition = 1e-12;
+constexpr double k_largest_magnitude = 1e150;  // of what is squared
+
+std::string name_of(Index i) {
+    return "result " + std::to_string(i + 1);
+}
+
+/// Collects the problems of results, so that all of them reach the user at once.
+class Problems {
+public:
+    void add(std::string code, std::string where, std::string what, std::string rule, std::string action) {
+        list_.push_back(Diagnostic{.code = std::move(code),
+                                   .where = std::move(where),
+                                   .what = std::move(what),
+                                   .rule = std::move(rule),
+                                   .action = std::move(action)});
+    }
+    void throw_if_any() const {
+        if (!list_.empty()) {
+            throw InputError(list_);
+        }
+    }
+
+private:
+    std::vector<Diagnostic> list_;
+};
+
+void check_values(const LaboratoryResults& results, Problems& problems) {
+    for (Index i = 0; i < results.x.size(); ++i) {
+        if (!std::isfinite(results.x(i))) {
+            problems.add("GC-GUM-0001", name_of(i), "value " + number_text(results.x(i)), "must be a finite number",
+                         "Correct the value, or leave the laboratory out.");
+        }
+        const double u = results.u(i);
+        if (std::abs(results.x(i)) > k_largest_magnitude || u > k_largest_magnitude ||
+            (u > 0.0 && u < 1.0 / k_largest_magnitude)) {
+            problems.add("GC-GUM-0135", name_of(i),
+                         "value " + number_text(results.x(i)) + ", standard uncertainty " + number_text(u),
+                         "magnitudes from 1e-150 to 1e+150 can be squared", "State the results in another unit.");
+        }
+        if (!std::isfinite(u)) {
+            problems.add("GC-GUM-0001", name_of(i), "standard uncertainty " + number_text(u), "must be a finite number",
+                         "Correct the uncertainty, or leave the laboratory out.");
+        } else if (u <= 0.0) {
+            problems.add("GC-GUM-0003", name_of(i), "standard uncertainty " + number_text(u), "must be greater than 0",
+                         "Ask the laboratory for its uncertainty, or leave it out.");
+        }
+    }
+}
+
+void check_elements(const LaboratoryResults& results, Problems& problems) {
+    const Eigen::MatrixXd& V = results.covariance;
+    for (Index j = 0; j < V.cols(); ++j) {
+        const double variance = results.u(j) * results.u(j);
+        if (std::abs(V(j, j) - variance) > k_diagonal_tolerance * variance) {
+            problems.add("GC-GUM-0135", "covariance of the results",
+                         "variance of " + name_of(j) + " is " + number_text(V(j, j)) + " for a standard uncertainty " +
+                             number_text(results.u(j)),
+                         "the diagonal holds the squares of the standard uncertainties", "Correct one of the two.");
+        }
+        for (Index i = j + 1; i < V.rows(); ++i) {
+            const double scale = results.u(i) * results.u(j);
+            const std::string pair = "of " + name_of(j) + " and " + name_of(i);
+            if (std::abs(V(i, j) - V(j, i)) > k_symmetry_tolerance * scale) {
+                problems.add("GC-GUM-0052", "covariance of the results",
+                             "element " + pair + " is " + number_text(V(i, j)) + " below and " + number_text(V(j, i)) +
+                                 " above the diagonal",
+                             "a covariance matrix is symmetric", "Correct the covariance.");
+            } else if (std::abs(V(i, j)) > (1.0 + k_diagonal_tolerance) * scale) {
+                problems.add("GC-GUM-0053", "covariance of the results",
+                             "element " + pair + " is " + number_text(V(i, j)) + ", a correlation of " +
+                                 number_text(V(i, j) / scale),
+                             "a correlation coefficient lies between -1 and 1", "Correct the correlation.");
+            }
+        }
+    }
+}
+
+void check_semidefinite(const LaboratoryResults& results, Problems& problems) {
+    const Eigen::MatrixXd R = correlations_of(results);
+    if (Eigen::LLT<Eigen::MatrixXd>(R).info() == Eigen::Success) {
+        return;  // at a thirtieth of the cost of the eigenvalues
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(R, Eigen::EigenvaluesOnly);
+    const double smallest = eigen.eigenvalues()(0);
+    const double tolerance = 10.0 * static_cast<double>(R.rows()) * k_epsilon;
+    if (!(smallest >= -std::max(tolerance, k_diagonal_tolerance) * eigen.eigenvalues().tail(1)(0))) {
+        problems.add("GC-GUM-0054", "covariance of the results",
+                     "smallest eigenvalue of the correlation matrix is " + number_text(smallest),
+                     "a covariance matrix is positive semi-definite",
+                     "Correct the correlations; they contradict each other.");
+    }
+}
+
+/// Values less that of the most precise result, in units of its u; 1/u in the same unit.
+struct CentredResults {
+    double centre = 0.0, unit = 0.0;
+    Eigen::VectorXd x = {};        // (x_i − centre) / unit
+    Eigen::VectorXd inverse = {};  // unit / u_i, at most 1
+};
+
+CentredResults centred(const LaboratoryResults& results) {
+    const Index precise = most_precise(results);
+    CentredResults c{.centre = results.x(precise), .unit = results.u(precise)};
+    c.x = (results.x.array() - c.centre) / c.unit;
+    c.inverse = c.unit / results.u.array();
+    return c;
+}
+
+/// Weighted mean relative to the centre, in the unit of CentredResults, and the chi-square about it.
+struct LeastSquares {
+    double value = 0.0, u = 0.0;
+    Eigen::VectorXd weights;
+    double chi_square = 0.0;
+};
+
+LeastSquares independent_least_squares(const CentredResults& c) {
+    LeastSquares fit;
+    fit.weights = c.inverse.array().square();
+    const double total = fit.weights.sum();
+    fit.weights /= total;
+    fit.u = 1.0 / std::sqrt(total);
+    fit.value = fit.weights.dot(c.x);
+    fit.chi_square = ((c.x.array() - fit.value) * c.inverse.array()).square().sum();
+    return fit;
+}
+
+LeastSquares correlated_least_squares(const LaboratoryResults& results, const CentredResults& c) {
+    const Eigen::MatrixXd R = correlations_of(results);
+    const Eigen::LLT<Eigen::MatrixXd> cholesky(R);
+    const double reciprocal_condition = cholesky.info() == Eigen::Success ? cholesky.rcond() : 0.0;
+    if (!(reciprocal_condition >= k_smallest_reciprocal_condition)) {
+        throw NoResultError(Diagnostic{
+            .code = "GC-GUM-0132",
+            .where = "covariance of the results",
+            .what = "singular: the reciprocal condition number of the correlation matrix is " +
+                    number_text(reciprocal_condition),
+            .rule = "the weighted mean of correlated results needs the inverse of their covariance",
+            .action = "Leave out one of the results that are fully correlated, or correct the correlations."});
+    }
+    LeastSquares fit;
+    const Eigen::VectorXd solved = cholesky.solve(c.inverse);
+    const double total = c.inverse.dot(solved);
+    fit.weights = c.inverse.array() * solved.array() / total;
+    fit.u = 1.0 / std::sqrt(total);
+    fit.value = fit.weights.dot(c.x);
+    const Eigen::VectorXd residuals = (c.x.array() - fit.value) * c.inverse.array();
+    fit.chi_square = cholesky.matrixL().solve(residuals).squaredNorm();
+    return fit;
+}
+
+LeastSquares least_squares(const LaboratoryResults& results, const CentredResults& c) {
+    return results.covariance.size() == 0 ? independent_least_squares(c) : correlated_least_squares(results, c);
+}
+
+}  // namespace
+
+Eigen::Index most_precise(const LaboratoryResults& results) {
+    Index precise = 0;
+    results.u.minCoeff(&precise);
+    return precise;
+}
+
+Eigen::MatrixXd correlations_of(const LaboratoryResults& results) {
+    const Eigen::VectorXd inverse = results.u.cwiseInverse();
+    Eigen::MatrixXd R = inverse.asDiagonal() * results.covariance * inverse.asDiagonal();
+    R = (0.5 * (R + R.transpose())).cwiseMin(1.0).cwiseMax(-1.0).eval();
+    R.diagonal().setOnes();
+    return R;
+}
+
+Eigen::MatrixXd root_of_correlations(const Eigen::MatrixXd& correlations) {
+    const Eigen::LLT<Eigen::MatrixXd> cholesky(correlations);
+    if (cholesky.info() == Eigen::Success) {
+        return cholesky.matrixL();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlations);
+    return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+}
+
+void require_results(const LaboratoryResults& results, std::size_t fewest) {
+    const Index n = results.x.size();
+    if (results.u.size() != n) {
+        refuse("GC-GUM-0135", "results",
+               std::to_string(n) + " values and " + std::to_string(results.u.size()) + " standard uncertainties",
+               "every value has one standard uncertainty", "Give both for every result.");
+    }
+    if (n < static_cast<Index>(fewest)) {
+        refuse("GC-GUM-0131", "results", "only " + std::to_string(n),
+               "a comparison needs at least " + std::to_string(fewest), "Give the results of more laboratories.");
+    }
+    Problems problems;
+    check_values(results, problems);
+    const Eigen::MatrixXd& V = results.covariance;
+    if (V.size() != 0 && (V.rows() != n || V.cols() != n)) {
+        problems.add("GC-GUM-0135", "covariance of the results",
+                     std::to_string(V.rows()) + " rows and " + std::to_string(V.cols()) + " columns for " +
+                         std::to_string(n) + " results",
+                     "one row and one column for every result", "Correct the covariance.");
+    } else if (!V.allFinite()) {
+        problems.add("GC-GUM-0001", "covariance of the results", "a number that is not finite",
+                     "must be finite numbers", "Correct the covariance.");
+    }
+    problems.throw_if_any();
+    const double largest = std::max(results.x.maxCoeff() - results.x.minCoeff(), results.u.maxCoeff());
+    if (largest / results.u.minCoeff() > k_largest_magnitude) {
+        refuse("GC-GUM-0135", "results",
+               "range " + number_text(largest) + " with a standard uncertainty " + number_text(results.u.minCoeff()),
+               "magnitudes up to 1e+150 times the smallest uncertainty can be squared", "Correct the uncertainty.");
+    }
+    if (V.size() != 0) {
+        check_elements(results, problems);
+        problems.throw_if_any();
+        check_semidefinite(results, problems);
+        problems.throw_if_any();
+    }
+}
+
+void require_results(const LaboratoryResults& results) {
+    require_results(results, 2);
+}
+
+LaboratoryResults selected_results(const LaboratoryResults& results, const std::vector<std::size_t>& members) {
+    const auto size = static_cast<Index>(members.size());
+    const bool correlated = results.covariance.size() != 0;
+    LaboratoryResults selected{.x = Eigen::VectorXd(size),
+                               .u = Eigen::VectorXd(size),
+                               .covariance = correlated ? Eigen::MatrixXd(size, size) : Eigen::MatrixXd()};
+    for (Index i = 0; i < size; ++i) {
+        const auto from = static_cast<Index>(members[static_cast<std::size_t>(i)]);
+        selected.x(i) = results.x(from);
+        selected.u(i) = results.u(from);
+        for (Index j = 0; correlated && j < size; ++j) {
+            selected.covariance(i, j) =
+                results.covariance(from, static_cast<Index>(members[static_cast<std::size_t>(j)]));
+        }
+    }
+    return selected;
+}
+
+ReferenceValue spread_weights(ReferenceValue reference, const std::vector<std::size_t>& members, std::size_t results) {
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<Index>(results));
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        weights(static_cast<Index>(members[i])) = reference.weights(static_cast<Index>(i));
+    }
+    reference.weights = std::move(weights);
+    return reference;
+}
+
+ReferenceValue weighted_mean(const LaboratoryResults& results) {
+    require_results(results);
+    const CentredResults c = centred(results);
+    LeastSquares fit = least_squares(results, c);
+    return {.value = c.centre + c.unit * fit.value, .u = c.unit * fit.u, .weights = std::move(fit.weights)};
+}
+
+ReferenceValue arithmetic_mean(const Eigen::VectorXd& x) {
+    const Index n = x.size();
+    if (n < 2) {
+        refuse("GC-GUM-0131", "results", "only " + std::to_string(n), "a standard deviation needs at least 2",
+               "Give the results of more laboratories.");
+    }
+    for (Index i = 0; i < n; ++i) {
+        require_finite(x(i), name_of(i));
+    }
+    const auto count = static_cast<double>(n);
+    const double centre = x(0);
+    const Eigen::ArrayXd from_centre = x.array() - centre;
+    const double mean = from_centre.mean();
+    const double sum_of_squares = (from_centre - mean).square().sum();
+    return {.value = centre + mean,
+            .u = std::sqrt(sum_of_squares / ((count - 1.0) * count)),
+            .weights = Eigen::VectorXd::Constant(n, 1.0 / count)};
+}
+
+ConsistencyTest consistency_test(const LaboratoryResults& results, double alpha) {
+    require_results(results);
+    require_probability(alpha, "alpha of the consistency test");
+    ConsistencyTest test;
+    test.chi_square = least_squares(results, centred(results)).chi_square;
+    test.degrees_of_freedom = static_cast<std::size_t>(results.x.size()) - 1;
+    const auto nu = static_cast<double>(test.degrees_of_freedom);
+    test.critical_value =
+        boost::math::quantile(boost::math::complement(boost::math::chi_squared_distribution<double>(nu), alpha));
+    test.p_value = chi_square_upper_tail(test.chi_square, nu);
+    test.consistent = test.chi_square <= test.critical_value;
+    test.birge_ratio = std::sqrt(test.chi_square / nu);
+    test.birge_limit = std::sqrt(1.0 + std::sqrt(8.0 / nu));
+    return test;
+}
+
+PairDifference pair_difference(const LaboratoryResults& results, std::size_t i, std::size_t j) {
+    const auto n = static_cast<std::size_t>(results.x.size());
+    if (i >= n || j >= n || i == j) {
+        refuse("GC-GUM-0135", "pair of results",
+               std::to_string(i + 1) + " and " + std::to_string(j + 1) + " of " + std::to_string(n),
+               "a pair is two different results", "Correct the pair.");
+    }
+    const auto a = static_cast<Index>(i);
+    const auto b = static_cast<Index>(j);
+    const double u_a = results.u(a);
+    const double u_b = results.u(b);
+    const double r =
+        results.covariance.size() == 0 ? 0.0 : std::clamp(results.covariance(a, b) / (u_a * u_b), -1.0, 1.0);
+    const double gap = u_a - u_b;  // as uncertainty_of_difference(): nothing cancels where r is close to 1
+    const double u = r == 0.0 ? std::hypot(u_a, u_b) : std::sqrt(gap * gap + 2.0 * (1.0 - r) * u_a * u_b);
+    return {.d = results.x(a) - results.x(b), .u = u};
+}
+
+std::size_t incompatible_pairs(const LaboratoryResults& results, double kappa) {
+    require_results(results);
+    require_positive(kappa, "kappa");
+    const Index n = results.x.size();
+    const double unit = results.u.maxCoeff();
+    const Eigen::ArrayXd x = (results.x.array() - results.x(0)) / unit;
+    const Eigen::ArrayXd u = results.u.array() / unit;
+    std::size_t pairs = 0;
+    for (Index i = 0; i < n; ++i) {
+        for (Index j = 0; j < i; ++j) {
+            double variance = u(i) * u(i) + u(j) * u(j);
+            if (results.covariance.size() != 0) {
+                const double u_d = pair_difference(results, static_cast<std::size_t>(i), static_cast<std::size_t>(j)).u;
+                variance = (u_d / unit) * (u_d / unit);
+            }
+            const double d = x(i) - x(j);
+            pairs += d * d > kappa * kappa * variance ? 1 : 0;
+        }
+    }
+    return pairs;
+}
+
+}  // namespace gumcert::gum

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gumcert::gum {
+
+/// Results of n laboratories for one quantity, all in one unit.
+struct LaboratoryResults {
+    Eigen::VectorXd x;                ///< n, values
+    Eigen::VectorXd u;                ///< n, standard uncertainties > 0
+    Eigen::MatrixXd covariance = {};  ///< n×n with u² on its diagonal; empty: the results are independent of each other
+};
+
+/// Checks sizes, finite numbers, u > 0, covariance symmetric with |r| ≤ 1 and positive semi-definite.
+/// \throws InputError  with every problem found: GC-GUM-0001, -0003, -0131 fewer than 2 results, -0135 sizes that do
+///                     not fit, a diagonal that is not u², or numbers whose squares are no longer numbers, -0052 to
+///                     -0054 for the covariance
+void require_results(const LaboratoryResults& results);
+
+/// The results with these numbers, in this order, with their part of the covariance. Nothing is checked.
+[[nodiscard]] LaboratoryResults selected_results(const LaboratoryResults& results,
+                                                 const std::vector<std::size_t>& members);
+
+/// An estimate from the results of several laboratories that is linear in them: y = Σ w_i x_i, Σ w_i = 1.
+struct ReferenceValue {
+    double value = 0.0;
+    double u = 0.0;
+    Eigen::VectorXd weights = {};             ///< n; empty or all 0: the value does not depend on the results
+    double between_standard_deviation = 0.0;  ///< τ of a random-effects model; 0 without one
+    int iterations = 0;
+};
+
+/// The same value with the weights spread over all n results: those of the members, 0 for the others.
+[[nodiscard]] ReferenceValue spread_weights(ReferenceValue reference, const std::vector<std::size_t>& members,
+                                            std::size_t results);
+
+/// Weighted mean, w_i ∝ 1/u_i², u² = 1/Σ(1/u_i²); with a covariance the generalised one, w = V⁻¹1/(1ᵀV⁻¹1),
+/// u² = 1/(1ᵀV⁻¹1).                     (Cox 2002, Metrologia 39, 589-595, procedure A; CIPM MRA-G-11)
+/// \throws InputError     as require_results(). Weights may be negative where correlations are strong
+/// \throws NoResultError  GC-GUM-0132 the covariance is singular (reciprocal condition of the correlations below 1e-12)
+/// Accuracy: relative error of u and the weights below 1e-13 without a covariance, for any range of u.
+[[nodiscard]] ReferenceValue weighted_mean(const LaboratoryResults& results);
+
+/// Arithmetic mean with u = s/√n of the values themselves; stated uncertainties are not used.
+/// \throws InputError  GC-GUM-0001, -0131 fewer than 2
+[[nodiscard]] ReferenceValue arithmetic_mean(const Eigen::VectorXd& x);
+
+/// Test whether results are consistent with one value and their stated uncertainties.
+struct ConsistencyTest {
+    double chi_square = 0.0;  ///< Σ (x_i − y)²/u_i², or (x − 1y)ᵀ V⁻¹ (x − 1y)
+    std::size_t degrees_of_freedom = 0;
+    double critical_value = 0.0;  ///< upper quantile of chi-square
+    double p_value = 0.0;
+    bool consistent = true;    ///< chi_square ≤ critical_value, that is p_value ≥ α
+    double birge_ratio = 0.0;  ///< √(χ²/ν); a rule of thumb, not a test of stated uncertainties
+    double birge_limit = 0.0;  ///< √(1 + √(8/ν))
+};
+/// About the weighted mean. The values are centred on one of them before anything is squared.
+/// \param alpha  0.05 in key comparisons
+/// \throws  as weighted_mean(); InputError GC-GUM-0004 for alpha
+[[nodiscard]] ConsistencyTest consistency_test(const LaboratoryResults& results, double alpha = 0.05);
+
+/// Largest subset of results that passes the consistency test; among several of that size the one with the smallest
+/// chi-square.                                                             (Cox 2007, Metrologia 44, 187-200)
+///
+/// Exact. Independent results: χ² of a subset is the least value over y of Σ (x_i − y)²/u_i², and for every y the best
+/// subset of a size holds the smallest terms; the best y is found by branch and bound over intervals of y, the size by
+/// bisection (whenever a size has a consistent subset, so has every smaller one). With a covariance: every subset, the
+/// large ones first.
+struct ConsistentSubset {
+    std::vector<std::size_t> members;  ///< ascending
+    ReferenceValue mean;               ///< of the members; weights over all n, 0 outside
+    ConsistencyTest test;              ///< of the members
+    bool unique = true;                ///< no other subset of this size has the same chi-square (within 1e-9 relative)
+};
+inline constexpr std::size_t k_most_results_of_subset = 2000;           ///< independent ones
+inline constexpr std::size_t k_most_correlated_results_of_subset = 20;  ///< with a covariance
+/// \param alpha  at most 0.3
+/// \throws InputError     as require_results(); GC-GUM-0004; GC-GUM-0133 too many results for an exact search
+/// \throws NoResultError  GC-GUM-0132 the covariance is singular; GC-GUM-0134 no two results are consistent
+[[nodiscard]] ConsistentSubset largest_consistent_subset(const LaboratoryResults& results, double alpha = 0.05);
+
+/// Degrees of equivalence d_i = x_i − y, unilateral, with u²(d_i) = u_i² − 2 cov(x_i, y) + u²(y) and
+/// cov(x_i, y) = Σ_j w_j cov(x_i, x_j), w the weights of the reference value.
+///
+/// For the weighted mean of independent results that is u_i² − u²(y) for a laboratory inside the mean and u_i² + u²(y)
+/// for one outside (weight 0). It is computed as (e_i − w) V (e_i − w)ᵀ plus what u²(y) has beyond wᵀ V w, without the
+/// difference of two nearly equal variances.
+///
+/// A u(y) that is smaller than the stated u_i allow (the standard deviation of values that agree by chance) can give
+/// |cov(x_i, y)| > u_i u(y). A correlation of ±1 is taken then, and u(d_i) belongs to it.
+struct DegreesOfEquivalence {
+    Eigen::VectorXd d, u;         ///< n
+    Eigen::VectorXd correlation;  ///< n, of x_i with the reference value, −1 … 1
+};
+/// \param results  one or more: a single laboratory may be held against a value that does not depend on it
+/// \throws InputError  as require_results(); GC-GUM-0001, -0002 or -0135 for the reference value
+[[nodiscard]] DegreesOfEquivalence degrees_of_equivalence(const LaboratoryResults& results,
+                                                          const ReferenceValue& reference);
+
+/// d_ij = x_i − x_j with u²(d_ij) = u_i² + u_j² − 2 cov(x_i, x_j).
+struct PairDifference {
+    double d = 0.0, u = 0.0;
+};
+[[nodiscard]] PairDifference pair_difference(const LaboratoryResults& results, std::size_t i, std::size_t j);
+
+/// Number of pairs of results that are not metrologically compatible, |x_i − x_j| > κ u(x_i − x_j)
+/// (JCGM 200:2012, 2.47; Kacker, Kessel and Sommer 2010). Time n².
+/// \param kappa  > 0
+[[nodiscard]] std::size_t incompatible_pairs(const LaboratoryResults& results, double kappa = 2.0);
+
+/// What Monte Carlo says of the median of the results (procedure B of Cox 2002).
+struct MedianTrials {
+    double median = 0.0;  ///< mean of the medians of the trials
+    double u = 0.0;
+    double low = 0.0, high = 0.0;   ///< shortest coverage interval of the median
+    Eigen::VectorXd d, u_d;         ///< n, x_i − median, over the trials
+    Eigen::VectorXd d_low, d_high;  ///< n, shortest coverage intervals
+    std::size_t trials = 0;
+};
+inline constexpr std::size_t k_fewest_median_trials = 1'000;
+inline constexpr std::size_t k_most_median_trials = 10'000'000;
+inline constexpr std::size_t k_most_median_draws = 500'000'000;            ///< results × trials
+inline constexpr std::size_t k_most_correlated_median_draws = 50'000'000;  ///< the same with a covariance
+/// Every trial draws all results from normal distributions (jointly, with a covariance) and takes their median.
+/// Same bytes for any number of threads. Memory: 0.15 GB and 8 bytes a trial, whatever the number of results.
+/// \param trials  k_fewest_median_trials … k_most_median_trials
+/// \param threads  0: as many as the machine has
+/// \throws InputError  as require_results(); GC-GUM-0004; GC-GUM-0136 for the number of trials, alone or times n
+[[nodiscard]] MedianTrials median_trials(const LaboratoryResults& results, std::size_t trials, std::uint64_t seed,
+                                         double coverage_probability, unsigned threads = 0);
+
+}  // namespace gumcert::gum

@@ -1,0 +1,598 @@
+#include "reports/comparison_laboratory_sections.h"
+
+#include "gum/quantity/unit.h"
+#include "gum/rounding.h"
+#include "reports/comparison_parts.h"
+#include "reports/comparison_plots.h"
+#include "reports/printed_texts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gumcert::reports {
+
+namespace {
+
+using Facts = ComparisonFacts;
+using Rows = ComparisonRows;
+using Points = std::vector<const ComparisonPoint*>;
+
+constexpr std::size_t k_most_side_by_side = 4;    ///< items whose scores stand in one table of the first page
+constexpr std::size_t k_most_on_first_page = 24;  ///< rows of its table
+constexpr std::array<const char*, 5> k_scores = {"D", "zeta", "En", "z", "z_prime"};
+
+std::string count(std::size_t n) {
+    return plain(static_cast<std::int64_t>(n));
+}
+
+bool has_signal(const ComparisonPoint& p) {
+    return p.signal == "warning" || p.signal == "action";
+}
+
+std::vector<std::string> with_signal(const Points& points, const std::string& signal) {
+    std::vector<std::string> ids;
+    for (const ComparisonPoint* p : points) {
+        if (p->signal == signal) {
+            ids.push_back(p->participant);
+        }
+    }
+    return ids;
+}
+
+Text signal_name(const Wording& words, const std::string& signal) {
+    return signal.empty() ? Text() : words("comparison_signal", signal);
+}
+
+std::optional<double> score_value(const ComparisonPoint& p, const std::string& score) {
+    return score == "En"        ? p.En
+           : score == "zeta"    ? p.zeta
+           : score == "z"       ? p.z
+           : score == "z_prime" ? p.z_prime
+           : score == "D"       ? std::optional<double>(p.D)
+                                : std::nullopt;
+}
+
+/// How much the signal of a result matters: 0 without one; an action more than any warning.
+double weight_of(const ComparisonPoint& p, const std::string& score) {
+    if (!has_signal(p)) {
+        return 0.0;
+    }
+    const double magnitude = std::abs(score_value(p, score).value_or(0.0));
+    return (p.signal == "action" ? 2.0 : 1.0) + magnitude / (1.0 + magnitude);
+}
+
+/// All results of an item, or of many those with a signal; says so where it is not all.
+Points shown_points(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared, std::size_t most) {
+    std::vector<double> weights;
+    for (const ComparisonPoint* p : compared.points) {
+        weights.push_back(weight_of(*p, compared.item->score));
+    }
+    Points shown;
+    for (const std::size_t i : shown_rows(weights, most)) {
+        shown.push_back(compared.points[i]);
+    }
+    say_what_is_shown(builder, words, weights, shown.size());
+    return shown;
+}
+
+/// What the scores of one item say, in plain words.
+Text scores_sentence(const Wording& words, const ComparedItem& compared) {
+    const std::string& score = compared.item->score;
+    if (score.empty()) {
+        return words.filled("comparison_scores", "none", {{"item", compared.name}});
+    }
+    const std::vector<std::string> action = with_signal(compared.points, "action");
+    const std::vector<std::string> warning = with_signal(compared.points, "warning");
+    const auto scored = std::count_if(compared.points.begin(), compared.points.end(),
+                                      [](const ComparisonPoint* p) { return !p->signal.empty(); });
+    const std::string kind = score == "En" || score == "D" ? score : "z";
+    const char* outcome = !action.empty() ? "action" : !warning.empty() && kind == "z" ? "warning" : "none";
+    return words.filled("comparison_scores", kind + "_" + outcome,
+                        {{"item", compared.name},
+                         {"score", score_name(words, score)},
+                         {"scored", count(static_cast<std::size_t>(scored))},
+                         {"actions", count(action.size())},
+                         {"warnings", count(warning.size())},
+                         {"action_names", some_of(words, action)},
+                         {"warning_names", some_of(words, warning)}});
+}
+
+Text consistency_in_brief(const Wording& words, const ConsistencySummary& s) {
+    return words.filled("comparison", s.consistent ? "consistent_in_brief" : "not_consistent_in_brief",
+                        {{"chi_square", words.number(s.printed.chi_square)},
+                         {"critical", words.number(s.printed.critical_value)},
+                         {"p", words.number(s.printed.p_value)}});
+}
+
+void one_item_of_answer(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared) {
+    const ComparisonItemEvaluation& item = *compared.item;
+    const std::string unit = gum::unit_for_people(item.unit);
+    const std::string difference_unit = gum::unit_for_people(item.difference_unit);
+    Rows rows;
+    for (const ComparisonPoint* p : shown_points(builder, words, compared, k_most_on_first_page)) {
+        const bool both = item.score != "D";
+        rows.push_back({p->participant, p->printed.value, p->printed.U, p->printed.D, p->printed.U_D,
+                        both ? score_text(*p, item.score) : "", signal_name(words, p->signal)});
+    }
+    table_of_filled_columns(builder, "scores", words("comparison", "scores_table"),
+                            {{words("comparison", "participant"), ""},
+                             {words("label", "value") + " x", unit, true},
+                             {"U(x)", difference_unit, true},
+                             {words("label", "difference"), difference_unit, true},
+                             {"U(D)", difference_unit, true},
+                             {score_name(words, item.score), "", true},
+                             {words("comparison", "signal"), ""}},
+                            rows);
+}
+
+/// Scores of a few items side by side, one row a laboratory.
+void scores_side_by_side(CertificateBuilder& builder, const Wording& words, const Comparison& c,
+                         const std::vector<ComparedItem>& items) {
+    std::map<std::string, std::vector<const ComparisonPoint*>> by_participant;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        for (const ComparisonPoint* p : items[i].points) {
+            auto& row = by_participant[p->participant];
+            row.resize(items.size(), nullptr);
+            row[i] = p;
+        }
+    }
+    std::vector<Column> columns = {{words("comparison", "participant"), ""}};
+    std::vector<std::pair<Text, std::size_t>> groups = {{"", 1}};
+    for (const ComparedItem& compared : items) {
+        const ComparisonItemEvaluation& item = *compared.item;
+        columns.push_back(
+            {score_name(words, item.score), item.score == "D" ? gum::unit_for_people(item.difference_unit) : "", true});
+        columns.push_back({words("comparison", "signal"), ""});
+        groups.emplace_back(compared.name, 2);
+    }
+    std::vector<double> weights;
+    for (const ParticipantSummary& participant : c.participants) {
+        double weight = 0.0;
+        auto& points = by_participant[participant.id];
+        points.resize(items.size(), nullptr);
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            weight += points[i] == nullptr ? 0.0 : weight_of(*points[i], items[i].item->score);
+        }
+        weights.push_back(weight);
+    }
+    Rows rows;
+    for (const std::size_t position : shown_rows(weights, k_most_on_first_page)) {
+        const std::string& id = c.participants[position].id;
+        std::vector<Text> row = {id};
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            const ComparisonPoint* p = by_participant[id][i];
+            row.push_back(p == nullptr ? "" : score_text(*p, items[i].item->score));
+            row.push_back(p == nullptr ? Text() : signal_name(words, p->signal));
+        }
+        rows.push_back(std::move(row));
+    }
+    say_what_is_shown(builder, words, weights, rows.size());
+    if (!rows.empty()) {
+        builder.table("scores", words("comparison", "scores_table"), columns, rows, groups);
+    }
+}
+
+/// Items with the numbers of signals, where there are too many for one column each.
+void items_table(CertificateBuilder& builder, const Wording& words, const std::vector<ComparedItem>& items) {
+    std::vector<double> weights;
+    for (const ComparedItem& compared : items) {
+        weights.push_back(2.0 * static_cast<double>(with_signal(compared.points, "action").size()) +
+                          static_cast<double>(with_signal(compared.points, "warning").size()));
+    }
+    Rows rows;
+    for (const std::size_t i : shown_rows(weights, k_most_rows)) {
+        const ComparisonItemEvaluation& item = *items[i].item;
+        const std::vector<std::string> action = with_signal(items[i].points, "action");
+        rows.push_back({items[i].name, printed_quantity(words, item.printed.value, item.unit),
+                        printed_quantity(words, item.printed.U, item.difference_unit), score_name(words, item.score),
+                        count(items[i].points.size()), count(with_signal(items[i].points, "warning").size()),
+                        count(action.size()), some_of(words, action)});
+    }
+    say_what_is_shown(builder, words, weights, rows.size());
+    table_of_filled_columns(builder, "items", words("comparison", "items_table"),
+                            {{words("comparison", "item"), ""},
+                             {"X", "", true},
+                             {"U(X)", "", true},
+                             {words("comparison", "score"), ""},
+                             {words("comparison", "results"), "", true},
+                             {words("comparison", "warnings"), "", true},
+                             {words("comparison", "actions"), "", true},
+                             {words("comparison", "laboratories_with_action"), ""}},
+                            rows);
+}
+
+void values_figure(CertificateBuilder& builder, const Wording& words, const Comparison& c, const ComparedItem& compared,
+                   const std::string& id) {
+    builder.figure(id, words.filled("comparison", "figure_values", {{"item", compared.name}}),
+                   words("plot", "laboratory_values_description").first(),
+                   laboratory_values_plot(c, *compared.item, id, words));
+}
+
+/// Results of one item with every score that was asked for.
+void results_table(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared,
+                   const std::string& id) {
+    const ComparisonItemEvaluation& item = *compared.item;
+    const std::string unit = gum::unit_for_people(item.unit);
+    const std::string difference_unit = gum::unit_for_people(item.difference_unit);
+    Rows rows;
+    for (const ComparisonPoint* p : shown_points(builder, words, compared, k_most_rows)) {
+        rows.push_back({p->participant, p->printed.value, p->printed.U, p->printed.k, p->printed.D, p->printed.U_D,
+                        p->printed.D_percent, p->printed.P_A, p->printed.zeta, p->printed.En, p->printed.z,
+                        p->printed.z_prime, signal_name(words, p->signal)});
+    }
+    table_of_filled_columns(builder, "results-" + id,
+                            words.filled("comparison", "results_table", {{"item", compared.name}}),
+                            {{words("comparison", "participant"), ""},
+                             {"x", unit, true},
+                             {"U(x)", difference_unit, true},
+                             {"k", "", true},
+                             {"D", difference_unit, true},
+                             {"U(D)", difference_unit, true},
+                             {"D", "%", true},
+                             {"P_A", "%", true},
+                             {words("label", "zeta"), "", true},
+                             {words("label", "En"), "", true},
+                             {words("label", "z"), "", true},
+                             {words("label", "z_prime"), "", true},
+                             {words("comparison", "signal"), ""}},
+                            rows);
+}
+
+void realism_table(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared,
+                   const std::string& id) {
+    const auto ratio = [](const std::optional<double>& v) { return v ? gum::round_significant(*v, 2) : ""; };
+    const auto judged = [](const ComparisonPoint* p) {
+        return !p->realism.empty() || p->U_over_CMC || !p->printed.En_audited.empty() || !p->printed.En_worst.empty();
+    };
+    if (std::none_of(compared.points.begin(), compared.points.end(), judged)) {
+        return;
+    }
+    builder.paragraph(words("comparison", "realism"));
+    Rows rows;
+    for (const ComparisonPoint* p : shown_points(builder, words, compared, k_most_rows)) {
+        rows.push_back({p->participant, p->printed.U,
+                        p->realism.empty() ? Text() : words("comparison_realism", p->realism), ratio(p->U_over_CMC),
+                        ratio(p->U_over_median), p->printed.En, p->printed.En_worst, p->printed.En_audited});
+    }
+    table_of_filled_columns(builder, "realism-" + id,
+                            words.filled("comparison", "realism_table", {{"item", compared.name}}),
+                            {{words("comparison", "participant"), ""},
+                             {"U(x)", gum::unit_for_people(compared.item->difference_unit), true},
+                             {words("comparison", "judgement"), ""},
+                             {"U / CMC", "", true},
+                             {words("comparison", "U_over_median"), "", true},
+                             {words("label", "En"), "", true},
+                             {words("comparison", "En_worst"), "", true},
+                             {words("comparison", "En_audited"), "", true}},
+                            rows);
+}
+
+/// Names of the laboratories of the pairs, in the order in which they first appear.
+std::vector<std::string> laboratories_of(const std::vector<PairEquivalence>& pairs) {
+    std::vector<std::string> names;
+    const auto add = [&](const std::string& name) {
+        if (std::find(names.begin(), names.end(), name) == names.end()) {
+            names.push_back(name);
+        }
+    };
+    for (const PairEquivalence& pair : pairs) {
+        add(pair.first);
+        add(pair.second);
+    }
+    return names;
+}
+
+void pair_list(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared, const std::string& id) {
+    const std::string unit = gum::unit_for_people(compared.item->difference_unit);
+    Rows rows;
+    for (const PairEquivalence& pair : compared.item->pairs) {
+        rows.push_back({pair.first, pair.second, pair.printed.d, pair.printed.U, pair.printed.En});
+    }
+    table_of_filled_columns(builder, "pairs-" + id, words("comparison", "pairs_table"),
+                            {{words("comparison", "laboratory_i"), ""},
+                             {words("comparison", "laboratory_j"), ""},
+                             {"d_ij", unit, true},
+                             {"U(d_ij)", unit, true},
+                             {words("label", "En"), "", true}},
+                            rows);
+}
+
+void pair_matrix(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared, const std::string& id,
+                 const std::vector<std::string>& names) {
+    std::map<std::pair<std::string, std::string>, std::string> En;
+    for (const PairEquivalence& pair : compared.item->pairs) {
+        En[{pair.first, pair.second}] = pair.printed.En;
+    }
+    std::vector<Column> columns = {{"i \\ j", ""}};
+    Rows rows;
+    for (const std::string& first : names) {
+        columns.push_back({first, "", true});
+        std::vector<Text> row = {first};
+        for (const std::string& second : names) {
+            const auto found = En.find({first, second});
+            row.push_back(found == En.end() ? "\u00A0" : found->second);
+        }
+        rows.push_back(std::move(row));
+    }
+    builder.table("pairs-" + id, words("comparison", "pairs_matrix"), columns, rows);
+}
+
+/// Degrees of equivalence of pairs: as a list, as a matrix of E_n, or as a drawing only.
+void pairs_of(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared, const std::string& id) {
+    constexpr std::size_t k_most_listed = 7;
+    constexpr std::size_t k_most_in_matrix = 12;
+    if (compared.item->pairs.empty()) {
+        return;
+    }
+    const std::vector<std::string> names = laboratories_of(compared.item->pairs);
+    if (names.size() <= k_most_listed) {
+        pair_list(builder, words, compared, id);
+    } else if (names.size() <= k_most_in_matrix) {
+        pair_matrix(builder, words, compared, id, names);
+    }
+    const std::string plot = "plot-pairs-" + id;
+    builder.figure(plot, words.filled("comparison", "figure_pairs", {{"item", compared.name}}),
+                   words("plot", "pairs_description").first(), pairs_plot(*compared.item, plot, words));
+}
+
+void item_sections(CertificateBuilder& builder, const Wording& words, const Comparison& c,
+                   const std::vector<ComparedItem>& items) {
+    std::size_t detailed = 0;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        const ComparedItem& compared = items[i];
+        const bool notable = std::any_of(compared.points.begin(), compared.points.end(),
+                                         [](const ComparisonPoint* p) { return has_signal(*p); });
+        if (items.size() > k_most_detailed && (!notable || detailed == k_most_detailed)) {
+            continue;
+        }
+        ++detailed;
+        const std::string id = count(i + 1);
+        builder.section("item-" + id, items.size() == 1
+                                          ? words("heading", "assigned_value")
+                                          : words.filled("comparison", "item_heading", {{"item", compared.name}}));
+        assigned_value_section(builder, words, compared, id);
+        results_table(builder, words, compared, id);
+        if (items.size() > 1 && i > 0) {
+            values_figure(builder, words, c, compared, "plot-values-" + id);
+        }
+        if (!compared.item->score.empty()) {
+            const std::string plot = "plot-scores-" + id;
+            builder.figure(plot,
+                           words.filled("comparison", "figure_scores",
+                                        {{"item", compared.name}, {"score", score_name(words, compared.item->score)}}),
+                           words("plot", "laboratory_scores_description").first(),
+                           laboratory_scores_plot(c, *compared.item, plot, words));
+        }
+        pairs_of(builder, words, compared, id);
+        realism_table(builder, words, compared, id);
+    }
+    if (detailed < items.size()) {
+        builder.section("further_items");
+        builder.paragraph(words.filled("comparison", "items_in_record",
+                                       {{"shown", count(detailed)}, {"count", count(items.size())}}));
+    }
+}
+
+void shared_sources(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    if (c.shared_sources.empty()) {
+        return;
+    }
+    builder.section("comparison_correlations");
+    builder.paragraph(words("comparison", "shared_sources"));
+    Rows rows;
+    for (const SharedSource& s : c.shared_sources) {
+        if (rows.size() < k_most_rows) {
+            rows.push_back({s.source, s.first, s.second, s.printed_correlation});
+        }
+    }
+    if (rows.size() < c.shared_sources.size()) {
+        builder.paragraph(words.fill("more_in_record", {{"count", count(c.shared_sources.size() - rows.size())}}));
+    }
+    table_of_filled_columns(builder, "shared-sources", words("comparison", "shared_sources_table"),
+                            {{words("label", "source"), ""},
+                             {words("comparison", "first"), ""},
+                             {words("comparison", "second"), ""},
+                             {"r", "", true}},
+                            rows);
+}
+
+void participants_section(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    builder.section("participants");
+    std::vector<double> weights;
+    for (const ParticipantSummary& p : c.participants) {
+        weights.push_back(2.0 * static_cast<double>(p.actions) + static_cast<double>(p.warnings));
+    }
+    Rows names;
+    Rows rows;
+    const std::vector<std::size_t> shown = shown_rows(weights, k_most_rows);
+    for (const std::size_t i : shown) {
+        const ParticipantSummary& p = c.participants[i];
+        if (p.name != p.id || !p.group.empty()) {
+            names.push_back({p.id, p.name, p.group});
+        }
+        rows.push_back({p.id, plain(p.results), plain(p.scored), plain(p.warnings), plain(p.actions),
+                        p.printed.mean_abs_En, p.printed.max_abs_En, p.printed.rms_En, p.printed.p_low,
+                        p.printed.p_high});
+    }
+    say_what_is_shown(builder, words, weights, shown.size());
+    const Column laboratory = {words("comparison", "participant"), ""};
+    table_of_filled_columns(builder, "participant-names", words("comparison", "names_table"),
+                            {laboratory, {words("label", "name"), ""}, {words("comparison", "group"), ""}}, names);
+    table_of_filled_columns(builder, "participants", words("comparison", "participants_table"),
+                            {laboratory,
+                             {words("comparison", "results"), "", true},
+                             {words("comparison", "scored"), "", true},
+                             {words("comparison", "warnings"), "", true},
+                             {words("comparison", "actions"), "", true},
+                             {words("label", "mean_abs_En"), "", true},
+                             {words("label", "max_abs_En"), "", true},
+                             {words("label", "rms_En"), "", true},
+                             {"p_low", "", true},
+                             {"p_high", "", true}},
+                            rows);
+}
+
+void vectors_section(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    if (c.vectors.empty()) {
+        return;
+    }
+    builder.section("vectors");
+    builder.paragraph(words("comparison", "vectors"));
+    std::vector<double> weights;
+    for (const VectorScore& v : c.vectors) {
+        weights.push_back(v.vector_En > 1.0 ? v.vector_En : 0.0);
+    }
+    Rows rows;
+    for (const std::size_t i : shown_rows(weights, k_most_rows)) {
+        const VectorScore& v = c.vectors[i];
+        rows.push_back(
+            {v.name, v.participant, v.round, plain(v.quantities), v.printed.vector_En, v.printed.max_abs_En});
+    }
+    say_what_is_shown(builder, words, weights, rows.size());
+    table_of_filled_columns(builder, "vectors", words("comparison", "vectors_table"),
+                            {{words("comparison", "vector"), ""},
+                             {words("comparison", "participant"), ""},
+                             {words("comparison", "round"), ""},
+                             {words("comparison", "quantities"), "", true},
+                             {words("comparison", "vector_En"), "", true},
+                             {words("label", "max_abs_En"), "", true}},
+                            rows);
+}
+
+void youden_section(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    if (c.youden.empty()) {
+        return;
+    }
+    builder.section("youden");
+    for (std::size_t i = 0; i < std::min(c.youden.size(), k_most_detailed); ++i) {
+        const YoudenDiagram& diagram = c.youden[i];
+        const std::string id = "plot-youden-" + count(i + 1);
+        builder.figure(
+            id,
+            words.filled("comparison", "figure_youden",
+                         {{"first", diagram.first_item},
+                          {"second", diagram.second_item},
+                          {"r", words.number(gum::round_to_quantum(diagram.correlation, 2))}}),
+            words.filled("plot", "youden_description", {{"first", diagram.first_item}, {"second", diagram.second_item}})
+                .first(),
+            youden_plot(diagram, id, words));
+    }
+}
+
+/// One sentence for every score that some result has.
+void how_to_read(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    Facts facts;
+    for (const char* score : k_scores) {
+        if (std::any_of(c.points.begin(), c.points.end(),
+                        [&](const ComparisonPoint& p) { return !score_text(p, score).empty(); })) {
+            facts.emplace_back(score_name(words, score), words("comparison_score_reading", score));
+        }
+    }
+    const auto add = [&](const char* name, const Text& label, auto has) {
+        if (std::any_of(c.points.begin(), c.points.end(), has)) {
+            facts.emplace_back(label, words("comparison_score_reading", name));
+        }
+    };
+    add("P_A", "P_A", [](const ComparisonPoint& p) { return !p.printed.P_A.empty(); });
+    add("En_worst", words("comparison", "En_worst"), [](const ComparisonPoint& p) { return p.En_worst.has_value(); });
+    add("En_audited", words("comparison", "En_audited"),
+        [](const ComparisonPoint& p) { return p.En_audited.has_value(); });
+    if (!facts.empty()) {
+        builder.section("how_to_read");
+        builder.definitions(facts);
+        if (!c.audit_finding.empty()) {
+            builder.paragraph(words.filled("comparison", "audit_finding", {{"finding", c.audit_finding}}));
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<ComparedItem> compared_items(const Wording& words, const Comparison& comparison) {
+    std::vector<ComparedItem> items;
+    std::map<std::pair<std::string, std::string>, std::size_t> at;
+    for (const ComparisonItemEvaluation& item : comparison.items) {
+        at[{item.id, item.round}] = items.size();
+        Text name = item.name.empty() ? Text(item.id) : Text(item.name);
+        name = name.empty() ? words("comparison", "the_item") : name;
+        items.push_back({.item = &item,
+                         .points = {},
+                         .name = item.round.empty() ? name
+                                                    : words.filled("comparison", "item_in_round",
+                                                                   {{"item", name}, {"round", item.round}})});
+    }
+    for (const ComparisonPoint& p : comparison.points) {
+        if (const auto found = at.find({p.item, p.round}); found != at.end()) {
+            items[found->second].points.push_back(&p);
+        }
+    }
+    return items;
+}
+
+Text score_name(const Wording& words, const std::string& score) {
+    return score.empty() ? Text() : score == "D" ? Text("D") : words("label", score);
+}
+
+std::string score_text(const ComparisonPoint& p, const std::string& score) {
+    return score == "En"        ? p.printed.En
+           : score == "zeta"    ? p.printed.zeta
+           : score == "z"       ? p.printed.z
+           : score == "z_prime" ? p.printed.z_prime
+           : score == "D"       ? p.printed.D
+                                : "";
+}
+
+void laboratory_answer(CertificateBuilder& builder, const Wording& words, const Comparison& c, Facts facts) {
+    const std::vector<ComparedItem> items = compared_items(words, c);
+    builder.section("answer");
+    Text compared;
+    for (std::size_t i = 0; i < std::min(items.size(), k_most_side_by_side); ++i) {
+        builder.paragraph(scores_sentence(words, items[i]));
+        compared = compared.empty() ? items[i].name : compared + "; " + items[i].name;
+    }
+    if (items.size() > k_most_side_by_side) {
+        compared = words.fill("and_more", {{"names", compared}, {"count", count(items.size() - k_most_side_by_side)}});
+    }
+    if (compared != words("comparison", "the_item")) {
+        facts.insert(facts.begin(), {words("comparison", "compared"), compared});
+    }
+    facts.emplace_back(words("comparison", "participants"), count(c.participants.size()));
+    if (items.size() == 1) {
+        facts.emplace_back(words("comparison", "assigned_value"), assigned_value_text(words, *items[0].item));
+        if (items[0].item->consistency) {
+            facts.emplace_back(words("comparison", "consistency"),
+                               consistency_in_brief(words, *items[0].item->consistency));
+        }
+    }
+    builder.definitions(facts);
+    if (!items.empty()) {
+        values_figure(builder, words, c, items[0], "plot-values-1");
+    }
+    if (items.size() == 1) {
+        one_item_of_answer(builder, words, items[0]);
+    } else if (items.size() <= k_most_side_by_side) {
+        scores_side_by_side(builder, words, c, items);
+    } else {
+        items_table(builder, words, items);
+    }
+}
+
+void laboratory_sections(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    how_to_read(builder, words, c);
+    remarks_section(builder, c);
+    item_sections(builder, words, c, compared_items(words, c));
+    participants_section(builder, words, c);
+    vectors_section(builder, words, c);
+    youden_section(builder, words, c);
+    shared_sources(builder, words, c);
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,418 @@
+#include "reports/comparison_method_sections.h"
+
+#include "gum/quantity/unit.h"
+#include "gum/rounding.h"
+#include "reports/certificate_rotary_sections.h"
+#include "reports/comparison_parts.h"
+#include "reports/comparison_plots.h"
+#include "reports/comparison_sections.h"
+#include "reports/printed_texts.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gumcert::reports {
+
+namespace {
+
+using Facts = ComparisonFacts;
+using Rows = ComparisonRows;
+
+constexpr const char* k_validated = "validated";
+
+Text direction_name(const Wording& words, const std::string& direction) {
+    return direction == "all" ? words("label", "all") : direction.empty() ? words("plot", "all_points") : direction;
+}
+
+/// The gravest verdict of all directions: what holds for the method as a whole. Nothing where nothing was judged.
+const ComparisonSummary* gravest(const Comparison& c) {
+    static constexpr std::array<const char*, 6> k_order = {
+        "disagreement",          "correlation_unknown",         "reference_not_better",
+        "uncertainty_too_large", "agreement_reference_limited", k_validated};
+    for (const char* code : k_order) {
+        const ComparisonSummary* found = nullptr;
+        for (const ComparisonSummary& s : c.summary) {
+            found = s.verdict == code ? &s : found;  // the last one: "all" tells most
+        }
+        if (found != nullptr) {
+            return found;
+        }
+    }
+    return nullptr;
+}
+
+/// "Validated" is said of a method as a whole or not at all: a direction alone has no objection against it.
+Text verdict_name(const Wording& words, const Comparison& c, const std::string& verdict) {
+    if (verdict.empty()) {
+        return {};
+    }
+    const bool alone = verdict == k_validated && gravest(c)->verdict != k_validated;
+    return words("comparison_verdict_name", alone ? "no_objection" : verdict);
+}
+
+/// What the verdict shows, what it does not show, and what to do.
+Text verdict_sentence(const Wording& words, const ComparisonSummary& s) {
+    const bool scatter_only = s.verdict == "disagreement" && s.count_above_1 == 0;
+    return words.filled("comparison_verdict", scatter_only ? "disagreement_scatter" : s.verdict,
+                        {{"count", plain(s.count_above_1)},
+                         {"points", plain(s.points)},
+                         {"largest", words.number(s.printed.max_abs_En)},
+                         {"worst", words.number(s.printed.max_abs_En_worst)},
+                         {"p_low", words.number(s.printed.p_low)},
+                         {"p_high", words.number(s.printed.p_high)},
+                         {"ratio", words.number(s.printed.ratio_reference)}});
+}
+
+void verdict(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    const ComparisonSummary* whole = gravest(c);
+    if (whole == nullptr) {
+        builder.paragraph(words("comparison_verdict", "not_judged"));
+        return;
+    }
+    builder.paragraph(verdict_sentence(words, *whole));
+    if (whole->direction != "all" && c.summary.size() > 1) {
+        builder.paragraph(words.filled("comparison", "verdict_of_direction",
+                                       {{"direction", direction_name(words, whole->direction)}}));
+    }
+}
+
+Text correlation_text(const Wording& words, const Comparison& c) {
+    if (c.correlation.empty()) {
+        return {};
+    }
+    const Text r = c.correlation_given ? words.number(plain(*c.correlation_given)) : Text();
+    return words.filled("comparison_correlation", c.correlation, {{"r", r}});
+}
+
+/// One companion number: its name in the wording and its text for a direction.
+struct Companion {
+    const char* name;
+    std::string (*text)(const ComparisonSummary& s);
+};
+
+std::string band(const std::string& low, const std::string& high) {
+    return low.empty() || high.empty() ? low + high : low + " – " + high;
+}
+
+std::string count(const std::optional<std::int64_t>& v) {
+    return v ? plain(*v) : "";
+}
+
+using Summary = ComparisonSummary;
+constexpr Companion k_companions[] = {
+    {"points", [](const Summary& s) { return plain(s.points); }},
+    {"effective_points", [](const Summary& s) { return s.printed.effective_points; }},
+    {"mean_abs_En", [](const Summary& s) { return s.printed.mean_abs_En; }},
+    {"published_mean_abs_En", [](const Summary& s) { return s.printed.published_mean_abs_En; }},
+    {"max_abs_En", [](const Summary& s) { return s.printed.max_abs_En; }},
+    {"count_above_1", [](const Summary& s) { return plain(s.count_above_1); }},
+    {"rms_En", [](const Summary& s) { return s.printed.rms_En; }},
+    {"rms_band", [](const Summary& s) { return band(s.printed.rms_En_low, s.printed.rms_En_high); }},
+    {"p_low", [](const Summary& s) { return s.printed.p_low; }},
+    {"p_high", [](const Summary& s) { return s.printed.p_high; }},
+    {"D_fail", [](const Summary& s) { return s.printed.D_fail; }},
+    {"D_fail_largest", [](const Summary& s) { return s.printed.D_fail_largest; }},
+    {"ratio_reference", [](const Summary& s) { return s.printed.ratio_reference; }},
+    {"max_abs_En_worst", [](const Summary& s) { return s.printed.max_abs_En_worst; }},
+    {"count_above_1_worst", [](const Summary& s) { return count(s.count_above_1_worst); }},
+    {"mean_abs_En_audited", [](const Summary& s) { return s.printed.mean_abs_En_audited; }},
+    {"max_abs_En_audited", [](const Summary& s) { return s.printed.max_abs_En_audited; }},
+    {"count_above_1_audited", [](const Summary& s) { return count(s.count_above_1_audited); }},
+    {"vector_En", [](const Summary& s) { return s.printed.vector_En; }},
+    {"p_mahalanobis", [](const Summary& s) { return s.printed.p_mahalanobis; }},
+};
+
+bool has_unit(const std::string& companion) {
+    return companion == "D_fail" || companion == "D_fail_largest";
+}
+
+/// Largest U / CMC of a direction, "all" being the whole; "" where no capability is stated.
+std::string largest_capability_ratio(const Comparison& c, const std::string& direction) {
+    std::optional<double> largest;
+    for (const ComparisonPoint& p : c.points) {
+        if (p.U_over_CMC && (direction == "all" || p.direction == direction)) {
+            largest = std::max(largest.value_or(0.0), *p.U_over_CMC);
+        }
+    }
+    return largest ? gum::round_significant(*largest, 2) : "";
+}
+
+/// Rows that have a text in any direction, with the names of the numbers for the explanations below.
+std::vector<std::pair<std::string, std::vector<std::string>>> companion_rows(const Comparison& c) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> rows;
+    const auto add = [&](const std::string& name, auto text_of) {
+        std::vector<std::string> texts;
+        for (const ComparisonSummary& s : c.summary) {
+            texts.push_back(text_of(s));
+        }
+        if (any_of(texts)) {
+            rows.emplace_back(name, std::move(texts));
+        }
+    };
+    for (const Companion& companion : k_companions) {
+        add(companion.name, companion.text);
+        if (std::string(companion.name) == "ratio_reference") {
+            add("U_over_CMC", [&](const ComparisonSummary& s) { return largest_capability_ratio(c, s.direction); });
+        }
+    }
+    return rows;
+}
+
+/// All companion numbers, one row a number and one column a direction; many directions go into several tables.
+void companion_table(CertificateBuilder& builder, const Wording& words, const Comparison& c, const std::string& id) {
+    constexpr std::size_t k_most_directions = 6;
+    const auto numbers = companion_rows(c);
+    const std::string unit = gum::unit_for_people(c.unit);
+    for (std::size_t from = 0; from < c.summary.size(); from += k_most_directions) {
+        const std::size_t to = std::min(c.summary.size(), from + k_most_directions);
+        std::vector<Column> columns = {{words("comparison", "number_of_table"), ""}};
+        for (std::size_t d = from; d < to; ++d) {
+            columns.push_back({direction_name(words, c.summary[d].direction), "", true});
+        }
+        Rows rows;
+        for (const auto& [name, texts] : numbers) {
+            const Text label = words("companion", name);
+            std::vector<Text> row = {has_unit(name) && !unit.empty() ? label + " / " + unit : label};
+            row.insert(row.end(), texts.begin() + static_cast<std::ptrdiff_t>(from),
+                       texts.begin() + static_cast<std::ptrdiff_t>(to));
+            rows.push_back(std::move(row));
+        }
+        const std::string table_id = from == 0 ? id : id + "-" + plain(static_cast<std::int64_t>(from));
+        builder.table(table_id, words("comparison", "companion_table"), columns, rows);
+    }
+}
+
+/// One sentence for every number of the table above.
+void how_to_read(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    builder.paragraph(words("comparison", "how_to_read"));
+    Facts facts;
+    for (const auto& [name, texts] : companion_rows(c)) {
+        if (words.has("companion_reading", name)) {
+            facts.emplace_back(
+                words("companion", name),
+                words.filled(
+                    "companion_reading", name,
+                    {{"finding", c.audit_finding.empty() ? words("document", "absent") : Text(c.audit_finding)},
+                     {"source", c.published_source.empty() ? words("document", "absent") : Text(c.published_source)}}));
+        }
+    }
+    builder.definitions(facts);
+}
+
+void verdict_table(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    Rows rows;
+    for (const ComparisonSummary& s : c.summary) {
+        rows.push_back({direction_name(words, s.direction), plain(s.points), s.printed.mean_abs_En,
+                        s.printed.max_abs_En, s.printed.rms_En, plain(s.count_above_1),
+                        verdict_name(words, c, s.verdict)});
+    }
+    table_of_filled_columns(builder, "summary", words("sentence", "comparison_summary"),
+                            {{words("label", "direction"), ""},
+                             {words("label", "points"), "", true},
+                             {words("label", "mean_abs_En"), "", true},
+                             {words("label", "max_abs_En"), "", true},
+                             {words("label", "rms_En"), "", true},
+                             {words("label", "count_above_1"), "", true},
+                             {words("comparison", "verdict"), ""}},
+                            rows);
+}
+
+bool has_bias(const Comparison& c) {
+    return std::any_of(c.summary.begin(), c.summary.end(), [](const ComparisonSummary& s) { return s.bias; });
+}
+
+void bias_lines(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    const std::string unit = gum::unit_for_people(c.unit);
+    const std::string position_unit = gum::unit_for_people(c.form == "rotary_table" ? "degree" : c.position_unit);
+    Rows rows;
+    std::string against;
+    for (const ComparisonSummary& s : c.summary) {
+        if (s.bias) {
+            against = s.bias->against;
+            rows.push_back({direction_name(words, s.direction), s.bias->printed.centre, s.bias->printed.constant,
+                            s.bias->printed.U_constant, s.bias->printed.slope, s.bias->printed.U_slope,
+                            s.bias->printed.p_value});
+        }
+    }
+    const bool position = against == "position";
+    const std::string t_unit = position ? position_unit : unit;
+    const std::string slope_unit = !position ? "" : t_unit.empty() ? unit : unit + "/" + t_unit;
+    builder.paragraph(words("comparison", position ? "bias_position" : "bias_reference_value"));
+    builder.table("bias", words("comparison", "bias_table"),
+                  {{words("label", "direction"), ""},
+                   {words("comparison", "centre"), t_unit, true},
+                   {words("comparison", "constant"), unit, true},
+                   {words("label", "U"), unit, true},
+                   {words("comparison", "slope"), slope_unit, true},
+                   {words("label", "U"), slope_unit, true},
+                   {words("label", "p_value_short"), "", true}},
+                  rows);
+}
+
+/// The points that a table shows: all, or of many those above 1 in the order of the record.
+std::vector<const ComparisonPoint*> shown_points(const Comparison& c) {
+    std::vector<const ComparisonPoint*> points;
+    const bool all = c.points.size() <= k_most_rows;
+    for (const ComparisonPoint& p : c.points) {
+        if ((all || (p.En && (*p.En > 1.0 || *p.En < -1.0))) && points.size() < k_most_rows) {
+            points.push_back(&p);
+        }
+    }
+    return points;
+}
+
+void point_table(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    const std::vector<const ComparisonPoint*> points = shown_points(c);
+    if (points.size() < c.points.size()) {
+        builder.paragraph(words.filled("comparison", points.empty() ? "no_points_above_1" : "points_above_1",
+                                       {{"shown", plain(static_cast<std::int64_t>(points.size()))},
+                                        {"count", plain(static_cast<std::int64_t>(c.points.size()))}}));
+    }
+    const std::string unit = gum::unit_for_people(c.unit);
+    const bool rotary = c.form == "rotary_table";
+    Rows rows;
+    for (const ComparisonPoint* p : points) {
+        const std::string position = rotary ? p->printed.angle : p->position ? plain(*p->position) : "";
+        rows.push_back({p->name, p->direction, position, p->printed.value, p->printed.U, p->printed.reference_value,
+                        p->printed.reference_U, p->printed.D, p->printed.U_D, p->printed.En, p->printed.En_worst,
+                        p->printed.En_audited});
+    }
+    table_of_filled_columns(
+        builder, "comparison-points", words("sentence", "comparison_points"),
+        {{words("label", "point"), ""},
+         {words("label", "direction"), ""},
+         rotary ? Column{words("label", "angle"), "°", true}
+                : Column{c.position_name.empty() ? words("comparison", "position") : Text(c.position_name),
+                         gum::unit_for_people(c.position_unit), true},
+         {words("label", "measured"), unit, true},
+         {words("label", "U"), unit, true},
+         {words("label", "reference"), unit, true},
+         {words("label", "U"), unit, true},
+         {words("label", "difference"), unit, true},
+         {"U(D)", unit, true},
+         {words("label", "En"), "", true},
+         {words("comparison", "En_worst"), "", true},
+         {words("comparison", "En_audited"), "", true}},
+        rows);
+}
+
+void shared_sources(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    Rows rows;
+    for (const SharedSource& s : c.shared_sources) {
+        rows.push_back({s.source, s.first, s.second, s.printed_correlation});
+    }
+    table_of_filled_columns(builder, "shared-sources", words("comparison", "shared_sources_table"),
+                            {{words("label", "source"), ""},
+                             {words("comparison", "first"), ""},
+                             {words("comparison", "second"), ""},
+                             {"r", "", true}},
+                            rows);
+}
+
+void budgets(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    if (c.method_budget.empty() && c.reference_budget.empty()) {
+        return;
+    }
+    builder.section("comparison_budgets");
+    const std::string unit = gum::unit_for_people(c.unit);
+    if (!c.method_budget.empty()) {
+        budget_table(builder, words, "method-budget",
+                     words.filled("comparison", "budget_of", {{"name", c.method_name}}), c.method_budget, unit);
+    }
+    if (!c.reference_budget.empty()) {
+        budget_table(builder, words, "reference-budget",
+                     words.filled("comparison", "budget_of", {{"name", c.reference_name}}), c.reference_budget, unit);
+    }
+}
+
+void method_figure(CertificateBuilder& builder, const Wording& words, const Comparison& c, const std::string& id,
+                   const char* plot, const Text& caption,
+                   std::string (*draw)(const Comparison&, const std::string&, const Wording&)) {
+    const Text description = words("plot", std::string(plot) + "_description");
+    builder.figure(id, caption, description.first(), draw(c, id, words));
+}
+
+}  // namespace
+
+void method_answer(CertificateBuilder& builder, const Wording& words, const Comparison& c, Facts facts) {
+    builder.section("answer");
+    verdict(builder, words, c);
+    facts.insert(facts.begin(), {words("comparison", "compared"),
+                                 words.filled("comparison", "method_and_reference",
+                                              {{"method", c.method_name}, {"reference", c.reference_name}})});
+    add_fact(facts, words("comparison", "correlation"), correlation_text(words, c));
+    add_fact(facts, words("comparison", "tolerance"), printed_quantity(words, c.printed_tolerance, c.unit));
+    builder.definitions(facts);
+    if (!c.points.empty()) {
+        method_figure(builder, words, c, "plot-en", "method_scores", words("comparison", "figure_method_scores"),
+                      method_scores_plot);
+    }
+    verdict_table(builder, words, c);
+    builder.paragraph(words("comparison", "En_says"));
+}
+
+void method_sections_of_comparison(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    builder.section("companion");
+    companion_table(builder, words, c, "companion");
+    how_to_read(builder, words, c);
+    shared_sources(builder, words, c);
+    remarks_section(builder, c);
+    builder.section("bias");
+    if (has_bias(c)) {
+        bias_lines(builder, words, c);
+        method_figure(builder, words, c, "plot-bias", "bias", words("comparison", "figure_bias"), bias_plot);
+    } else {
+        builder.paragraph(words("comparison", "no_bias_line"));
+    }
+    budgets(builder, words, c);
+    builder.section("points");
+    if (!c.points.empty()) {
+        method_figure(builder, words, c, "plot-values", "method_values", words("comparison", "figure_method_values"),
+                      method_values_plot);
+    }
+    point_table(builder, words, c);
+}
+
+void reference_comparison_section(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    builder.section("comparison");
+    builder.paragraph(words("sentence", "comparison"));
+    Facts rows = {{words("label", "reference_method"), c.reference_name}};
+    if (c.contact_point_mm.size() == 3) {
+        const Text separator = words("document", "separator");
+        const auto coordinate = [&](std::size_t i) { return words.number(plain(c.contact_point_mm[i])); };
+        rows.emplace_back(words("label", "contact_point"),
+                          "(" + coordinate(0) + separator + coordinate(1) + separator + coordinate(2) + ") mm");
+    }
+    builder.definitions(rows);
+    if (gravest(c) != nullptr) {
+        verdict(builder, words, c);
+    }
+    companion_table(builder, words, c, "comparison-summary");
+    for (const std::string& remark : c.remarks) {
+        builder.paragraph(remark);
+    }
+    if (!c.points.empty()) {
+        method_figure(builder, words, c, "plot-en", "method_scores", words("sentence", "figure_En"),
+                      method_scores_plot);
+        method_figure(builder, words, c, "plot-displacement", "method_values", words("sentence", "figure_displacement"),
+                      method_values_plot);
+    }
+    shared_sources(builder, words, c);
+    if (has_bias(c)) {
+        bias_lines(builder, words, c);
+    }
+    if (!c.reference_budget.empty()) {
+        budget_table(builder, words, "reference-budget", words("sentence", "reference_budget"), c.reference_budget,
+                     "µm");
+    }
+    point_table(builder, words, c);
+}
+
+}  // namespace gumcert::reports

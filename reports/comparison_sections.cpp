@@ -1,0 +1,140 @@
+#include "reports/comparison_sections.h"
+
+#include "gum/quantity/unit.h"
+#include "reports/comparison_identity.h"
+#include "reports/comparison_laboratory_sections.h"
+#include "reports/comparison_method_sections.h"
+#include "reports/comparison_parts.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace gumcert::reports {
+
+namespace {
+
+using Facts = ComparisonFacts;
+using Rows = ComparisonRows;
+
+Facts who_and_when(const Wording& words, const EvaluationRecord& record) {
+    const ComparisonIdentity identity = comparison_identity(record, words);
+    Facts facts = {{words("comparison", "organiser"), record.comparison->organiser}};
+    add_fact(facts, words("comparison", "laboratory"), identity.laboratory);
+    add_fact(facts, words("comparison", "number"), identity.number);
+    add_fact(facts, words("comparison", "issued"), identity.issued);
+    return facts;
+}
+
+/// Weights of all results by item, round and participant.
+std::map<std::tuple<std::string, std::string, std::string>, double> weights_of(const Comparison& comparison) {
+    std::map<std::tuple<std::string, std::string, std::string>, double> weights;
+    for (const ComparisonItemEvaluation& item : comparison.items) {
+        for (const ResultWeight& w : item.weights) {
+            weights[{item.id, item.round, w.participant}] = w.weight;
+        }
+    }
+    return weights;
+}
+
+/// A column of numbers with all their digits: aligned at the left, for they have no common number of decimals.
+Column digits(const Text& head) {
+    return {.head = head};
+}
+
+void laboratory_numbers(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    const auto weights = weights_of(c);
+    const auto number = [&](const std::optional<double>& v) { return words.number(unrounded(v)); };
+    const bool rounds = std::any_of(c.items.begin(), c.items.end(),
+                                    [&](const auto& item) { return item.round != c.items.front().round; });
+    const auto item_of = [&](const std::string& id) { return c.items.size() > 1 ? id : ""; };
+    Rows rows;
+    Rows ties;  // a table of its own: so many digits do not fit side by side
+    for (const ComparisonPoint& p : c.points) {
+        const auto weight = weights.find({p.item, p.round, p.participant});
+        const Text item = item_of(p.item);
+        const Text round = rounds ? p.round : "";
+        rows.push_back({item, round, p.participant, number(p.value), number(p.u), number(p.k), number(p.nu)});
+        if (p.correlation || weight != weights.end()) {
+            ties.push_back({item, round, p.participant, number(p.correlation),
+                            weight == weights.end() ? Text() : number(weight->second)});
+        }
+    }
+    const Column item = digits(words("comparison", "item"));
+    const Column round = digits(words("comparison", "round"));
+    const Column laboratory = digits(words("comparison", "participant"));
+    table_of_filled_columns(builder, "unrounded", words("comparison", "unrounded_table"),
+                            {item, round, laboratory, digits("x"), digits("u"), digits("k"), digits("ν")}, rows);
+    table_of_filled_columns(builder, "unrounded-weights", words("comparison", "unrounded_weights_table"),
+                            {item, round, laboratory, digits("r"), digits(words("comparison", "weight"))}, ties);
+    Rows items;
+    for (const ComparisonItemEvaluation& i : c.items) {
+        items.push_back({item_of(i.id), rounds ? i.round : "", gum::unit_for_people(i.unit), number(i.value),
+                         number(i.u), number(i.k), number(i.sigma_pt), number(i.delta_E)});
+    }
+    table_of_filled_columns(builder, "unrounded-items", words("comparison", "unrounded_items_table"),
+                            {item, round, digits(words("label", "unit")), digits("X"), digits("u(X)"), digits("k"),
+                             digits("σ_pt"), digits("δ_E")},
+                            items);
+}
+
+void method_numbers(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    const auto number = [&](const std::optional<double>& v) { return words.number(unrounded(v)); };
+    Rows method;
+    Rows reference;  // a table of its own: so many digits do not fit side by side
+    for (const ComparisonPoint& p : c.points) {
+        method.push_back(
+            {p.name, p.direction, number(p.position), number(p.value), number(p.u), number(p.k), number(p.nu)});
+        reference.push_back({p.name, p.direction, number(p.position), number(p.reference_value), number(p.reference_u),
+                             number(p.reference_k), number(p.correlation)});
+    }
+    const Column point = digits(words("label", "point"));
+    const Column direction = digits(words("label", "direction"));
+    const Column position = digits(c.position_name.empty() ? words("comparison", "position") : Text(c.position_name));
+    const auto caption = [&](const std::string& name) {
+        return words.filled("comparison", "unrounded_side_table", {{"name", name}});
+    };
+    table_of_filled_columns(builder, "unrounded", caption(c.method_name),
+                            {point, direction, position, digits("x"), digits("u(x)"), digits("k"), digits("ν")},
+                            method);
+    table_of_filled_columns(builder, "unrounded-reference", caption(c.reference_name),
+                            {point, direction, position, digits("X"), digits("u(X)"), digits("k"), digits("r")},
+                            reference);
+}
+
+void numbers_to_recompute(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    builder.section("recompute");
+    if (c.points.size() > k_most_unrounded) {
+        builder.paragraph(words.filled("comparison", "unrounded_elsewhere",
+                                       {{"count", plain(static_cast<std::int64_t>(c.points.size()))}}));
+        return;
+    }
+    builder.paragraph(words("comparison", "unrounded"));
+    if (c.form == "laboratories") {
+        laboratory_numbers(builder, words, c);
+    } else {
+        method_numbers(builder, words, c);
+    }
+}
+
+}  // namespace
+
+void comparison_report_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    const Comparison& c = *record.comparison;
+    if (c.form == "laboratories") {
+        laboratory_answer(builder, words, c, who_and_when(words, record));
+        laboratory_sections(builder, words, c);
+    } else {
+        method_answer(builder, words, c, who_and_when(words, record));
+        method_sections_of_comparison(builder, words, c);
+    }
+    numbers_to_recompute(builder, words, c);
+}
+
+}  // namespace gumcert::reports

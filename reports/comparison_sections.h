@@ -1,0 +1,16 @@
+#pragma once
+
+#include "reports/certificate_builder.h"
+#include "reports/record/evaluation_record.h"
+#include "reports/wording.h"
+
+namespace gumcert::reports {
+
+/// The report of a job of kind comparison: a page with the answer, the graph and the table of scores first, then
+/// everything that is needed to recompute them.
+void comparison_report_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record);
+
+/// The comparison of a rotary table with its reference method, as a section of its certificate.
+void reference_comparison_section(CertificateBuilder& builder, const Wording& words, const Comparison& comparison);
+
+}  // namespace gumcert::reports

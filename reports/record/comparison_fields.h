@@ -1,0 +1,424 @@
+#pragma once
+
+#include "certificate/certificate_fields.h"
+#include "reports/record/evaluation_record.h"
+
+namespace gumcert::reports {
+
+// Every struct of a comparison is described once, by a function `describe(archive, value)` as in
+// certificate/certificate_fields.h; the reader and the writer of a record walk it. What an archive has in addition:
+//   a.added(key, member, R)   a key that a later release added: written always, may be missing where it is read
+//   a.summary(key, member)    an object keyed by direction
+
+template <class Archive, certificate::Described<BiasLineSummary> Struct>
+void describe(Archive& a, Struct& r) {
+    using Range = certificate::NumberRule;
+    a("against", r.against, {"reference_value", "position"});
+    a("centre", r.centre);
+    a("constant", r.constant);
+    a("u_constant", r.u_constant, Range::not_negative);
+    a("U_constant", r.U_constant, Range::not_negative);
+    a("slope", r.slope);
+    a("u_slope", r.u_slope, Range::not_negative);
+    a("U_slope", r.U_slope, Range::not_negative);
+    a("chi_square", r.chi_square, Range::not_negative);
+    a("p_value", r.p_value, Range::probability);
+    a.group("printed", [&](auto& b) {
+        b("centre", r.printed.centre);
+        b("constant", r.printed.constant);
+        b("U_constant", r.printed.U_constant);
+        b("slope", r.printed.slope);
+        b("U_slope", r.printed.U_slope);
+        b("p_value", r.printed.p_value);
+    });
+}
+
+template <class Archive, certificate::Described<ReferenceEstimate> Struct>
+void describe(Archive& a, Struct& r) {
+    using Range = certificate::NumberRule;
+    a("method", r.method);
+    a("value", r.value);
+    a("u", r.u, Range::not_negative);
+    a("scale", r.scale, Range::not_negative);
+    a("between", r.between, Range::not_negative);
+    a("results", r.results, Range::not_negative);
+    a("used", r.used);
+    a.group("printed", [&](auto& b) {
+        b("value", r.printed.value);
+        b("u", r.printed.u);
+        b("scale", r.printed.scale);
+        b("between", r.printed.between);
+    });
+}
+
+template <class Archive, certificate::Described<ConsistencySummary> Struct>
+void describe(Archive& a, Struct& r) {
+    using Range = certificate::NumberRule;
+    a("chi_square", r.chi_square, Range::not_negative);
+    a("critical_value", r.critical_value, Range::not_negative);
+    a("p_value", r.p_value, Range::probability);
+    a("alpha", r.alpha, Range::probability);
+    a("degrees_of_freedom", r.degrees_of_freedom, Range::not_negative);
+    a("consistent", r.consistent);
+    a("birge_ratio", r.birge_ratio, Range::not_negative);
+    a("birge_limit", r.birge_limit, Range::not_negative);
+    a("pairs", r.pairs, Range::not_negative);
+    a("incompatible_pairs", r.incompatible_pairs, Range::not_negative);
+    a.group("printed", [&](auto& b) {
+        b("chi_square", r.printed.chi_square);
+        b("critical_value", r.printed.critical_value);
+        b("p_value", r.printed.p_value);
+        b("birge_ratio", r.printed.birge_ratio);
+        b("birge_limit", r.printed.birge_limit);
+    });
+}
+
+template <class Archive, certificate::Described<HomogeneitySummary> Struct>
+void describe(Archive& a, Struct& r) {
+    using Range = certificate::NumberRule;
+    a("items", r.items, Range::not_negative);
+    a("replicates", r.replicates, Range::not_negative);
+    a("mean", r.mean);
+    a("s_x", r.s_x, Range::not_negative);
+    a("s_w", r.s_w, Range::not_negative);
+    a("s_s", r.s_s, Range::not_negative);
+    a("limit", r.limit, Range::not_negative);
+    a("expanded_limit", r.expanded_limit, Range::not_negative);
+    a("sufficient", r.sufficient);
+    a("sufficient_expanded", r.sufficient_expanded);
+    a.group("printed", [&](auto& b) {
+        b("mean", r.printed.mean);
+        b("s_x", r.printed.s_x);
+        b("s_w", r.printed.s_w);
+        b("s_s", r.printed.s_s);
+        b("limit", r.printed.limit);
+        b("expanded_limit", r.printed.expanded_limit);
+    });
+}
+
+template <class Archive, certificate::Described<StabilitySummary> Struct>
+void describe(Archive& a, Struct& r) {
+    using Range = certificate::NumberRule;
+    a("mean", r.mean);
+    a("difference", r.difference);
+    a("u_difference", r.u_difference, Range::not_negative);
+    a("limit", r.limit, Range::not_negative);
+    a("expanded_limit", r.expanded_limit, Range::not_negative);
+    a("stable", r.stable);
+    a("stable_expanded", r.stable_expanded);
+    a.group("printed", [&](auto& b) {
+        b("mean", r.printed.mean);
+        b("difference", r.printed.difference);
+        b("limit", r.printed.limit);
+        b("expanded_limit", r.printed.expanded_limit);
+    });
+}
+
+template <class Archive, certificate::Described<ConsensusCheck> Struct>
+void describe(Archive& a, Struct& r) {
+    using Range = certificate::NumberRule;
+    a("reference_value", r.reference_value);
+    a("u_reference", r.u_reference, Range::not_negative);
+    a("consensus", r.consensus);
+    a("u_consensus", r.u_consensus, Range::not_negative);
+    a("difference", r.difference);
+    a("u_difference", r.u_difference, Range::not_negative);
+    a("ratio", r.ratio);
+    a("consistent", r.consistent);
+    a.group("printed", [&](auto& b) {
+        b("reference_value", r.printed.reference_value);
+        b("consensus", r.printed.consensus);
+        b("difference", r.printed.difference);
+        b("u_difference", r.printed.u_difference);
+        b("ratio", r.printed.ratio);
+    });
+}
+
+template <class Archive, certificate::Described<PairEquivalence> Struct>
+void describe(Archive& a, Struct& r) {
+    using Range = certificate::NumberRule;
+    a("first", r.first);
+    a("second", r.second);
+    a("d", r.d);
+    a("u", r.u, Range::not_negative);
+    a("U", r.U, Range::not_negative);
+    a("En", r.En);
+    a.group("printed", [&](auto& b) {
+        b("d", r.printed.d);
+        b("U", r.printed.U);
+        b("En", r.printed.En);
+    });
+}
+
+template <class Archive, certificate::Described<ResultWeight> Struct>
+void describe(Archive& a, Struct& r) {
+    a("participant", r.participant);
+    a("weight", r.weight);
+    a("printed", r.printed);
+}
+
+template <class Archive, certificate::Described<ComparisonItemEvaluation> Struct>
+void describe(Archive& a, Struct& r) {
+    using Range = certificate::NumberRule;
+    a("id", r.id);
+    a("name", r.name);
+    a("round", r.round);
+    a("unit", r.unit);
+    a("difference_unit", r.difference_unit);
+    a("method", r.method);
+    a("reference_participant", r.reference_participant);
+    a("traceability", r.traceability);
+    a("value", r.value);
+    a("u", r.u, Range::not_negative);
+    a("U", r.U, Range::not_negative);
+    a("k", r.k, Range::positive);
+    a("u_characterisation", r.u_characterisation, Range::not_negative);
+    a("u_homogeneity", r.u_homogeneity, Range::not_negative);
+    a("u_stability", r.u_stability, Range::not_negative);
+    a("results", r.results, Range::not_negative);
+    a("contributing", r.contributing, Range::not_negative);
+    a("not_contributing", r.not_contributing);
+    a("not_consistent", r.not_consistent);
+    a("missing", r.missing);
+    a("weights", r.weights);
+    a("consistency", r.consistency);
+    a("estimates", r.estimates);
+    a("s_star", r.s_star, Range::not_negative);
+    a("pooled_standard_deviation", r.pooled_standard_deviation, Range::not_negative);
+    a("sigma_pt", r.sigma_pt, Range::not_negative);
+    a("delta_E", r.delta_E, Range::not_negative);
+    a("sigma_pt_method", r.sigma_pt_method);
+    a("criterion", r.criterion, Range::not_negative);
+    a("criterion_met", r.criterion_met);
+    a("score", r.score, {"", "En", "zeta", "z", "z_prime", "D"});
+    a("homogeneity", r.homogeneity);
+    a("stability", r.stability);
+    a("consensus", r.consensus);
+    a("pairs", r.pairs);
+    a.group("printed", [&](auto& b) {
+        b("value", r.printed.value);
+        b("u", r.printed.u);
+        b("U", r.printed.U);
+        b("k", r.printed.k);
+        b("u_characterisation", r.printed.u_characterisation);
+        b("u_homogeneity", r.printed.u_homogeneity);
+        b("u_stability", r.printed.u_stability);
+        b("sigma_pt", r.printed.sigma_pt);
+        b("delta_E", r.printed.delta_E);
+        b("criterion", r.printed.criterion);
+        b("s_star", r.printed.s_star);
+        b("pooled_standard_deviation", r.printed.pooled_standard_deviation);
+    });
+}
+
+template <class Archive, certificate::Described<VectorScore> Struct>
+void describe(Archive& a, Struct& r) {
+    using Range = certificate::NumberRule;
+    a("name", r.name);
+    a("participant", r.participant);
+    a("round", r.round);
+    a("mahalanobis_square", r.mahalanobis_square, Range::not_negative);
+    a("vector_En", r.vector_En, Range::not_negative);
+    a("max_abs_En", r.max_abs_En, Range::not_negative);
+    a("quantities", r.quantities, Range::not_negative);
+    a.group("printed", [&](auto& b) {
+        b("vector_En", r.printed.vector_En);
+        b("max_abs_En", r.printed.max_abs_En);
+    });
+}
+
+template <class Archive, certificate::Described<ParticipantSummary> Struct>
+void describe(Archive& a, Struct& r) {
+    using Range = certificate::NumberRule;
+    a("id", r.id);
+    a("name", r.name);
+    a("group", r.group);
+    a("results", r.results, Range::not_negative);
+    a("scored", r.scored, Range::not_negative);
+    a("warnings", r.warnings, Range::not_negative);
+    a("actions", r.actions, Range::not_negative);
+    a("mean_abs_En", r.mean_abs_En, Range::not_negative);
+    a("max_abs_En", r.max_abs_En, Range::not_negative);
+    a("rms_En", r.rms_En, Range::not_negative);
+    a("p_low", r.p_low, Range::probability);
+    a("p_high", r.p_high, Range::probability);
+    a.group("printed", [&](auto& b) {
+        b("mean_abs_En", r.printed.mean_abs_En);
+        b("max_abs_En", r.printed.max_abs_En);
+        b("rms_En", r.printed.rms_En);
+        b("p_low", r.printed.p_low);
+        b("p_high", r.printed.p_high);
+    });
+}
+
+template <class Archive, certificate::Described<YoudenPoint> Struct>
+void describe(Archive& a, Struct& r) {
+    a("participant", r.participant);
+    a("first", r.first);
+    a("second", r.second);
+}
+
+template <class Archive, certificate::Described<YoudenDiagram> Struct>
+void describe(Archive& a, Struct& r) {
+    using Range = certificate::NumberRule;
+    a("first_item", r.first_item);
+    a("second_item", r.second_item);
+    a("round", r.round);
+    a("first_unit", r.first_unit);
+    a("second_unit", r.second_unit);
+    a("centre_first", r.centre_first);
+    a("centre_second", r.centre_second);
+    a("scale_first", r.scale_first, Range::not_negative);
+    a("scale_second", r.scale_second, Range::not_negative);
+    a("correlation", r.correlation);
+    a("ellipse", r.ellipse);
+    a("points", r.points);
+}
+
+template <class Archive, certificate::Described<SharedSource> Struct>
+void describe(Archive& a, Struct& r) {
+    a("source", r.source);
+    a("first", r.first);
+    a("second", r.second);
+    a("covariance", r.covariance);
+    a("correlation", r.correlation);
+    a("printed_correlation", r.printed_correlation);
+}
+
+template <class Archive, certificate::Described<ComparisonPoint> Struct>
+void describe(Archive& a, Struct& r) {
+    using Range = certificate::NumberRule;
+    a("direction", r.direction);
+    a("angle_deg", r.angle_deg);
+    a("value", r.value);
+    a("u", r.u, Range::not_negative);
+    a("U", r.U, Range::not_negative);
+    a("reference_value", r.reference_value);
+    a("reference_u", r.reference_u, Range::not_negative);
+    a("reference_U", r.reference_U, Range::not_negative);
+    a("D", r.D);
+    a("u_D", r.u_D, Range::not_negative);
+    a("U_D", r.U_D, Range::not_negative);
+    a("En", r.En);
+    a("zeta", r.zeta);
+    a.added("name", r.name);
+    a.added("position", r.position);
+    a.added("participant", r.participant);
+    a.added("item", r.item);
+    a.added("round", r.round);
+    a.added("contributes", r.contributes);
+    a.added("reason", r.reason);
+    a.added("k", r.k, Range::positive);
+    a.added("nu", r.nu, Range::positive);
+    a.added("reference_k", r.reference_k, Range::positive);
+    a.added("correlation", r.correlation);
+    a.added("z", r.z);
+    a.added("z_prime", r.z_prime);
+    a.added("D_percent", r.D_percent);
+    a.added("P_A", r.P_A);
+    a.added("En_worst", r.En_worst);
+    a.added("En_audited", r.En_audited);
+    a.added("signal", r.signal, {"", "none", "warning", "action"});
+    a.added("realism", r.realism, {"", "plausible", "small", "large"});
+    a.added("U_over_CMC", r.U_over_CMC, Range::not_negative);
+    a.added("U_over_median", r.U_over_median, Range::not_negative);
+    a.group("printed", [&](auto& b) {
+        b("angle", r.printed.angle);
+        b("value", r.printed.value);
+        b("U", r.printed.U);
+        b("reference_value", r.printed.reference_value);
+        b("reference_U", r.printed.reference_U);
+        b("D", r.printed.D);
+        b("U_D", r.printed.U_D);
+        b("En", r.printed.En);
+        b.added("zeta", r.printed.zeta);
+        b.added("z", r.printed.z);
+        b.added("z_prime", r.printed.z_prime);
+        b.added("D_percent", r.printed.D_percent);
+        b.added("P_A", r.printed.P_A);
+        b.added("En_audited", r.printed.En_audited);
+        b.added("En_worst", r.printed.En_worst);
+        b.added("k", r.printed.k);
+    });
+}
+
+template <class Archive, certificate::Described<ComparisonSummary> Struct>
+void describe(Archive& a, Struct& r) {
+    using Range = certificate::NumberRule;
+    a("points", r.points);
+    a("count_above_1", r.count_above_1);
+    a("mean_abs_En", r.mean_abs_En, Range::not_negative);
+    a("max_abs_En", r.max_abs_En, Range::not_negative);
+    a("rms_En", r.rms_En, Range::not_negative);
+    a.added("rms_En_low", r.rms_En_low, Range::not_negative);
+    a.added("rms_En_high", r.rms_En_high, Range::not_negative);
+    a.added("p_low", r.p_low, Range::probability);
+    a.added("p_high", r.p_high, Range::probability);
+    a.added("D_fail", r.D_fail, Range::not_negative);
+    a.added("D_fail_largest", r.D_fail_largest, Range::not_negative);
+    a.added("effective_points", r.effective_points, Range::not_negative);
+    a.added("mahalanobis_square", r.mahalanobis_square, Range::not_negative);
+    a.added("p_mahalanobis", r.p_mahalanobis, Range::probability);
+    a.added("vector_En", r.vector_En, Range::not_negative);
+    a.added("rank", r.rank, Range::not_negative);
+    a.added("ratio_reference", r.ratio_reference, Range::not_negative);
+    a.added("max_abs_En_worst", r.max_abs_En_worst, Range::not_negative);
+    a.added("count_above_1_worst", r.count_above_1_worst, Range::not_negative);
+    a.added("mean_abs_En_audited", r.mean_abs_En_audited, Range::not_negative);
+    a.added("max_abs_En_audited", r.max_abs_En_audited, Range::not_negative);
+    a.added("count_above_1_audited", r.count_above_1_audited, Range::not_negative);
+    a.added("published_mean_abs_En", r.published_mean_abs_En, Range::not_negative);
+    a.added("verdict", r.verdict,
+            {"", "validated", "agreement_reference_limited", "uncertainty_too_large", "reference_not_better",
+             "correlation_unknown", "disagreement"});
+    a.added("bias", r.bias);
+    a.group("printed", [&](auto& b) {
+        b("mean_abs_En", r.printed.mean_abs_En);
+        b("max_abs_En", r.printed.max_abs_En);
+        b("rms_En", r.printed.rms_En);
+        b.added("rms_En_low", r.printed.rms_En_low);
+        b.added("rms_En_high", r.printed.rms_En_high);
+        b.added("p_low", r.printed.p_low);
+        b.added("p_high", r.printed.p_high);
+        b.added("D_fail", r.printed.D_fail);
+        b.added("D_fail_largest", r.printed.D_fail_largest);
+        b.added("effective_points", r.printed.effective_points);
+        b.added("p_mahalanobis", r.printed.p_mahalanobis);
+        b.added("vector_En", r.printed.vector_En);
+        b.added("ratio_reference", r.printed.ratio_reference);
+        b.added("max_abs_En_worst", r.printed.max_abs_En_worst);
+        b.added("mean_abs_En_audited", r.printed.mean_abs_En_audited);
+        b.added("max_abs_En_audited", r.printed.max_abs_En_audited);
+        b.added("published_mean_abs_En", r.printed.published_mean_abs_En);
+    });
+}
+
+template <class Archive, certificate::Described<Comparison> Struct>
+void describe(Archive& a, Struct& r) {
+    a("reference_name", r.reference_name);
+    a("contact_point_mm", r.contact_point_mm);
+    a("reference_budget", r.reference_budget);
+    a("points", r.points);
+    a.summary("summary", r.summary);
+    a("remarks", r.remarks);
+    a.added("form", r.form, {"rotary_table", "methods", "laboratories"});
+    a.added("method_name", r.method_name);
+    a.added("unit", r.unit);
+    a.added("position_name", r.position_name);
+    a.added("position_unit", r.position_unit);
+    a.added("organiser", r.organiser);
+    a.added("method_budget", r.method_budget);
+    a.added("correlation", r.correlation, {"", "none", "given", "unknown", "shared_sources"});
+    a.added("correlation_given", r.correlation_given);
+    a.added("shared_sources", r.shared_sources);
+    a.added("audit_finding", r.audit_finding);
+    a.added("published_source", r.published_source);
+    a.added("tolerance", r.tolerance, certificate::NumberRule::not_negative);
+    a.added("printed_tolerance", r.printed_tolerance);
+    a.added("items", r.items);
+    a.added("participants", r.participants);
+    a.added("vectors", r.vectors);
+    a.added("youden", r.youden);
+}
+
+}  // namespace gumcert::reports

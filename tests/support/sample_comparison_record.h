@@ -1,0 +1,452 @@
+#pragma once
+
+#include "reports/record/evaluation_record.h"
+#include "tests/support/sample_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gumcert::test {
+
+/// "L007": laboratories of the samples are numbered so that their names are in order.
+inline std::string laboratory_id(std::size_t i) {
+    const std::string number = std::to_string(i + 1);
+    return "L" + std::string(number.size() < 3 ? 3 - number.size() : 0, '0') + number;
+}
+
+/// What a record of a comparison holds beside the comparison itself.
+inline reports::EvaluationRecord comparison_frame(const std::string& title, const std::string& job) {
+    reports::EvaluationRecord r;
+    r.software = {.name = "gumcert", .version = "0.1.0", .commit = "0123456789abcdef0123456789abcdef01234567"};
+    r.kind = "comparison";
+    r.title = title;
+    r.printed_coverage = "95.45 %";
+    r.job_json = job;
+    r.options_json = R"({"comparison": {"iterations": 100, "tolerance": 1e-13}})";
+    r.job_files = {{"job.json", std::string(64, 'a')}, {"results.csv", std::string(64, 'b')}};
+    r.diagnostics = {{.code = "GC-COMPARE-0001",
+                      .where = "job.json#/items",
+                      .what = "a note of the sample",
+                      .rule = "a record keeps its notes",
+                      .action = "nothing is to be done",
+                      .severity = gum::Severity::note}};
+    return r;
+}
+
+/// Results of `laboratories` laboratories for one item. Every number is made up by a formula.
+/// The fourth does not contribute, the fifth states no uncertainty, the sixth reports nothing.
+inline void add_sample_item(reports::Comparison& c, const std::string& id, const std::string& round,
+                            std::size_t laboratories, double value, double spread) {
+    using namespace gumcert::reports;
+    ComparisonItemEvaluation item;
+    item.id = id;
+    item.name = "Gauge block " + id;
+    item.round = round;
+    item.unit = "um";
+    item.difference_unit = "um";
+    item.method = "weighted_mean";
+    item.reference_participant = laboratory_id(0);
+    item.traceability = "SI through the national standard of length of the pilot laboratory";
+    item.value = value;
+    item.u = 0.06 * spread;
+    item.U = 0.12 * spread;
+    item.k = 2.0;
+    item.u_characterisation = 0.05 * spread;
+    item.u_homogeneity = 0.03 * spread;
+    item.u_stability = 0.013 * spread;
+    item.s_star = 0.4 * spread;
+    item.pooled_standard_deviation = 0.1 * spread;
+    item.sigma_pt = 0.5 * spread;
+    item.delta_E = 1.5 * spread;
+    item.sigma_pt_method = "percent";
+    item.criterion = 0.12;
+    item.score = "En";
+    item.printed = {.value = decimals(value, 2),
+                    .u = decimals(*item.u, 3),
+                    .U = decimals(*item.U, 3),
+                    .k = "2.00",
+                    .u_characterisation = decimals(*item.u_characterisation, 3),
+                    .u_homogeneity = decimals(*item.u_homogeneity, 3),
+                    .u_stability = decimals(*item.u_stability, 3),
+                    .sigma_pt = decimals(*item.sigma_pt, 2),
+                    .delta_E = decimals(*item.delta_E, 2),
+                    .criterion = "0.12",
+                    .s_star = decimals(*item.s_star, 2),
+                    .pooled_standard_deviation = decimals(*item.pooled_standard_deviation, 2)};
+    for (std::size_t i = 0; i < laboratories; ++i) {
+        const auto d = static_cast<double>(i);
+        if (i == 5) {
+            item.missing.push_back(laboratory_id(i));
+            continue;
+        }
+        ComparisonPoint p;
+        p.participant = laboratory_id(i);
+        p.item = id;
+        p.round = round;
+        p.value = value + spread * (0.55 * std::sin(2.39996 * d + value) + 0.1 * std::cos(0.7 * d));
+        p.reference_value = value;
+        p.reference_u = item.u;
+        p.reference_U = item.U;
+        p.reference_k = 2.0;
+        p.D = p.value - p.reference_value;
+        p.D_percent = 100.0 * p.D / p.reference_value;
+        p.P_A = 100.0 * p.D / *item.delta_E;
+        p.z = p.D / *item.sigma_pt;
+        p.z_prime = p.D / std::hypot(*item.sigma_pt, *item.u);
+        p.contributes = i != 3;
+        p.signal = "none";
+        if (!p.contributes) {
+            p.reason = "artefact damaged, stated before the results were known";
+            item.not_contributing.push_back(p.participant);
+        }
+        if (i != 4) {
+            p.u = spread * (0.15 + 0.05 * std::cos(1.3 * d));
+            p.k = i == 2 ? 2.13 : 2.0;
+            p.nu = i == 2 ? std::optional<double>(14.0) : std::nullopt;
+            p.U = *p.k * *p.u;
+            p.correlation = p.contributes ? *item.u / *p.u : 0.0;
+            p.u_D = std::sqrt(*p.u * *p.u + (p.contributes ? -1.0 : 1.0) * *item.u * *item.u);
+            p.U_D = 2.0 * *p.u_D;
+            p.En = p.D / *p.U_D;
+            p.zeta = p.D / *p.u_D;
+            p.En_audited = 0.9 * *p.En;
+            p.En_worst = 1.2 * *p.En;
+            p.signal = std::abs(*p.En) >= 1.0 ? "action" : "none";
+            p.realism = i % 3 == 0 ? "plausible" : i % 3 == 1 ? "small" : "large";
+            p.U_over_CMC = 1.0 + 0.1 * d;
+            p.U_over_median = 0.9;
+        }
+        p.printed = {.angle = "",
+                     .value = decimals(p.value, 2),
+                     .U = p.U ? decimals(*p.U, 2) : "",
+                     .reference_value = item.printed.value,
+                     .reference_U = item.printed.U,
+                     .D = decimals(p.D, 2),
+                     .U_D = p.U_D ? decimals(*p.U_D, 2) : "",
+                     .En = p.En ? decimals(*p.En, 2) : "",
+                     .zeta = p.zeta ? decimals(*p.zeta, 2) : "",
+                     .z = decimals(*p.z, 2),
+                     .z_prime = decimals(*p.z_prime, 2),
+                     .D_percent = decimals(*p.D_percent, 3),
+                     .P_A = decimals(*p.P_A, 1),
+                     .En_audited = p.En_audited ? decimals(*p.En_audited, 2) : "",
+                     .En_worst = p.En_worst ? decimals(*p.En_worst, 2) : "",
+                     .k = p.k ? decimals(*p.k, 2) : ""};
+        c.points.push_back(p);
+        ++item.results;
+        if (p.contributes && p.u) {
+            ++item.contributing;
+            item.weights.push_back({.participant = p.participant, .weight = 0.1, .printed = "0.100"});
+        }
+    }
+    item.not_consistent = {laboratory_id(1)};
+    item.consistency = {.chi_square = 9.3,
+                        .critical_value = 12.6,
+                        .p_value = 0.16,
+                        .alpha = 0.05,
+                        .degrees_of_freedom = 6,
+                        .consistent = true,
+                        .birge_ratio = 1.24,
+                        .birge_limit = 1.47,
+                        .pairs = 21,
+                        .incompatible_pairs = 2,
+                        .printed = {.chi_square = "9.30",
+                                    .critical_value = "12.59",
+                                    .p_value = "0.16",
+                                    .birge_ratio = "1.24",
+                                    .birge_limit = "1.47"}};
+    item.estimates = {{.method = "weighted_mean",
+                       .value = value,
+                       .u = item.u,
+                       .scale = {},
+                       .between = {},
+                       .results = item.contributing,
+                       .used = true,
+                       .printed = {.value = decimals(value, 2), .u = decimals(*item.u, 3), .scale = "", .between = ""}},
+                      {.method = "dersimonian_laird",
+                       .value = value + 0.02 * spread,
+                       .u = 0.08 * spread,
+                       .scale = 0.4 * spread,
+                       .between = 0.21 * spread,
+                       .results = item.contributing,
+                       .used = false,
+                       .printed = {.value = decimals(value + 0.02 * spread, 2),
+                                   .u = decimals(0.08 * spread, 3),
+                                   .scale = decimals(0.4 * spread, 2),
+                                   .between = decimals(0.21 * spread, 3)}}};
+    item.homogeneity = {.items = 10,
+                        .replicates = 2,
+                        .mean = value,
+                        .s_x = 0.04 * spread,
+                        .s_w = 0.03 * spread,
+                        .s_s = 0.03 * spread,
+                        .limit = 0.15 * spread,
+                        .expanded_limit = 0.18 * spread,
+                        .sufficient = true,
+                        .sufficient_expanded = true,
+                        .printed = {.mean = decimals(value, 2),
+                                    .s_x = "0.040",
+                                    .s_w = "0.030",
+                                    .s_s = "0.030",
+                                    .limit = "0.15",
+                                    .expanded_limit = "0.18"}};
+    item.stability = {
+        .mean = value,
+        .difference = 0.02 * spread,
+        .u_difference = 0.01 * spread,
+        .limit = 0.15 * spread,
+        .expanded_limit = 0.17 * spread,
+        .stable = true,
+        .stable_expanded = true,
+        .printed = {.mean = decimals(value, 2), .difference = "0.020", .limit = "0.15", .expanded_limit = "0.17"}};
+    item.consensus = {.reference_value = value + 0.05 * spread,
+                      .u_reference = 0.05 * spread,
+                      .consensus = value,
+                      .u_consensus = *item.u,
+                      .difference = -0.05 * spread,
+                      .u_difference = 0.078 * spread,
+                      .ratio = -0.64,
+                      .consistent = true,
+                      .printed = {.reference_value = decimals(value + 0.05 * spread, 2),
+                                  .consensus = decimals(value, 2),
+                                  .difference = "\u22120.050",
+                                  .u_difference = "0.078",
+                                  .ratio = "\u22120.64"}};
+    if (laboratories <= 40) {
+        for (std::size_t i = 0; i < c.points.size(); ++i) {
+            for (std::size_t j = i + 1; j < c.points.size(); ++j) {
+                const ComparisonPoint& a = c.points[i];
+                const ComparisonPoint& b = c.points[j];
+                if (a.item != id || b.item != id || a.round != round || b.round != round || !a.u || !b.u) {
+                    continue;
+                }
+                PairEquivalence pair{.first = a.participant, .second = b.participant};
+                pair.d = a.value - b.value;
+                pair.u = std::hypot(*a.u, *b.u);
+                pair.U = 2.0 * pair.u;
+                pair.En = pair.d / pair.U;
+                pair.printed = {.d = decimals(pair.d, 2), .U = decimals(pair.U, 2), .En = decimals(*pair.En, 2)};
+                item.pairs.push_back(pair);
+            }
+        }
+    }
+    c.items.push_back(std::move(item));
+}
+
+/// A comparison between laboratories with two items, so many laboratories, and every optional part somewhere.
+inline reports::EvaluationRecord sample_laboratories_record(std::size_t laboratories = 9) {
+    using namespace gumcert::reports;
+    EvaluationRecord r = comparison_frame("Comparison of gauge block calibrations",
+                                          R"({"schema": "gumcert/job/1", "kind": "comparison", "organiser": "pilot"})");
+    Comparison c;
+    c.form = "laboratories";
+    c.reference_name = "weighted mean";
+    c.unit = "um";
+    c.organiser = "Example Proficiency Scheme";
+    add_sample_item(c, "A", "1", laboratories, 10.42, 0.3);
+    add_sample_item(c, "B", "1", laboratories, 50.07, 0.8);
+    for (std::size_t i = 0; i < laboratories; ++i) {
+        ParticipantSummary p{.id = laboratory_id(i),
+                             .name = "Example Calibration Laboratory " + std::to_string(i + 1),
+                             .group = i % 2 == 0 ? "NMI-X" : ""};
+        p.results = i == 5 ? 0 : 2;
+        if (i != 4 && i != 5) {
+            p.scored = 2;
+            p.warnings = 0;
+            p.actions = static_cast<std::int64_t>(i % 3);
+            p.mean_abs_En = 0.4;
+            p.max_abs_En = 0.9;
+            p.rms_En = 0.5;
+            p.p_low = 0.3;
+            p.p_high = 0.7;
+            p.printed = {
+                .mean_abs_En = "0.40", .max_abs_En = "0.90", .rms_En = "0.50", .p_low = "0.30", .p_high = "0.70"};
+        }
+        c.participants.push_back(p);
+    }
+    c.vectors = {{.name = "both blocks",
+                  .participant = laboratory_id(0),
+                  .round = "1",
+                  .mahalanobis_square = 1.9,
+                  .vector_En = 0.55,
+                  .max_abs_En = 0.61,
+                  .quantities = 2,
+                  .printed = {.vector_En = "0.55", .max_abs_En = "0.61"}}};
+    YoudenDiagram youden{.first_item = "A", .second_item = "B", .round = "1", .first_unit = "um", .second_unit = "um"};
+    youden.centre_first = 0.01;
+    youden.centre_second = -0.03;
+    youden.scale_first = 0.13;
+    youden.scale_second = 0.35;
+    youden.correlation = 0.31;
+    for (int i = 0; i <= 90; ++i) {
+        const double t = 2.0 * std::numbers::pi * i / 90.0;
+        youden.ellipse.emplace_back(
+            youden.centre_first + 2.448 * youden.scale_first * std::cos(t),
+            youden.centre_second + 2.448 * youden.scale_second *
+                                       (youden.correlation * std::cos(t) +
+                                        std::sqrt(1.0 - std::pow(youden.correlation, 2)) * std::sin(t)));
+    }
+    for (const ComparisonPoint& first : c.points) {
+        const auto second = std::find_if(c.points.begin(), c.points.end(), [&](const ComparisonPoint& p) {
+            return p.item == "B" && p.participant == first.participant;
+        });
+        if (first.item == "A" && second != c.points.end()) {
+            youden.points.push_back({.participant = first.participant, .first = first.D, .second = second->D});
+        }
+        if (youden.points.size() >= 1000) {
+            break;  // the search above is for samples of ordinary size
+        }
+    }
+    c.youden.push_back(youden);
+    c.shared_sources = {{.source = "laser wavelength standard",
+                         .first = laboratory_id(0),
+                         .second = laboratory_id(1),
+                         .covariance = 4.0e-4,
+                         .correlation = 0.21,
+                         .printed_correlation = "0.21"}};
+    c.audit_finding = "maximum permissible error taken as normal; corrected to a uniform bound";
+    c.remarks = {"An E\u2099 number at or below 1 shows no contradiction; it proves no uncertainty."};
+    r.comparison = std::move(c);
+    return r;
+}
+
+/// A method against a reference method: two directions named by the job and a bias line, every optional part somewhere.
+inline reports::EvaluationRecord sample_methods_record(std::size_t points_of_direction = 12) {
+    using namespace gumcert::reports;
+    EvaluationRecord r = comparison_frame("Laser method against a dial indicator",
+                                          R"({"schema": "gumcert/job/1", "kind": "comparison", "unit": "um"})");
+    Comparison c;
+    c.form = "methods";
+    c.method_name = "laser method";
+    c.reference_name = "dial indicator";
+    c.unit = "um";
+    c.position_name = "angle";
+    c.position_unit = "deg";
+    c.organiser = "Example Calibration Laboratory";
+    c.reference_budget = sample_record().comparison->reference_budget;
+    c.method_budget = {c.reference_budget.front()};
+    c.correlation = "given";
+    c.correlation_given = 0.15;
+    c.shared_sources = {{.source = "temperature sensor",
+                         .first = "laser method",
+                         .second = "dial indicator",
+                         .covariance = 0.02,
+                         .correlation = 0.15,
+                         .printed_correlation = "0.15"}};
+    c.audit_finding = "the maximum permissible error was divided by 3; corrected to a uniform bound";
+    c.published_source = "Example Journal of Metrology, table 4";
+    c.tolerance = 2.5;
+    c.printed_tolerance = "2.5";
+    for (const char* direction : {"up", "down"}) {
+        for (std::size_t i = 0; i < points_of_direction; ++i) {
+            const auto d = static_cast<double>(i);
+            ComparisonPoint p;
+            p.direction = direction;
+            p.name = std::string(direction) + " " + std::to_string(i + 1);
+            p.position = 30.0 * d;
+            p.value = 3.1 * std::sin(0.5 * d + direction[0]);
+            p.u = 0.21;
+            p.k = 2.0;
+            p.nu = 45.0;
+            p.U = 0.42;
+            p.reference_value = p.value + 0.7 * std::cos(1.1 * d + direction[0]);
+            p.reference_u = 0.63;
+            p.reference_k = 2.0;
+            p.reference_U = 1.26;
+            p.D = p.value - p.reference_value;
+            p.correlation = 0.15;
+            p.u_D = std::sqrt(0.21 * 0.21 + 0.63 * 0.63 - 2.0 * 0.15 * 0.21 * 0.63);
+            p.U_D = 2.0 * *p.u_D;
+            p.En = p.D / *p.U_D;
+            p.zeta = p.D / *p.u_D;
+            p.En_worst = 1.3 * *p.En;
+            p.En_audited = 0.8 * *p.En;
+            p.signal = "none";
+            p.printed = {.angle = decimals(*p.position, 0),
+                         .value = decimals(p.value, 2),
+                         .U = decimals(*p.U, 2),
+                         .reference_value = decimals(p.reference_value, 1),
+                         .reference_U = decimals(*p.reference_U, 1),
+                         .D = decimals(p.D, 1),
+                         .U_D = decimals(*p.U_D, 1),
+                         .En = decimals(*p.En, 2),
+                         .zeta = decimals(*p.zeta, 2),
+                         .En_audited = decimals(*p.En_audited, 2),
+                         .En_worst = decimals(*p.En_worst, 2),
+                         .k = "2.00"};
+            c.points.push_back(p);
+        }
+    }
+    for (const char* direction : {"up", "down", "all"}) {
+        ComparisonSummary s;
+        s.direction = direction;
+        s.points = static_cast<std::int64_t>(points_of_direction) * (s.direction == "all" ? 2 : 1);
+        s.mean_abs_En = 0.33;
+        s.max_abs_En = 0.56;
+        s.rms_En = 0.39;
+        s.rms_En_low = 0.21;
+        s.rms_En_high = 0.82;
+        s.p_low = 0.21;
+        s.p_high = 0.79;
+        s.D_fail = 1.25;
+        s.D_fail_largest = 1.31;
+        s.effective_points = 5.4;
+        s.mahalanobis_square = 8.2;
+        s.p_mahalanobis = 0.77;
+        s.vector_En = 0.61;
+        s.rank = 12;
+        s.ratio_reference = 3.0;
+        s.max_abs_En_worst = 0.73;
+        s.count_above_1_worst = 0;
+        s.mean_abs_En_audited = 0.26;
+        s.max_abs_En_audited = 0.45;
+        s.count_above_1_audited = 0;
+        s.published_mean_abs_En = 0.39;
+        s.verdict = "reference_not_better";
+        s.bias = {.against = "position",
+                  .centre = 165.0,
+                  .constant = -0.02,
+                  .u_constant = 0.2,
+                  .U_constant = 0.4,
+                  .slope = 0.001,
+                  .u_slope = 0.002,
+                  .U_slope = 0.004,
+                  .chi_square = 7.9,
+                  .p_value = 0.64,
+                  .printed = {.centre = "165",
+                              .constant = "\u22120.02",
+                              .U_constant = "0.40",
+                              .slope = "0.001",
+                              .U_slope = "0.004",
+                              .p_value = "0.64"}};
+        s.printed = {.mean_abs_En = "0.33",
+                     .max_abs_En = "0.56",
+                     .rms_En = "0.39",
+                     .rms_En_low = "0.21",
+                     .rms_En_high = "0.82",
+                     .p_low = "0.21",
+                     .p_high = "0.79",
+                     .D_fail = "1.3",
+                     .D_fail_largest = "1.3",
+                     .effective_points = "5.4",
+                     .p_mahalanobis = "0.77",
+                     .vector_En = "0.61",
+                     .ratio_reference = "3.0",
+                     .max_abs_En_worst = "0.73",
+                     .mean_abs_En_audited = "0.26",
+                     .max_abs_En_audited = "0.45",
+                     .published_mean_abs_En = "0.39"};
+        c.summary.push_back(s);
+    }
+    c.remarks = {"The uncertainty of the reference is not smaller than that of the method."};
+    r.comparison = std::move(c);
+    return r;
+}
+
+}  // namespace gumcert::test

@@ -1,0 +1,663 @@
+// Comparisons between laboratories as their record holds them. Numbers without another source were computed with NumPy
+// and SciPy from the formula in the comment.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "app/evaluate_comparison.h"
+#include "app/laboratory_notes.h"
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::app {
+namespace {
+
+using engine::AssignedValueMethod;
+using engine::ComparisonJob;
+using engine::ComparisonResult;
+using engine::ResultUncertainty;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+ResultUncertainty u_and_k(double u, double k = 2.0) {
+    return {.u = u, .U = k * u, .k = k, .stated_as_expanded = true};
+}
+
+engine::AssignedValueRequest given(double value, std::optional<ResultUncertainty> uncertainty) {
+    engine::AssignedValueRequest request;
+    request.method = AssignedValueMethod::given;
+    request.value = value;
+    request.uncertainty = uncertainty;
+    return request;
+}
+
+engine::ComparisonItem item_in(const std::string& id, const std::string& unit) {
+    engine::ComparisonItem item;
+    item.id = id;
+    item.unit = gum::Unit::parse(unit);
+    return item;
+}
+
+std::size_t add_participant(ComparisonJob& job, const std::string& id, const std::string& group = "") {
+    job.participants.push_back({.id = id, .name = id, .group = group, .cmc_U = std::nullopt});
+    return job.participants.size() - 1;
+}
+
+ComparisonResult& add_result(ComparisonJob& job, std::size_t participant, double value,
+                             std::optional<ResultUncertainty> uncertainty, std::size_t item = 0) {
+    ComparisonResult result;
+    result.participant = participant;
+    result.item = item;
+    result.value = value;
+    result.uncertainty = uncertainty;
+    job.results.push_back(std::move(result));
+    return job.results.back();
+}
+
+ComparisonJob job_of(const std::vector<double>& x, const std::vector<double>& u) {
+    ComparisonJob job;
+    job.rounds = {""};
+    job.items = {item_in("block", "mm")};
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const std::size_t p = add_participant(job, "L" + std::to_string(i + 1));
+        add_result(job, p, x[i], u.empty() ? std::nullopt : std::optional(u_and_k(u[i])));
+    }
+    return job;
+}
+
+/// Golden vector 6: a key comparison with an inconsistent fifth laboratory.
+ComparisonJob key_comparison() {
+    return job_of({12.31, 12.18, 12.42, 12.25, 12.95, 12.05}, {0.10, 0.15, 0.20, 0.12, 0.15, 0.30});
+}
+
+/// Golden vector 7: twelve results without uncertainties.
+ComparisonJob twelve_results() {
+    return job_of({20.31, 20.12, 20.53, 20.24, 19.95, 20.41, 20.22, 21.96, 20.03, 20.72, 20.36, 20.17}, {});
+}
+
+reports::Comparison evaluated(const ComparisonJob& job) {
+    return evaluate_laboratories(job, 1, {});
+}
+
+/// What is refused, or has no result, as its first message.
+gum::Diagnostic refusal(const ComparisonJob& job) {
+    try {
+        (void)evaluated(job);
+    } catch (const gum::DiagnosedError& failure) {
+        return failure.diagnostics().front();
+    }
+    ADD_FAILURE() << "was evaluated";
+    return {};
+}
+
+std::vector<double> numbers_of(const reports::Comparison& comparison,
+                               std::optional<double> reports::ComparisonPoint::*number) {
+    std::vector<double> numbers;
+    for (const reports::ComparisonPoint& point : comparison.points) {
+        numbers.push_back((point.*number).value_or(std::numeric_limits<double>::quiet_NaN()));
+    }
+    return numbers;
+}
+
+std::vector<std::string> printed_En(const reports::Comparison& comparison) {
+    std::vector<std::string> texts;
+    for (const reports::ComparisonPoint& point : comparison.points) {
+        texts.push_back(point.printed.En);
+    }
+    return texts;
+}
+
+TEST(EvaluateLaboratories, KeyComparisonByWeightedMean) {
+    const reports::Comparison comparison = evaluated(key_comparison());
+    ASSERT_EQ(comparison.items.size(), 1U);
+    const reports::ComparisonItemEvaluation& item = comparison.items.front();
+    EXPECT_EQ(item.method, "weighted_mean");
+    EXPECT_NEAR(item.value, 12.37236, 5e-6);
+    EXPECT_NEAR(*item.u, 0.05828, 5e-6);
+    EXPECT_EQ(item.printed.value, "12.37");
+    EXPECT_EQ(item.printed.U, "0.12");
+    EXPECT_EQ(item.printed.k, "2.00");
+    ASSERT_TRUE(item.consistency);
+    EXPECT_NEAR(item.consistency->chi_square, 19.1142, 5e-5);
+    EXPECT_EQ(item.consistency->degrees_of_freedom, 5);
+    EXPECT_NEAR(item.consistency->critical_value, 11.0705, 5e-5);
+    EXPECT_NEAR(item.consistency->p_value, 0.00183, 5e-6);
+    EXPECT_FALSE(item.consistency->consistent);
+    EXPECT_NEAR(item.consistency->birge_ratio, 1.9552, 5e-5);
+    EXPECT_EQ(item.consistency->printed.chi_square, "19.11");
+    EXPECT_EQ(item.consistency->printed.p_value, "0.0018");
+    EXPECT_EQ(*item.consistency->pairs, 15);
+    const std::vector<double> En = numbers_of(comparison, &reports::ComparisonPoint::En);
+    const std::array<double, 6> expected{-0.384, -0.696, 0.125, -0.583, 2.090, -0.548};
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_NEAR(En[i], expected[i], 6e-4) << i;
+    }
+    EXPECT_THAT(printed_En(comparison), ElementsAre("-0.38", "-0.70", "0.12", "-0.58", "2.09", "-0.55"));
+    EXPECT_EQ(item.score, "En");
+    EXPECT_EQ(comparison.points[4].signal, "action");
+    EXPECT_EQ(comparison.points[0].signal, "none");
+    double weights = 0.0;
+    for (const reports::ResultWeight& weight : item.weights) {
+        weights += weight.weight;
+    }
+    EXPECT_NEAR(weights, 1.0, 1e-14);
+    const std::vector<gum::Diagnostic> messages = laboratory_diagnostics(comparison);
+    ASSERT_FALSE(messages.empty());
+    EXPECT_EQ(messages.front().code, "GC-COMPARE-0120");
+    EXPECT_EQ(messages.front().severity, gum::Severity::warning);
+    EXPECT_THAT(messages.front().action, HasSubstr("largest_consistent_subset"));
+    EXPECT_EQ(item.pairs.size(), 15U);
+    // d_15 = 12.31 − 12.95 with √(0.1² + 0.15²).
+    EXPECT_NEAR(item.pairs[3].d, -0.64, 1e-14);
+    EXPECT_NEAR(*item.pairs[3].En, -0.64 / (2.0 * std::hypot(0.10, 0.15)), 1e-12);
+}
+
+TEST(EvaluateLaboratories, KeyComparisonByLargestConsistentSubset) {
+    ComparisonJob job = key_comparison();
+    job.items[0].assigned_value.method = AssignedValueMethod::largest_consistent_subset;
+    const reports::Comparison comparison = evaluated(job);
+    const reports::ComparisonItemEvaluation& item = comparison.items.front();
+    EXPECT_NEAR(item.value, 12.26967, 5e-6);
+    EXPECT_NEAR(*item.u, 0.06325, 5e-6);
+    EXPECT_THAT(item.not_consistent, ElementsAre("L5"));
+    EXPECT_EQ(item.contributing, 5);
+    EXPECT_NEAR(item.consistency->chi_square, 1.6480, 5e-5);
+    EXPECT_NEAR(item.consistency->p_value, 0.8001, 5e-5);
+    const std::vector<double> En = numbers_of(comparison, &reports::ComparisonPoint::En);
+    const std::array<double, 6> expected{0.260, -0.330, 0.396, -0.096, 2.090, -0.375};
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_NEAR(En[i], expected[i], 6e-4) << i;
+    }
+    EXPECT_NEAR(*comparison.points[4].correlation, 0.0, 1e-15) << "outside: the plus sign";
+    EXPECT_GT(*comparison.points[0].correlation, 0.5) << "inside: the minus sign";
+    EXPECT_THAT(comparison.remarks, testing::Contains(HasSubstr("19.11")));
+    EXPECT_THAT(laboratory_diagnostics(comparison), IsEmpty());
+}
+
+TEST(EvaluateLaboratories, EstimatesStandSideBySide) {
+    ComparisonJob job = key_comparison();
+    job.items[0].kernel_bandwidth = 0.1;
+    for (ComparisonResult& result : job.results) {
+        result.standard_deviation = 0.2;
+        result.observations = 4;
+    }
+    const reports::Comparison comparison = evaluated(job);
+    std::vector<std::string> methods;
+    for (const reports::ReferenceEstimate& estimate : comparison.items[0].estimates) {
+        methods.push_back(estimate.method);
+        EXPECT_EQ(estimate.used, estimate.method == "weighted_mean") << estimate.method;
+        EXPECT_GT(estimate.value, 12.0) << estimate.method;
+        EXPECT_LT(estimate.value, 12.7) << estimate.method;
+        EXPECT_FALSE(estimate.printed.value.empty()) << estimate.method;
+        EXPECT_EQ(estimate.results, estimate.method == "largest_consistent_subset" ? 5 : 6) << estimate.method;
+    }
+    EXPECT_THAT(methods, ElementsAre("arithmetic_mean", "median", "niqr", "algorithm_a", "q_hampel", "weighted_mean",
+                                     "largest_consistent_subset", "dersimonian_laird", "mandel_paule", "vangel_rukhin",
+                                     "power_moderated_mean", "kernel_mode"));
+}
+
+TEST(EvaluateLaboratories, AlgorithmAWithRobustSigma) {
+    ComparisonJob job = twelve_results();
+    job.items[0].assigned_value.method = AssignedValueMethod::algorithm_a;
+    job.items[0].sigma_pt.emplace().method = engine::SigmaPtMethod::robust;
+    const reports::Comparison comparison = evaluated(job);
+    const reports::ComparisonItemEvaluation& item = comparison.items.front();
+    EXPECT_NEAR(item.value, 20.317012, 5e-7);
+    EXPECT_NEAR(*item.s_star, 0.284752, 5e-7);
+    EXPECT_NEAR(*item.u, 0.102751, 5e-7);
+    EXPECT_NEAR(*item.sigma_pt, 0.284752, 5e-7);
+    // u(X)/σ_pt = 1.25/√12 = 0.361: z' decides.
+    EXPECT_EQ(item.score, "z_prime");
+    EXPECT_FALSE(item.criterion_met);
+    EXPECT_EQ(item.printed.criterion, "0.361");
+    const reports::ComparisonPoint& eighth = comparison.points[7];
+    EXPECT_NEAR(*eighth.z, (21.96 - 20.317012) / 0.284752, 1e-4);
+    EXPECT_NEAR(*eighth.z_prime, (21.96 - 20.317012) / std::hypot(0.284752, 0.102751), 1e-4);
+    EXPECT_EQ(eighth.signal, "action");
+    EXPECT_FALSE(eighth.En);
+    EXPECT_EQ(eighth.printed.En, "");
+    EXPECT_EQ(eighth.printed.z, "5.77");
+    EXPECT_TRUE(comparison.summary.empty()) << "no En, nothing to sum up";
+    EXPECT_FALSE(item.consistency);
+    EXPECT_EQ(laboratory_diagnostics(comparison).front().code, "GC-COMPARE-0121");
+}
+
+TEST(EvaluateLaboratories, AuditedUncertainty) {
+    // Golden vector 8: the maximum permissible error taken as a standard uncertainty, and as it should be.
+    ComparisonJob job;
+    job.rounds = {""};
+    job.items = {item_in("table", "um")};
+    job.items[0].assigned_value = given(100.0, u_and_k(2.5));
+    add_result(job, add_participant(job, "A"), 118.0, u_and_k(10.0)).audited =
+        engine::AuditedUncertainty{u_and_k(10.0 / std::sqrt(3.0)), "MPE is a limit"};
+    add_result(job, add_participant(job, "B"), 101.0, u_and_k(2.5));
+    job.participants[0].cmc_U = 5.0;
+    const reports::Comparison comparison = evaluated(job);
+    const reports::ComparisonPoint& point = comparison.points.front();
+    EXPECT_NEAR(*point.En, 0.873, 5e-4);
+    EXPECT_NEAR(*point.U_D, 20.62, 5e-3);
+    EXPECT_NEAR(*point.En_audited, 1.430, 5e-4);
+    EXPECT_EQ(point.printed.En_audited, "1.43");
+    EXPECT_DOUBLE_EQ(*point.U_over_CMC, 4.0);
+    EXPECT_DOUBLE_EQ(*point.U_over_median, 4.0);
+    EXPECT_EQ(comparison.audit_finding, "A: MPE is a limit");
+    ASSERT_EQ(comparison.summary.size(), 1U);
+    EXPECT_EQ(*comparison.summary[0].count_above_1_audited, 1);
+    EXPECT_EQ(comparison.summary[0].count_above_1, 0);
+    EXPECT_EQ(comparison.items[0].contributing, 0);
+    EXPECT_DOUBLE_EQ(*comparison.points[1].zeta, 2.0 * *comparison.points[1].En) << "k = 2 on both sides";
+}
+
+TEST(EvaluateLaboratories, CorrelationsOfParticipants) {
+    // Generalised weighted mean, r(1, 2) = 0.6.
+    ComparisonJob job = key_comparison();
+    job.correlations = {{0, 1, 0.6}};
+    const reports::Comparison comparison = evaluated(job);
+    EXPECT_NEAR(comparison.items[0].value, 12.402686980609419, 1e-12);
+    EXPECT_NEAR(*comparison.items[0].u, 0.06315789473684211, 1e-14);
+    EXPECT_NEAR(comparison.items[0].weights[1].weight, 0.0277008310249308, 1e-14);
+    EXPECT_NEAR(comparison.items[0].consistency->chi_square, 18.52798168667279, 1e-9);
+    const std::array<double, 6> u_d{0.07753115717187493, 0.13605543110221646, 0.18976585660336787,
+                                    0.10203470160886428, 0.13605543110221646, 0.2932764571737902};
+    for (std::size_t i = 0; i < u_d.size(); ++i) {
+        EXPECT_NEAR(*comparison.points[i].u_D, u_d[i], 1e-12) << i;
+    }
+    EXPECT_NEAR(*comparison.points[1].correlation, 0.4210526315789474, 1e-12);
+    EXPECT_NEAR(comparison.items[0].pairs[0].u, std::sqrt(0.01 + 0.0225 - 1.2 * 0.1 * 0.15), 1e-14);
+
+    // The same by a group.
+    ComparisonJob grouped = key_comparison();
+    grouped.participants[0].group = grouped.participants[1].group = "NMI-X";
+    grouped.group_correlation = {{"NMI-X", 0.6}};
+    EXPECT_DOUBLE_EQ(evaluated(grouped).items[0].value, comparison.items[0].value);
+    // A number for the pair itself takes the place of that of the group.
+    grouped.group_correlation = {{"NMI-X", 0.1}};
+    grouped.correlations = {{1, 0, 0.6}};
+    EXPECT_DOUBLE_EQ(evaluated(grouped).items[0].value, comparison.items[0].value);
+}
+
+TEST(EvaluateLaboratories, SharedSources) {
+    ComparisonJob job = key_comparison();
+    job.results[0].sources = {{"laser 7", "", 0.08}};
+    job.results[1].sources = {{"laser 7", "", 0.08}};
+    job.results[2].sources = {{"laser 7", "", -0.05}, {"thermometer", "", 0.1}};
+    job.results[3].sources = {{"thermometer", "", 0.1}};
+    ComparisonJob independent = job;
+    job.independent_sources = {"thermometer"};
+    const reports::Comparison comparison = evaluated(job);
+    EXPECT_NEAR(comparison.items[0].value, 12.389104607283313, 1e-12);
+    EXPECT_NEAR(*comparison.items[0].u, 0.05920223305785878, 1e-14);
+    ASSERT_EQ(comparison.shared_sources.size(), 3U);
+    EXPECT_EQ(comparison.shared_sources[0].source, "laser 7");
+    EXPECT_EQ(comparison.shared_sources[0].first, "L1");
+    EXPECT_EQ(comparison.shared_sources[0].second, "L2");
+    EXPECT_NEAR(comparison.shared_sources[0].covariance, 0.0064, 1e-16);
+    EXPECT_NEAR(comparison.shared_sources[0].correlation, 0.4266666666666667, 1e-14);
+    EXPECT_NEAR(comparison.shared_sources[1].covariance, -0.004, 1e-16);
+    independent.independent_sources = {"laser 7", "thermometer"};
+    EXPECT_DOUBLE_EQ(evaluated(independent).items[0].value, evaluated(key_comparison()).items[0].value);
+    EXPECT_THAT(evaluated(independent).shared_sources, IsEmpty());
+    // A correlation that the job states for a pair is the whole of it.
+    job.correlations = {{0, 1, 0.0}};
+    EXPECT_EQ(evaluated(job).shared_sources.size(), 2U);
+}
+
+TEST(EvaluateLaboratories, UnknownCorrelationInsideAGroup) {
+    ComparisonJob job = key_comparison();
+    job.items[0].assigned_value.method = AssignedValueMethod::reference;
+    job.items[0].assigned_value.participant = "L1";
+    job.participants[0].group = job.participants[4].group = "NMI-X";
+    const reports::Comparison comparison = evaluated(job);
+    const reports::ComparisonPoint& fifth = comparison.points[4];
+    // U = 0.2 and 0.3, r from 0 to 2/3: U_D = √(0.09 + 0.04 − 2 · 0.04).
+    EXPECT_NEAR(*fifth.En, 0.64 / std::sqrt(0.13), 1e-12);
+    EXPECT_NEAR(*fifth.En_worst, 0.64 / std::sqrt(0.05), 1e-12);
+    EXPECT_FALSE(comparison.points[1].En_worst);
+    EXPECT_EQ(*comparison.summary[0].count_above_1_worst, 1);
+    EXPECT_FALSE(comparison.summary[0].p_low) << "nobody knows how the results hang together";
+    // Of a weighted mean with both inside: u²(d) falls by 2 (1 − w_i) w_j u_min² (and nothing else of the group).
+    ComparisonJob mean = key_comparison();
+    mean.participants[0].group = mean.participants[4].group = "NMI-X";
+    const reports::Comparison of_mean = evaluated(mean);
+    const double w_1 = of_mean.items[0].weights[0].weight;
+    const double w_5 = of_mean.items[0].weights[4].weight;
+    const double u_D = *of_mean.points[4].u_D;
+    const double worst = std::sqrt(u_D * u_D - 2.0 * (1.0 - w_5) * w_1 * 0.01);
+    EXPECT_NEAR(*of_mean.points[4].En_worst, of_mean.points[4].D / (2.0 * worst), 2e-5);
+}
+
+TEST(EvaluateLaboratories, ReferenceLaboratoryHasNoScore) {
+    ComparisonJob job = key_comparison();
+    job.items[0].assigned_value.method = AssignedValueMethod::reference;
+    job.items[0].assigned_value.participant = "L2";
+    const reports::Comparison comparison = evaluated(job);
+    EXPECT_EQ(comparison.items[0].reference_participant, "L2");
+    EXPECT_EQ(comparison.items[0].contributing, 1);
+    EXPECT_DOUBLE_EQ(comparison.items[0].value, 12.18);
+    EXPECT_DOUBLE_EQ(*comparison.items[0].U, 0.30);
+    EXPECT_FALSE(comparison.points[1].En);
+    EXPECT_EQ(comparison.points[1].signal, "");
+    EXPECT_EQ(comparison.participants[1].scored, 0);
+    EXPECT_NEAR(*comparison.points[0].En, 0.13 / std::hypot(0.20, 0.30), 1e-12);
+    EXPECT_DOUBLE_EQ(*comparison.points[0].correlation, 0.0);
+}
+
+TEST(EvaluateLaboratories, LeaveOneOutIdentity) {
+    // d_i/U(d_i) of a laboratory inside the weighted mean is that against the mean of all others (Cox 2002).
+    std::mt19937_64 draws(20260);  // NOLINT(cert-msc32-c,cert-msc51-cpp)
+    std::uniform_real_distribution<double> value(-1.0, 1.0);
+    std::uniform_real_distribution<double> spread(0.1, 1.0);
+    for (int repeat = 0; repeat < 50; ++repeat) {
+        std::vector<double> x;
+        std::vector<double> u;
+        for (int i = 0; i < 7; ++i) {
+            x.push_back(value(draws));
+            u.push_back(spread(draws));
+        }
+        ComparisonJob job = job_of(x, u);
+        const double inside = *evaluated(job).points[3].zeta;
+        job.results[3].contributes = false;
+        job.results[3].reason = "left out";
+        const reports::Comparison outside = evaluated(job);
+        EXPECT_NEAR(*outside.points[3].zeta, inside, 1e-12);
+        EXPECT_THAT(outside.items[0].not_contributing, ElementsAre("L4"));
+        EXPECT_FALSE(outside.points[3].contributes);
+    }
+}
+
+TEST(EvaluateLaboratories, ItemsThatDifferAndDrift) {
+    ComparisonJob job = key_comparison();
+    job.items[0].sigma_pt = {.method = engine::SigmaPtMethod::given, .value = 0.3};
+    Eigen::MatrixXd homogeneity(10, 2);
+    homogeneity << 10.02, 10.06, 9.95, 9.91, 10.11, 10.07, 9.99, 10.03, 10.08, 10.02, 9.93, 9.97, 10.05, 10.01, 9.96,
+        10.02, 10.10, 10.06, 9.98, 9.94;
+    Eigen::MatrixXd stability(3, 2);
+    stability << 10.20, 10.24, 10.22, 10.18, 10.25, 10.19;
+    job.items[0].homogeneity = homogeneity;
+    job.items[0].stability = stability;
+    const reports::Comparison comparison = evaluated(job);
+    const reports::ComparisonItemEvaluation& item = comparison.items.front();
+    EXPECT_NEAR(item.homogeneity->s_x, 0.05478239782184711, 1e-14);
+    EXPECT_NEAR(item.homogeneity->s_w, 0.031622776601683736, 1e-14);
+    EXPECT_NEAR(item.homogeneity->s_s, 0.050011109876817575, 1e-13);
+    EXPECT_TRUE(item.homogeneity->sufficient) << "0.050 against 0.3 · 0.3";
+    EXPECT_NEAR(item.stability->difference, 0.20033333333333303, 1e-14);
+    EXPECT_FALSE(item.stability->stable_expanded);
+    EXPECT_NEAR(*item.u_stability, 0.20033333333333303 / std::sqrt(3.0), 1e-14);
+    const double u = std::sqrt(0.058277151741435856 * 0.058277151741435856 +
+                               0.050011109876817575 * 0.050011109876817575 + std::pow(0.20033333333333303, 2) / 3.0);
+    EXPECT_NEAR(*item.u, u, 1e-12);
+    EXPECT_NEAR(*item.u_characterisation, 0.058277151741435856, 1e-12);
+    // The correlation with the results is that of the characterisation alone.
+    EXPECT_NEAR(*comparison.points[0].u_D, std::sqrt(0.01 + u * u - 2.0 * std::pow(0.058277151741435856, 2)), 1e-12);
+    EXPECT_EQ(laboratory_diagnostics(comparison).back().code, "GC-COMPARE-0123");
+
+    job.items[0].sigma_pt.reset();
+    EXPECT_EQ(refusal(job).code, "GC-COMPARE-0104");
+    job.items[0].delta_E = 0.9;
+    EXPECT_NEAR(evaluated(job).items[0].homogeneity->limit, 0.09, 1e-15);
+    job.items[0].homogeneity.reset();
+    EXPECT_EQ(refusal(job).code, "GC-COMPARE-0108");
+}
+
+TEST(EvaluateLaboratories, StandardDeviationForAssessment) {
+    ComparisonJob job = key_comparison();
+    const auto sigma = [&](const engine::SigmaPtRequest& request) {
+        job.items[0].sigma_pt = request;
+        return *evaluated(job).items[0].sigma_pt;
+    };
+    EXPECT_DOUBLE_EQ(sigma({.method = engine::SigmaPtMethod::given, .value = 0.25}), 0.25);
+    EXPECT_NEAR(sigma({.method = engine::SigmaPtMethod::percent_of_assigned, .value = 2.0}), 0.02 * 12.372358490566038,
+                1e-14);
+    EXPECT_NEAR(sigma({.method = engine::SigmaPtMethod::precision,
+                       .reproducibility = 0.5,
+                       .repeatability = 0.3,
+                       .replicates = 3}),
+                std::sqrt(0.25 - 0.09 * 2.0 / 3.0), 1e-14);
+    // 0.02 c^0.8495 at c = 12.37 · 1e-6 g/g.
+    EXPECT_NEAR(sigma({.method = engine::SigmaPtMethod::mass_fraction, .mass_fraction_per_unit = 1e-6}),
+                0.02 * std::pow(12.372358490566038e-6, 0.8495) / 1e-6, 1e-10);
+    EXPECT_NEAR(sigma({.method = engine::SigmaPtMethod::standard_deviation}), 0.3145790838565078, 1e-12);
+    job.items[0].sigma_pt = {.method = engine::SigmaPtMethod::given, .value = 0.2};
+    const reports::Comparison at_limit = evaluated(job);
+    EXPECT_EQ(at_limit.items[0].score, "z") << "u(X)/σ_pt = 0.291";
+    EXPECT_TRUE(at_limit.points[0].z_prime) << "both are kept";
+}
+
+TEST(EvaluateLaboratories, PercentOnlyOnARatioScale) {
+    ComparisonJob job = key_comparison();
+    job.items[0].delta_E = 0.5;
+    const reports::Comparison lengths = evaluated(job);
+    EXPECT_NEAR(*lengths.points[4].D_percent, 100.0 * (12.95 / 12.372358490566038 - 1.0), 1e-10);
+    EXPECT_NEAR(*lengths.points[4].P_A, 100.0 * (12.95 - 12.372358490566038) / 0.5, 1e-10);
+    job.items[0].unit = gum::Unit::parse("degC");
+    const reports::Comparison temperatures = evaluated(job);
+    EXPECT_FALSE(temperatures.points[4].D_percent);
+    EXPECT_EQ(temperatures.items[0].difference_unit, "K");
+}
+
+TEST(EvaluateLaboratories, EqualResults) {
+    ComparisonJob job = job_of({1.0, 1.0, 1.0, 1.0, 1.2}, {});
+    job.items.push_back(item_in("second", "mm"));
+    for (std::size_t p = 0; p < 5; ++p) {
+        add_result(job, p, 2.0, std::nullopt, 1);
+    }
+    for (engine::ComparisonItem& item : job.items) {
+        item.assigned_value.method = AssignedValueMethod::algorithm_a;
+    }
+    try {
+        (void)evaluated(job);
+        FAIL() << "was evaluated";
+    } catch (const gum::InputError& refused) {
+        ASSERT_EQ(refused.diagnostics().size(), 2U) << "of every item";
+        EXPECT_EQ(refused.diagnostics()[0].code, "GC-GUM-0102");
+        EXPECT_THAT(refused.diagnostics()[0].where, HasSubstr("item \"block\""));
+        EXPECT_THAT(refused.diagnostics()[1].where, HasSubstr("item \"second\""));
+    }
+    // The median exists; its uncertainty does not.
+    for (engine::ComparisonItem& item : job.items) {
+        item.assigned_value.method = AssignedValueMethod::median;
+    }
+    job.items[0].sigma_pt = {.method = engine::SigmaPtMethod::given, .value = 0.1};
+    const reports::Comparison comparison = evaluated(job);
+    EXPECT_FALSE(comparison.items[0].u);
+    EXPECT_EQ(comparison.items[0].printed.U, "");
+    EXPECT_NEAR(*comparison.points[4].z, 2.0, 1e-12);
+    EXPECT_EQ(laboratory_diagnostics(comparison).front().code, "GC-COMPARE-0126");
+}
+
+TEST(EvaluateLaboratories, Refusals) {
+    ComparisonJob nothing = key_comparison();
+    for (ComparisonResult& result : nothing.results) {
+        result.contributes = false;
+    }
+    EXPECT_EQ(refusal(nothing).code, "GC-COMPARE-0100");
+    EXPECT_EQ(refusal(nothing).where, "item \"block\"");
+
+    ComparisonJob bare = key_comparison();
+    bare.results[2].uncertainty.reset();
+    EXPECT_EQ(refusal(bare).code, "GC-COMPARE-0101");
+    EXPECT_THAT(refusal(bare).what, HasSubstr("L3"));
+    bare.results[2].contributes = false;
+    EXPECT_EQ(evaluated(bare).points[2].printed.value, "12.42") << "as stated";
+    EXPECT_FALSE(evaluated(bare).points[2].En);
+
+    ComparisonJob correlated = key_comparison();
+    correlated.correlations = {{0, 1, 0.5}};
+    correlated.items[0].assigned_value.method = AssignedValueMethod::mandel_paule;
+    EXPECT_EQ(refusal(correlated).code, "GC-COMPARE-0102");
+
+    ComparisonJob replicates = key_comparison();
+    replicates.items[0].assigned_value.method = AssignedValueMethod::vangel_rukhin;
+    EXPECT_EQ(refusal(replicates).code, "GC-COMPARE-0105");
+
+    ComparisonJob reference = key_comparison();
+    reference.items[0].assigned_value.method = AssignedValueMethod::reference;
+    reference.items[0].assigned_value.participant = "L1";
+    reference.results.erase(reference.results.begin());
+    EXPECT_EQ(refusal(reference).code, "GC-COMPARE-0106");
+
+    ComparisonJob one = job_of({1.0}, {0.1});
+    EXPECT_EQ(refusal(one).code, "GC-GUM-0131");
+
+    ComparisonJob impossible = key_comparison();  // r = 1 with 2, r = 1 with 3, and yet 2 and 3 independent
+    impossible.correlations = {{0, 1, 1.0}, {0, 2, 1.0}};
+    EXPECT_EQ(refusal(impossible).code, "GC-GUM-0054");
+    ComparisonJob singular = job_of({1.0, 1.1}, {0.1, 0.1});
+    singular.correlations = {{0, 1, 1.0}};
+    EXPECT_EQ(refusal(singular).code, "GC-GUM-0132");
+    EXPECT_THAT(refusal(singular).where, HasSubstr("item \"block\""));
+}
+
+TEST(EvaluateLaboratories, OrderOfTheResultsDoesNotMatter) {
+    ComparisonJob job = key_comparison();
+    const reports::Comparison comparison = evaluated(job);
+    std::reverse(job.results.begin(), job.results.end());
+    const reports::Comparison reversed = evaluated(job);
+    for (std::size_t i = 0; i < comparison.points.size(); ++i) {
+        EXPECT_EQ(comparison.points[i].participant, reversed.points[i].participant);
+        EXPECT_EQ(comparison.points[i].En, reversed.points[i].En);
+    }
+}
+
+TEST(EvaluateLaboratories, MeanOfEqualResultsWithLargeUncertainties) {
+    // s/√n is 0.0025 where the stated uncertainties give 1/√4: no r below 1 describes what a result and that mean
+    // share.
+    ComparisonJob job = job_of({10.00, 10.01, 10.00, 10.00}, {1.0, 1.0, 1.0, 1.0});
+    job.items[0].assigned_value.method = AssignedValueMethod::arithmetic_mean;
+    const reports::Comparison comparison = evaluated(job);
+    EXPECT_DOUBLE_EQ(*comparison.points[0].correlation, 1.0);
+    EXPECT_NEAR(*comparison.points[0].u_D, 1.0 - 0.0025, 1e-12);
+    EXPECT_EQ(comparison.items[0].printed.k, "3.31") << "three degrees of freedom";
+}
+
+TEST(EvaluateLaboratories, SeveralItemsAndRounds) {
+    ComparisonJob job;
+    job.rounds = {"spring", "autumn"};
+    job.items = {item_in("first", "mm"), item_in("second", "mm")};
+    for (engine::ComparisonItem& item : job.items) {
+        item.assigned_value = given(0.0, u_and_k(0.5));
+    }
+    const std::array<double, 5> first{0.2, -0.4, 1.0, 0.1, 3.0};
+    const std::array<double, 5> second{0.3, -0.1, 0.8, -0.2, 2.0};
+    for (std::size_t p = 0; p < 5; ++p) {
+        add_participant(job, "L" + std::to_string(p + 1));
+        add_result(job, p, first[p], u_and_k(0.5), 0);
+        add_result(job, p, second[p], u_and_k(0.5), 1);
+    }
+    add_result(job, 1, 0.7, u_and_k(0.5), 1).round = 1;
+    add_result(job, 4, 0.1, u_and_k(0.5), 1).round = 1;
+    job.vectors = {{.name = "point",
+                    .items = {0, 1},
+                    .correlation = Eigen::MatrixXd::Identity(2, 2),
+                    .reference_correlation = Eigen::MatrixXd::Identity(2, 2)}};
+    job.youden = {{0, 1}};
+    const reports::Comparison comparison = evaluated(job);
+    ASSERT_EQ(comparison.items.size(), 3U) << "nobody measured the first item in autumn";
+    EXPECT_EQ(comparison.items[2].round, "autumn");
+    EXPECT_THAT(comparison.items[2].missing, ElementsAre("L1", "L3", "L4"));
+    ASSERT_EQ(comparison.participants.size(), 5U);
+    EXPECT_EQ(comparison.participants[4].results, 3);
+    EXPECT_EQ(comparison.participants[4].actions, 2);
+    EXPECT_NEAR(*comparison.participants[4].max_abs_En, 3.0 / std::sqrt(2.0), 1e-12);
+    ASSERT_EQ(comparison.vectors.size(), 5U) << "one a participant, in spring";
+    // Independent components with u_D² = 0.5 each; k_p² = −2 ln(1 − 0.9545).
+    EXPECT_NEAR(comparison.vectors[4].mahalanobis_square, (9.0 + 4.0) / 0.5, 1e-9);
+    EXPECT_NEAR(comparison.vectors[4].vector_En, std::sqrt(26.0 / (-2.0 * std::log(0.0455))), 1e-9);
+    ASSERT_EQ(comparison.youden.size(), 1U);
+    const reports::YoudenDiagram& youden = comparison.youden.front();
+    EXPECT_DOUBLE_EQ(youden.centre_first, 0.2);
+    EXPECT_DOUBLE_EQ(youden.centre_second, 0.3);
+    EXPECT_NEAR(youden.scale_first, 1.483 * 0.6, 1e-12);
+    // Ranks 3 1 4 2 5 and 3 2 4 1 5: ρ = 1 − 6 · 2/(5 · 24).
+    EXPECT_NEAR(youden.correlation, 2.0 * std::sin(std::numbers::pi / 6.0 * 0.9), 1e-12);
+    ASSERT_EQ(youden.ellipse.size(), 73U);
+    EXPECT_EQ(youden.ellipse.front(), youden.ellipse.back());
+    EXPECT_NEAR(youden.ellipse.front().first, 0.2 + 1.483 * 0.6 * std::sqrt(-2.0 * std::log(0.05)), 1e-12);
+    EXPECT_FALSE(comparison.summary[0].p_low) << "results of several items share their laboratories";
+}
+
+TEST(EvaluateLaboratories, ProbabilityOfAllScoresTogether) {
+    // An exactly known value and independent results: Σ ζ² is chi-square with 3 degrees of freedom.
+    ComparisonJob job = job_of({1.1, 0.8, 1.3}, {0.1, 0.2, 0.1});
+    job.items[0].assigned_value = given(1.0, std::nullopt);
+    const reports::Comparison comparison = evaluated(job);
+    ASSERT_TRUE(comparison.summary[0].p_high);
+    EXPECT_NEAR(*comparison.summary[0].p_high, 0.0117258755784214, 1e-8) << "P(chi-square of 3 is at least 11)";
+    EXPECT_NEAR(*comparison.summary[0].p_low + *comparison.summary[0].p_high, 1.0, 1e-8);
+    EXPECT_EQ(comparison.summary[0].printed.D_fail, "0.20");
+    // The median is not linear: how its differences hang together is not computed.
+    job.items[0].assigned_value.method = AssignedValueMethod::median;
+    EXPECT_FALSE(evaluated(job).summary[0].p_high);
+}
+
+TEST(EvaluateLaboratories, MedianByTrials) {
+    ComparisonJob job = key_comparison();
+    job.items[0].assigned_value.method = AssignedValueMethod::median;
+    job.items[0].assigned_value.median_by_trials = true;
+    job.items[0].assigned_value.trials = 20000;
+    job.items[0].assigned_value.seed = 3;
+    const reports::Comparison comparison = evaluated(job);
+    EXPECT_NEAR(comparison.items[0].value, 12.29, 0.03);
+    EXPECT_GT(*comparison.items[0].u, 0.04);
+    EXPECT_TRUE(comparison.points[0].correlation);
+    EXPECT_GT(*comparison.points[0].correlation, 0.2) << "the median moves with its results";
+    EXPECT_EQ(*evaluated(job).items[0].u, *comparison.items[0].u) << "the same numbers every time";
+}
+
+TEST(EvaluateLaboratories, RealismOfUncertainties) {
+    ComparisonJob job = key_comparison();
+    job.results[0].uncertainty = u_and_k(0.02);
+    job.results[5].uncertainty = u_and_k(3.0);
+    job.items[0].assigned_value.method = AssignedValueMethod::algorithm_a;
+    const reports::Comparison comparison = evaluated(job);
+    EXPECT_EQ(comparison.points[0].realism, "small");
+    EXPECT_EQ(comparison.points[2].realism, "plausible");
+    EXPECT_EQ(comparison.points[5].realism, "large");
+    EXPECT_FALSE(comparison.points[0].correlation) << "not linear";
+    EXPECT_THAT(comparison.remarks, testing::Contains(HasSubstr("not linear")));
+    EXPECT_THAT(comparison.remarks, testing::Contains(HasSubstr("Fewer than 12")));
+}
+
+TEST(EvaluateLaboratories, ConsensusAgainstAnIndependentValue) {
+    ComparisonJob job = key_comparison();
+    job.items[0].reference_value = 12.0;
+    job.items[0].u_reference_value = 0.05;
+    const reports::Comparison comparison = evaluated(job);
+    ASSERT_TRUE(comparison.items[0].consensus);
+    EXPECT_NEAR(comparison.items[0].consensus->ratio, 0.372358490566038 / std::hypot(0.058277151741435856, 0.05),
+                1e-10);
+    EXPECT_FALSE(comparison.items[0].consensus->consistent);
+    const std::vector<gum::Diagnostic> messages = laboratory_diagnostics(comparison);
+    EXPECT_TRUE(std::any_of(messages.begin(), messages.end(),
+                            [](const gum::Diagnostic& message) { return message.code == "GC-COMPARE-0124"; }));
+}
+
+TEST(EvaluateComparison, RecordOfAComparison) {
+    ComparisonJob job = key_comparison();
+    job.title = "Key comparison";
+    job.certificate.emplace();
+    std::vector<std::string> told;
+    const reports::EvaluationRecord record =
+        evaluate_comparison(job, {}, 1, [&](const std::string& text) { told.push_back(text); });
+    EXPECT_EQ(record.kind, "comparison");
+    EXPECT_EQ(record.title, "Key comparison");
+    ASSERT_TRUE(record.comparison);
+    EXPECT_EQ(record.comparison->form, "laboratories");
+    EXPECT_EQ(record.comparison->unit, "mm");
+    EXPECT_FALSE(record.certificate) << "a comparison is no certificate";
+    EXPECT_EQ(record.diagnostics.front().code, "GC-COMPARE-0120");
+    EXPECT_EQ(record.diagnostics.back().code, "GC-COMPARE-0125");
+}
+
+}  // namespace
+}  // namespace gumcert::app

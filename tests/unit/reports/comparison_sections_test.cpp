@@ -1,0 +1,588 @@
+#include "gum/quantity/diagnostic.h"
+#include "reports/certificate_view.h"
+#include "reports/render.h"
+#include "tests/support/hostile_strings.h"
+#include "tests/support/sample_comparison_record.h"
+#include "tests/unit/reports/document_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gumcert::reports {
+namespace {
+
+using nlohmann::json;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::vector<std::string> k_languages = {"en", "de", "zh-Hant", "es"};
+const std::vector<std::string> k_verdicts = {"disagreement",
+                                             "correlation_unknown",
+                                             "reference_not_better",
+                                             "uncertainty_too_large",
+                                             "agreement_reference_limited",
+                                             "validated",
+                                             ""};
+
+json wording(const std::string& language) {
+    std::ifstream file(assets().templates / "wording" / (language + ".json"));
+    return json::parse(file);
+}
+
+RenderAssets in(const std::string& language) {
+    RenderAssets a = assets();
+    a.languages = {language};
+    return a;
+}
+
+json view_of(const EvaluationRecord& record, const std::string& language = "en") {
+    return certificate_view(record, wording(language));
+}
+
+json block(const json& view, const char* kind, const std::string& id) {
+    for (const json& section : view["sections"]) {
+        for (const json& entry : section["blocks"]) {
+            if (!entry[kind].empty() && entry[kind][0]["id"] == id) {
+                return entry[kind][0];
+            }
+        }
+    }
+    return nullptr;
+}
+
+std::vector<std::vector<std::string>> rows_of(const json& view, const std::string& id) {
+    std::vector<std::vector<std::string>> rows;
+    const json table = block(view, "table", id);
+    if (table.is_null()) {
+        ADD_FAILURE() << "no table " << id;
+        return rows;
+    }
+    for (const json& row : table["rows"]) {
+        auto& cells = rows.emplace_back();
+        for (const json& cell : row["cells"]) {
+            cells.push_back(cell["text"]);
+        }
+    }
+    return rows;
+}
+
+std::string text_of(const EvaluationRecord& record, const std::string& language = "en") {
+    return squeezed(render_text(record, in(language)));
+}
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+std::vector<std::string> sections_of(const json& view) {
+    std::vector<std::string> ids;
+    for (const json& section : view["sections"]) {
+        ids.push_back(section["id"]);
+    }
+    return ids;
+}
+
+/// One item and this many laboratories.
+EvaluationRecord one_item(std::size_t laboratories) {
+    EvaluationRecord record = test::sample_laboratories_record(laboratories);
+    Comparison& c = *record.comparison;
+    c.items.resize(1);
+    std::erase_if(c.points, [&](const ComparisonPoint& p) { return p.item != c.items[0].id; });
+    c.youden.clear();
+    c.vectors.clear();
+    return record;
+}
+
+EvaluationRecord with_verdicts(const std::vector<std::string>& verdicts) {
+    EvaluationRecord record = test::sample_methods_record();
+    for (std::size_t i = 0; i < record.comparison->summary.size(); ++i) {
+        record.comparison->summary[i].verdict = verdicts[std::min(i, verdicts.size() - 1)];
+    }
+    return record;
+}
+
+std::vector<EvaluationRecord> samples() {
+    return {test::sample_laboratories_record(), one_item(6), test::sample_methods_record()};
+}
+
+TEST(ComparisonReport, IsNoCertificate) {
+    for (const EvaluationRecord& record : samples()) {
+        for (const std::string& language : k_languages) {
+            const json words = wording(language)["document"];
+            const std::string html = render_html(record, in(language));
+            const std::string text = text_of(record, language);
+            for (const char* key : {"type", "mark", "mark_reason", "end_mark", "only_items", "draft"}) {
+                EXPECT_THAT(html, Not(HasSubstr(words[key].get<std::string>()))) << language << " " << key;
+                EXPECT_THAT(text, Not(HasSubstr(words[key].get<std::string>()))) << language << " " << key;
+            }
+            EXPECT_THAT(html_text(html), HasSubstr(words["comparison_type"].get<std::string>()));
+            EXPECT_THAT(html_text(html), HasSubstr(words["comparison_end_mark"].get<std::string>()));
+        }
+        const std::string english = lower(render_text(record, in("en")));
+        EXPECT_THAT(english, Not(HasSubstr("certificate")));
+        EXPECT_THAT(english, Not(HasSubstr("specimen")));
+        const json view = view_of(record);
+        EXPECT_TRUE(view["mark"].empty());
+        EXPECT_TRUE(view["identity"].empty());
+        EXPECT_THAT(view["header_right"].get<std::string>(), HasSubstr("Comparison report"));
+        EXPECT_THAT(lower(view["footer_left"].get<std::string>()), Not(HasSubstr("certificate")));
+    }
+}
+
+TEST(ComparisonReport, BeginsWithTheAnswer) {
+    for (const EvaluationRecord& record : samples()) {
+        const json section = view_of(record)["sections"][0];
+        EXPECT_EQ(section["id"], "answer");
+        EXPECT_FALSE(section["blocks"][0]["paragraph"].empty()) << "the verdict comes first";
+        const auto has = [&](const char* kind) {
+            return std::any_of(section["blocks"].begin(), section["blocks"].end(),
+                               [&](const json& b) { return !b[kind].empty(); });
+        };
+        EXPECT_TRUE(has("figure"));
+        EXPECT_TRUE(has("table"));
+        EXPECT_THAT(section.dump(), HasSubstr(record.comparison->organiser));
+    }
+}
+
+TEST(ComparisonReport, SaysWhoIssuedItAndWhen) {
+    EvaluationRecord record = one_item(6);
+    record.job_json = R"({"certificate": {"number": "KC-14", "dates": {"issued": "2026-11-21"},
+        "laboratory": {"name": {"en": "Example Metrology Institute", "de": "Beispiel-Institut"}}}})";
+    const json view = view_of(record, "de");
+    EXPECT_EQ(view["header_left"], "Beispiel-Institut");
+    EXPECT_EQ(view["header_right"], "Vergleichsbericht KC-14");
+    EXPECT_EQ(view["created"]["year"], "2026");
+    EXPECT_EQ(view["created"]["month"], "11");
+    EXPECT_THAT(view["sections"][0].dump(), HasSubstr("2026-11-21"));
+    for (const char* job : {"", "[]", "{\"certificate\": \"data.json\"}", "{\"certificate\": {\"number\": 7}}"}) {
+        record.job_json = job;
+        EXPECT_EQ(view_of(record)["header_right"], "Comparison report") << job;
+        EXPECT_EQ(view_of(record)["created"]["year"], "1970") << job;
+    }
+}
+
+TEST(ComparisonReport, HoldsEveryPrintedNumberOfTheResults) {
+    const EvaluationRecord record = test::sample_laboratories_record();
+    const json view = view_of(record);
+    for (std::size_t i = 0; i < record.comparison->items.size(); ++i) {
+        const ComparisonItemEvaluation& item = record.comparison->items[i];
+        const auto rows = rows_of(view, "results-" + std::to_string(i + 1));
+        std::size_t at = 0;
+        for (const ComparisonPoint& p : record.comparison->points) {
+            if (p.item != item.id) {
+                continue;
+            }
+            const auto or_absent = [](const std::string& text) { return text.empty() ? "–" : text; };
+            const auto& t = p.printed;
+            EXPECT_THAT(rows[at],
+                        ElementsAre(p.participant, t.value, or_absent(t.U), or_absent(t.k), t.D, or_absent(t.U_D),
+                                    t.D_percent, t.P_A, or_absent(t.zeta), or_absent(t.En), t.z, t.z_prime, p.signal));
+            ++at;
+        }
+        EXPECT_EQ(at, rows.size());
+        const std::string text = text_of(record);
+        for (const std::string& printed :
+             {item.printed.value, item.printed.u, item.printed.U, item.printed.u_characterisation,
+              item.printed.u_homogeneity, item.printed.u_stability, item.printed.sigma_pt, item.printed.delta_E,
+              item.printed.s_star, item.consistency->printed.chi_square, item.consistency->printed.critical_value,
+              item.consistency->printed.birge_ratio, item.homogeneity->printed.limit, item.stability->printed.limit}) {
+            EXPECT_THAT(text, HasSubstr(" " + printed)) << printed;
+        }
+        for (const ReferenceEstimate& e : item.estimates) {
+            EXPECT_THAT(text, HasSubstr(e.printed.value + " " + e.printed.u));
+        }
+    }
+}
+
+TEST(ComparisonReport, HoldsEveryPrintedNumberOfThePoints) {
+    const EvaluationRecord record = test::sample_methods_record();
+    const json view = view_of(record);
+    const auto rows = rows_of(view, "comparison-points");
+    ASSERT_EQ(rows.size(), record.comparison->points.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const ComparisonPoint& p = record.comparison->points[i];
+        EXPECT_THAT(rows[i], ElementsAre(p.name, p.direction, p.printed.angle, p.printed.value, p.printed.U,
+                                         p.printed.reference_value, p.printed.reference_U, p.printed.D, p.printed.U_D,
+                                         p.printed.En, p.printed.En_worst, p.printed.En_audited));
+    }
+    const auto companions = rows_of(view, "companion");
+    const auto& s = record.comparison->summary;
+    const auto row = [&](const std::string& name, auto text) {
+        std::vector<std::string> cells = {name};
+        for (const ComparisonSummary& one : s) {
+            cells.push_back(text(one));
+        }
+        EXPECT_THAT(companions, Contains(cells)) << name;
+    };
+    row("mean |Eₙ|", [](const auto& one) { return one.printed.mean_abs_En; });
+    row("mean |Eₙ|, published", [](const auto& one) { return one.printed.published_mean_abs_En; });
+    row("95 % band of rms Eₙ",
+        [](const auto& one) { return one.printed.rms_En_low + " – " + one.printed.rms_En_high; });
+    row("p_low", [](const auto& one) { return one.printed.p_low; });
+    row("p_high", [](const auto& one) { return one.printed.p_high; });
+    row("D_fail, smallest / µm", [](const auto& one) { return one.printed.D_fail; });
+    row("Effective number of points", [](const auto& one) { return one.printed.effective_points; });
+    row("vector Eₙ", [](const auto& one) { return one.printed.vector_En; });
+    row("largest |Eₙ|, worst plausible r", [](const auto& one) { return one.printed.max_abs_En_worst; });
+    row("mean |Eₙ|, audited", [](const auto& one) { return one.printed.mean_abs_En_audited; });
+    ASSERT_TRUE(s[0].bias);
+    EXPECT_THAT(rows_of(view, "bias")[0],
+                ElementsAre(s[0].direction, s[0].bias->printed.centre, s[0].bias->printed.constant,
+                            s[0].bias->printed.U_constant, s[0].bias->printed.slope, s[0].bias->printed.U_slope,
+                            s[0].bias->printed.p_value));
+}
+
+/// A reader who looks for the word must find it only where it is meant, in any form of the word.
+TEST(ComparisonReport, SaysValidatedForThatVerdictOnly) {
+    const std::vector<std::pair<std::string, std::vector<std::string>>> k_words = {
+        {"en", {"validat"}},
+        {"de", {"validier"}},
+        {"zh-Hant", {"驗證", "確證", "確效"}},
+        {"es", {"validad", "validac"}}};
+    for (const auto& [language, stems] : k_words) {
+        const std::string said = wording(language)["comparison_verdict_name"]["validated"];
+        EXPECT_THAT(said, HasSubstr(stems[0]));
+        for (const std::string& verdict : k_verdicts) {
+            const EvaluationRecord record = with_verdicts({verdict});
+            const std::string html = lower(html_text(render_html(record, in(language))));
+            const std::string text = lower(text_of(record, language));
+            if (verdict == "validated") {
+                EXPECT_THAT(html, HasSubstr(said)) << language;
+                EXPECT_THAT(text, HasSubstr(said)) << language;
+                continue;
+            }
+            for (const std::string& stem : stems) {
+                EXPECT_THAT(html, Not(HasSubstr(stem))) << language << " " << verdict;
+                EXPECT_THAT(text, Not(HasSubstr(stem))) << language << " " << verdict;
+            }
+        }
+        for (const EvaluationRecord& record : {test::sample_laboratories_record(), one_item(6)}) {
+            EXPECT_THAT(lower(text_of(record, language)), Not(HasSubstr(stems[0]))) << language;
+        }
+    }
+}
+
+TEST(ComparisonReport, OneDirectionAloneValidatesNothing) {
+    for (const std::string& objection : k_verdicts) {
+        if (objection == "validated" || objection.empty()) {
+            continue;
+        }
+        for (const std::vector<std::string>& verdicts :
+             {std::vector<std::string>{"validated", "validated", objection},
+              std::vector<std::string>{objection, "validated", "validated"}}) {
+            const EvaluationRecord record = with_verdicts(verdicts);
+            for (const std::string& language : k_languages) {
+                const json words = wording(language);
+                const std::string text = text_of(record, language);
+                EXPECT_THAT(text, Not(HasSubstr(words["comparison_verdict_name"]["validated"].get<std::string>())))
+                    << language << " " << objection;
+                EXPECT_THAT(
+                    text, HasSubstr(words["comparison_verdict_name"]["no_objection"].get<std::string>().substr(0, 9)));
+            }
+        }
+    }
+}
+
+TEST(ComparisonReport, TheGravestObjectionIsTheVerdict) {
+    const auto first = [](const EvaluationRecord& record) {
+        return view_of(record)["sections"][0]["blocks"][0]["paragraph"][0]["text"].get<std::string>();
+    };
+    EXPECT_THAT(first(with_verdicts({"uncertainty_too_large", "reference_not_better", "validated"})),
+                HasSubstr("the reference is not better than the method"));
+    EXPECT_THAT(first(with_verdicts({"reference_not_better", "disagreement"})), HasSubstr("disagree"));
+    EXPECT_THAT(first(with_verdicts({"correlation_unknown", "reference_not_better"})),
+                HasSubstr("Whether they agree cannot be said"));
+    EXPECT_THAT(first(with_verdicts({""})), HasSubstr("do not allow a verdict"));
+    EvaluationRecord scatter = with_verdicts({"disagreement"});
+    for (ComparisonSummary& s : scatter.comparison->summary) {
+        s.count_above_1 = 0;
+        s.printed.p_high = "0.004";
+    }
+    EXPECT_THAT(first(scatter), HasSubstr("p_high = 0.004"));
+}
+
+TEST(ComparisonReport, TestsAreSaidInBothDirections) {
+    EvaluationRecord record = one_item(6);
+    EXPECT_THAT(text_of(record), HasSubstr("The results that went into the test are consistent"));
+    EXPECT_THAT(text_of(record), HasSubstr("This is a rule of thumb"));
+    ComparisonItemEvaluation& item = record.comparison->items[0];
+    item.consistency->consistent = false;
+    item.homogeneity->sufficient = item.homogeneity->sufficient_expanded = false;
+    item.stability->stable = false;
+    item.consensus->consistent = false;
+    item.criterion_met = false;
+    const std::string text = text_of(record);
+    EXPECT_THAT(text, HasSubstr("The results that went into the test are not consistent"));
+    EXPECT_THAT(text, HasSubstr("not homogeneous enough"));
+    EXPECT_THAT(text, HasSubstr("sufficiently stable by the expanded criterion only"));
+    EXPECT_THAT(text, HasSubstr("The cause must be found before the scores are used."));
+    EXPECT_THAT(text, HasSubstr("above 0.3: the uncertainty of the assigned value is not negligible"));
+    EXPECT_THAT(text, Not(HasSubstr("The results that went into the test are consistent")));
+}
+
+TEST(ComparisonReport, SaysWhatIsAbsentWhereAReaderLooksForIt) {
+    EvaluationRecord record = one_item(6);
+    ComparisonItemEvaluation& item = record.comparison->items[0];
+    item.traceability.clear();
+    item.consistency.reset();
+    item.homogeneity.reset();
+    item.stability.reset();
+    item.consensus.reset();
+    item.pairs.clear();
+    item.method = "algorithm_a";
+    record.comparison->organiser.clear();
+    record.comparison->shared_sources.clear();
+    const std::string text = text_of(record);
+    EXPECT_THAT(text, HasSubstr("traceable only as far as these results are"));
+    EXPECT_THAT(text, HasSubstr("The consistency of the results was not tested"));
+    EXPECT_THAT(text, HasSubstr("no data on the homogeneity and stability"));
+    EXPECT_THAT(text, HasSubstr("Organiser –"));
+    EXPECT_THAT(text, Not(HasSubstr("Independent reference value")));
+    EXPECT_THAT(text, Not(HasSubstr("Degrees of equivalence of pairs")));
+    item.method = "reference";
+    item.reference_participant = "L001";
+    EXPECT_THAT(text_of(record), HasSubstr("that of the result of L001"));
+
+    EvaluationRecord methods = test::sample_methods_record();
+    for (ComparisonSummary& s : methods.comparison->summary) {
+        s.bias.reset();
+        s.p_low.reset();
+        s.printed.p_low.clear();
+    }
+    const std::string without = text_of(methods);
+    EXPECT_THAT(without, HasSubstr("No bias line was fitted"));
+    EXPECT_THAT(without, Not(HasSubstr("p_low ")));
+}
+
+TEST(ComparisonReport, ScoresDecideTheWords) {
+    EvaluationRecord record = one_item(6);
+    Comparison& c = *record.comparison;
+    const auto first = [&] {
+        return view_of(record)["sections"][0]["blocks"][0]["paragraph"][0]["text"].get<std::string>();
+    };
+    for (ComparisonPoint& p : c.points) {
+        p.signal = "none";
+    }
+    EXPECT_THAT(first(), HasSubstr("none of 5 scored results differs"));
+    EXPECT_THAT(first(), HasSubstr("This does not say that the uncertainties are right."));
+    c.points[1].signal = "action";
+    EXPECT_THAT(first(), HasSubstr("1 of 5 scored results differ"));
+    EXPECT_THAT(first(), HasSubstr(": L002."));
+    c.items[0].score = "z_prime";
+    c.points[2].signal = "warning";
+    EXPECT_THAT(first(), HasSubstr("1 of 5 scored results call for action (|z′| ≥ 3): L002. Warnings (|z′| ≥ 2): 1."));
+    c.points[1].signal = "none";
+    EXPECT_THAT(first(), HasSubstr("1 give a warning (|z′| ≥ 2): L003."));
+    c.items[0].score = "D";
+    c.points[2].signal = "action";
+    EXPECT_THAT(first(), HasSubstr("largest error allowed"));
+    c.items[0].score = "";
+    EXPECT_THAT(first(), HasSubstr("no score can be formed"));
+}
+
+TEST(ComparisonReport, ThePairsAreListedDrawnOrBoth) {
+    const auto view = [](std::size_t laboratories) { return view_of(one_item(laboratories)); };
+    EXPECT_EQ(rows_of(view(6), "pairs-1")[0].size(), 5U);  // i, j, d, U, E_n
+    const auto matrix = rows_of(view(12), "pairs-1");      // two of the twelve have no uncertainty or no result
+    ASSERT_EQ(matrix.size(), 10U);
+    EXPECT_EQ(matrix[0].size(), 11U);
+    const PairEquivalence pair = one_item(12).comparison->items[0].pairs[0];
+    EXPECT_EQ(matrix[0][2], pair.printed.En);
+    EXPECT_TRUE(block(view(20), "table", "pairs-1").is_null());
+    for (const std::size_t laboratories : {6U, 12U, 20U}) {
+        EXPECT_FALSE(block(view(laboratories), "figure", "plot-pairs-1").is_null());
+    }
+}
+
+TEST(ComparisonReport, NumbersToRecomputeAreUnrounded) {
+    const EvaluationRecord record = one_item(6);
+    const auto rows = rows_of(view_of(record), "unrounded");
+    ASSERT_EQ(rows.size(), record.comparison->points.size());
+    EXPECT_EQ(std::stod(rows[0][1]), record.comparison->points[0].value);
+    EXPECT_EQ(std::stod(rows[0][2]), *record.comparison->points[0].u);
+    EXPECT_EQ(rows_of(view_of(record), "unrounded-weights")[0].back(), "0.1");
+    const EvaluationRecord methods = test::sample_methods_record();
+    const auto reference = rows_of(view_of(methods), "unrounded-reference");
+    ASSERT_EQ(reference.size(), methods.comparison->points.size());
+    const std::string& last = reference.back()[3];  // U+2212 is the minus sign of documents
+    EXPECT_EQ(std::stod(last.starts_with("\u2212") ? "-" + last.substr(3) : last),
+              methods.comparison->points.back().reference_value);
+    const json large = view_of(one_item(150));
+    EXPECT_TRUE(block(large, "table", "unrounded").is_null());
+    EXPECT_THAT(text_of(one_item(150)),
+                HasSubstr("of all 149 results are in the files comparison.csv and record.json"));
+}
+
+TEST(ComparisonReport, OfManyLaboratoriesItShowsThoseWithSignals) {
+    EvaluationRecord record = one_item(500);
+    std::vector<ComparisonPoint>& points = record.comparison->points;
+    std::vector<double> magnitudes;
+    for (const ComparisonPoint& p : points) {
+        if (p.signal == "action") {
+            magnitudes.push_back(std::abs(*p.En));
+        }
+    }
+    std::sort(magnitudes.rbegin(), magnitudes.rend());
+    ASSERT_EQ(magnitudes.size(), 330U);
+    const json view = view_of(record);
+    EXPECT_EQ(rows_of(view, "scores").size(), 24U) << "the first page stays one page";
+    const auto rows = rows_of(view, "results-1");
+    ASSERT_EQ(rows.size(), 200U);
+    std::size_t at = 0;
+    for (const ComparisonPoint& p : points) {  // the 200 largest, in the order of the record
+        if (p.signal == "action" && std::abs(*p.En) >= magnitudes[199]) {
+            EXPECT_EQ(rows.at(at++)[0], p.participant);
+        }
+    }
+    EXPECT_THAT(text_of(record), HasSubstr("Of 499 rows 330 have a warning or action signal; the table shows the 200"));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        points[i].signal = i == 17 || i == 230 ? "action" : "none";
+    }
+    EXPECT_EQ(rows_of(view_of(record), "results-1").size(), 2U);
+    EXPECT_THAT(text_of(record), HasSubstr("Of 499 rows the table shows 2 with a warning or action signal."));
+    points[17].signal = points[230].signal = "none";
+    EXPECT_TRUE(block(view_of(record), "table", "scores").is_null());
+    EXPECT_THAT(text_of(record), HasSubstr("none of them has a warning or action signal"));
+}
+
+TEST(ComparisonReport, ItsSizeHasALimit) {
+    // 20 times as many laboratories may add a few names, but no rows.
+    const std::size_t few = render_html(one_item(500), in("en")).size();
+    const std::size_t many = render_html(one_item(10000), in("en")).size();
+    EXPECT_LT(many, few + 400000U);
+    EvaluationRecord items = one_item(3);
+    const ComparisonItemEvaluation item = items.comparison->items[0];
+    const std::vector<ComparisonPoint> points = items.comparison->points;
+    for (int i = 0; i < 1000; ++i) {
+        items.comparison->items.push_back(item);
+        items.comparison->items.back().id = "X" + std::to_string(i);
+        for (ComparisonPoint p : points) {
+            p.item = items.comparison->items.back().id;
+            items.comparison->points.push_back(std::move(p));
+        }
+    }
+    const json view = view_of(items);
+    EXPECT_THAT(text_of(items), HasSubstr("Of 1001 items the first 24 with signals are described here."));
+    EXPECT_EQ(rows_of(view, "items").size(), 200U);
+}
+
+TEST(ComparisonReport, SectionsStandInTheirOrder) {
+    EXPECT_THAT(
+        sections_of(view_of(test::sample_laboratories_record())),
+        ElementsAre("answer", "how_to_read", "comparison_remarks", "item-1", "item-2", "participants", "vectors",
+                    "youden", "comparison_correlations", "recompute", "identification", "messages", "input"));
+    EXPECT_THAT(sections_of(view_of(test::sample_methods_record())),
+                ElementsAre("answer", "companion", "comparison_remarks", "bias", "comparison_budgets", "points",
+                            "recompute", "identification", "messages", "input"));
+}
+
+/// A record with one text in every place that a user fills.
+EvaluationRecord with_text(EvaluationRecord record, const std::string& text) {
+    Comparison& c = *record.comparison;
+    record.title = c.organiser = c.method_name = c.reference_name = c.position_name = c.audit_finding = text;
+    c.published_source = text;
+    record.job_json = json{{"certificate", {{"number", text}, {"laboratory", {{"name", text}}}}}}.dump();
+    c.remarks = {text};
+    for (ComparisonItemEvaluation& item : c.items) {
+        item.name = item.traceability = item.reference_participant = text;
+        item.not_contributing = item.missing = {text};
+    }
+    for (ComparisonPoint& p : c.points) {
+        p.reason = text;
+        p.name = text;
+    }
+    for (ParticipantSummary& p : c.participants) {
+        p.name = p.group = text;
+    }
+    for (SharedSource& s : c.shared_sources) {
+        s.source = s.first = s.second = text;
+    }
+    for (VectorScore& v : c.vectors) {
+        v.name = text;
+    }
+    return record;
+}
+
+TEST(ComparisonReport, TextsOfUsersStayTexts) {
+    for (const EvaluationRecord& sample : {one_item(6), test::sample_methods_record()}) {
+        const std::string plain = render_html(with_text(sample, "x"), in("en"));
+        const auto tags = [](const std::string& html) { return std::count(html.begin(), html.end(), '<'); };
+        for (const std::string& hostile : test::hostile::markup()) {
+            EXPECT_EQ(tags(render_html(with_text(sample, hostile), in("en"))), tags(plain)) << hostile;
+        }
+    }
+}
+
+TEST(ComparisonReport, HoldsStringsOnlyAndIsTheSameTwice) {
+    for (const EvaluationRecord& record : samples()) {
+        const json view = view_of(record);
+        for (const json& leaf : view.flatten()) {
+            EXPECT_TRUE(leaf.is_string() || leaf.empty());
+        }
+        EXPECT_EQ(view_of(record).dump(), view.dump());
+    }
+}
+
+TEST(ComparisonReport, ATextThatIsMissingIsAnError) {
+    json words = wording("en");
+    words["comparison_verdict"].erase("reference_not_better");
+    EXPECT_THROW(static_cast<void>(certificate_view(with_verdicts({"reference_not_better"}), words)),
+                 gum::StorageError);
+}
+
+TEST(ComparisonReport, PdfHasTheNumbersOfTheTable) {
+    SKIP_WITHOUT_PDF();
+    const EvaluationRecord record = one_item(6);
+    const std::string text = pdf_text(render_pdf(record, in("en")));
+    if (text.empty()) {
+        GTEST_SKIP() << "pdftotext is missing: the numbers of the PDF were not read back";
+    }
+    for (const ComparisonPoint& p : record.comparison->points) {
+        if (p.En) {
+            EXPECT_THAT(text, HasSubstr(" " + p.participant + " " + p.printed.value + " " + p.printed.U + " " +
+                                        p.printed.D + " " + p.printed.U_D + " " + p.printed.En + " "));
+        }
+    }
+    EXPECT_THAT(text, HasSubstr("End of comparison report"));
+    EXPECT_THAT(lower(text), Not(HasSubstr("certificate")));
+}
+
+TEST(ReferenceComparisonSection, HoldsVerdictAndCompanionNumbers) {
+    EvaluationRecord record = test::sample_record();
+    Comparison& c = *record.comparison;
+    const json old = view_of(record);  // as an earlier release evaluated it: without verdict and companion numbers
+    EXPECT_EQ(rows_of(old, "comparison-summary").size(), 5U);
+    EXPECT_TRUE(block(old, "table", "bias").is_null());
+    EXPECT_THAT(text_of(record), Not(HasSubstr("do not allow a verdict")));
+
+    const std::vector<ComparisonSummary> from = test::sample_methods_record().comparison->summary;
+    for (std::size_t i = 0; i < c.summary.size(); ++i) {
+        const std::string direction = c.summary[i].direction;
+        c.summary[i] = from[0];
+        c.summary[i].direction = direction;
+        c.summary[i].verdict = "reference_not_better";
+    }
+    const json view = view_of(record);
+    const auto rows = rows_of(view, "comparison-summary");
+    ASSERT_EQ(rows[0].size(), c.summary.size() + 1);
+    EXPECT_GT(rows.size(), 12U);
+    EXPECT_EQ(rows_of(view, "bias").size(), c.summary.size());
+    EXPECT_THAT(text_of(record), HasSubstr("the reference is not better than the method"));
+    EXPECT_EQ(view["type"], "Calibration certificate");
+}
+
+}  // namespace
+}  // namespace gumcert::reports
