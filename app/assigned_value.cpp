@@ -1,9 +1,11 @@
 #include "app/assigned_value.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "app/shared_sources.h"
+#include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/random_effects.h"
 #include "gum/robust_statistics.h"
@@ -98,7 +100,7 @@ AssignedValue linear_value(const LaboratoryData& data, const std::vector<std::si
             with_u.push_back(i);
         }
     }
-    if (with_u.size() >= 2 && reference.u > 0.0) {
+    if (!with_u.empty() && reference.u > 0.0) {
         gum::ReferenceValue of_all = reference;
         of_all.weights = assigned.weights(with_u);
         const gum::DegreesOfEquivalence degrees = gum::degrees_of_equivalence(data.at(with_u), of_all);
@@ -110,6 +112,20 @@ AssignedValue linear_value(const LaboratoryData& data, const std::vector<std::si
     return assigned;
 }
 
+/// ν_eff of a weighted mean of independent results by Welch and Satterthwaite (JCGM 100:2008, G.4.1); infinite where
+/// the results are correlated, for which the formula does not hold.
+double degrees_of_freedom_of(const LaboratoryData& data, const AssignedValue& mean) {
+    if (data.at(data.contributing).covariance.size() > 0) {
+        return std::numeric_limits<double>::infinity();
+    }
+    std::vector<gum::UncertaintyContribution> parts;
+    for (const std::size_t i : data.contributing) {
+        const auto at = static_cast<Eigen::Index>(i);
+        parts.push_back({std::abs(mean.weights[at]) * data.u[at], data.results[i]->uncertainty->degrees_of_freedom});
+    }
+    return gum::effective_degrees_of_freedom(parts);
+}
+
 AssignedValue robust_value(const LaboratoryData& data, const gum::RobustEstimate& estimate) {
     AssignedValue assigned;
     assigned.value = estimate.location;
@@ -118,6 +134,24 @@ AssignedValue robust_value(const LaboratoryData& data, const gum::RobustEstimate
     assigned.correlation_known = false;
     assigned.covariance = Eigen::VectorXd::Zero(size_of(data));
     return assigned;
+}
+
+/// cov(x_j, y) of a result outside a value that is made of the contributing ones, V_jC V_CC⁻¹ cov(x_C, y): what a
+/// normally distributed x_j has beyond its regression on them is independent of them, and so of any function of them.
+void add_results_outside(const LaboratoryData& data, AssignedValue& assigned) {
+    if (data.covariance.size() == 0) {
+        return;
+    }
+    const std::vector<std::size_t>& inside = data.contributing;
+    const Eigen::VectorXd of_inside = assigned.covariance(inside);
+    const Eigen::MatrixXd between = data.covariance(inside, inside);
+    const Eigen::VectorXd solved = between.completeOrthogonalDecomposition().solve(of_inside);
+    for (std::size_t j = 0; j < data.size(); ++j) {
+        if (!std::binary_search(inside.begin(), inside.end(), j)) {
+            const Eigen::RowVectorXd with_inside = data.covariance(static_cast<Eigen::Index>(j), inside);
+            assigned.covariance[static_cast<Eigen::Index>(j)] = with_inside.dot(solved);
+        }
+    }
 }
 
 AssignedValue median_by_trials(const engine::ComparisonJob& job, const LaboratoryData& data) {
@@ -134,12 +168,14 @@ AssignedValue median_by_trials(const engine::ComparisonJob& job, const Laborator
         const double u_d = trials.u_d[static_cast<Eigen::Index>(i)];
         assigned.covariance[at] = 0.5 * (data.u[at] * data.u[at] + trials.u * trials.u - u_d * u_d);
     }
+    add_results_outside(data, assigned);
     return assigned;
 }
 
 AssignedValue largest_subset(const LaboratoryData& data, double alpha) {
     const gum::ConsistentSubset subset = gum::largest_consistent_subset(data.at(data.contributing), alpha);
     AssignedValue assigned = linear_value(data, data.contributing, subset.mean);
+    assigned.degrees_of_freedom = degrees_of_freedom_of(data, assigned);
     for (std::size_t i = 0; i < data.contributing.size(); ++i) {
         if (!std::binary_search(subset.members.begin(), subset.members.end(), i)) {
             assigned.not_consistent.push_back(data.contributing[i]);
@@ -182,6 +218,9 @@ AssignedValue given_value(const engine::ComparisonJob& job, const LaboratoryData
         for (const SourceCovariance& shared :
              shared_covariance(data.results[i]->sources, request.sources, job.independent_sources)) {
             assigned.covariance[static_cast<Eigen::Index>(i)] += shared.covariance;
+            if (shared.ambiguous) {
+                assigned.ambiguous_sources.insert(shared.source);
+            }
         }
     }
     return assigned;
@@ -206,6 +245,10 @@ AssignedValue consensus(const engine::ComparisonJob& job, const LaboratoryData& 
         case AssignedValueMethod::arithmetic_mean: {
             AssignedValue mean = linear_value(data, chosen, gum::arithmetic_mean(x));
             mean.degrees_of_freedom = static_cast<double>(chosen.size() - 1);
+            if (!(*mean.u > 0.0)) {
+                mean.u =
+                    std::nullopt;  // equal results say that digits are missing, not that the value is exactly known
+            }
             return mean;
         }
         case AssignedValueMethod::median:
@@ -229,8 +272,11 @@ AssignedValue consensus(const engine::ComparisonJob& job, const LaboratoryData& 
             return linear_value(data, chosen,
                                 request.power ? gum::power_moderated_mean(data.at(chosen), *request.power)
                                               : gum::power_moderated_mean(data.at(chosen)));
-        default:
-            return linear_value(data, chosen, gum::weighted_mean(data.at(chosen)));
+        default: {
+            AssignedValue mean = linear_value(data, chosen, gum::weighted_mean(data.at(chosen)));
+            mean.degrees_of_freedom = degrees_of_freedom_of(data, mean);
+            return mean;
+        }
     }
 }
 

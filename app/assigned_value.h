@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "app/laboratory_data.h"
@@ -26,6 +28,7 @@ struct AssignedValue {
     std::vector<std::size_t> not_consistent;     ///< contributing results outside the largest consistent subset
     std::optional<gum::ConsistencyTest> subset;  ///< test of the largest consistent subset
     bool subset_unique = true;
+    std::set<std::string> ambiguous_sources;  ///< shared with results in more than one way, see SourceCovariance
 };
 
 /// The assigned value by the method that the item asks for.

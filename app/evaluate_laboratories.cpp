@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "app/evaluate_comparison.h"
+#include "app/laboratory_estimates.h"
 #include "app/laboratory_item.h"
 #include "app/laboratory_notes.h"
 #include "app/laboratory_scores.h"
@@ -69,6 +70,11 @@ reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, unsi
                                               .rule = "results of at least two laboratories are compared",
                                               .action = "State the results of the participants."});
     }
+    std::size_t pairs = 0;
+    for (const LaboratoryData& of_item : data) {
+        pairs += count_pairs(of_item);
+    }
+    LeftOut left_out{.vectors = 0, .pairs = pairs > k_most_pairs_in_record};
     std::vector<EvaluatedItem> items;
     std::vector<gum::Diagnostic> problems;
     for (const LaboratoryData& of_item : data) {
@@ -81,6 +87,9 @@ reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, unsi
         try {
             item.assigned = assigned_value(job, of_item);
             comparison.items.push_back(item_evaluation(job, of_item, item.assigned));
+            if (!left_out.pairs) {
+                comparison.items.back().pairs = pair_equivalences(job, of_item);
+            }
             std::vector<reports::ComparisonPoint> points =
                 laboratory_scores(job, of_item, item.assigned, comparison.items.back());
             std::move(points.begin(), points.end(), std::back_inserter(comparison.points));
@@ -97,9 +106,9 @@ reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, unsi
         comparison.summary.push_back(std::move(*all));
     }
     comparison.participants = participant_summaries(job, comparison);
-    comparison.vectors = vector_scores(job, comparison);
+    comparison.vectors = vector_scores(job, comparison, left_out.vectors);
     comparison.youden = youden_diagrams(job, comparison);
-    comparison.remarks = laboratory_remarks(job, comparison, items);
+    comparison.remarks = laboratory_remarks(job, comparison, items, left_out);
     return comparison;
 }
 

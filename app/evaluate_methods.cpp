@@ -231,6 +231,17 @@ std::vector<std::string> sources_in_both(const MethodComparisonRequest& request,
     return names;
 }
 
+/// One budget calls an input the same at all points, and the other one calls it another at each.
+[[noreturn]] void refuse_shared_sources(const std::vector<std::string>& names) {
+    throw gum::InputError(gum::Diagnostic{
+        .code = "GC-COMPARE-0207",
+        .where = "correlation",
+        .what = "both budgets name " + list_of(names) + ", and what they say of it cannot hold together",
+        .rule = "an input whose source both methods share is the same at all points in both budgets, or "
+                "\"between_points\": \"independent\" in both",
+        .action = "State it alike in both budgets, or list the source in \"independent_sources\"."});
+}
+
 void add_shared_sources(const ComparisonJob& job, const Side& method, const Side& reference,
                         MethodComparison& comparison, reports::Comparison& record) {
     const MethodComparisonRequest& request = *job.methods;
@@ -247,6 +258,10 @@ void add_shared_sources(const ComparisonJob& job, const Side& method, const Side
     } else {
         comparison.cross_covariance =
             cross_covariance_of_sources(method.sources, reference.sources, job.independent_sources);
+        if (ambiguous.empty() &&
+            !is_possible(comparison.covariance, comparison.reference_covariance, comparison.cross_covariance)) {
+            refuse_shared_sources(names);
+        }
         record.remarks.push_back("Both budgets name " + list_of(names) +
                                  ". The covariance between the methods is computed from what these sources contribute "
                                  "to each of them, with its sign.");

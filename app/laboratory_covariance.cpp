@@ -131,7 +131,7 @@ void note_shared(const engine::ComparisonJob& job, const LaboratoryData& data, c
 }  // namespace
 
 Eigen::MatrixXd laboratory_covariance(const engine::ComparisonJob& job, const LaboratoryData& data,
-                                      std::vector<reports::SharedSource>& shared) {
+                                      std::vector<reports::SharedSource>& shared, std::set<std::string>& ambiguous) {
     std::map<Pair, double> covariance;
     for (const auto& [pair, r] : stated_correlations(job, data)) {
         covariance[pair] = r * u_at(data, pair.first) * u_at(data, pair.second);
@@ -143,6 +143,9 @@ Eigen::MatrixXd laboratory_covariance(const engine::ComparisonJob& job, const La
         for (const SourceCovariance& source : sources) {
             covariance[pair] += source.covariance;
             note_shared(job, data, pair, source, shared);
+            if (source.ambiguous) {
+                ambiguous.insert(source.source);
+            }
         }
     }
     std::erase_if(covariance, [](const auto& entry) { return entry.second == 0.0; });

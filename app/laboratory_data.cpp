@@ -154,7 +154,7 @@ std::vector<LaboratoryData> laboratory_data(const engine::ComparisonJob& job,
     std::erase_if(all, [](const LaboratoryData& data) { return data.results.empty(); });
     for (LaboratoryData& data : all) {
         find_contributing(job, data);
-        data.covariance = laboratory_covariance(job, data, shared);
+        data.covariance = laboratory_covariance(job, data, shared, data.ambiguous_sources);
         if (data.covariance.size() > 0) {
             std::vector<std::size_t> with_u;
             for (std::size_t i = 0; i < data.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct LaboratoryData {
     std::vector<const engine::ComparisonResult*> results;  ///< n
     Eigen::VectorXd x, u;                                  ///< n, in the unit of the item; u is 0 where none is stated
     Eigen::MatrixXd covariance;                            ///< n×n; empty: nothing correlates
+    std::set<std::string> ambiguous_sources;               ///< shared in more than one way, see SourceCovariance
     /// Results that a consensus is made of, ascending. That of a reference laboratory is not among them.
     std::vector<std::size_t> contributing;
     std::optional<std::size_t> reference;  ///< result of the reference laboratory

@@ -88,10 +88,6 @@ void take_robust(ReferenceEstimate& estimate, const gum::RobustEstimate& value) 
     }
 }
 
-double standard_deviation(const Eigen::VectorXd& x) {
-    return std::sqrt((x.array() - x.mean()).square().sum() / static_cast<double>(x.size() - 1));
-}
-
 void add_by_uncertainty(Estimates& estimates, const LaboratoryData& data, const gum::LaboratoryResults& results) {
     const engine::AssignedValueRequest& request = data.item->assigned_value;
     const bool independent = results.covariance.size() == 0;
@@ -149,8 +145,12 @@ std::vector<ReferenceEstimate> reference_estimates(const LaboratoryData& data, c
     const bool weighed = data.all_have_u(data.contributing);
     const gum::LaboratoryResults results = data.at(data.contributing);
     estimates.add(AssignedValueMethod::arithmetic_mean, [&](ReferenceEstimate& estimate) {
-        take(estimate, gum::arithmetic_mean(x));
-        estimate.scale = standard_deviation(x);
+        const gum::ReferenceValue mean = gum::arithmetic_mean(x);
+        estimate.value = mean.value;
+        estimate.scale = mean.u * std::sqrt(static_cast<double>(x.size()));  // exactly 0 for equal results
+        if (mean.u > 0.0) {
+            estimate.u = mean.u;
+        }
     });
     estimates.add(AssignedValueMethod::median,
                   [&](ReferenceEstimate& estimate) { take_robust(estimate, gum::median_with_made(values)); });
@@ -238,10 +238,15 @@ std::optional<double> pooled_standard_deviation(const LaboratoryData& data) {
     }
 }
 
+std::size_t count_pairs(const LaboratoryData& data) {
+    const std::size_t n = results_with_u(data).size();
+    return n < 2 || n > k_most_laboratories_in_pairs ? 0 : n * (n - 1) / 2;
+}
+
 std::vector<reports::PairEquivalence> pair_equivalences(const engine::ComparisonJob& job, const LaboratoryData& data) {
     const std::vector<std::size_t> with_u = results_with_u(data);
     std::vector<reports::PairEquivalence> pairs;
-    if (with_u.size() < 2 || with_u.size() > k_most_laboratories_in_pairs) {
+    if (count_pairs(data) == 0) {
         return pairs;
     }
     const gum::LaboratoryResults results = data.at(with_u);

@@ -12,6 +12,8 @@ namespace gumcert::app {
 /// Up to this many results the largest consistent subset stands beside the other estimates without being asked for, and
 /// pairs of laboratories are listed.
 inline constexpr std::size_t k_most_laboratories_in_pairs = 40;
+/// More pairs than this, of all items and rounds together, are not listed: the record would hold little else.
+inline constexpr std::size_t k_most_pairs_in_record = 10'000;
 /// Up to this many results pairs that are not compatible are counted.
 inline constexpr std::size_t k_most_results_of_pair_count = 2000;
 
@@ -32,6 +34,9 @@ inline constexpr std::size_t k_most_results_of_pair_count = 2000;
 /// Robust pooled standard deviation of the replicates by algorithm S; nothing unless all contributing results state one
 /// with the same number of observations.
 [[nodiscard]] std::optional<double> pooled_standard_deviation(const LaboratoryData& data);
+
+/// How many pairs pair_equivalences() lists.
+[[nodiscard]] std::size_t count_pairs(const LaboratoryData& data);
 
 /// Bilateral degrees of equivalence of all results with an uncertainty; none for more than 40.
 [[nodiscard]] std::vector<reports::PairEquivalence> pair_equivalences(const engine::ComparisonJob& job,

@@ -19,6 +19,7 @@ using engine::SigmaPtMethod;
 using reports::ComparisonItemEvaluation;
 
 constexpr int k_digits_of_computed_sigma = 3;
+constexpr double k_rounding = 1.0 + 1e-14;  // of u(X)/σ_pt, which is exactly the limit in decimal numbers
 
 const std::string& id_of(const engine::ComparisonJob& job, const LaboratoryData& data, std::size_t position) {
     return job.participants[data.results[position]->participant].id;
@@ -252,6 +253,19 @@ void add_consensus_check(const LaboratoryData& data, ComparisonItemEvaluation& e
     evaluation.consensus = check;
 }
 
+/// Three decimals, or as many more as it takes to see that the limit is exceeded.
+std::string printed_criterion(double criterion, bool met) {
+    constexpr int k_decimals = 3;
+    constexpr int k_most_decimals = 12;
+    int decimals = k_decimals;
+    while (!met && decimals < k_most_decimals &&
+           gum::round_to_quantum(criterion, decimals) ==
+               gum::round_to_quantum(gum::k_assigned_value_criterion, decimals)) {
+        ++decimals;
+    }
+    return gum::round_to_quantum(criterion, decimals);
+}
+
 /// The score that decides: z where the scheme has a σ_pt, z' where the assigned value is too uncertain for it; E_n of
 /// stated uncertainties else; D where there is only a limit.
 std::string deciding_score(const LaboratoryData& data, const ComparisonItemEvaluation& evaluation) {
@@ -282,8 +296,8 @@ ComparisonItemEvaluation item_evaluation(const engine::ComparisonJob& job, const
     add_uncertainty(job, assigned, evaluation);
     if (evaluation.sigma_pt && evaluation.u) {
         evaluation.criterion = *evaluation.u / *evaluation.sigma_pt;
-        evaluation.criterion_met = *evaluation.criterion <= gum::k_assigned_value_criterion;
-        evaluation.printed.criterion = gum::round_to_quantum(*evaluation.criterion, 3);
+        evaluation.criterion_met = *evaluation.criterion <= gum::k_assigned_value_criterion * k_rounding;
+        evaluation.printed.criterion = printed_criterion(*evaluation.criterion, evaluation.criterion_met);
     }
     evaluation.consistency = consistency_of(data, assigned);
     evaluation.estimates = reference_estimates(data, assigned);
@@ -292,7 +306,6 @@ ComparisonItemEvaluation item_evaluation(const engine::ComparisonJob& job, const
     evaluation.pooled_standard_deviation = pooled_standard_deviation(data);
     evaluation.printed.pooled_standard_deviation = printed_uncertainty(evaluation.pooled_standard_deviation);
     add_consensus_check(data, evaluation);
-    evaluation.pairs = pair_equivalences(job, data);
     evaluation.score = deciding_score(data, evaluation);
     return evaluation;
 }

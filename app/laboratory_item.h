@@ -6,7 +6,7 @@
 
 namespace gumcert::app {
 
-/// Everything that the record says of one item in one round, except the scores of its results.
+/// Everything that the record says of one item in one round, except the scores of its results and their pairs.
 ///
 /// u²(X) = u² of the characterisation + s_s² between items + u² of instability           (after ISO 13528:2022, clause
 /// 7 and annex B). s_s is always in it: every laboratory has an item of its own, or s_s is 0. Instability is in it only

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 
 #include "app/comparison_print.h"
 #include "app/laboratory_estimates.h"
@@ -267,6 +268,33 @@ void add_remarks_on_correlation(const engine::ComparisonJob& job, const reports:
     }
 }
 
+/// What was found between the assigned value and the results, and what the budgets do not tell.
+void add_remarks_on_sources(const std::vector<EvaluatedItem>& items, std::vector<std::string>& remarks) {
+    std::set<std::string> ambiguous;
+    bool shared_with_value = false;
+    for (const EvaluatedItem& item : items) {
+        ambiguous.insert(item.data->ambiguous_sources.begin(), item.data->ambiguous_sources.end());
+        ambiguous.insert(item.assigned.ambiguous_sources.begin(), item.assigned.ambiguous_sources.end());
+        const bool given = item.data->item->assigned_value.method == engine::AssignedValueMethod::given;
+        shared_with_value = shared_with_value || (given && !item.assigned.covariance.isZero(0.0));
+    }
+    if (shared_with_value) {
+        remarks.emplace_back(
+            "The assigned value and some results name the same source of uncertainty: they are taken as correlated "
+            "through it, with the covariance of what both state for the source.");
+    }
+    if (!ambiguous.empty()) {
+        std::string names;
+        for (const std::string& source : ambiguous) {
+            names += (names.empty() ? "" : ", ") + source;
+        }
+        remarks.push_back(
+            "Budgets name a source for several inputs, and not for the same ones: how their results share it cannot be "
+            "told, and the largest covariance that it can give was taken (" +
+            names + ").");
+    }
+}
+
 void add_remarks_on_uncertainties(const reports::Comparison& comparison, std::vector<std::string>& remarks) {
     constexpr double k_suspicious_ratio = 2.0;
     const std::size_t large = count_points(comparison, [](const ComparisonPoint& point) {
@@ -285,21 +313,46 @@ void add_remarks_on_uncertainties(const reports::Comparison& comparison, std::ve
         remarks.push_back(std::to_string(small) + (small > 1 ? " results state" : " result states") +
                           " a standard uncertainty below that of the assigned value.");
     }
-    if (any_item(comparison, [](const ComparisonItemEvaluation& item) {
-            return item.results > static_cast<std::int64_t>(k_most_laboratories_in_pairs) && item.pairs.empty();
-        })) {
+    if (count_points(comparison, [](const ComparisonPoint& point) { return point.En_audited.has_value(); }) > 0) {
+        remarks.emplace_back(
+            "En with findings corrected takes the corrected uncertainty of the laboratory, and of the reference "
+            "laboratory; the value assigned from other results stays as it is.");
+    }
+    const std::size_t without_score =
+        count_points(comparison, [](const ComparisonPoint& point) { return point.U_D && !point.En; });
+    if (without_score > 0) {
+        remarks.push_back(std::to_string(without_score) + (without_score > 1 ? " results have" : " result has") +
+                          " no En and no zeta: the uncertainty of the difference from the assigned value comes out as "
+                          "0, and nothing can be divided by it.");
+    }
+}
+
+void add_remarks_on_what_is_left_out(const reports::Comparison& comparison, const LeftOut& left_out,
+                                     std::vector<std::string>& remarks) {
+    if (left_out.pairs) {
+        remarks.push_back("Bilateral degrees of equivalence are left out: more than " +
+                          std::to_string(k_most_pairs_in_record) + " pairs in all items together.");
+    } else if (any_item(comparison, [](const ComparisonItemEvaluation& item) {
+                   return item.results > static_cast<std::int64_t>(k_most_laboratories_in_pairs) && item.pairs.empty();
+               })) {
         remarks.emplace_back("Bilateral degrees of equivalence are listed for up to 40 laboratories.");
+    }
+    if (left_out.vectors > 0) {
+        remarks.push_back(std::to_string(left_out.vectors) + (left_out.vectors > 1 ? " vectors have" : " vector has") +
+                          " no En: their covariance is singular, so that a part of the difference has no uncertainty.");
     }
 }
 
 }  // namespace
 
 std::vector<std::string> laboratory_remarks(const engine::ComparisonJob& job, const reports::Comparison& comparison,
-                                            const std::vector<EvaluatedItem>& items) {
+                                            const std::vector<EvaluatedItem>& items, const LeftOut& left_out) {
     std::vector<std::string> remarks;
     add_remarks_on_value(comparison, items, remarks);
     add_remarks_on_correlation(job, comparison, remarks);
+    add_remarks_on_sources(items, remarks);
     add_remarks_on_uncertainties(comparison, remarks);
+    add_remarks_on_what_is_left_out(comparison, left_out, remarks);
     return remarks;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/comparison_print.h"
 #include "app/laboratory_covariance.h"
@@ -29,6 +30,21 @@ const char* word_of(gum::Signal signal) {
     return signal == gum::Signal::none ? "none" : signal == gum::Signal::warning ? "warning" : "action";
 }
 
+/// A score that is a limit but for the rounding of binary numbers is that limit: 10.2 − 10 over 0.1 is a z of 2, which
+/// double precision makes 1.999999999999993.
+/// \param scale  what D was divided by, in the unit of the item
+double settled(double score, double scale, const ComparisonPoint& point) {
+    constexpr double k_roundings = 8.0;
+    const double rounding = k_roundings * std::numeric_limits<double>::epsilon() *
+                            (std::abs(score) + (std::abs(point.value) + std::abs(point.reference_value)) / scale);
+    for (const double limit : {1.0, 2.0, 3.0}) {
+        if (std::abs(std::abs(score) - limit) <= rounding) {
+            return std::copysign(limit, score);
+        }
+    }
+    return score;
+}
+
 /// u_D, U_D and with them E_n and ζ.
 void score_with_uncertainty(const Scene& scene, std::size_t position, ComparisonPoint& point) {
     const double u_X = *scene.item.u;
@@ -40,8 +56,8 @@ void score_with_uncertainty(const Scene& scene, std::size_t position, Comparison
         point.correlation = r;
     }
     if (*point.u_D > 0.0 && *point.U_D > 0.0) {
-        point.En = point.D / *point.U_D;
-        point.zeta = point.D / *point.u_D;
+        point.En = settled(point.D / *point.U_D, *point.U_D, point);
+        point.zeta = settled(point.D / *point.u_D, *point.u_D, point);
     }
 }
 
@@ -51,6 +67,9 @@ void score_with_unknown_group(const Scene& scene, double variance_change, Compar
     if (scene.data.reference && scene.item.U == scene.assigned.stated->U) {
         point.En_worst =
             gum::worst_plausible_en({point.value, *point.u, *point.U}, {point.reference_value, u_X, *scene.item.U});
+        if (point.En_worst && *point.En_worst != 0.0) {
+            point.En_worst = settled(*point.En_worst, std::abs(point.D / *point.En_worst), point);
+        }
         return;
     }
     const double least = *point.u_D * *point.u_D + variance_change;
@@ -58,35 +77,48 @@ void score_with_unknown_group(const Scene& scene, double variance_change, Compar
     if (least > 0.0 && std::abs(r) <= 1.0) {
         const double U = gum::uncertainty_of_difference(*point.U, *scene.item.U, r);
         if (U > 0.0) {
-            point.En_worst = point.D / U;
+            point.En_worst = settled(point.D / U, U, point);
         }
     }
 }
 
+/// What an audit changes of the square of an expanded uncertainty; 0 without a finding.
+double audited_change(const ComparisonResult& result, double stated_U) {
+    const double audited_U = result.audited ? result.audited->uncertainty.U : stated_U;
+    return audited_U * audited_U - stated_U * stated_U;
+}
+
+/// E_n once the findings on the result, and on that of the reference laboratory, are corrected. What is shared stays.
 void score_audited(const Scene& scene, std::size_t position, ComparisonPoint& point) {
     const ComparisonResult& result = *scene.data.results[position];
-    if (!result.audited || !point.U_D) {
+    const ComparisonResult* reference = scene.data.reference ? scene.data.results[*scene.data.reference] : nullptr;
+    if (!point.U_D || !(result.audited || (reference != nullptr && reference->audited))) {
         return;
     }
     const double weight =
         scene.assigned.weights.size() > 0 ? scene.assigned.weights[static_cast<Eigen::Index>(position)] : 0.0;
-    const double audited = result.audited->uncertainty.U;
-    const double square =
-        *point.U_D * *point.U_D + (1.0 - weight) * (1.0 - weight) * (audited * audited - *point.U * *point.U);
+    double square = *point.U_D * *point.U_D + (1.0 - weight) * (1.0 - weight) * audited_change(result, *point.U);
+    if (reference != nullptr) {
+        square += audited_change(*reference, reference->uncertainty->U);
+    }
     if (square > 0.0) {
-        point.En_audited = point.D / std::sqrt(square);
+        point.En_audited = settled(point.D / std::sqrt(square), std::sqrt(square), point);
     }
 }
 
 void score_without_uncertainty(const Scene& scene, ComparisonPoint& point) {
     if (scene.item.sigma_pt) {
-        point.z = gum::z_score(point.value, point.reference_value, *scene.item.sigma_pt);
+        const double sigma = *scene.item.sigma_pt;
+        point.z = settled(gum::z_score(point.value, point.reference_value, sigma), sigma, point);
         if (scene.item.u) {
-            point.z_prime = gum::z_prime_score(point.value, point.reference_value, *scene.item.sigma_pt, *scene.item.u);
+            point.z_prime = settled(gum::z_prime_score(point.value, point.reference_value, sigma, *scene.item.u),
+                                    std::hypot(sigma, *scene.item.u), point);
         }
     }
     if (scene.item.delta_E) {
-        point.P_A = gum::percent_of_allowed(point.value, point.reference_value, *scene.item.delta_E);
+        const double allowed = *scene.item.delta_E;
+        const double share = gum::percent_of_allowed(point.value, point.reference_value, allowed) / 100.0;
+        point.P_A = 100.0 * settled(share, allowed, point);
     }
     if (!scene.data.item->unit.is_celsius_temperature()) {
         point.D_percent = gum::percent_difference(point.value, point.reference_value);
@@ -104,8 +136,9 @@ std::string signal_of(const Scene& scene, const ComparisonPoint& point) {
     if (score == "En" && point.En) {
         return word_of(gum::signal_of_en(*point.En));
     }
-    if (score == "D" && scene.item.delta_E) {
-        return std::abs(point.D) > *scene.item.delta_E ? "action" : "none";
+    if (score == "D" && point.P_A) {
+        constexpr double k_all_that_is_allowed = 100.0;  // %
+        return std::abs(*point.P_A) > k_all_that_is_allowed ? "action" : "none";
     }
     return "";
 }

@@ -381,8 +381,9 @@ std::vector<reports::ParticipantSummary> participant_summaries(const engine::Com
     return summaries;
 }
 
-std::vector<reports::VectorScore> vector_scores(const engine::ComparisonJob& job,
-                                                const reports::Comparison& comparison) {
+std::vector<reports::VectorScore> vector_scores(const engine::ComparisonJob& job, const reports::Comparison& comparison,
+                                                std::size_t& left_out) {
+    left_out = 0;
     std::set<std::size_t> items;
     for (const engine::ComparisonVector& vector : job.vectors) {
         items.insert(vector.items.begin(), vector.items.end());
@@ -410,6 +411,8 @@ std::vector<reports::VectorScore> vector_scores(const engine::ComparisonJob& job
                     if (std::optional<reports::VectorScore> score =
                             vector_score(vector, chosen, job.coverage_probability)) {
                         scores.push_back(std::move(*score));
+                    } else {
+                        ++left_out;
                     }
                 }
             }

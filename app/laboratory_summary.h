@@ -31,8 +31,10 @@ struct EvaluatedItem {
 
 /// E_n of the vectors of the job for every laboratory and round with all their quantities. One whose covariance is
 /// singular is left out.
+/// \param left_out  receives how many were
 [[nodiscard]] std::vector<reports::VectorScore> vector_scores(const engine::ComparisonJob& job,
-                                                              const reports::Comparison& comparison);
+                                                              const reports::Comparison& comparison,
+                                                              std::size_t& left_out);
 
 /// Youden diagrams of the pairs of items of the job, a round each. The ellipse holds 95 % of a bivariate normal
 /// distribution about the medians, with the scaled median absolute deviations as standard deviations and

@@ -247,12 +247,16 @@ const char* word_of(gum::AgreementVerdict verdict) {
     switch (verdict) {
         case gum::AgreementVerdict::disagreement:
             return "disagreement";
+        case gum::AgreementVerdict::points_above_1:
+            return "points_above_1";
         case gum::AgreementVerdict::correlation_unknown:
             return "correlation_unknown";
         case gum::AgreementVerdict::reference_not_better:
             return "reference_not_better";
         case gum::AgreementVerdict::uncertainty_too_large:
             return "uncertainty_too_large";
+        case gum::AgreementVerdict::agreement_few_points:
+            return "agreement_few_points";
         case gum::AgreementVerdict::agreement_reference_limited:
             return "agreement_reference_limited";
         case gum::AgreementVerdict::validated:
@@ -356,6 +360,26 @@ std::optional<reports::BiasLineSummary> bias_of(const MethodComparison& comparis
     return bias;
 }
 
+/// Slope of the bias line that the uncertainty of the reference values alone makes: their errors stand in t, and with
+/// the other sign in D. Expected value of Σ (t − t̄)(D − D̄) from the covariance of both, over Σ (t − t̄)²; what all
+/// points share moves t̄ and turns nothing. To first order, for equal weights.
+double slope_of_noise(const MethodComparison& comparison, const Row& of) {
+    if (comparison.bias_against_position || of.points.empty()) {
+        return 0.0;
+    }
+    const auto n = static_cast<double>(of.points.size());
+    Eigen::VectorXd t(static_cast<Index>(of.points.size()));
+    for (std::size_t i = 0; i < of.points.size(); ++i) {
+        t(static_cast<Index>(i)) = comparison.points[static_cast<std::size_t>(of.points[i])].reference_value;
+    }
+    Eigen::MatrixXd covariance = -comparison.reference_covariance(of.points, of.points);
+    if (comparison.cross_covariance.size() > 0) {
+        covariance += comparison.cross_covariance(of.points, of.points);
+    }
+    const double spread = (t.array() - t.mean()).square().sum();
+    return spread > 0.0 ? (covariance.trace() - covariance.sum() / n) / spread : 0.0;
+}
+
 void print(ComparisonSummary& row) {
     row.printed.mean_abs_En = printed_score(row.mean_abs_En);
     row.printed.max_abs_En = printed_score(row.max_abs_En);
@@ -409,6 +433,8 @@ void compare_methods(reports::Comparison& record, const MethodComparison& compar
         }
         print(row);
         record.summary.push_back(std::move(row));
+        findings.largest_en_by_chance.push_back(agreement.largest_en_by_chance);
+        findings.slope_of_noise.push_back(slope_of_noise(comparison, of));
         findings.beyond_covariance.push_back(agreement.beyond_covariance);
         findings.worst_has_no_bound.push_back(worst && !std::isfinite(*worst));
     }

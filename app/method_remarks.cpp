@@ -7,6 +7,7 @@
 
 #include "app/comparison_print.h"
 #include "gum/quantity/unit.h"
+#include "gum/rounding.h"
 
 namespace gumcert::app {
 
@@ -20,6 +21,7 @@ constexpr double k_significant = 0.025;  // of p_low and p_high
 constexpr double k_nearly_all = 0.95;    // of the points count as independent
 constexpr double k_negligible_reference = 1.0 / 3.0;
 constexpr double k_noise_of_positions = 5.0;  // spread of reference values over their u, for a slope to mean much
+constexpr double k_visible_slope = 0.1;       // of U of the slope
 constexpr double k_visible_beyond = 0.05;     // of a standard uncertainty, a point
 
 std::string count_of(std::int64_t count, const std::string& noun) {
@@ -36,6 +38,7 @@ public:
 
     void add() {
         number_of_points();
+        single_points();
         unknown_correlation();
         reference_uncertainty();
         too_small_differences();
@@ -89,6 +92,25 @@ private:
         }
     }
 
+    /// How large the largest of several |E_n| becomes by chance.
+    void single_points() {
+        std::string text;
+        for (std::size_t i = 0; i < record_.summary.size(); ++i) {
+            const ComparisonSummary& row = record_.summary[i];
+            if (row.count_above_1 > 0 && row.points > 1) {
+                text += (text.empty() ? "" : "; ") + row.printed.max_abs_En + " against a limit of " +
+                        printed_score(findings_.largest_en_by_chance[i]) + " for " + std::to_string(row.points) +
+                        " points" + direction_of(row);
+            }
+        }
+        if (!text.empty()) {
+            say("The largest of several |En| is above 1 more often than that of one point, also where all "
+                "uncertainties are right. The limit that the largest of so many points exceeds no more often than one "
+                "point exceeds 1 is the one to hold it against: " +
+                text + ".");
+        }
+    }
+
     void unknown_correlation() {
         if (!findings_.correlation_unknown) {
             return;
@@ -103,9 +125,11 @@ private:
                 "finite En bounds what that would do.");
         }
         const ComparisonSummary& row = whole();
-        if (row.count_above_1 == 0 && row.count_above_1_worst.value_or(0) > 0) {
-            say("The agreement rests on the assumption that both methods share nothing: with the worst plausible "
-                "correlation |En| would be above 1 at " +
+        if (row.count_above_1_worst.value_or(0) > row.count_above_1) {
+            const std::string rests = row.count_above_1 == 0
+                                          ? "The agreement rests on the assumption that both methods share nothing: "
+                                          : "The number of points above 1 is that of methods that share nothing: ";
+            say(rests + "with the worst plausible correlation |En| would be above 1 at " +
                 std::to_string(*row.count_above_1_worst) + " of " + count_of(row.points, "point") + ".");
         }
     }
@@ -210,13 +234,19 @@ private:
 
     void bias_lines() {
         std::string noisy;
-        for (const ComparisonSummary& row : record_.summary) {
+        std::string turned;
+        for (std::size_t i = 0; i < record_.summary.size(); ++i) {
+            const ComparisonSummary& row = record_.summary[i];
             if (!row.bias) {
                 continue;
             }
             const reports::BiasLineSummary& bias = *row.bias;
+            const double of_noise = findings_.slope_of_noise[i];
+            if (std::abs(of_noise) > k_visible_slope * bias.U_slope) {
+                turned += (turned.empty() ? "" : ", ") + gum::round_significant(of_noise, 2) + direction_of(row);
+            }
             const bool constant = std::abs(bias.constant) > bias.U_constant;
-            const bool slope = std::abs(bias.slope) > bias.U_slope;
+            const bool slope = std::abs(bias.slope) > bias.U_slope && std::abs(bias.slope - of_noise) > bias.U_slope;
             if (constant || slope) {
                 say("The differences" + direction_of(row) + " have a systematic part: the " +
                     (constant && slope ? "constant and the slope"
@@ -228,6 +258,11 @@ private:
             if (bias.against == "reference_value" && is_noise(row)) {
                 noisy += (noisy.empty() ? "" : ", ") + (row.direction == "all" ? std::string() : row.direction);
             }
+        }
+        if (!turned.empty()) {
+            say("Errors of the reference values stand in the reference value, and with the other sign in the "
+                "difference. Their uncertainty alone turns the bias line by about this slope: " +
+                turned + ". A slope is evidence of a scale error only as far as it differs from that.");
         }
         const bool any = std::any_of(record_.summary.begin(), record_.summary.end(), [&](const ComparisonSummary& row) {
             return row.bias && row.bias->against == "reference_value" && is_noise(row);

@@ -29,6 +29,7 @@ constexpr Index k_most_points_of_eigenvectors = 500;  // their cost grows with t
 constexpr double k_equal_factors = 1e-12;             // of coverage, relative
 constexpr double k_tail_of_band = 0.025;              // 95 % between both
 constexpr double k_significant = 0.025;               // of p_low and p_high
+constexpr double k_rounding_of_points = 1e-9;         // 5 independent points are 5 after rounding, too
 constexpr double k_negligible_reference = 1.0 / 3.0;
 
 std::string point_name(Index i) {
@@ -212,7 +213,8 @@ void add_scores(const MethodDifferences& differences, const VectorXd& zeta, Agre
         of_method > 0.0 ? differences.U_reference.norm() / of_method : std::numeric_limits<double>::infinity();
 }
 
-void add_distributions(const MethodDifferences& differences, const VectorXd& u, const MatrixXd& R, Agreement& result) {
+void add_distributions(const MethodDifferences& differences, const VectorXd& u, const MatrixXd& R,
+                       double coverage_probability, Agreement& result) {
     const auto m = static_cast<double>(u.size());
     const std::vector<double> of_zeta = spectrum(R);
     result.p_low = weighted_chi_square_lower_tail(of_zeta, result.sum_of_squared_zeta);
@@ -220,6 +222,7 @@ void add_distributions(const MethodDifferences& differences, const VectorXd& u, 
     result.p_low_independent = chi_square_lower_tail(result.sum_of_squared_zeta, m);
     result.p_high_independent = chi_square_upper_tail(result.sum_of_squared_zeta, m);
     result.effective_points = m * m / R.squaredNorm();
+    result.largest_en_by_chance = largest_en_by_chance(result.points, coverage_probability);
     // E_n = ζ u/U: another spectrum only where the coverage factors of the points differ.
     const VectorXd inverse_k = u.cwiseQuotient(differences.U);
     const bool equal = inverse_k.maxCoeff() - inverse_k.minCoeff() <= k_equal_factors * inverse_k.maxCoeff();
@@ -243,7 +246,7 @@ Agreement agreement(const MethodDifferences& differences, double coverage_probab
     Agreement result;
     result.points = static_cast<std::size_t>(u.size());
     add_scores(differences, zeta, result);
-    add_distributions(differences, u, R, result);
+    add_distributions(differences, u, R, coverage_probability, result);
     const Whitened whitened_zeta = whitened(R, zeta);
     result.rank = static_cast<std::size_t>(whitened_zeta.rank);
     result.mahalanobis_square = whitened_zeta.columns.squaredNorm();
@@ -253,6 +256,17 @@ Agreement agreement(const MethodDifferences& differences, double coverage_probab
         std::sqrt(result.mahalanobis_square) /
         ellipsoid_coverage_factor(coverage_probability, result.rank, std::numeric_limits<double>::infinity());
     return result;
+}
+
+double largest_en_by_chance(std::size_t points, double coverage_probability) {
+    require_probability(coverage_probability, "coverage probability");
+    if (points == 0) {
+        refuse("GC-GUM-0032", "comparison", "no points", "the largest of several scores needs at least 1 point",
+               "Give the points that both methods measured.");
+    }
+    constexpr double k_normal = std::numeric_limits<double>::infinity();
+    const double of_each = std::pow(coverage_probability, 1.0 / static_cast<double>(points));
+    return coverage_factor(of_each, k_normal) / coverage_factor(coverage_probability, k_normal);
 }
 
 std::optional<BiasLine> bias_line(const MethodDifferences& differences, const VectorXd& t) {
@@ -327,8 +341,11 @@ double vector_en(const VectorXd& d, const MatrixXd& covariance, double coverage_
 }
 
 AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<double> worst_plausible_en) {
-    if (agreement.count_above_1 > 0 || !(agreement.p_high >= k_significant)) {
+    if (!(agreement.p_high >= k_significant) || !(agreement.largest_absolute_en <= agreement.largest_en_by_chance)) {
         return AgreementVerdict::disagreement;
+    }
+    if (agreement.count_above_1 > 0) {
+        return AgreementVerdict::points_above_1;
     }
     if (worst_plausible_en && !(std::abs(*worst_plausible_en) <= 1.0)) {
         return AgreementVerdict::correlation_unknown;
@@ -338,6 +355,9 @@ AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<dou
     }
     if (!(agreement.p_low >= k_significant)) {
         return AgreementVerdict::uncertainty_too_large;
+    }
+    if (!(agreement.effective_points >= k_fewest_points_to_validate * (1.0 - k_rounding_of_points))) {
+        return AgreementVerdict::agreement_few_points;
     }
     return agreement.ratio_reference > k_negligible_reference ? AgreementVerdict::agreement_reference_limited
                                                               : AgreementVerdict::validated;

@@ -21,6 +21,7 @@ struct Agreement {
     std::size_t points = 0;         ///< m
     std::size_t count_above_1 = 0;  ///< |E_n| > 1
     double mean_absolute_en = 0.0, largest_absolute_en = 0.0;
+    double largest_en_by_chance = 1.0;  ///< limit of largest_absolute_en (largest_en_by_chance())
     double rms_en = 0.0;
     double rms_en_low = 0.0, rms_en_high = 0.0;  ///< 95 % of all comparisons lie between, uncertainties being right
     double sum_of_squared_zeta = 0.0;
@@ -44,6 +45,14 @@ struct Agreement {
 /// Directions in which V has no variance (eigenvalue of the correlation matrix below 1e-10 of the largest) are left out
 /// of the Mahalanobis numbers, and the rank tells how many remain.
 [[nodiscard]] Agreement agreement(const MethodDifferences& differences, double coverage_probability);
+/// The limit that the largest |E_n| of n points exceeds with probability 1 − p at most where all uncertainties are
+/// right: z(1 − p^(1/n)) / z(1 − p), z(α) the two-sided quantile of the normal distribution. 1 for one point.
+///
+/// It is exactly 1 − p for independent points and less for any correlation (Šidák 1967, Journal of the American
+/// Statistical Association 62, 626-633). What correlated points have in common, p_high sees.
+/// \param points  n ≥ 1
+/// \throws InputError  GC-GUM-0032 no points; -0004 p not between 0 and 1
+[[nodiscard]] double largest_en_by_chance(std::size_t points, double coverage_probability);
 /// More points are refused: an approximation by the first two moments is wrong by many powers of ten in the lower tail.
 inline constexpr std::size_t k_most_points_of_agreement = 3000;
 
@@ -71,15 +80,20 @@ struct BiasLine {
 [[nodiscard]] double vector_en(const Eigen::VectorXd& d, const Eigen::MatrixXd& covariance,
                                double coverage_probability);
 
-/// What a comparison of methods may be said to show, strongest objection first.
+/// What a comparison of methods may be said to show, strongest objection first: the first that holds is the verdict.
 enum class AgreementVerdict {
-    disagreement,                 ///< a point with |E_n| > 1, or p_high < 0.025
+    disagreement,                 ///< p_high < 0.025, or the largest |E_n| is above what chance makes of so many points
+    points_above_1,               ///< points with |E_n| > 1 that chance explains, whatever the correlation of methods
     correlation_unknown,          ///< agreement only if both methods share nothing: |E_n| > 1 for the worst plausible r
     reference_not_better,         ///< U of the reference ≥ U of the method: it cannot validate it
     uncertainty_too_large,        ///< p_low < 0.025
+    agreement_few_points,         ///< fewer than k_fewest_points_to_validate independent points would tell as much
     agreement_reference_limited,  ///< U_reference > U_method / 3: agreement, but much of it is the reference's
     validated,
 };
+/// With fewer, p_low has next to no power: an uncertainty three times too large gives p_low < 0.025 with a probability
+/// of 0.20, 0.42, 0.64 and 0.81 for 2, 3, 4 and 5 independent points (P(χ²_n ≤ 9 χ²_n;0.025)).
+inline constexpr double k_fewest_points_to_validate = 5.0;
 /// \param worst_plausible_en  largest |E_n| for the worst plausible correlation; nothing where r is known
 [[nodiscard]] AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<double> worst_plausible_en);
 

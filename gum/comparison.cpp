@@ -28,7 +28,10 @@ double difference_uncertainty_for_score(double laboratory, double reference, dou
         refuse("GC-GUM-0031", std::string(symbol) + " of the difference",
                number_text(combined) + " from laboratory " + number_text(laboratory) + " and reference " +
                    number_text(reference) + " with correlation " + number_text(correlation),
-               "a score divides by it, so it must be greater than 0", "State the uncertainty of at least one side.");
+               "a score divides by it, so it must be greater than 0",
+               laboratory > 0.0 && reference > 0.0
+                   ? "State a smaller correlation: with this one both values have all of their uncertainty in common."
+                   : "State the uncertainty of at least one side.");
     }
     return combined;
 }

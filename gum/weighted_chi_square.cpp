@@ -17,10 +17,10 @@ namespace gumcert::gum {
 namespace {
 
 constexpr int k_bisections_of_saddle = 60;  // any point near the saddle will do
-constexpr double k_first_step = 0.5;        // in widths of the bell on the path
+constexpr double k_first_step = 0.5;        // of t, where y = w sinh t and w is the width of the bell on the path
 constexpr int k_most_halvings = 12;
 constexpr double k_converged = 1e-7;              // relative change by halving the step, which squares the error
-constexpr double k_negligible = 1e-18;            // of a term against the first one, which is 1
+constexpr double k_negligible = 1e-18;            // of a term against the first one, which is w
 constexpr std::size_t k_most_terms = 20'000'000;  // never reached; a loop must end
 constexpr double k_slope = 0.6;                   // c, of the asymptotes of the path
 constexpr double k_least_bend = 0.2;              // of the path, relative to the width of the bell
@@ -88,9 +88,9 @@ public:
         at_saddle_ = exponent({s_, 0.0}).real();
     }
 
-    /// 1/π ∫ Re(e^Φ ds/(i dy)) dy from 0, which is the tail.
+    /// 1/π ∫ Re(e^Φ ds/i) from y = 0, which is the tail.
     [[nodiscard]] double integral() const {
-        double step = k_first_step * width_;
+        double step = k_first_step;
         double sum = 0.5 * term(0.0) + terms(step, step);
         for (int halving = 0; halving < k_most_halvings; ++halving) {
             const double refined = sum + terms(0.5 * step, step);
@@ -150,12 +150,14 @@ private:
         return s * of_.x - 0.5 * logarithms - std::log(upper_ ? -s : s);
     }
 
-    /// The integrand relative to e^Φ(s_0), which may be too small for a double.
-    [[nodiscard]] double term(double y) const {
+    /// The integrand relative to e^Φ(s_0), which may be too small for a double, as a function of t, y = w sinh t: where
+    /// it falls slowly, few steps go far.
+    [[nodiscard]] double term(double t) const {
+        const double y = width_ * std::sinh(t);
         const double root = std::hypot(a_, k_slope * y);
         const double left = k_slope * k_slope * y * y / (root + a_);          // root − a without cancellation
         const std::complex<double> slope(1.0, k_slope * k_slope * y / root);  // ds/dy divided by i
-        return (std::exp(exponent({s_ - left, y}) - at_saddle_) * slope).real();
+        return (std::exp(exponent({s_ - left, y}) - at_saddle_) * slope).real() * width_ * std::cosh(t);
     }
 
     /// Sum of the terms at first, first + step, … until they are negligible.
@@ -165,7 +167,7 @@ private:
         for (std::size_t i = 0; i < k_most_terms && small < 3; ++i) {
             const double value = term(first + static_cast<double>(i) * step);
             sum += value;
-            small = std::abs(value) <= k_negligible ? small + 1 : 0;  // three of them are no zero crossing
+            small = std::abs(value) <= k_negligible * width_ ? small + 1 : 0;  // three of them are no zero crossing
         }
         return sum;
     }

@@ -105,11 +105,71 @@ Text scores_sentence(const Wording& words, const ComparedItem& compared) {
                          {"warning_names", some_of(words, warning)}});
 }
 
-Text consistency_in_brief(const Wording& words, const ConsistencySummary& s) {
-    return words.filled("comparison", s.consistent ? "consistent_in_brief" : "not_consistent_in_brief",
-                        {{"chi_square", words.number(s.printed.chi_square)},
+/// The test of a subset says nothing of those outside it: they are named with it.
+Text consistency_in_brief(const Wording& words, const ComparisonItemEvaluation& item) {
+    const ConsistencySummary& s = *item.consistency;
+    const char* outcome = !s.consistent                 ? "not_consistent_in_brief"
+                          : item.not_consistent.empty() ? "consistent_in_brief"
+                                                        : "consistent_subset_in_brief";
+    return words.filled("comparison", outcome,
+                        {{"excluded", some_of(words, item.not_consistent)},
+                         {"chi_square", words.number(s.printed.chi_square)},
                          {"critical", words.number(s.printed.critical_value)},
                          {"p", words.number(s.printed.p_value)}});
+}
+
+/// Results whose E_n is above 1 for the worst plausible correlation only: their agreement is open.
+void open_results(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared) {
+    std::vector<std::string> names;
+    for (const ComparisonPoint* p : compared.points) {
+        if (p->En && p->En_worst && std::abs(*p->En) <= 1.0 && std::abs(*p->En_worst) > 1.0) {
+            names.push_back(p->participant);
+        }
+    }
+    if (!names.empty()) {
+        builder.paragraph(
+            words.filled("comparison", "worst_in_brief", {{"item", compared.name}, {"names", some_of(words, names)}}));
+    }
+}
+
+/// Assigned values of a few items, one row an item.
+void assigned_values_table(CertificateBuilder& builder, const Wording& words, const std::vector<ComparedItem>& items) {
+    Rows rows;
+    for (const ComparedItem& compared : items) {
+        const ComparisonItemEvaluation& item = *compared.item;
+        rows.push_back({compared.name, reference_value_method(words, item.method),
+                        printed_quantity(words, item.printed.value, item.unit),
+                        printed_quantity(words, item.printed.U, item.difference_unit), item.printed.k,
+                        printed_quantity(words, item.printed.sigma_pt, item.difference_unit),
+                        printed_quantity(words, item.printed.delta_E, item.difference_unit),
+                        some_of(words, item.missing)});
+    }
+    table_of_filled_columns(builder, "assigned-values", words("comparison", "assigned_values_table"),
+                            {{words("comparison", "item"), ""},
+                             {words("comparison", "method"), ""},
+                             {"X", "", true},
+                             {"U(X)", "", true},
+                             {"k", "", true},
+                             {words("comparison", "sigma_pt"), "", true},
+                             {"δ_E", "", true},
+                             {words("comparison", "missing"), ""}},
+                            rows);
+}
+
+/// Assigned value, its method and what else the scores of the only item rest on.
+void facts_of_only_item(Facts& facts, const Wording& words, const ComparisonItemEvaluation& item) {
+    facts.emplace_back(words("comparison", "assigned_value"),
+                       assigned_value_text(words, item) + " (" + reference_value_method(words, item.method) +
+                           (item.reference_participant.empty() ? Text() : " " + Text(item.reference_participant)) +
+                           ")");
+    add_fact(facts, words("comparison", "sigma_pt"),
+             printed_quantity(words, item.printed.sigma_pt, item.difference_unit));
+    add_fact(facts, words("comparison", "delta_E"),
+             printed_quantity(words, item.printed.delta_E, item.difference_unit));
+    if (item.consistency) {
+        facts.emplace_back(words("comparison", "consistency"), consistency_in_brief(words, item));
+    }
+    add_fact(facts, words("comparison", "missing"), some_of(words, item.missing));
 }
 
 void one_item_of_answer(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared) {
@@ -467,23 +527,32 @@ void vectors_section(CertificateBuilder& builder, const Wording& words, const Co
                             rows);
 }
 
+/// "solution 1, round 2"
+Text name_in_round(const Wording& words, const Comparison& c, const std::string& item, const std::string& round) {
+    const Text name = name_of_item(c, item);
+    return round.empty() ? name : words.filled("comparison", "item_in_round", {{"item", name}, {"round", round}});
+}
+
 void youden_section(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
     if (c.youden.empty()) {
         return;
     }
     builder.section("youden");
+    builder.paragraph(words("comparison", "youden"));
     for (std::size_t i = 0; i < std::min(c.youden.size(), k_most_detailed); ++i) {
-        const YoudenDiagram& diagram = c.youden[i];
+        YoudenDiagram diagram = c.youden[i];
+        const Text first = name_in_round(words, c, diagram.first_item, diagram.round);
+        const Text second = name_in_round(words, c, diagram.second_item, diagram.round);
+        diagram.first_item = first.first();
+        diagram.second_item = second.first();
         const std::string id = "plot-youden-" + count(i + 1);
-        builder.figure(
-            id,
-            words.filled("comparison", "figure_youden",
-                         {{"first", diagram.first_item},
-                          {"second", diagram.second_item},
-                          {"r", words.number(gum::round_to_quantum(diagram.correlation, 2))}}),
-            words.filled("plot", "youden_description", {{"first", diagram.first_item}, {"second", diagram.second_item}})
-                .first(),
-            youden_plot(diagram, id, words));
+        builder.figure(id,
+                       words.filled("comparison", "figure_youden",
+                                    {{"first", first},
+                                     {"second", second},
+                                     {"r", words.number(gum::round_to_quantum(diagram.correlation, 2))}}),
+                       words.filled("plot", "youden_description", {{"first", first}, {"second", second}}).first(),
+                       youden_plot(diagram, id, words));
     }
 }
 
@@ -515,6 +584,12 @@ void how_to_read(CertificateBuilder& builder, const Wording& words, const Compar
 }
 
 }  // namespace
+
+std::string name_of_item(const Comparison& comparison, const std::string& id) {
+    const auto found = std::find_if(comparison.items.begin(), comparison.items.end(),
+                                    [&](const ComparisonItemEvaluation& item) { return item.id == id; });
+    return found == comparison.items.end() || found->name.empty() ? id : found->name;
+}
 
 std::vector<ComparedItem> compared_items(const Wording& words, const Comparison& comparison) {
     std::vector<ComparedItem> items;
@@ -550,12 +625,14 @@ std::string score_text(const ComparisonPoint& p, const std::string& score) {
                                 : "";
 }
 
-void laboratory_answer(CertificateBuilder& builder, const Wording& words, const Comparison& c, Facts facts) {
+void laboratory_answer(CertificateBuilder& builder, const Wording& words, const Comparison& c, Facts facts,
+                       const Facts& conventions) {
     const std::vector<ComparedItem> items = compared_items(words, c);
     builder.section("answer");
     Text compared;
     for (std::size_t i = 0; i < std::min(items.size(), k_most_side_by_side); ++i) {
         builder.paragraph(scores_sentence(words, items[i]));
+        open_results(builder, words, items[i]);
         compared = compared.empty() ? items[i].name : compared + "; " + items[i].name;
     }
     if (items.size() > k_most_side_by_side) {
@@ -566,12 +643,9 @@ void laboratory_answer(CertificateBuilder& builder, const Wording& words, const 
     }
     facts.emplace_back(words("comparison", "participants"), count(c.participants.size()));
     if (items.size() == 1) {
-        facts.emplace_back(words("comparison", "assigned_value"), assigned_value_text(words, *items[0].item));
-        if (items[0].item->consistency) {
-            facts.emplace_back(words("comparison", "consistency"),
-                               consistency_in_brief(words, *items[0].item->consistency));
-        }
+        facts_of_only_item(facts, words, *items[0].item);
     }
+    facts.insert(facts.end(), conventions.begin(), conventions.end());
     builder.definitions(facts);
     if (!items.empty()) {
         values_figure(builder, words, c, items[0], "plot-values-1");
@@ -580,6 +654,7 @@ void laboratory_answer(CertificateBuilder& builder, const Wording& words, const 
         one_item_of_answer(builder, words, items[0]);
     } else if (items.size() <= k_most_side_by_side) {
         scores_side_by_side(builder, words, c, items);
+        assigned_values_table(builder, words, items);
     } else {
         items_table(builder, words, items);
     }

@@ -21,9 +21,10 @@ struct ComparedItem {
 [[nodiscard]] std::vector<ComparedItem> compared_items(const Wording& words, const Comparison& comparison);
 
 /// Result, graph and table of scores: the first page, for organisers and participants.
-/// \param facts  what stands above the graph: who organised the comparison and when
+/// \param facts        what stands above the graph: who organised the comparison and when
+/// \param conventions  and below these, what D and U stand for
 void laboratory_answer(CertificateBuilder& builder, const Wording& words, const Comparison& comparison,
-                       std::vector<std::pair<Text, Text>> facts);
+                       std::vector<std::pair<Text, Text>> facts, const std::vector<std::pair<Text, Text>>& conventions);
 
 /// Items, participants, vectors and Youden plots, and how the scores are read.
 void laboratory_sections(CertificateBuilder& builder, const Wording& words, const Comparison& comparison);
@@ -37,6 +38,9 @@ void assigned_value_section(CertificateBuilder& builder, const Wording& words, c
 
 /// "X = 10.0021 mm, U = 0.0006 mm, k = 2"
 [[nodiscard]] Text assigned_value_text(const Wording& words, const ComparisonItemEvaluation& item);
+
+/// Name of an item; its id without one.
+[[nodiscard]] std::string name_of_item(const Comparison& comparison, const std::string& id);
 
 /// The score as tables and texts name it: "Eₙ".
 [[nodiscard]] Text score_name(const Wording& words, const std::string& score);

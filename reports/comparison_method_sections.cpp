@@ -27,15 +27,20 @@ using Rows = ComparisonRows;
 
 constexpr const char* k_validated = "validated";
 
+/// Unit of differences and uncertainties, for people: K for °C.
+std::string difference_unit(const Comparison& c) {
+    return c.unit.empty() ? "" : gum::unit_for_people(gum::unit_of_difference(c.unit));
+}
+
 Text direction_name(const Wording& words, const std::string& direction) {
     return direction == "all" ? words("label", "all") : direction.empty() ? words("plot", "all_points") : direction;
 }
 
 /// The gravest verdict of all directions: what holds for the method as a whole. Nothing where nothing was judged.
 const ComparisonSummary* gravest(const Comparison& c) {
-    static constexpr std::array<const char*, 6> k_order = {
-        "disagreement",          "correlation_unknown",         "reference_not_better",
-        "uncertainty_too_large", "agreement_reference_limited", k_validated};
+    static constexpr std::array<const char*, 8> k_order = {
+        "disagreement",          "points_above_1",       "correlation_unknown",         "reference_not_better",
+        "uncertainty_too_large", "agreement_few_points", "agreement_reference_limited", k_validated};
     for (const char* code : k_order) {
         const ComparisonSummary* found = nullptr;
         for (const ComparisonSummary& s : c.summary) {
@@ -63,6 +68,7 @@ Text verdict_sentence(const Wording& words, const ComparisonSummary& s) {
     return words.filled("comparison_verdict", scatter_only ? "disagreement_scatter" : s.verdict,
                         {{"count", plain(s.count_above_1)},
                          {"points", plain(s.points)},
+                         {"effective", words.number(s.printed.effective_points)},
                          {"largest", words.number(s.printed.max_abs_En)},
                          {"worst", words.number(s.printed.max_abs_En_worst)},
                          {"p_low", words.number(s.printed.p_low)},
@@ -169,7 +175,7 @@ std::vector<std::pair<std::string, std::vector<std::string>>> companion_rows(con
 void companion_table(CertificateBuilder& builder, const Wording& words, const Comparison& c, const std::string& id) {
     constexpr std::size_t k_most_directions = 6;
     const auto numbers = companion_rows(c);
-    const std::string unit = gum::unit_for_people(c.unit);
+    const std::string unit = difference_unit(c);
     for (std::size_t from = 0; from < c.summary.size(); from += k_most_directions) {
         const std::size_t to = std::min(c.summary.size(), from + k_most_directions);
         std::vector<Column> columns = {{words("comparison", "number_of_table"), ""}};
@@ -229,7 +235,7 @@ bool has_bias(const Comparison& c) {
 }
 
 void bias_lines(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
-    const std::string unit = gum::unit_for_people(c.unit);
+    const std::string unit = difference_unit(c);
     const std::string position_unit = gum::unit_for_people(c.form == "rotary_table" ? "degree" : c.position_unit);
     Rows rows;
     std::string against;
@@ -242,7 +248,7 @@ void bias_lines(CertificateBuilder& builder, const Wording& words, const Compari
         }
     }
     const bool position = against == "position";
-    const std::string t_unit = position ? position_unit : unit;
+    const std::string t_unit = position ? position_unit : gum::unit_for_people(c.unit);
     const std::string slope_unit = !position ? "" : t_unit.empty() ? unit : unit + "/" + t_unit;
     builder.paragraph(words("comparison", position ? "bias_position" : "bias_reference_value"));
     builder.table("bias", words("comparison", "bias_table"),
@@ -276,6 +282,7 @@ void point_table(CertificateBuilder& builder, const Wording& words, const Compar
                                         {"count", plain(static_cast<std::int64_t>(c.points.size()))}}));
     }
     const std::string unit = gum::unit_for_people(c.unit);
+    const std::string difference = difference_unit(c);
     const bool rotary = c.form == "rotary_table";
     Rows rows;
     for (const ComparisonPoint* p : points) {
@@ -291,12 +298,12 @@ void point_table(CertificateBuilder& builder, const Wording& words, const Compar
          rotary ? Column{words("label", "angle"), "°", true}
                 : Column{c.position_name.empty() ? words("comparison", "position") : Text(c.position_name),
                          gum::unit_for_people(c.position_unit), true},
-         {words("label", "measured"), unit, true},
-         {words("label", "U"), unit, true},
-         {words("label", "reference"), unit, true},
-         {words("label", "U"), unit, true},
-         {words("label", "difference"), unit, true},
-         {"U(D)", unit, true},
+         {words("label", "measured") + " x", unit, true},
+         {"U(x)", difference, true},
+         {words("label", "reference") + " X", unit, true},
+         {"U(X)", difference, true},
+         {words("label", "difference"), difference, true},
+         {"U(D)", difference, true},
          {words("label", "En"), "", true},
          {words("comparison", "En_worst"), "", true},
          {words("comparison", "En_audited"), "", true}},
@@ -321,7 +328,7 @@ void budgets(CertificateBuilder& builder, const Wording& words, const Comparison
         return;
     }
     builder.section("comparison_budgets");
-    const std::string unit = gum::unit_for_people(c.unit);
+    const std::string unit = difference_unit(c);
     if (!c.method_budget.empty()) {
         budget_table(builder, words, "method-budget",
                      words.filled("comparison", "budget_of", {{"name", c.method_name}}), c.method_budget, unit);
@@ -341,14 +348,16 @@ void method_figure(CertificateBuilder& builder, const Wording& words, const Comp
 
 }  // namespace
 
-void method_answer(CertificateBuilder& builder, const Wording& words, const Comparison& c, Facts facts) {
+void method_answer(CertificateBuilder& builder, const Wording& words, const Comparison& c, Facts facts,
+                   const Facts& conventions) {
     builder.section("answer");
     verdict(builder, words, c);
     facts.insert(facts.begin(), {words("comparison", "compared"),
                                  words.filled("comparison", "method_and_reference",
                                               {{"method", c.method_name}, {"reference", c.reference_name}})});
     add_fact(facts, words("comparison", "correlation"), correlation_text(words, c));
-    add_fact(facts, words("comparison", "tolerance"), printed_quantity(words, c.printed_tolerance, c.unit));
+    add_fact(facts, words("comparison", "tolerance"), printed_quantity(words, c.printed_tolerance, difference_unit(c)));
+    facts.insert(facts.end(), conventions.begin(), conventions.end());
     builder.definitions(facts);
     if (!c.points.empty()) {
         method_figure(builder, words, c, "plot-en", "method_scores", words("comparison", "figure_method_scores"),

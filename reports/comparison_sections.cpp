@@ -32,6 +32,16 @@ Facts who_and_when(const Wording& words, const EvaluationRecord& record) {
     return facts;
 }
 
+/// What D is, what its sign means, and what the expanded uncertainties stand for.
+Facts conventions(const Wording& words, const EvaluationRecord& record) {
+    const Comparison& c = *record.comparison;
+    return {{words("comparison", "sign_label"),
+             words.filled("comparison", c.form == "laboratories" ? "sign_of_laboratories" : "sign_of_methods",
+                          {{"method", c.method_name}, {"reference", c.reference_name}})},
+            {words("comparison", "expanded_label"),
+             words.filled("comparison", "expanded_text", {{"p", words.number(record.printed_coverage)}})}};
+}
+
 /// Weights of all results by item, round and participant.
 std::map<std::tuple<std::string, std::string, std::string>, double> weights_of(const Comparison& comparison) {
     std::map<std::tuple<std::string, std::string, std::string>, double> weights;
@@ -44,8 +54,13 @@ std::map<std::tuple<std::string, std::string, std::string>, double> weights_of(c
 }
 
 /// A column of numbers with all their digits: aligned at the left, for they have no common number of decimals.
-Column digits(const Text& head) {
-    return {.head = head};
+Column digits(const Text& head, const std::string& unit = "") {
+    return {.head = head, .unit = gum::unit_for_people(unit)};
+}
+
+/// Unit of differences of a comparison whose items share one unit; "" where they do not.
+std::string difference_unit_of(const Comparison& c) {
+    return c.unit.empty() || c.items.empty() ? "" : c.items.front().difference_unit;
 }
 
 void laboratory_numbers(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
@@ -53,7 +68,7 @@ void laboratory_numbers(CertificateBuilder& builder, const Wording& words, const
     const auto number = [&](const std::optional<double>& v) { return words.number(unrounded(v)); };
     const bool rounds = std::any_of(c.items.begin(), c.items.end(),
                                     [&](const auto& item) { return item.round != c.items.front().round; });
-    const auto item_of = [&](const std::string& id) { return c.items.size() > 1 ? id : ""; };
+    const auto item_of = [&](const std::string& id) { return c.items.size() > 1 ? name_of_item(c, id) : ""; };
     Rows rows;
     Rows ties;  // a table of its own: so many digits do not fit side by side
     for (const ComparisonPoint& p : c.points) {
@@ -69,8 +84,10 @@ void laboratory_numbers(CertificateBuilder& builder, const Wording& words, const
     const Column item = digits(words("comparison", "item"));
     const Column round = digits(words("comparison", "round"));
     const Column laboratory = digits(words("comparison", "participant"));
-    table_of_filled_columns(builder, "unrounded", words("comparison", "unrounded_table"),
-                            {item, round, laboratory, digits("x"), digits("u"), digits("k"), digits("ν")}, rows);
+    table_of_filled_columns(
+        builder, "unrounded", words("comparison", "unrounded_table"),
+        {item, round, laboratory, digits("x", c.unit), digits("u(x)", difference_unit_of(c)), digits("k"), digits("ν")},
+        rows);
     table_of_filled_columns(builder, "unrounded-weights", words("comparison", "unrounded_weights_table"),
                             {item, round, laboratory, digits("r"), digits(words("comparison", "weight"))}, ties);
     Rows items;
@@ -94,18 +111,22 @@ void method_numbers(CertificateBuilder& builder, const Wording& words, const Com
         reference.push_back({p.name, p.direction, number(p.position), number(p.reference_value), number(p.reference_u),
                              number(p.reference_k), number(p.correlation)});
     }
+    const std::string difference_unit = c.unit.empty() ? "" : gum::unit_of_difference(c.unit);
     const Column point = digits(words("label", "point"));
     const Column direction = digits(words("label", "direction"));
-    const Column position = digits(c.position_name.empty() ? words("comparison", "position") : Text(c.position_name));
+    const Column position =
+        digits(c.position_name.empty() ? words("comparison", "position") : Text(c.position_name), c.position_unit);
     const auto caption = [&](const std::string& name) {
         return words.filled("comparison", "unrounded_side_table", {{"name", name}});
     };
-    table_of_filled_columns(builder, "unrounded", caption(c.method_name),
-                            {point, direction, position, digits("x"), digits("u(x)"), digits("k"), digits("ν")},
-                            method);
-    table_of_filled_columns(builder, "unrounded-reference", caption(c.reference_name),
-                            {point, direction, position, digits("X"), digits("u(X)"), digits("k"), digits("r")},
-                            reference);
+    table_of_filled_columns(
+        builder, "unrounded", caption(c.method_name),
+        {point, direction, position, digits("x", c.unit), digits("u(x)", difference_unit), digits("k"), digits("ν")},
+        method);
+    table_of_filled_columns(
+        builder, "unrounded-reference", caption(c.reference_name),
+        {point, direction, position, digits("X", c.unit), digits("u(X)", difference_unit), digits("k"), digits("r")},
+        reference);
 }
 
 void numbers_to_recompute(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
@@ -128,10 +149,10 @@ void numbers_to_recompute(CertificateBuilder& builder, const Wording& words, con
 void comparison_report_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     const Comparison& c = *record.comparison;
     if (c.form == "laboratories") {
-        laboratory_answer(builder, words, c, who_and_when(words, record));
+        laboratory_answer(builder, words, c, who_and_when(words, record), conventions(words, record));
         laboratory_sections(builder, words, c);
     } else {
-        method_answer(builder, words, c, who_and_when(words, record));
+        method_answer(builder, words, c, who_and_when(words, record), conventions(words, record));
         method_sections_of_comparison(builder, words, c);
     }
     numbers_to_recompute(builder, words, c);

@@ -92,10 +92,41 @@ std::vector<fs::path> document_files(const reports::EvaluationRecord& record, co
                : std::vector{folder / "certificate.html", folder / "certificate.pdf", folder / "certificate.xml"};
 }
 
+/// The same, and where it is names the job: of several jobs in one command nobody knows else which one is meant.
+std::vector<gum::Diagnostic> of_job(std::vector<gum::Diagnostic> diagnostics, const fs::path& job) {
+    const std::string path = job.string();
+    const std::string name = job.filename().string();
+    for (gum::Diagnostic& diagnostic : diagnostics) {
+        std::string& where = diagnostic.where;
+        if (where.starts_with(path)) {
+            continue;
+        }
+        if (where.starts_with(name + '#') || where.starts_with(name + ':')) {  // readers name files without folder
+            where.replace(0, name.size(), path);
+        } else {
+            where = where.empty() ? path : path + ", " + where;
+        }
+    }
+    return diagnostics;
+}
+
+/// Work on one of several jobs: what is refused names the job.
+template <class Work>
+bool naming_job(const fs::path& job, const Work& work) {
+    try {
+        return work();
+    } catch (const gum::InputError& error) {
+        throw gum::InputError(of_job(error.diagnostics(), job));
+    } catch (const gum::NoResultError& error) {
+        throw gum::NoResultError(of_job(error.diagnostics(), job));
+    }
+}
+
+/// \param several  whether the command has other jobs
 /// \return true when the answer is negative
 bool run_job(const fs::path& job, const fs::path& folder, Issuer& issuer, const DocumentOptions& options,
-             const CommonOptions& common, ProgressLine& progress) {
-    const app::Evaluation evaluation =
+             const CommonOptions& common, ProgressLine& progress, bool several) {
+    app::Evaluation evaluation =
         app::evaluate_job(job, "covariance.csv", static_cast<unsigned>(common.threads), templates_if_any(options.share),
                           [&](const std::string& text) { progress(text); });
     const reports::EvaluationRecord& record = evaluation.record;
@@ -117,6 +148,9 @@ bool run_job(const fs::path& job, const fs::path& folder, Issuer& issuer, const 
     }
     app::write_files(files);
     progress.clear();
+    if (several) {  // the files are written: from here on the record is for the terminal only
+        evaluation.record.diagnostics = of_job(std::move(evaluation.record.diagnostics), job);
+    }
     report_diagnostics(record, common);
     report_findings(record, common);
     if (held_back) {
@@ -195,7 +229,10 @@ ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& o
     ProgressLine progress(!common.quiet);
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         const ExitCode one = explained(common, [&] {
-            return run_job(jobs[i], folders[i], issuer, options, common, progress) ? negative_answer : done;
+            const auto work = [&] {
+                return run_job(jobs[i], folders[i], issuer, options, common, progress, jobs.size() > 1);
+            };
+            return (jobs.size() > 1 ? naming_job(jobs[i], work) : work()) ? negative_answer : done;
         });
         code = std::max(code, one);
     }

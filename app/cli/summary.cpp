@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 
@@ -47,10 +49,45 @@ void print_results(const reports::EvaluationRecord& record) {
     }
 }
 
-/// "10.05 ± 0.12 mm"; without ± where there is no uncertainty.
-std::string with_uncertainty(const std::string& value, const std::string& U, const std::string& unit) {
-    const std::string shown = gum::unit_for_people(unit);
-    return value + (U.empty() ? "" : " ± " + U) + (shown.empty() ? "" : " " + shown);
+/// "10.05 ± 0.12 mm"; without ± where there is no uncertainty; "20.1 °C ± 0.3 K" where the units differ.
+std::string with_uncertainty(const std::string& value, const std::string& U, const std::string& unit,
+                             const std::string& difference_unit) {
+    const auto in = [](const std::string& of) {
+        const std::string shown = gum::unit_for_people(of);
+        return shown.empty() ? "" : " " + shown;
+    };
+    return U.empty()                 ? value + in(unit)
+           : unit == difference_unit ? value + " ± " + U + in(unit)
+                                     : value + in(unit) + " ± " + U + in(difference_unit);
+}
+
+/// "largest consistent subset"; the name of a method of reports::ComparisonItemEvaluation::method for people.
+std::string method_in_words(const std::string& method) {
+    if (method == "algorithm_a") {
+        return "algorithm A";
+    }
+    if (method == "q_hampel") {
+        return "Q method with Hampel's mean";
+    }
+    if (method == "dersimonian_laird" || method == "mandel_paule" || method == "vangel_rukhin") {
+        return method == "dersimonian_laird" ? "DerSimonian-Laird"
+               : method == "mandel_paule"    ? "Mandel-Paule"
+                                             : "Vangel-Rukhin";
+    }
+    if (method == "reference") {
+        return "reference laboratory";
+    }
+    if (method == "given") {
+        return "given value";
+    }
+    std::string words = method;
+    std::replace(words.begin(), words.end(), '_', ' ');
+    return words;
+}
+
+/// E_n is not above 1, and is for the worst plausible correlation: whether the result agrees cannot be said.
+bool is_open(const reports::ComparisonPoint& point) {
+    return point.En && point.En_worst && std::abs(*point.En) <= 1.0 && std::abs(*point.En_worst) > 1.0;
 }
 
 /// The score of a result that decides.
@@ -67,20 +104,24 @@ const char* score_symbol(const std::string& score) {
     return score == "z_prime" ? "z'" : score == "D" ? "P_A %" : score.c_str();
 }
 
-void print_item(const reports::Comparison& comparison, const reports::ComparisonItemEvaluation& item) {
+void print_item(const reports::Comparison& comparison, const reports::ComparisonItemEvaluation& item,
+                const std::string& coverage) {
     constexpr std::size_t k_most_lines = 30;
     const std::string name = item.name.empty() ? item.id : item.name;
     const std::string round = item.round.empty() ? "" : "round " + item.round;
     if (!name.empty() || !round.empty()) {
         fmt::print("\n{}{}{}\n", name, name.empty() || round.empty() ? "" : ", ", round);
     }
-    fmt::print("  assigned value ({}) {}{}\n", item.method,
-               with_uncertainty(item.printed.value, item.printed.U, item.unit),
-               item.printed.k.empty() ? "" : "   (k = " + item.printed.k + ")");
+    fmt::print("  assigned value ({}) {}{}\n", method_in_words(item.method),
+               with_uncertainty(item.printed.value, item.printed.U, item.unit, item.difference_unit),
+               item.printed.k.empty() ? "" : "   (k = " + item.printed.k + ", p = " + coverage + ")");
     if (item.consistency) {
         fmt::print("  consistency: chi-square {} on {} degrees of freedom, p = {}{}\n",
                    item.consistency->printed.chi_square, item.consistency->degrees_of_freedom,
                    item.consistency->printed.p_value, item.consistency->consistent ? "" : "   NOT consistent");
+    }
+    for (const std::string& id : item.missing) {
+        fmt::print("  without a result: {}\n", id);
     }
     for (const std::string& id : item.not_consistent) {
         fmt::print("  not in the largest consistent subset: {}\n", id);
@@ -96,21 +137,23 @@ void print_item(const reports::Comparison& comparison, const reports::Comparison
             continue;
         }
         fmt::print("  {:<12} {:<26} D {:>10}", point.participant,
-                   with_uncertainty(point.printed.value, point.printed.U, item.unit), point.printed.D);
+                   with_uncertainty(point.printed.value, point.printed.U, item.unit, item.difference_unit),
+                   point.printed.D);
         if (!item.score.empty()) {
             fmt::print("   {} {:>6}", score_symbol(item.score), deciding_score(point, item.score));
         }
-        fmt::print("{}\n", point.signal == "none" || point.signal.empty() ? "" : "   " + point.signal);
+        fmt::print("{}{}\n", point.signal == "none" || point.signal.empty() ? "" : "   " + point.signal,
+                   is_open(point) ? "   " + point.printed.En_worst + " for the worst correlation" : "");
     }
     if (left_out > 0) {
         fmt::print("  … and {} more, all of them in the record\n", left_out);
     }
 }
 
-void print_laboratories(const reports::Comparison& comparison) {
+void print_laboratories(const reports::Comparison& comparison, const std::string& coverage) {
     constexpr std::size_t k_most_items = 5;
     for (std::size_t i = 0; i < comparison.items.size() && i < k_most_items; ++i) {
-        print_item(comparison, comparison.items[i]);
+        print_item(comparison, comparison.items[i], coverage);
     }
     if (comparison.items.size() > k_most_items) {
         fmt::print("\n… and {} more items, all of them in the record\n", comparison.items.size() - k_most_items);
@@ -132,8 +175,10 @@ const char* verdict_text(const std::string& verdict) {
            : verdict == "uncertainty_too_large" ? "agreement, but the uncertainties are larger than the differences"
            : verdict == "reference_not_better"  ? "no contradiction; the reference is not better than the method"
            : verdict == "correlation_unknown"   ? "agreement only if both methods share nothing"
-           : verdict == "disagreement"          ? "disagreement"
-                                                : "";
+           : verdict == "agreement_few_points" ? "agreement; too few points to tell whether the uncertainties are right"
+           : verdict == "points_above_1"       ? "single points above 1, as chance explains"
+           : verdict == "disagreement"         ? "disagreement"
+                                               : "";
 }
 
 void print_methods(const reports::Comparison& comparison) {
@@ -188,7 +233,7 @@ void print_summary(const reports::EvaluationRecord& record) {
         print_results(record);
     }
     if (record.comparison && record.comparison->form == "laboratories") {
-        print_laboratories(*record.comparison);
+        print_laboratories(*record.comparison, record.printed_coverage);
     } else if (record.comparison) {
         print_methods(*record.comparison);
     }

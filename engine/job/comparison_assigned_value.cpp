@@ -87,7 +87,7 @@ void read_given(const ComparisonReading& reading, const JsonObject& object, Assi
 
 void read_median(const JsonObject& object, AssignedValueRequest& request) {
     constexpr std::array<std::pair<std::string_view, bool>, 2> k_uncertainties{{{"robust", false}, {"trials", true}}};
-    constexpr NumberRange k_trials{.low = 1000.0, .high = 1e8, .hint = "100000 trials are usual"};
+    constexpr NumberRange k_trials{.low = 1000.0, .high = 1e7, .hint = "100000 trials are usual"};
     request.median_by_trials = object.optional_choice("uncertainty", k_uncertainties).value_or(false);
     request.trials = static_cast<std::size_t>(object.optional_integer("trials", k_trials).value_or(100'000));
     request.seed =
@@ -101,11 +101,14 @@ AssignedValueRequest read_object(const ComparisonReading& reading, const JsonObj
                                   .low_open = true,
                                   .high_open = true,
                                   .hint = "state the probability of failing a consistent set, 0.05 is usual"};
+    // The search for the subset rests on a critical value that holds up to here (gum/reference_value.h).
+    constexpr NumberRange k_alpha_of_subset{.low = 0.0, .high = 0.3, .low_open = true, .hint = k_alpha.hint};
     AssignedValueRequest request;
     request.method = method;
     request.where = object.where();
     request.traceability = object.optional_string("traceability").value_or("");
-    request.alpha = object.optional_number("alpha", k_alpha).value_or(0.05);
+    const bool searches_subset = method == Method::largest_consistent_subset;
+    request.alpha = object.optional_number("alpha", searches_subset ? k_alpha_of_subset : k_alpha).value_or(0.05);
     // All keys are read, also those without use: a wrong one is refused wherever it stands.
     request.participant = optional_label(object, "participant", reading.problems).value_or("");
     request.exact_constants = object.optional_choice("constants", k_constants).value_or(false);

@@ -84,8 +84,35 @@ private:
             "an item is compared between at least 2 results", "add the results that are missing, or remove the item");
     }
 
+    /// A key of one item: its own, or the one that stands for all items.
+    [[nodiscard]] std::string where_of(std::size_t item, const std::string& key) const {
+        const std::string pointer = child_pointer("/items", item) + "/" + key;
+        return where(reading_.document.places.contains(pointer) ? pointer : "/" + key);
+    }
+
+    void check_replicates(std::size_t item) {
+        const ComparisonItem& of = job_.items[item];
+        if ((of.homogeneity || of.stability) && !of.sigma_pt && !of.delta_E) {
+            refuse_replicates(where_of(item, of.homogeneity ? "homogeneity" : "stability"),
+                              "homogeneity or stability is to be checked, and neither sigma_pt nor delta_E is stated",
+                              "differences between items are held against a part of one of them",
+                              "add \"sigma_pt\" or \"delta_E\"");
+        } else if (of.stability && !of.homogeneity) {
+            refuse_replicates(where_of(item, "stability"), "stability without homogeneity",
+                              "what is measured after the round is held against what was measured before it",
+                              "add the results of the first check as \"homogeneity\"");
+        }
+    }
+    void refuse_replicates(const std::string& place, const std::string& what, const std::string& rule,
+                           const std::string& action) {
+        if (told_.insert(place).second) {
+            reading_.problems.refuse(k_check_without_criterion, place, what, rule, action);
+        }
+    }
+
     void check_item(std::size_t item) {
         const AssignedValueRequest& request = job_.items[item].assigned_value;
+        check_replicates(item);
         if (request.method == Method::reference) {
             check_reference(item, request);
         }

@@ -58,6 +58,10 @@ inline constexpr InputCode k_comparison_covariance_diagonal{
     "GC-INPUT-0534", "a variance of a point that differs from the square of its u"};
 inline constexpr InputCode k_no_position{"GC-INPUT-0535", "points without the position that the bias line needs"};
 inline constexpr InputCode k_no_shared_sources{"GC-INPUT-0536", "shared sources of results without budgets"};
+inline constexpr InputCode k_too_many_results{"GC-INPUT-0537", "more results than one record holds"};
+inline constexpr InputCode k_check_without_criterion{
+    "GC-INPUT-0538", "a check of homogeneity or stability without what it is held against"};
+inline constexpr InputCode k_reserved_direction{"GC-INPUT-0539", "a direction with the name that all together have"};
 
 // Warnings: the input is accepted, and a person should look at it.
 inline constexpr InputCode k_warn_no_result{"GC-WARN-0020", "a participant without a single result"};
@@ -106,6 +110,9 @@ inline constexpr std::array k_comparison_codes{k_comparison_form,
                                                k_comparison_covariance_diagonal,
                                                k_no_position,
                                                k_no_shared_sources,
+                                               k_too_many_results,
+                                               k_check_without_criterion,
+                                               k_reserved_direction,
                                                k_warn_no_result,
                                                k_warn_small_coverage_factor,
                                                k_warn_exact_assigned_value,

@@ -36,24 +36,24 @@ std::optional<SigmaPtRequest> read_sigma_object(const JsonObject& object) {
     }
     if (object.has("percent")) {
         request.method = SigmaPtMethod::percent_of_assigned;
-        const auto percent = object.required_number(
-            "percent", {.low = 0.0, .high = 1e6, .low_open = true, .unit = "%", .hint = "state a percentage"});
+        const auto percent =
+            object.required_number("percent", {.low = 1e-12, .high = 1e6, .unit = "%", .hint = "state a percentage"});
         request.value = percent.value_or(1.0);
         return percent ? std::optional{request} : std::nullopt;
     }
     if (object.has("mass_fraction_per_unit")) {
         request.method = SigmaPtMethod::mass_fraction;
         const auto fraction = object.required_number(
-            "mass_fraction_per_unit", {.low = 0.0,
-                                       .high = 1.0,
-                                       .low_open = true,
-                                       .hint = "state the mass fraction that 1 of the unit is: 1e-6 for mg/kg"});
+            "mass_fraction_per_unit",
+            {.low = 1e-30, .high = 1.0, .hint = "state the mass fraction that 1 of the unit is: 1e-6 for mg/kg"});
         request.mass_fraction_per_unit = fraction.value_or(1.0);
         return fraction ? std::optional{request} : std::nullopt;
     }
     request.method = SigmaPtMethod::precision;
-    const NumberRange deviation{.low = 0.0, .high = k_largest_compared, .low_open = true};
-    const auto reproducibility = object.required_number("reproducibility", deviation);
+    const auto reproducibility = object.required_number(
+        "reproducibility", {.low = k_least_compared_u,
+                            .high = k_largest_compared,
+                            .hint = "state the standard deviation under conditions of reproducibility"});
     const auto repeatability = object.required_number("repeatability", between(0.0, k_largest_compared, ""));
     const auto replicates = object.optional_integer("replicates", between(1.0, 1e6, ""));
     if (!reproducibility || !repeatability || (object.has("replicates") && !replicates)) {

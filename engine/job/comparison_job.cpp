@@ -41,7 +41,7 @@ public:
 private:
     void read_job(const JsonDocument& document, ProblemList& problems) {
         const std::optional<std::string> kind = read_kind(document, problems);
-        if (!kind) {
+        if (!kind || is_record(document)) {
             return;
         }
         if (*kind != "comparison") {
@@ -66,6 +66,15 @@ private:
                 break;
         }
         job_.certificate = read_certificate(files_, document, problems);
+    }
+
+    /// A record that is taken for a job is told once, and not key by key.
+    static bool is_record(const JsonDocument& document) {
+        if (!document.value.is_object() || !document.value.contains("schema")) {
+            return false;
+        }
+        const nlohmann::json& schema = document.value.at("schema");
+        return schema.is_string() && schema.get_ref<const std::string&>().starts_with("gumcert/record/");
     }
 
     void read_common(const ComparisonReading& reading, const JsonObject& root) {

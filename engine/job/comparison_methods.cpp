@@ -71,6 +71,7 @@ public:
         request_->tolerance = read_tolerance();
         const bool is_matched = match(laboratory, reference);
         if (is_matched) {
+            check_directions(laboratory);
             check_positions(laboratory);
             finish(laboratory, request_->laboratory);
             finish(reference, request_->reference);
@@ -191,6 +192,11 @@ private:
             read_points_file(object, "points", side);
         } else if (points->is_array()) {
             side.has_points = true;
+            if (points->empty()) {
+                object.refuse(k_wrong_size, "points", "an empty list of points", "there must be at least one",
+                              "list the points with their values");
+                return;
+            }
             if (points->size() > k_most_points) {
                 refuse_too_many(points->size(), object.where("points"), reading_.problems);
                 side.is_whole = false;
@@ -486,6 +492,18 @@ private:
         return missing.empty();
     }
 
+    /// The summary of all directions together is named so in the record.
+    void check_directions(const SideReading& laboratory) {
+        for (const SidePoint& point : laboratory.points) {
+            if (point.point.direction == "all") {
+                laboratory.problems->refuse(k_reserved_direction, point.where, "a direction \"all\"",
+                                            "\"all\" stands for all directions together",
+                                            "give the direction another name");
+                return;
+            }
+        }
+    }
+
     void check_positions(const SideReading& laboratory) {
         if (!request_->bias_against_position) {
             return;
@@ -601,7 +619,7 @@ private:
             if (!range.contains(matrix(i, i))) {
                 problems.refuse(k_number_out_of_range, where,
                                 "the variance of the point " + name_of(i) + " is " + shortest(matrix(i, i)),
-                                "a variance must be greater than 0", "correct the matrix");
+                                "a variance is u², from 1e-120 to 1e120", "correct the matrix, or choose another unit");
                 return false;
             }
             const auto& stated = read.points[static_cast<std::size_t>(i)].uncertainty;

@@ -18,6 +18,8 @@ constexpr std::array<std::string_view, 2> k_required_columns{"participant", "val
 constexpr std::array<std::string_view, 14> k_optional_columns{
     "item", "round", "u", "U", "k", "nu", "s", "n", "contributes", "reason", "uncertainty", "name", "group", "cmc_U"};
 constexpr std::size_t k_participant_columns = 3;  // the last ones
+/// What the record of a comparison holds (64 MB) with every score of every result.
+constexpr std::size_t k_most_results = 25'000;
 constexpr NumberRange k_observations{.low = 1.0, .high = 1e9};
 constexpr NumberRange k_deviation{.low = 0.0, .high = k_largest_compared};
 
@@ -25,6 +27,16 @@ constexpr NumberRange k_deviation{.low = 0.0, .high = k_largest_compared};
 std::uint64_t key_of(std::size_t participant, std::size_t item, std::size_t round) {
     return (static_cast<std::uint64_t>(participant) << 42U) | (static_cast<std::uint64_t>(item) << 21U) |
            static_cast<std::uint64_t>(round);
+}
+
+bool are_too_many(std::size_t results, const std::string& where, ProblemList& problems) {
+    if (results <= k_most_results) {
+        return false;
+    }
+    problems.refuse(k_too_many_results, where, std::to_string(results) + " results",
+                    "a comparison has at most " + std::to_string(k_most_results) + " results",
+                    "split the data by items or rounds into several jobs");
+    return true;
 }
 
 std::optional<std::string_view> view(const std::optional<std::string>& text) {
@@ -112,6 +124,9 @@ void ParticipantsReader::read_participants() {
         return;
     }
     const bool with_results = !root_.has("results");
+    if (are_too_many(value->size(), root_.where("participants"), reading_.problems)) {
+        return;
+    }
     for_each_object(reading_, *value, "/participants",
                     with_results ? std::span<const std::string_view>{k_participant_result_keys}
                                  : std::span<const std::string_view>{k_participant_keys},
@@ -164,6 +179,9 @@ void ParticipantsReader::read_results() {
     if (!value->is_array()) {
         root_.refuse(k_wrong_type, "results", described(*value),
                      "must be an array of results or {\"file\": \"results.csv\"}", "correct the value");
+        return;
+    }
+    if (are_too_many(value->size(), root_.where("results"), reading_.problems)) {
         return;
     }
     for_each_object(reading_, *value, "/results", k_result_keys, k_result_keys_and_bare, [&](const JsonObject& object) {
@@ -347,6 +365,10 @@ void ParticipantsReader::read_table(const JsonObject& file_object, bool with_par
                        optional.first(optional.size() - (with_participants ? 0 : k_participant_columns)), problems);
     if (!table ||
         !check_uncertainty_columns(*table, {.u = c_u, .U = c_U, .k = c_k, .nu = c_nu, .bare = c_bare}, problems)) {
+        is_whole_ = false;
+        return;
+    }
+    if (are_too_many(table->rows(), printable(problems.file()), problems)) {
         is_whole_ = false;
         return;
     }

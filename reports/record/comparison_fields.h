@@ -369,8 +369,8 @@ void describe(Archive& a, Struct& r) {
     a.added("count_above_1_audited", r.count_above_1_audited, Range::not_negative);
     a.added("published_mean_abs_En", r.published_mean_abs_En, Range::not_negative);
     a.added("verdict", r.verdict,
-            {"", "validated", "agreement_reference_limited", "uncertainty_too_large", "reference_not_better",
-             "correlation_unknown", "disagreement"});
+            {"", "validated", "agreement_reference_limited", "agreement_few_points", "uncertainty_too_large",
+             "reference_not_better", "correlation_unknown", "points_above_1", "disagreement"});
     a.added("bias", r.bias);
     a.group("printed", [&](auto& b) {
         b("mean_abs_En", r.printed.mean_abs_En);

@@ -369,8 +369,7 @@ struct ComparisonSummary {
     std::optional<double> mean_abs_En_audited = {}, max_abs_En_audited = {};
     std::optional<std::int64_t> count_above_1_audited = {};
     std::optional<double> published_mean_abs_En = {};  ///< of a publication that the job names
-    std::string verdict = {};  ///< "validated", "agreement_reference_limited", "uncertainty_too_large",
-                               ///< "reference_not_better", "correlation_unknown", "disagreement"; "" where not judged
+    std::string verdict = {};  ///< word of gum::AgreementVerdict, e.g. "validated"; "" where not judged
     std::optional<BiasLineSummary> bias = {};
 };
 

@@ -2,6 +2,7 @@
 // is refused, and the same bytes for any number of threads.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "tests/cli/job_files.h"
@@ -98,7 +99,7 @@ TEST_F(ComparisonProgram, TellsTheAnswer) {
     const Ended ended = compare(k_key_comparison);
     ASSERT_EQ(ended.code, 0) << ended.err;
     EXPECT_NE(ended.err.find("GC-COMPARE-0120"), std::string::npos) << "a mean of results that do not agree";
-    EXPECT_NE(ended.out.find("assigned value (weighted_mean) 12.37 ± 0.12 mm"), std::string::npos) << ended.out;
+    EXPECT_NE(ended.out.find("assigned value (weighted mean) 12.37 ± 0.12 mm"), std::string::npos) << ended.out;
     EXPECT_NE(ended.out.find("NOT consistent"), std::string::npos) << ended.out;
     EXPECT_NE(ended.out.find("2.09   action"), std::string::npos) << ended.out;
     EXPECT_NE(ended.out.find("6 results: 1 with an action signal"), std::string::npos) << ended.out;
@@ -192,6 +193,81 @@ TEST_F(ComparisonProgram, RefusalsLeaveNothingBehind) {
   "participants": [{"id": "A", "value": 1, "u": 0.001}, {"id": "B", "value": 2, "u": 0.001}],
   "assigned_value": "largest_consistent_subset"})",
                    "GC-GUM-0134");
+}
+
+TEST_F(ComparisonProgram, AKindThatNobodyKnowsIsToldWithThoseThatThereAre) {
+    write_bytes(job_file(), replaced(k_key_comparison, "\"comparison\"", "\"comparision\""));
+    const Ended ended = gumcert({"compare", job_file().string()});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_NE(ended.err.find("did you mean \"comparison\"?"), std::string::npos) << ended.err;
+    EXPECT_EQ(ended.err.find("GC-COMPARE-0140"), std::string::npos) << "no other command takes this job either";
+}
+
+TEST_F(ComparisonProgram, MessagesOfSeveralJobsNameTheJob) {
+    if (!why_no_pdf().empty()) {
+        GTEST_SKIP() << why_no_pdf();
+    }
+    const std::string text = k_key_comparison;
+    const std::map<std::string, std::string> jobs{
+        {"warned", text},
+        {"refused", replaced(text, "\"u\": 0.10", "\"U\": 0.20")},
+        {"singular",
+         replaced(text, "\"unit\": \"mm\",", "\"unit\": \"mm\", \"correlations\": [[\"NMI1\",\"NMI2\",1]],")}};
+    std::vector<std::string> command{"run", "--share", GUMCERT_SOURCE_DIR, "--json-messages", "-q"};
+    for (const auto& [name, job] : jobs) {
+        write_bytes(folder() / (name + ".json"), job);
+        command.push_back((folder() / (name + ".json")).string());
+    }
+    const Ended ended = gumcert(command);
+    EXPECT_EQ(ended.code, 4) << "the highest of 0, 3 and 4";
+    for (const auto& [name, code] : std::map<std::string, std::string>{
+             {"warned", "GC-COMPARE-0120"}, {"refused", "GC-INPUT-0504"}, {"singular", "GC-GUM-0132"}}) {
+        const std::string job = (folder() / (name + ".json")).string();
+        const std::vector<Message> messages = json_messages(ended);
+        EXPECT_TRUE(std::any_of(messages.begin(), messages.end(),
+                                [&, &code = code](const Message& message) {
+                                    return message.code == code && message.where.starts_with(job);
+                                }))
+            << job << " " << code << " is missing in\n"
+            << ended.err;
+        EXPECT_EQ(fs::exists(folder() / (name + "-out") / "record.json"), name == "warned") << name;
+    }
+    // The record itself knows nothing of the other jobs.
+    EXPECT_EQ(bytes_of(folder() / "warned-out" / "record.json").find(folder().string()), std::string::npos);
+}
+
+// What leaves the program as a table comes back as the numbers of the record, to the last bit.
+TEST_F(ComparisonProgram, CsvHoldsTheNumbersOfTheRecord) {
+    const json record = record_of(k_key_comparison);
+    const fs::path csv = folder() / "scores.csv";
+    ASSERT_EQ(render(record_file(), "csv", csv).code, 0);
+    const std::vector<std::string> lines = lines_of(bytes_of(csv));
+    const auto cells_of = [](const std::string& line) {
+        std::vector<std::string> cells(1);
+        for (const char c : line) {
+            if (c == ',') {
+                cells.emplace_back();
+            } else {
+                cells.back() += c;
+            }
+        }
+        return cells;
+    };
+    const std::vector<std::string> head = cells_of(lines.at(0));
+    const json& points = record["comparison"]["points"];
+    ASSERT_EQ(lines.size(), points.size() + 1);
+    std::size_t numbers = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::vector<std::string> cells = cells_of(lines[i + 1]);
+        ASSERT_EQ(cells.size(), head.size());
+        for (std::size_t j = 0; j < head.size(); ++j) {
+            if (points[i].contains(head[j]) && points[i][head[j]].is_number()) {
+                EXPECT_EQ(json::parse(cells[j]).get<double>(), points[i][head[j]].get<double>()) << head[j];
+                ++numbers;
+            }
+        }
+    }
+    EXPECT_GE(numbers, 6U * 10U);
 }
 
 TEST_F(ComparisonProgram, BudgetsThatNameOneStandard) {

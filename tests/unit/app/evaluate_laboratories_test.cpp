@@ -614,6 +614,175 @@ TEST(EvaluateLaboratories, MedianByTrials) {
     EXPECT_EQ(*evaluated(job).items[0].u, *comparison.items[0].u) << "the same numbers every time";
 }
 
+TEST(EvaluateLaboratories, ScoresExactlyAtTheirLimits) {
+    // 10.2 − 10 over 0.1 is 2, which double precision makes 1.999999999999993; 10.3 − 10 makes 3.000000000000007.
+    ComparisonJob z = job_of({10.2, 9.8, 10.3, 9.7, 10.19}, {});
+    z.items[0].assigned_value = given(10.0, u_and_k(0.01));
+    z.items[0].sigma_pt = {.method = engine::SigmaPtMethod::given, .value = 0.1};
+    const std::array<std::string, 5> of_z{"warning", "warning", "action", "action", "none"};
+    const reports::Comparison by_z = evaluated(z);
+    for (std::size_t i = 0; i < of_z.size(); ++i) {
+        EXPECT_EQ(by_z.points[i].signal, of_z[i]) << i;
+    }
+    EXPECT_EQ(*by_z.points[0].z, 2.0);
+    EXPECT_EQ(*by_z.points[3].z, -3.0);
+    // U_D = √(0.16² + 0.12²) = 0.2: |E_n| of 1 is not above 1.
+    ComparisonJob En = job_of({10.3, 9.9, 10.30001}, {0.08, 0.08, 0.08});
+    En.items[0].assigned_value = given(10.1, u_and_k(0.06));
+    const reports::Comparison by_En = evaluated(En);
+    EXPECT_EQ(*by_En.points[0].En, 1.0);
+    EXPECT_EQ(by_En.points[0].signal, "none");
+    EXPECT_EQ(by_En.points[1].signal, "none");
+    EXPECT_EQ(by_En.points[2].signal, "action");
+    EXPECT_EQ(by_En.summary[0].count_above_1, 1);
+    // |D| = δ_E is allowed.
+    ComparisonJob D = job_of({10.3, 9.9, 10.30001}, {});
+    D.items[0].assigned_value = given(10.1, std::nullopt);
+    D.items[0].delta_E = 0.2;
+    const reports::Comparison by_D = evaluated(D);
+    EXPECT_EQ(*by_D.points[0].P_A, 100.0);
+    EXPECT_EQ(by_D.points[0].signal, "none");
+    EXPECT_EQ(by_D.points[1].signal, "none");
+    EXPECT_EQ(by_D.points[2].signal, "action");
+}
+
+TEST(EvaluateLaboratories, CriterionAtItsLimit) {
+    ComparisonJob job = job_of({10.2, 9.8}, {});
+    job.items[0].sigma_pt = {.method = engine::SigmaPtMethod::given, .value = 0.7};
+    for (const double u : {0.21, 0.21000000000000002}) {
+        job.items[0].assigned_value = given(10.0, u_and_k(u));
+        EXPECT_EQ(evaluated(job).items[0].score, "z") << u;
+    }
+    job.items[0].assigned_value = given(10.0, u_and_k(0.21003));
+    const reports::Comparison above = evaluated(job);
+    EXPECT_EQ(above.items[0].score, "z_prime");
+    EXPECT_EQ(above.items[0].printed.criterion, "0.30004") << "0.300 would say the contrary";
+}
+
+TEST(EvaluateLaboratories, AuditOfTheReferenceLaboratory) {
+    ComparisonJob job = job_of({10.0, 10.3, 9.9}, {0.1, 0.1, 0.1});
+    job.items[0].assigned_value.method = AssignedValueMethod::reference;
+    job.items[0].assigned_value.participant = "L1";
+    job.results[0].audited = engine::AuditedUncertainty{u_and_k(0.05), "resolution counted twice"};
+    job.results[1].audited = engine::AuditedUncertainty{u_and_k(0.2), "drift missing"};
+    const reports::Comparison comparison = evaluated(job);
+    EXPECT_NEAR(*comparison.points[1].En_audited, 0.3 / std::sqrt(0.4 * 0.4 + 0.1 * 0.1), 1e-12);
+    EXPECT_NEAR(*comparison.points[2].En_audited, -0.1 / std::sqrt(0.2 * 0.2 + 0.1 * 0.1), 1e-12);
+    EXPECT_THAT(comparison.remarks, testing::Contains(HasSubstr("findings corrected")));
+}
+
+TEST(EvaluateLaboratories, EqualResultsHaveNoStandardDeviation) {
+    ComparisonJob job = job_of({10.3, 10.3, 10.3}, {0.1, 0.2, 0.1});
+    job.items[0].assigned_value.method = AssignedValueMethod::arithmetic_mean;
+    const reports::Comparison comparison = evaluated(job);
+    EXPECT_FALSE(comparison.items[0].u) << "0 would say that the value is exactly known";
+    EXPECT_FALSE(comparison.points[0].En);
+    EXPECT_EQ(laboratory_diagnostics(comparison).front().code, "GC-COMPARE-0126");
+    // The standard deviation of seven equal numbers is 0, not the rounding of their mean.
+    ComparisonJob large = job_of(std::vector<double>(7, 1000000.1), {});
+    large.items[0].assigned_value.method = AssignedValueMethod::median;
+    const reports::Comparison far = evaluated(large);
+    EXPECT_EQ(*far.items[0].estimates.front().scale, 0.0);
+    EXPECT_FALSE(far.items[0].estimates.front().u);
+}
+
+TEST(EvaluateLaboratories, OneUncertaintyInAnArithmeticMean) {
+    // u(X) = s/√3 = 0.12018504…, cov = u²/3: r = 0.1/(3 · 0.12018504…).
+    ComparisonJob job = job_of({10.3, 9.9, 10.0}, {});
+    job.results[0].uncertainty = u_and_k(0.1);
+    job.items[0].assigned_value.method = AssignedValueMethod::arithmetic_mean;
+    const reports::Comparison comparison = evaluated(job);
+    EXPECT_NEAR(*comparison.points[0].correlation, 0.27735009811261424, 1e-12);
+    EXPECT_NEAR(*comparison.points[0].u_D, 0.13333333333333333, 1e-12);
+}
+
+TEST(EvaluateLaboratories, FewDegreesOfFreedomOfAWeightedMean) {
+    // Two results with ν = 2 and equal u: ν_eff = 4, t_0.9545(4) = 2.869315… (SciPy), not 2.
+    ComparisonJob job = job_of({10.0, 10.1}, {0.1, 0.1});
+    for (ComparisonResult& result : job.results) {
+        result.uncertainty = ResultUncertainty{.u = 0.1, .U = 0.45265507600819926, .k = 4.5265507600819926};
+        result.uncertainty->degrees_of_freedom = 2.0;
+    }
+    for (const AssignedValueMethod method :
+         {AssignedValueMethod::weighted_mean, AssignedValueMethod::largest_consistent_subset}) {
+        job.items[0].assigned_value.method = method;
+        const reports::Comparison comparison = evaluated(job);
+        EXPECT_NEAR(*comparison.items[0].k, 2.8693151696963852, 1e-9);
+        EXPECT_NEAR(*comparison.items[0].U, 2.8693151696963852 * 0.1 / std::numbers::sqrt2, 1e-9);
+    }
+}
+
+TEST(EvaluateLaboratories, MedianByTrialsOfOtherResults) {
+    // D does not contribute and has r = 0.9 with C, which does: cov(D, X) = 0.9 u_D/u_C cov(C, X).
+    ComparisonJob job = job_of({10.3, 9.9, 10.0, 10.0}, {0.1, 0.1, 0.1, 0.2});
+    job.items[0].assigned_value.method = AssignedValueMethod::median;
+    job.items[0].assigned_value.median_by_trials = true;
+    job.items[0].assigned_value.trials = 20000;
+    job.results[3].contributes = false;
+    job.results[3].reason = "late";
+    job.correlations = {{2, 3, 0.9}};
+    const reports::Comparison comparison = evaluated(job);
+    EXPECT_NEAR(*comparison.points[3].correlation, 0.9 * *comparison.points[2].correlation, 1e-9);
+}
+
+TEST(EvaluateLaboratories, WhatIsLeftOutIsSaid) {
+    // One source whole in both: their difference has no uncertainty.
+    ComparisonJob job = job_of({10.0, 10.3, 9.9}, {0.1, 0.1, 0.1});
+    job.items[0].assigned_value.method = AssignedValueMethod::reference;
+    job.items[0].assigned_value.participant = "L1";
+    job.correlations = {{0, 1, 1.0}};
+    EXPECT_FALSE(evaluated(job).points[1].En);
+    EXPECT_THAT(evaluated(job).remarks, testing::Contains(HasSubstr("1 result has no En")));
+
+    // A vector whose quantities are one quantity.
+    ComparisonJob vectors = job_of({10.0, 10.3}, {0.1, 0.1});
+    vectors.items.push_back(item_in("second", "mm"));
+    add_result(vectors, 0, 10.1, u_and_k(0.1), 1);
+    add_result(vectors, 1, 10.2, u_and_k(0.1), 1);
+    for (engine::ComparisonItem& item : vectors.items) {
+        item.assigned_value = given(10.0, u_and_k(0.1));
+    }
+    vectors.vectors = {{.name = "both",
+                        .items = {0, 1},
+                        .correlation = Eigen::MatrixXd::Ones(2, 2),
+                        .reference_correlation = Eigen::MatrixXd::Ones(2, 2)}};
+    EXPECT_THAT(evaluated(vectors).vectors, IsEmpty());
+    EXPECT_THAT(evaluated(vectors).remarks, testing::Contains(HasSubstr("2 vectors have no En")));
+
+    // What the job says of a given value and of a result.
+    ComparisonJob given_value = job_of({10.0, 10.3}, {0.1, 0.1});
+    given_value.items[0].assigned_value = given(10.0, u_and_k(0.1));
+    given_value.items[0].assigned_value.sources = {{"block 3", "standard", 0.08}};
+    given_value.results[0].sources = {{"block 3", "length", 0.05}};
+    EXPECT_THAT(evaluated(given_value).remarks, testing::Contains(HasSubstr("The assigned value and some results")));
+    given_value.results[0].sources = {{"block 3", "length", 0.05}, {"block 3", "expansion", 0.05}};
+    EXPECT_THAT(evaluated(given_value).remarks, testing::Contains(HasSubstr("cannot be told")));
+
+    // Two results with one source in several inputs of different names.
+    ComparisonJob shared = job_of({10.0, 10.3}, {0.1, 0.1});
+    shared.results[0].sources = {{"block 3", "length", 0.05}, {"block 3", "expansion", 0.05}};
+    shared.results[1].sources = {{"block 3", "standard", 0.05}};
+    EXPECT_THAT(evaluated(shared).remarks, testing::Contains(HasSubstr("(block 3)")));
+}
+
+TEST(EvaluateLaboratories, PairsOfManyItems) {
+    const auto with_items = [](std::size_t items) {
+        ComparisonJob job = job_of({10.0, 10.1, 10.2, 10.3, 10.4, 10.5, 10.6, 10.7, 10.8, 10.9},
+                                   {0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1});
+        for (std::size_t i = 1; i < items; ++i) {
+            job.items.push_back(item_in("item " + std::to_string(i), "mm"));
+            for (std::size_t p = 0; p < 10; ++p) {
+                add_result(job, p, 10.0 + 0.1 * static_cast<double>(p), u_and_k(0.1), i);
+            }
+        }
+        return evaluated(job);
+    };
+    EXPECT_EQ(with_items(222).items.back().pairs.size(), 45U);  // 9990 pairs
+    const reports::Comparison many = with_items(223);
+    EXPECT_THAT(many.items.front().pairs, IsEmpty());
+    EXPECT_THAT(many.remarks, testing::Contains(HasSubstr("more than 10000 pairs")));
+}
+
 TEST(EvaluateLaboratories, RealismOfUncertainties) {
     ComparisonJob job = key_comparison();
     job.results[0].uncertainty = u_and_k(0.02);

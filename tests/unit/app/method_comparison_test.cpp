@@ -231,6 +231,40 @@ TEST(CompareMethods, WordsNeverPraiseWhatIsNotShown) {
     EXPECT_THAT(all_remarks(compared(comparison_of(sound()))), Not(HasSubstr("validated")));
 }
 
+TEST(CompareMethods, SinglePointsAbove1AreHeldAgainstChance) {
+    std::vector<Stated> points = sound();
+    points[0].D = 2.2;  // E_n 1.09; the largest of 6 points exceeds 1.33 as often as one exceeds 1
+    reports::Comparison record = compared(comparison_of(points));
+    EXPECT_EQ(record.summary.front().verdict, "points_above_1");
+    EXPECT_EQ(record.points.front().signal, "action");
+    EXPECT_THAT(all_remarks(record), HasSubstr(": 1.09 against a limit of 1.33 for 6 points."));
+    MethodComparison unknown = comparison_of(points);
+    unknown.points[1].reference_u = 0.95;
+    unknown.points[1].reference_U = 1.9;
+    unknown.reference_covariance(1, 1) = 0.95 * 0.95;
+    unknown.correlation_unknown = true;
+    record = compared(unknown);
+    EXPECT_EQ(record.summary.front().verdict, "points_above_1");
+    EXPECT_THAT(all_remarks(record), HasSubstr("share nothing: with the worst plausible correlation |En| would be "
+                                               "above 1 at 2 of 6 points."));
+    points[0].D = 2.9;
+    EXPECT_EQ(compared(comparison_of(points)).summary.front().verdict, "disagreement");
+    EXPECT_EQ(compared(comparison_of({points[0]})).summary.front().verdict, "disagreement");
+    EXPECT_THAT(all_remarks(compared(comparison_of(sound()))), Not(HasSubstr("limit")));
+}
+
+TEST(CompareMethods, FewPointsConfirmNoUncertainty) {
+    std::vector<Stated> points = sound();
+    points.pop_back();
+    EXPECT_EQ(compared(comparison_of(points)).summary.front().verdict, "validated");
+    points.pop_back();
+    EXPECT_EQ(compared(comparison_of(points)).summary.front().verdict, "agreement_few_points");
+    MethodComparison shared = comparison_of(sound());
+    shared.covariance.setConstant(0.8);
+    shared.covariance.diagonal().setConstant(1.0);
+    EXPECT_EQ(compared(shared).summary.front().verdict, "agreement_few_points");
+}
+
 TEST(CompareMethods, RemarksNameTheDirection) {
     std::vector<Stated> points = sound();
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -288,6 +322,35 @@ TEST(CompareMethods, SlopeAgainstReferenceValuesThatAreNoise) {
         point.reference_u = 0.1;
     }
     EXPECT_THAT(all_remarks(compared(comparison)), HasSubstr("no evidence of a scale error"));
+}
+
+TEST(CompareMethods, SlopeThatTheReferenceAloneExplains) {
+    // t = 0, 1 … 19, reference noise of variance 0.25: −Σ(19/20) 0.25 / Σ(t − t̄)² = −4.75/665.
+    std::vector<Stated> points(20, {0.0, 0.2, 1.0});
+    MethodComparison comparison = comparison_of(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        comparison.points[i].reference_value = static_cast<double>(i);
+        comparison.points[i].value = comparison.points[i].reference_value * 0.93;
+    }
+    reports::Comparison record = compared(comparison);
+    EXPECT_GT(std::abs(record.summary.front().bias->slope), record.summary.front().bias->U_slope);
+    EXPECT_THAT(all_remarks(record), HasSubstr("turns the bias line by about this slope: -0.0071."));
+    EXPECT_THAT(all_remarks(record), HasSubstr("have a systematic part"));
+    // A slope above its U that the noise explains is not called systematic.
+    comparison.reference_covariance *= 16.0;
+    for (ComparedPoint& point : comparison.points) {
+        point.reference_u *= 4.0;
+        point.reference_U *= 4.0;
+        point.value = 1.615 + point.reference_value * 0.83;
+    }
+    record = compared(comparison);
+    EXPECT_GT(std::abs(record.summary.front().bias->slope), record.summary.front().bias->U_slope);
+    EXPECT_THAT(all_remarks(record), Not(HasSubstr("have a systematic part")));
+    EXPECT_THAT(all_remarks(record), HasSubstr("about this slope: -0.11."));
+    // What all points share turns nothing.
+    comparison.reference_covariance.setConstant(4.0);
+    comparison.reference_covariance.diagonal().setConstant(4.0 + 1e-9);
+    EXPECT_THAT(all_remarks(compared(comparison)), Not(HasSubstr("about this slope")));
 }
 
 TEST(CompareMethods, SingularCovariances) {

@@ -286,6 +286,21 @@ TEST(EvaluateMethods, ComputesTheCovarianceFromSharedSources) {
     EXPECT_EQ(record.reference_budget.size(), 2U);
 }
 
+TEST(EvaluateMethods, ASourceCommonToThePointsOfOneBudgetOnlyCannotBeShared) {
+    // The thermometer is read anew at each point of the method, and once for all points of the reference.
+    engine::ComparisonJob job = job_with_budgets(
+        R"("g": {"value": 10, "unit": "um", "u": 0.5, "source": "thermometer"}, )" + k_offset, "z = g + o");
+    try {
+        (void)evaluate_methods(job);
+        ADD_FAILURE();
+    } catch (const gum::InputError& refused) {
+        EXPECT_EQ(refused.diagnostics().front().code, "GC-COMPARE-0207");
+        EXPECT_THAT(refused.diagnostics().front().what, HasSubstr("both budgets name thermometer"));
+    }
+    job.independent_sources = {"thermometer"};
+    EXPECT_EQ(evaluate_methods(job).points.size(), 2U);
+}
+
 TEST(EvaluateMethods, KeepsTheSignOfASharedSource) {
     const engine::ComparisonJob job = job_with_budgets(
         R"("g": {"value": -10, "unit": "um", "u": 0.1, "source": "laser"}, )" + k_offset, "z = -g + o");

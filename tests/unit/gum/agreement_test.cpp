@@ -391,6 +391,8 @@ Agreement sound() {
     Agreement of;
     of.p_low = 0.5;
     of.p_high = 0.5;
+    of.effective_points = 10.0;
+    of.largest_en_by_chance = 1.4;
     of.ratio_reference = 0.2;
     return of;
 }
@@ -401,13 +403,65 @@ TEST(Verdict, NothingObjectsToIt) {
     Agreement at_the_limits = sound();
     at_the_limits.p_low = at_the_limits.p_high = 0.025;
     at_the_limits.ratio_reference = 1.0 / 3.0;
+    at_the_limits.effective_points = 5.0 * (1.0 - 1e-15);  // as rounding leaves them
     EXPECT_EQ(agreement_verdict(at_the_limits, std::nullopt), AgreementVerdict::validated);
 }
 
-TEST(Verdict, OnePointAbove1IsDisagreement) {
+TEST(Verdict, APointAboveWhatChanceMakesIsDisagreement) {
     Agreement of = sound();
     of.count_above_1 = 1;
+    of.largest_absolute_en = 1.4;
+    EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::points_above_1);
+    of.largest_absolute_en = 1.401;
     EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::disagreement);
+}
+
+TEST(Verdict, ASinglePointAbove1IsDisagreement) {
+    MethodDifferences one{.d = VectorXd{{1.0}},
+                          .covariance = MatrixXd{{0.25}},
+                          .U = VectorXd{{1.0}},
+                          .U_method = VectorXd{{1.0}},
+                          .U_reference = VectorXd{{0.1}}};
+    EXPECT_EQ(agreement(one, k_p).largest_en_by_chance, 1.0);
+    EXPECT_EQ(agreement_verdict(agreement(one, k_p), std::nullopt), AgreementVerdict::agreement_few_points);
+    one.d(0) = 1.0001;  // p_high of a point at the limit is 0.0455
+    EXPECT_EQ(agreement_verdict(agreement(one, k_p), std::nullopt), AgreementVerdict::disagreement);
+}
+
+TEST(Verdict, FewPointsConfirmNoUncertainty) {
+    Agreement of = sound();
+    of.effective_points = 4.99;
+    EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::agreement_few_points);
+    of.ratio_reference = 0.5;
+    EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::agreement_few_points);
+    of.p_low = 0.01;
+    EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::uncertainty_too_large);
+}
+
+TEST(LargestByChance, SidakLimitOfIndependentPoints) {
+    // scipy: norm.isf(a/2) / norm.isf((1 - p)/2) with a = -expm1(log(p)/n)
+    EXPECT_EQ(largest_en_by_chance(1, 0.9545), 1.0);
+    EXPECT_NEAR(largest_en_by_chance(2, 0.9545), 1.13659270797793, 1e-11);
+    EXPECT_NEAR(largest_en_by_chance(36, 0.9545), 1.60879474900853, 1e-11);
+    EXPECT_NEAR(largest_en_by_chance(3000, 0.9545), 2.16056799603327, 1e-11);
+    EXPECT_NEAR(largest_en_by_chance(10, 0.99), 1.2769694287835, 1e-11);
+}
+
+TEST(LargestByChance, RefusesWhatIsNoNumber) {
+    EXPECT_EQ(code_of<InputError>([] { (void)largest_en_by_chance(0, k_p); }), "GC-GUM-0032");
+    EXPECT_EQ(code_of<InputError>([] { (void)largest_en_by_chance(3, 1.0); }), "GC-GUM-0004");
+}
+
+TEST(LargestByChance, HoldsForCorrelatedPointsToo) {
+    const Index m = 36;
+    const MethodDifferences differences{.d = VectorXd::Constant(m, 0.3),
+                                        .covariance = equicorrelated(m, 0.5),
+                                        .U = VectorXd::Constant(m, 2.0),
+                                        .U_method = VectorXd::Constant(m, 2.0),
+                                        .U_reference = VectorXd::Constant(m, 0.1)};
+    const Agreement of = agreement(differences, k_p);
+    EXPECT_NEAR(of.effective_points, 36.0 * 36.0 / (36.0 + 36.0 * 35.0 * 0.25), 1e-12);
+    EXPECT_EQ(of.largest_en_by_chance, largest_en_by_chance(36, k_p));
 }
 
 TEST(Verdict, DifferencesTooLargeTogetherAreDisagreement) {
@@ -449,15 +503,21 @@ TEST(Verdict, TheStrongestObjectionIsStated) {
     EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::reference_not_better);
     EXPECT_EQ(agreement_verdict(of, 3.0), AgreementVerdict::correlation_unknown);
     of.count_above_1 = 2;
+    EXPECT_EQ(agreement_verdict(of, 3.0), AgreementVerdict::points_above_1);
+    of.p_high = 0.01;
     EXPECT_EQ(agreement_verdict(of, 3.0), AgreementVerdict::disagreement);
 }
 
 TEST(Verdict, NumbersThatAreNoneNeverPass) {
     Agreement of = sound();
+    of.effective_points = std::nan("");
+    EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::agreement_few_points);
     of.p_low = std::nan("");
     EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::uncertainty_too_large);
     of.ratio_reference = std::nan("");
     EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::reference_not_better);
+    of.largest_absolute_en = std::nan("");
+    EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::disagreement);
 }
 
 }  // namespace

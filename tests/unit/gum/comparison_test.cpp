@@ -135,6 +135,11 @@ TEST(Scores, RefuseWhatGivesNoScore) {
     EXPECT_EQ(code_of<InputError>(against_good(good, 1.01)), "GC-GUM-0030");
     EXPECT_EQ(code_of<InputError>(against_good(good, std::nan(""))), "GC-GUM-0030");
     EXPECT_EQ(code_of<InputError>(against_good(good, 1.0)), "GC-GUM-0031");
+    try {
+        (void)score(good, good, 1.0);
+    } catch (const InputError& refused) {  // both state an uncertainty: the correlation is what must change
+        EXPECT_EQ(refused.diagnostics().front().action.find("State a smaller correlation"), 0U);
+    }
     EXPECT_EQ(message_of<InputError>([] {
                   (void)score({1.0, 0.0, 0.0}, {1.5, 0.0, 0.0});
               }),

@@ -102,6 +102,19 @@ TEST(WeightedChiSquare, WeightsOfVeryDifferentSize) {
     }
 }
 
+TEST(WeightedChiSquare, OneLargeWeightAmongManySmallOnes) {
+    // A common effect and 1999 small ones: chi-square of one degree of freedom behind a sharp edge at 0.5. A path of
+    // integration that bends too far to the left does not converge here. Expected: the integral of erf over the density
+    // of chi-square with 1999 degrees of freedom (scipy.integrate.quad).
+    std::vector<double> weights(2000, 2.5e-4);
+    weights.front() = 1.0;
+    EXPECT_NEAR(weighted_chi_square_lower_tail(weights, 0.45), 2.5905068484125e-05, 1e-9);
+    EXPECT_NEAR(weighted_chi_square_lower_tail(weights, 0.5), 0.04203947164964049, 1e-9);
+    EXPECT_NEAR(weighted_chi_square_lower_tail(weights, 0.579), 0.22046837482645207, 1e-9);
+    EXPECT_NEAR(weighted_chi_square_lower_tail(weights, 1.0), 0.5205272705914367, 1e-9);
+    EXPECT_NEAR(weighted_chi_square_lower_tail(weights, 3.0), 0.8861654497758696, 1e-9);
+}
+
 TEST(WeightedChiSquare, StaysWithin0And1InTheFarTails) {
     std::vector<double> many;
     for (int i = 1; i <= 300; ++i) {

@@ -14,6 +14,8 @@
 #include <cmath>
 #include <cstddef>
 #include <fstream>
+#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,9 +31,11 @@ using ::testing::Not;
 
 const std::vector<std::string> k_languages = {"en", "de", "zh-Hant", "es"};
 const std::vector<std::string> k_verdicts = {"disagreement",
+                                             "points_above_1",
                                              "correlation_unknown",
                                              "reference_not_better",
                                              "uncertainty_too_large",
+                                             "agreement_few_points",
                                              "agreement_reference_limited",
                                              "validated",
                                              ""};
@@ -116,6 +120,131 @@ EvaluationRecord with_verdicts(const std::vector<std::string>& verdicts) {
 
 std::vector<EvaluationRecord> samples() {
     return {test::sample_laboratories_record(), one_item(6), test::sample_methods_record()};
+}
+
+/// Text of the first page: the section with the answer.
+std::string answer_of(const EvaluationRecord& record, const std::string& language = "en") {
+    const std::string text = text_of(record, language);
+    const json words = wording(language);
+    const std::size_t end = text.find(
+        words["heading"][record.comparison->form == "laboratories" ? "how_to_read" : "companion"].get<std::string>());
+    EXPECT_NE(end, std::string::npos);
+    return text.substr(0, end);
+}
+
+TEST(ComparisonReport, FirstPageSaysWhatTheSignOfADifferenceMeansAndWhatUStandsFor) {
+    for (const EvaluationRecord& record : samples()) {
+        for (const std::string& language : k_languages) {
+            const std::string answer = answer_of(record, language);
+            EXPECT_THAT(answer, HasSubstr("D = x")) << language;
+            EXPECT_THAT(answer, HasSubstr("U = k u")) << language;
+        }
+    }
+    EXPECT_THAT(answer_of(one_item(6)), HasSubstr("D = x − X, result minus assigned value"));
+    EvaluationRecord record = test::sample_methods_record();
+    record.printed_coverage = "95.45 %";
+    EXPECT_THAT(answer_of(record), HasSubstr(squeezed("D = x − X, " + record.comparison->method_name + " minus " +
+                                                      record.comparison->reference_name)));
+    EXPECT_THAT(answer_of(record), HasSubstr("coverage probability of 95.45 %"));
+}
+
+TEST(ComparisonReport, FirstPageSaysHowTheAssignedValueWasFoundAndWhoReportedNothing) {
+    EvaluationRecord record = one_item(6);
+    ComparisonItemEvaluation& item = record.comparison->items[0];
+    item.method = "q_hampel";
+    item.reference_participant = "";
+    item.missing = {"Lab 99"};
+    EXPECT_THAT(answer_of(record), HasSubstr("(Q method with Hampel estimator)"));
+    EXPECT_THAT(answer_of(record), HasSubstr("Without a result Lab 99"));
+
+    EvaluationRecord several = test::sample_laboratories_record();
+    const auto rows = rows_of(view_of(several), "assigned-values");
+    ASSERT_EQ(rows.size(), several.comparison->items.size());
+    EXPECT_THAT(rows[0], Contains(HasSubstr(several.comparison->items[0].printed.value)));
+}
+
+TEST(ComparisonReport, TestOfASubsetNamesThoseOutsideIt) {
+    EvaluationRecord record = one_item(6);
+    ComparisonItemEvaluation& item = record.comparison->items[0];
+    item.method = "largest_consistent_subset";
+    item.consistency = ConsistencySummary{};
+    item.consistency->consistent = true;
+    item.not_consistent.clear();
+    EXPECT_THAT(answer_of(record), HasSubstr("Consistency consistent: "));
+    item.not_consistent = {"Lab 3"};
+    EXPECT_THAT(answer_of(record), HasSubstr("consistent only without Lab 3: "));
+}
+
+TEST(ComparisonReport, FirstPageNamesResultsWhoseAgreementIsOpen) {
+    EvaluationRecord record = one_item(6);
+    for (ComparisonPoint& p : record.comparison->points) {
+        p.En_worst = std::nullopt;
+    }
+    ComparisonPoint& p = record.comparison->points[1];
+    EXPECT_THAT(answer_of(record), Not(HasSubstr("cannot be said")));
+    p.En = 0.8;
+    p.En_worst = -1.3;
+    EXPECT_THAT(answer_of(record), HasSubstr("above 1 for " + p.participant + " as well"));
+    p.En = 1.1;  // then it has a signal already
+    EXPECT_THAT(answer_of(record), Not(HasSubstr("cannot be said")));
+}
+
+TEST(ComparisonReport, UnroundedNumbersHaveTheirUnitsAndTheFormulasThatUseThem) {
+    EvaluationRecord record = one_item(6);
+    record.comparison->unit = "degC";
+    record.comparison->items[0].difference_unit = "K";
+    const json table = block(view_of(record), "table", "unrounded");
+    std::vector<std::string> heads;
+    for (const json& column : table["columns"]) {
+        heads.push_back(column["head"].get<std::string>() +
+                        (column["unit"].empty() ? "" : "/" + column["unit"][0]["text"].get<std::string>()));
+    }
+    EXPECT_THAT(heads, ::testing::IsSupersetOf({"x/°C", "u(x)/K", "k"}));
+    EXPECT_THAT(text_of(record), HasSubstr("U²(D) = U²(x) + U²(X) − 2 r U(x) U(X)"));
+}
+
+TEST(ComparisonReport, DifferencesOfMethodsInCelsiusAreKelvin) {
+    EvaluationRecord record = test::sample_methods_record();
+    record.comparison->unit = "degC";
+    const json table = block(view_of(record), "table", "comparison-points");
+    std::map<std::string, std::string> unit;
+    for (const json& column : table["columns"]) {
+        unit[column["head"]] = column["unit"].empty() ? "" : column["unit"][0]["text"].get<std::string>();
+    }
+    EXPECT_EQ(unit["Measured x"], "°C");
+    EXPECT_EQ(unit["U(x)"], "K");
+    EXPECT_EQ(unit["Reference X"], "°C");
+    EXPECT_EQ(unit["U(X)"], "K");
+    EXPECT_EQ(unit["U(D)"], "K");
+}
+
+TEST(ComparisonReport, ItemsHaveOneNameEverywhere) {
+    EvaluationRecord record = test::sample_laboratories_record();
+    Comparison& c = *record.comparison;
+    for (ComparisonItemEvaluation& item : c.items) {
+        item.name = "solution " + item.id;
+    }
+    ASSERT_FALSE(c.youden.empty());
+    c.youden[0].round = "2";
+    EXPECT_THAT(html_text(render_html(record, in("en"))),
+                HasSubstr("Deviations for solution " + c.youden[0].first_item + ", round 2"));
+    EXPECT_THAT(text_of(record), HasSubstr("line of equal deviations"));  // no empty section where there is no drawing
+    for (const auto& row : rows_of(view_of(record), "unrounded")) {
+        EXPECT_THAT(row[0], ::testing::StartsWith("solution "));
+    }
+}
+
+TEST(ComparisonReport, MissingTestOfConsistencyIsNotLaidToResultsThatHaveUncertainties) {
+    EvaluationRecord record = one_item(6);
+    record.comparison->items[0].consistency = std::nullopt;  // one of many contributing results states no uncertainty
+    EXPECT_THAT(text_of(record), HasSubstr("a stated uncertainty of each of these"));
+}
+
+TEST(ComparisonReport, SummaryOfPointsDoesNotCallChanceADisagreement) {
+    for (const std::string& language : k_languages) {
+        EXPECT_THAT(wording(language)["sentence"]["comparison_summary"].get<std::string>(), HasSubstr("20"))
+            << language;
+    }
 }
 
 TEST(ComparisonReport, IsNoCertificate) {
@@ -305,6 +434,10 @@ TEST(ComparisonReport, TheGravestObjectionIsTheVerdict) {
     EXPECT_THAT(first(with_verdicts({"reference_not_better", "disagreement"})), HasSubstr("disagree"));
     EXPECT_THAT(first(with_verdicts({"correlation_unknown", "reference_not_better"})),
                 HasSubstr("Whether they agree cannot be said"));
+    EXPECT_THAT(first(with_verdicts({"correlation_unknown", "points_above_1"})),
+                HasSubstr("A disagreement is not shown; agreement at these points"));
+    EXPECT_THAT(first(with_verdicts({"agreement_few_points", "agreement_reference_limited", "validated"})),
+                HasSubstr("too few to notice uncertainties that are too large"));
     EXPECT_THAT(first(with_verdicts({""})), HasSubstr("do not allow a verdict"));
     EvaluationRecord scatter = with_verdicts({"disagreement"});
     for (ComparisonSummary& s : scatter.comparison->summary) {

@@ -395,6 +395,56 @@ std::vector<BadComparison> bad_of_assigned_values() {
          k_ragged_replicates,
          "#/homogeneity/1",
          "3 numbers, and the first one has 2"},
+        {"alpha_of_a_subset",
+         three(R"("assigned_value": {"method": "largest_consistent_subset", "alpha": 0.31})"),
+         {},
+         k_number_out_of_range,
+         "#/assigned_value/alpha",
+         "0.31"},
+        {"trials_of_a_median",
+         three(R"("assigned_value": {"method": "median", "uncertainty": "trials", "trials": 10000001})"),
+         {},
+         k_number_out_of_range,
+         "#/assigned_value/trials",
+         "10000001"},
+        {"percent_of_nothing",
+         three(R"("sigma_pt": {"percent": 1e-300})"),
+         {},
+         k_number_out_of_range,
+         "#/sigma_pt/percent",
+         "1e-300"},
+        {"mass_fraction_of_nothing",
+         three(R"("sigma_pt": {"mass_fraction_per_unit": 1e-300})"),
+         {},
+         k_number_out_of_range,
+         "#/sigma_pt/mass_fraction_per_unit",
+         "1e-300"},
+        {"reproducibility_of_nothing",
+         three(R"("sigma_pt": {"reproducibility": 1e-300, "repeatability": 0})"),
+         {},
+         k_number_out_of_range,
+         "#/sigma_pt/reproducibility",
+         "1e-300"},
+        {"homogeneity_against_nothing",
+         three(R"("homogeneity": [[1, 2], [1, 3]])"),
+         {},
+         k_check_without_criterion,
+         "#/homogeneity",
+         "neither sigma_pt nor delta_E"},
+        {"stability_alone",
+         three(R"("sigma_pt": 1, "stability": [[1, 2], [1, 3]])"),
+         {},
+         k_check_without_criterion,
+         "#/stability",
+         "without homogeneity"},
+        {"stability_alone_of_an_item",
+         k_two_items + R"([{"participant": "A", "item": "Fe", "value": 1, "u": 1}, {"participant": "B", "item": "Fe",
+           "value": 1, "u": 1}, {"participant": "A", "item": "Cu", "value": 1, "u": 1}, {"participant": "B",
+           "item": "Cu", "value": 1, "u": 1}], "sigma_pt": 1, "stability": [[1, 2]])",
+         {},
+         k_check_without_criterion,
+         "job.json#/stability",
+         "without homogeneity"},
         {"one_item_to_check", three(R"("homogeneity": [[1, 2]])"), {}, k_wrong_size, "#/homogeneity", "1 rows"},
         {"reference_value_without_u",
          three(R"("reference_value": {"value": 3})"),
@@ -407,6 +457,26 @@ std::vector<BadComparison> bad_of_assigned_values() {
 
 std::vector<BadComparison> bad_of_methods() {
     return {
+        {"points_empty",
+         R"("lab": {"points": []}, "reference": {"points": [{"point": 1, "value": 1, "u": 1}]})",
+         {},
+         k_wrong_size,
+         "#/lab/points",
+         "empty list"},
+        {"direction_all",
+         points(R"({"point": 1, "direction": "all", "value": 1, "u": 1})",
+                R"({"point": 1, "direction": "all", "value": 1, "u": 1})"),
+         {},
+         k_reserved_direction,
+         "#/lab/points/0",
+         "direction \"all\""},
+        {"variance_of_infinity",
+         R"("lab": {"points": [{"point": 1, "value": 1}], "covariance": "c.csv"},
+            "reference": {"points": [{"point": 1, "value": 1, "u": 1}]})",
+         {{"c.csv", "1e300\n"}},
+         k_number_out_of_range,
+         "c.csv",
+         "1e+300"},
         {"reference_only", R"("reference": "reference.csv")", method_tables(), k_missing_key, "job.json", "\"lab\""},
         {"points_differ", k_two_methods,
          tables_with("reference.csv", "point,direction,value,u\nP1,x,1,1\nP2,x,1,1\nP2,y,1,1\n"), k_points_differ,
@@ -518,7 +588,7 @@ INSTANTIATE_TEST_SUITE_P(Rows, BadComparisonTest, testing::ValuesIn(bad_comparis
                          [](const auto& row) { return row.param.name; });
 
 TEST(ComparisonJob, EveryCodeHasABadInput) {
-    std::set<std::string_view> covered{k_too_many_correlated.code};  // by a test of its own
+    std::set<std::string_view> covered{k_too_many_correlated.code, k_too_many_results.code};  // by tests of their own
     for (const BadComparison& bad : bad_comparisons()) {
         covered.insert(bad.code.code);
     }
@@ -548,6 +618,36 @@ TEST(ComparisonJob, RefusesAMatrixThatIsTooLarge) {
         comparison_refusals("\"participants\": [" + participants + "], \"correlations\": [" + pairs + "]");
     ASSERT_EQ(found.size(), 1U) << test::texts(found);
     EXPECT_EQ(found[0].code, k_too_many_correlated.code);
+}
+
+// A record holds so many results; more of them were evaluated for half a minute, and then nothing could be written.
+TEST(ComparisonJob, RefusesMoreResultsThanARecordHolds) {
+    std::string table = "participant,value,u\n", array;
+    for (int i = 0; i < 25'001; ++i) {
+        const std::string id = std::to_string(i);
+        table += id + ",1,1\n";
+        array += (i == 0 ? "" : ",") + (R"({"id": )" + id) + R"(, "value": 1, "u": 1})";
+    }
+    auto found = comparison_refusals(k_csv, csv(table));
+    ASSERT_EQ(found.size(), 1U) << test::texts(found);
+    EXPECT_EQ(found[0].code, k_too_many_results.code);
+    EXPECT_EQ(found[0].where, "r.csv");
+    found = comparison_refusals("\"participants\": [" + array + "]");
+    ASSERT_EQ(found.size(), 1U) << test::texts(found);
+    EXPECT_EQ(found[0].code, k_too_many_results.code);
+    EXPECT_THAT(found[0].where, HasSubstr("#/participants"));
+}
+
+TEST(ComparisonJob, ARecordThatIsTakenForAJobIsToldOnce) {
+    const std::string record =
+        R"({"schema": "gumcert/record/1", "kind": "comparison", "audit": null, "comparison": {}, "certificate": null})";
+    try {
+        (void)read_comparison_job(MemoryFileSource({{"job.json", record}}), "job.json");
+        FAIL() << "accepted";
+    } catch (const gum::InputError& error) {
+        ASSERT_EQ(error.diagnostics().size(), 1U) << test::texts(error.diagnostics());
+        EXPECT_EQ(error.diagnostics()[0].code, k_wrong_schema.code);
+    }
 }
 
 TEST(ComparisonJob, ReportsAllProblemsAtOnce) {
