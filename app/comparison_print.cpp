@@ -10,6 +10,9 @@ namespace {
 constexpr int k_digits_of_u = 2;
 constexpr int k_digits_without_u = 4;
 constexpr int k_decimals_of_score = 2;
+// Tails below what double precision holds come out as 0, which no probability of a test is.
+constexpr double k_least_probability = 1e-300;
+constexpr const char* k_below_least = "<1E-300";
 
 /// No negative zero.
 std::string all_digits(double value) {
@@ -31,7 +34,11 @@ std::string printed_difference(double difference, const std::optional<double>& U
 }
 
 std::string printed_uncertainty(const std::optional<double>& u) {
-    return u ? gum::round_significant(*u, k_digits_of_u) : "";
+    if (!u) {
+        return "";
+    }
+    // As beside its value: 0.000000001000 with 0.000000000044, not with 4.4E-11.
+    return *u > 0.0 ? gum::round_to_uncertainty(0.0, *u, k_digits_of_u).U : "0";
 }
 
 std::string printed_as_stated(const std::optional<double>& number) {
@@ -43,7 +50,10 @@ std::string printed_score(const std::optional<double>& score) {
 }
 
 std::string printed_probability(const std::optional<double>& probability) {
-    return probability ? gum::round_significant(*probability, k_digits_of_u) : "";
+    if (!probability) {
+        return "";
+    }
+    return *probability < k_least_probability ? k_below_least : gum::round_significant(*probability, k_digits_of_u);
 }
 
 }  // namespace gumcert::app

@@ -13,13 +13,13 @@ namespace gumcert::app {
 /// four significant digits without one.
 [[nodiscard]] std::string printed_difference(double difference, const std::optional<double>& U,
                                              const std::optional<double>& scale);
-/// Two significant digits, as of an uncertainty; "" for nothing.
+/// Two significant digits at the decimal place that printed_value() gives a value with it; "" for nothing.
 [[nodiscard]] std::string printed_uncertainty(const std::optional<double>& u);
 /// A number that the job states: all its digits; "" for nothing.
 [[nodiscard]] std::string printed_as_stated(const std::optional<double>& number);
 /// Two decimals, as of a score or a coverage factor; "" for nothing.
 [[nodiscard]] std::string printed_score(const std::optional<double>& score);
-/// Two significant digits, not less than 0.0001 in plain decimals; "" for nothing.
+/// Two significant digits, not less than 0.0001 in plain decimals, "<1E-300" below that; "" for nothing.
 [[nodiscard]] std::string printed_probability(const std::optional<double>& probability);
 
 }  // namespace gumcert::app

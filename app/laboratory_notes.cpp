@@ -68,7 +68,8 @@ bool inconsistent(const ComparisonItemEvaluation& item) {
 std::string test_text(const ComparisonItemEvaluation& item) {
     const reports::ConsistencySummary& test = *item.consistency;
     return "the results are not consistent with their uncertainties: chi-square " + test.printed.chi_square + " on " +
-           std::to_string(test.degrees_of_freedom) + " degrees of freedom, p = " + test.printed.p_value;
+           std::to_string(test.degrees_of_freedom) + (test.degrees_of_freedom == 1 ? " degree" : " degrees") +
+           " of freedom, p = " + test.printed.p_value;
 }
 
 void add_consistency(ItemMessages& messages) {

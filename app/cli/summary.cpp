@@ -116,9 +116,10 @@ void print_item(const reports::Comparison& comparison, const reports::Comparison
                with_uncertainty(item.printed.value, item.printed.U, item.unit, item.difference_unit),
                item.printed.k.empty() ? "" : "   (k = " + item.printed.k + ", p = " + coverage + ")");
     if (item.consistency) {
-        fmt::print("  consistency: chi-square {} on {} degrees of freedom, p = {}{}\n",
-                   item.consistency->printed.chi_square, item.consistency->degrees_of_freedom,
-                   item.consistency->printed.p_value, item.consistency->consistent ? "" : "   NOT consistent");
+        fmt::print("  consistency: chi-square {} on {} {} of freedom, p = {}{}\n", item.consistency->printed.chi_square,
+                   item.consistency->degrees_of_freedom,
+                   item.consistency->degrees_of_freedom == 1 ? "degree" : "degrees", item.consistency->printed.p_value,
+                   item.consistency->consistent ? "" : "   NOT consistent");
     }
     for (const std::string& id : item.missing) {
         fmt::print("  without a result: {}\n", id);
