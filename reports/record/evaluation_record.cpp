@@ -1941,6 +1941,11 @@ EvaluationRecord record_from_json(const std::string& text, const std::string& wh
             report("/comparison" + at, std::move(what), std::move(rule));
         });
     }
+    if (record.kind == "comparison" && (!record.comparison || record.comparison->form == "rotary_table")) {
+        report(record.comparison ? "/comparison/form" : "/comparison",
+               record.comparison ? "\"rotary_table\"" : "missing",
+               "a record of kind comparison holds a comparison of the form \"laboratories\" or \"methods\"");
+    }
     check_results(record, report);
     if (record.certificate) {
         check_certificate(*record.certificate, report);

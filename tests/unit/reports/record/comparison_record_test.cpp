@@ -135,6 +135,15 @@ TEST(ComparisonRecord, ARecordOfAnEarlierReleaseIsRead) {
     }
 }
 
+TEST(ComparisonRecord, ARecordOfThisKindSaysItsForm) {
+    json without_form = json::parse(to_canonical_json(test::sample_laboratories_record()));
+    without_form["comparison"].erase("form");
+    EXPECT_THAT(refusal(without_form.dump()), HasSubstr("/comparison/form"));
+    json without_comparison = json::parse(to_canonical_json(test::sample_methods_record()));
+    without_comparison["comparison"] = nullptr;
+    EXPECT_THAT(refusal(without_comparison.dump()), HasSubstr("GC-RECORD-0017 record.json#/comparison"));
+}
+
 TEST(ComparisonRecord, RefusesPartsThatDoNotFitTogether) {
     const auto refused = [](const EvaluationRecord& record, const std::function<void(json&)>& alter) {
         json r = json::parse(to_canonical_json(record));
