@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/shared_sources.h"
+#include "gum/argument_check.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/random_effects.h"
@@ -15,11 +16,6 @@ namespace gumcert::app {
 namespace {
 
 using engine::AssignedValueMethod;
-
-[[noreturn]] void refuse(const std::string& code, const std::string& where, const std::string& what,
-                         const std::string& rule, const std::string& action) {
-    throw gum::InputError(gum::Diagnostic{.code = code, .where = where, .what = what, .rule = rule, .action = action});
-}
 
 std::string word_of(AssignedValueMethod method) {
     return std::string(engine::assigned_value_words()[static_cast<std::size_t>(method)]);
@@ -61,21 +57,21 @@ void require_usable(const engine::ComparisonJob& job, const LaboratoryData& data
     const engine::AssignedValueRequest& request = data.item->assigned_value;
     const std::string method = word_of(request.method);
     if (data.contributing.empty()) {
-        refuse("GC-COMPARE-0100", data.where, "no result is left that contributes to the assigned value",
-               method + " is computed from the results", "Let results contribute, or give an assigned value.");
+        gum::refuse("GC-COMPARE-0100", data.where, "no result is left that contributes to the assigned value",
+                    method + " is computed from the results", "Let results contribute, or give an assigned value.");
     }
     if (takes_uncertainties(request) && !data.all_have_u(data.contributing)) {
         std::vector<std::size_t> without;
         std::copy_if(data.contributing.begin(), data.contributing.end(), std::back_inserter(without),
                      [&](std::size_t i) { return !data.has_u(i); });
-        refuse("GC-COMPARE-0101", data.where, "no uncertainty is stated by " + names_of(job, data, without),
-               method + " weighs results by their uncertainties",
-               "State u, or U and k, let these results not contribute, or take median or algorithm_a.");
+        gum::refuse("GC-COMPARE-0101", data.where, "no uncertainty is stated by " + names_of(job, data, without),
+                    method + " weighs results by their uncertainties",
+                    "State u, or U and k, let these results not contribute, or take median or algorithm_a.");
     }
     if (takes_independent_results(request.method) && data.at(data.contributing).covariance.size() > 0) {
-        refuse("GC-COMPARE-0102", data.where, "results that contribute are correlated with each other",
-               method + " takes them as independent, and its uncertainty would be too small",
-               "Take weighted_mean or largest_consistent_subset, or let only one of them contribute.");
+        gum::refuse("GC-COMPARE-0102", data.where, "results that contribute are correlated with each other",
+                    method + " takes them as independent, and its uncertainty would be too small",
+                    "Take weighted_mean or largest_consistent_subset, or let only one of them contribute.");
     }
 }
 
@@ -94,12 +90,7 @@ AssignedValue linear_value(const LaboratoryData& data, const std::vector<std::si
         assigned.weights[static_cast<Eigen::Index>(positions[i])] = reference.weights[static_cast<Eigen::Index>(i)];
     }
     assigned.covariance = Eigen::VectorXd::Zero(size_of(data));
-    std::vector<std::size_t> with_u;
-    for (std::size_t i = 0; i < data.size(); ++i) {
-        if (data.has_u(i)) {
-            with_u.push_back(i);
-        }
-    }
+    const std::vector<std::size_t> with_u = data.with_u();
     if (!with_u.empty() && reference.u > 0.0) {
         gum::ReferenceValue of_all = reference;
         of_all.weights = assigned.weights(with_u);
@@ -229,9 +220,9 @@ AssignedValue given_value(const engine::ComparisonJob& job, const LaboratoryData
 AssignedValue mean_of_replicates(const LaboratoryData& data) {
     const std::optional<Replicates> stated = replicates(data);
     if (!stated) {
-        refuse("GC-COMPARE-0105", data.where,
-               "not every result states the standard deviation s and the number n of its observations",
-               "vangel_rukhin is computed from them", "State s and n ≥ 2 of every result, or take mandel_paule.");
+        gum::refuse("GC-COMPARE-0105", data.where,
+                    "not every result states the standard deviation s and the number n of its observations",
+                    "vangel_rukhin is computed from them", "State s and n ≥ 2 of every result, or take mandel_paule.");
     }
     return linear_value(data, data.contributing, gum::vangel_rukhin({stated->x, stated->s, stated->observations}));
 }

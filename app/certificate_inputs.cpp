@@ -9,6 +9,7 @@
 #include "app/budget_model.h"
 #include "app/budget_record.h"
 #include "app/read_file.h"
+#include "app/record_parts.h"
 #include "engine/job/certificate_statement.h"
 #include "gum/convolution.h"
 #include "gum/quantity/diagnostic.h"
@@ -35,11 +36,7 @@ std::string known_profiles(const fs::path& folder) {
         }
     }
     std::sort(names.begin(), names.end());
-    std::string text;
-    for (const std::string& name : names) {
-        text += (text.empty() ? "" : ", ") + name;
-    }
-    return text.empty() ? "none" : text;
+    return names.empty() ? "none" : listed(names);
 }
 
 InputValues values_of(const engine::BudgetJob& job, std::size_t input) {

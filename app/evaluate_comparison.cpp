@@ -46,10 +46,9 @@ std::vector<gum::Diagnostic> notes_on(const engine::ComparisonJob& job, const re
 }  // namespace
 
 reports::EvaluationRecord evaluate_comparison(const engine::ComparisonJob& job,
-                                              const std::vector<reports::InputFile>& files, unsigned threads,
+                                              const std::vector<reports::InputFile>& files,
                                               const std::function<void(const std::string&)>& progress) {
-    reports::Comparison comparison =
-        job.methods ? evaluate_methods(job) : evaluate_laboratories(job, threads, progress);
+    reports::Comparison comparison = job.methods ? evaluate_methods(job) : evaluate_laboratories(job, progress);
     const std::vector<gum::Diagnostic> notes = notes_on(job, comparison);
     reports::EvaluationRecord record = record_head(
         "comparison", {job.title, job.coverage_probability, job.document, job.warnings, notes}, options_of(job), files);

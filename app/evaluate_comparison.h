@@ -10,11 +10,9 @@
 namespace gumcert::app {
 
 /// Evaluates a job of kind `comparison` and makes its record: between laboratories, or of two methods.
-/// \param threads  of Monte Carlo; 0: as many as the machine has. Results do not depend on it
 /// \throws InputError, NoResultError
 [[nodiscard]] reports::EvaluationRecord evaluate_comparison(const engine::ComparisonJob& job,
                                                             const std::vector<reports::InputFile>& files,
-                                                            unsigned threads,
                                                             const std::function<void(const std::string&)>& progress);
 
 /// `Comparison` of a job with `lab` and `reference`: reads their budgets, covariances and shared sources, and calls
@@ -22,7 +20,7 @@ namespace gumcert::app {
 [[nodiscard]] reports::Comparison evaluate_methods(const engine::ComparisonJob& job);
 
 /// `Comparison` of a job with participants.
-[[nodiscard]] reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, unsigned threads,
+[[nodiscard]] reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job,
                                                         const std::function<void(const std::string&)>& progress);
 
 }  // namespace gumcert::app

@@ -88,10 +88,10 @@ Evaluation evaluate_rotary_table_job(const std::filesystem::path& job_file, cons
     return evaluation;
 }
 
-Evaluation evaluate_comparison_job(const std::filesystem::path& job_file, unsigned threads, const Progress& progress) {
+Evaluation evaluate_comparison_job(const std::filesystem::path& job_file, const Progress& progress) {
     const engine::ComparisonJob job = engine::read_comparison_job(job_file);
     Evaluation evaluation;
-    evaluation.record = evaluate_comparison(job, digests(job_file, job.files), threads, progress);
+    evaluation.record = evaluate_comparison(job, digests(job_file, job.files), progress);
     return evaluation;
 }
 
@@ -146,7 +146,7 @@ Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string
         return evaluate_rotary_table_job(job_file, covariance_file, threads, templates, progress);
     }
     if (kind == "comparison") {
-        return evaluate_comparison_job(job_file, threads, progress);
+        return evaluate_comparison_job(job_file, progress);
     }
     throw gum::InputError(gum::Diagnostic{
         "GC-INPUT-0900", job_file.string() + "#/kind", "\"" + kind + "\" cannot be evaluated by this version",

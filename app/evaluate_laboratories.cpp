@@ -53,15 +53,14 @@ std::string audit_findings(const engine::ComparisonJob& job) {
 
 }  // namespace
 
-reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, unsigned threads,
-                                          const Progress& progress) {
+reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, const Progress& progress) {
     reports::Comparison comparison;
     comparison.form = "laboratories";
     comparison.organiser = job.organiser;
     comparison.unit = unit_of_items(job);
     comparison.reference_name = reference_name(job);
     comparison.audit_finding = audit_findings(job);
-    const std::vector<engine::ComparisonResult> results = results_with_budgets(job, threads, progress);
+    const std::vector<engine::ComparisonResult> results = results_with_budgets(job, progress);
     const std::vector<LaboratoryData> data = laboratory_data(job, results, comparison.shared_sources);
     if (data.empty()) {
         throw gum::InputError(gum::Diagnostic{.code = "GC-COMPARE-0100",

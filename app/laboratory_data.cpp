@@ -2,59 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "app/evaluate_budget.h"
 #include "app/laboratory_covariance.h"
-#include "app/shared_sources.h"
-#include "gum/coverage.h"
+#include "app/method_side.h"
+#include "gum/argument_check.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::app {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& code, const std::string& where, const std::string& what,
-                         const std::string& rule, const std::string& action) {
-    throw gum::InputError(gum::Diagnostic{.code = code, .where = where, .what = what, .rule = rule, .action = action});
-}
-
 /// Value, uncertainty and sources of a result from its budget.
-void take_over(const BudgetResult& budget, double coverage_probability, const gum::Unit& unit,
-               engine::ComparisonResult& result) {
+void take_over(const engine::ComparisonJob& job, engine::ComparisonResult& result) {
     const std::string where = result.where + " (" + result.budget_file + ")";
-    if (budget.points.size() != 1 || budget.output_names.size() != 1) {
-        refuse("GC-COMPARE-0110", where,
-               std::to_string(budget.points.size() * budget.output_names.size()) + " results in the budget",
-               "a budget stands for one result of a participant",
-               "Leave one output and no table of points in the budget.");
-    }
-    if (!(budget.output_units.front().dimension() == unit.dimension()) ||
-        budget.output_units.front().is_celsius_temperature() != unit.is_celsius_temperature()) {
-        refuse("GC-COMPARE-0110", where, "the budget gives a value in " + budget.output_units.front().text(),
-               "the item is compared in " + unit.text(), "Correct the unit of the item, or the budget.");
-    }
-    const BudgetPointResult& point = budget.points.front();
-    const BudgetOutputResult& output = point.outputs.front();
-    if (!output.coverage_factor || !output.expanded_uncertainty || !(output.standard_uncertainty > 0.0)) {
-        refuse("GC-COMPARE-0111", where, "the budget gives no expanded uncertainty",
-               "a result is compared with its uncertainty", "Evaluate the budget alone and see what it says.");
-    }
-    engine::ResultUncertainty uncertainty;
-    uncertainty.u = unit.difference_from_si(output.standard_uncertainty);
-    uncertainty.degrees_of_freedom = output.degrees_of_freedom;
-    uncertainty.k = *output.coverage_factor;
-    if (output.coverage_probability != coverage_probability) {
-        if (!(output.degrees_of_freedom > 0.0)) {
-            refuse("GC-COMPARE-0111", where, "the budget has no degrees of freedom",
-                   "its coverage probability is not that of the comparison",
-                   "State the coverage probability of the comparison in the budget.");
-        }
-        uncertainty.k = gum::coverage_factor(coverage_probability, output.degrees_of_freedom);
-    }
-    uncertainty.U = uncertainty.k * uncertainty.u;
-    result.uncertainty = uncertainty;
-    result.value = unit.from_si(point.propagation.value(0));
+    const MethodBudget budget{*result.budget, where, job.participants[result.participant].id, {0}, {""}};
+    MethodSide side = side_of_budget(budget, job.items[result.item].unit, job.coverage_probability);
+    result.value = side.value.front();
+    result.uncertainty = side.uncertainty.front();
+    std::vector<engine::UncertaintySource>& sources = side.sources.all.front();
+    result.sources.insert(result.sources.end(), sources.begin(), sources.end());
 }
 
 void tell(const std::function<void(const std::string&)>& progress, const std::string& text) {
@@ -80,10 +46,11 @@ void find_contributing(const engine::ComparisonJob& job, LaboratoryData& data) {
         }
     }
     if (by_reference && (!data.reference || !data.has_u(*data.reference))) {
-        refuse("GC-COMPARE-0106", data.where,
-               "participant \"" + request.participant + "\" has no result" +
-                   (data.reference ? " with an uncertainty" : ""),
-               "the assigned value is the result of this participant", "State it, or take another assigned value.");
+        gum::refuse("GC-COMPARE-0106", data.where,
+                    "participant \"" + request.participant + "\" has no result" +
+                        (data.reference ? " with an uncertainty" : ""),
+                    "the assigned value is the result of this participant",
+                    "State it, or take another assigned value.");
     }
 }
 
@@ -91,6 +58,16 @@ void find_contributing(const engine::ComparisonJob& job, LaboratoryData& data) {
 
 bool LaboratoryData::all_have_u(const std::vector<std::size_t>& positions) const {
     return std::all_of(positions.begin(), positions.end(), [&](std::size_t i) { return has_u(i); });
+}
+
+std::vector<std::size_t> LaboratoryData::with_u() const {
+    std::vector<std::size_t> positions;
+    for (std::size_t i = 0; i < size(); ++i) {
+        if (has_u(i)) {
+            positions.push_back(i);
+        }
+    }
+    return positions;
 }
 
 gum::LaboratoryResults LaboratoryData::at(const std::vector<std::size_t>& positions) const {
@@ -111,7 +88,7 @@ Eigen::VectorXd LaboratoryData::values(const std::vector<std::size_t>& positions
     return x(positions);
 }
 
-std::vector<engine::ComparisonResult> results_with_budgets(const engine::ComparisonJob& job, unsigned threads,
+std::vector<engine::ComparisonResult> results_with_budgets(const engine::ComparisonJob& job,
                                                            const std::function<void(const std::string&)>& progress) {
     std::vector<engine::ComparisonResult> results = job.results;
     for (engine::ComparisonResult& result : results) {
@@ -119,11 +96,7 @@ std::vector<engine::ComparisonResult> results_with_budgets(const engine::Compari
             continue;
         }
         tell(progress, "budget " + result.budget_file);
-        const gum::Unit& unit = job.items[result.item].unit;
-        const BudgetResult budget = evaluate_budget(*result.budget, threads, {});
-        take_over(budget, job.coverage_probability, unit, result);
-        std::vector<engine::UncertaintySource> sources = uncertainty_sources(*result.budget, budget, 0, 0, unit);
-        result.sources.insert(result.sources.end(), sources.begin(), sources.end());
+        take_over(job, result);
     }
     return results;
 }
@@ -156,13 +129,7 @@ std::vector<LaboratoryData> laboratory_data(const engine::ComparisonJob& job,
         find_contributing(job, data);
         data.covariance = laboratory_covariance(job, data, shared, data.ambiguous_sources);
         if (data.covariance.size() > 0) {
-            std::vector<std::size_t> with_u;
-            for (std::size_t i = 0; i < data.size(); ++i) {
-                if (data.has_u(i)) {
-                    with_u.push_back(i);
-                }
-            }
-            at_item(data.where, [&] { gum::require_results(data.at(with_u)); });
+            at_item(data.where, [&] { gum::require_results(data.at(data.with_u())); });
         }
     }
     return all;

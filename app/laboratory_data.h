@@ -30,6 +30,7 @@ struct LaboratoryData {
 
     [[nodiscard]] std::size_t size() const { return results.size(); }
     [[nodiscard]] bool has_u(std::size_t i) const { return u[static_cast<Eigen::Index>(i)] > 0.0; }
+    [[nodiscard]] std::vector<std::size_t> with_u() const;
     [[nodiscard]] bool all_have_u(const std::vector<std::size_t>& positions) const;
     /// Those at some positions, for gum; their covariance only where something correlates.
     [[nodiscard]] gum::LaboratoryResults at(const std::vector<std::size_t>& positions) const;
@@ -38,9 +39,9 @@ struct LaboratoryData {
 
 /// The results of a job; where a budget stands for a result, the budget is evaluated for its value, its uncertainty and
 /// the sources of it.
-/// \throws InputError  GC-COMPARE-0110 a budget in a unit of another kind, -0111 without expanded uncertainty
+/// \throws InputError, NoResultError  those of side_of_budget()
 [[nodiscard]] std::vector<engine::ComparisonResult> results_with_budgets(
-    const engine::ComparisonJob& job, unsigned threads, const std::function<void(const std::string&)>& progress);
+    const engine::ComparisonJob& job, const std::function<void(const std::string&)>& progress);
 
 /// The results item by item and round by round; rounds in which nobody measured an item are left out.
 /// \param shared  receives what was found in the sources that several results name, each pair of participants once

@@ -19,16 +19,6 @@ namespace {
 using engine::AssignedValueMethod;
 using reports::ReferenceEstimate;
 
-std::vector<std::size_t> results_with_u(const LaboratoryData& data) {
-    std::vector<std::size_t> with_u;
-    for (std::size_t i = 0; i < data.size(); ++i) {
-        if (data.has_u(i)) {
-            with_u.push_back(i);
-        }
-    }
-    return with_u;
-}
-
 /// Collects estimates; one that the data do not allow is left out.
 class Estimates {
 public:
@@ -239,12 +229,12 @@ std::optional<double> pooled_standard_deviation(const LaboratoryData& data) {
 }
 
 std::size_t count_pairs(const LaboratoryData& data) {
-    const std::size_t n = results_with_u(data).size();
+    const std::size_t n = data.with_u().size();
     return n < 2 || n > k_most_laboratories_in_pairs ? 0 : n * (n - 1) / 2;
 }
 
 std::vector<reports::PairEquivalence> pair_equivalences(const engine::ComparisonJob& job, const LaboratoryData& data) {
-    const std::vector<std::size_t> with_u = results_with_u(data);
+    const std::vector<std::size_t> with_u = data.with_u();
     std::vector<reports::PairEquivalence> pairs;
     if (count_pairs(data) == 0) {
         return pairs;

@@ -272,11 +272,7 @@ std::string deciding_score(const LaboratoryData& data, const ComparisonItemEvalu
     if (evaluation.sigma_pt) {
         return evaluation.criterion_met ? "z" : "z_prime";
     }
-    bool any_u = false;
-    for (std::size_t i = 0; i < data.size(); ++i) {
-        any_u = any_u || data.has_u(i);
-    }
-    if (evaluation.u && any_u) {
+    if (evaluation.u && !data.with_u().empty()) {
         return "En";
     }
     return evaluation.delta_E ? "D" : "";

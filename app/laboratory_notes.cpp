@@ -6,6 +6,7 @@
 
 #include "app/comparison_print.h"
 #include "app/laboratory_estimates.h"
+#include "app/record_parts.h"
 #include "gum/rounding.h"
 
 namespace gumcert::app {
@@ -68,8 +69,7 @@ bool inconsistent(const ComparisonItemEvaluation& item) {
 std::string test_text(const ComparisonItemEvaluation& item) {
     const reports::ConsistencySummary& test = *item.consistency;
     return "the results are not consistent with their uncertainties: chi-square " + test.printed.chi_square + " on " +
-           std::to_string(test.degrees_of_freedom) + (test.degrees_of_freedom == 1 ? " degree" : " degrees") +
-           " of freedom, p = " + test.printed.p_value;
+           count_of(test.degrees_of_freedom, "degree") + " of freedom, p = " + test.printed.p_value;
 }
 
 void add_consistency(ItemMessages& messages) {
@@ -201,12 +201,11 @@ std::string subset_remark(const EvaluatedItem& item, const ComparisonItemEvaluat
         gum::consistency_test(item.data->at(item.data->contributing), item.data->item->assigned_value.alpha);
     std::string remark =
         "All " + std::to_string(item.data->contributing.size()) + " results together are not consistent: chi-square " +
-        gum::round_significant(all.chi_square, 4) + " on " + std::to_string(all.degrees_of_freedom) +
-        " degrees of freedom, p = " + printed_probability(all.p_value) + ". The largest consistent subset leaves out ";
-    for (std::size_t i = 0; i < evaluation.not_consistent.size(); ++i) {
-        remark += (i > 0 ? ", " : "") + evaluation.not_consistent[i];
-    }
-    remark += ". Being left out says that a result does not fit the others, not that it is wrong.";
+        gum::round_significant(all.chi_square, 4) + " on " +
+        count_of(static_cast<std::int64_t>(all.degrees_of_freedom), "degree") +
+        " of freedom, p = " + printed_probability(all.p_value) + ". The largest consistent subset leaves out ";
+    remark += listed(evaluation.not_consistent) +
+              ". Being left out says that a result does not fit the others, not that it is wrong.";
     if (!item.assigned.subset_unique) {
         remark += " Another subset of the same size fits as well: the choice between them is arbitrary.";
     }
@@ -251,11 +250,8 @@ void add_remarks_on_correlation(const engine::ComparisonJob& job, const reports:
             "computed from what each of them states for the source.");
     }
     if (!job.independent_sources.empty()) {
-        std::string names;
-        for (const std::string& source : job.independent_sources) {
-            names += (names.empty() ? "" : ", ") + source;
-        }
-        remarks.push_back("Taken as not shared although several results may name it: " + names + ".");
+        remarks.push_back(
+            "Taken as not shared although several results may name it: " + listed(job.independent_sources) + ".");
     }
     if (count_points(comparison, [](const ComparisonPoint& point) { return point.En_worst.has_value(); }) > 0) {
         remarks.emplace_back(
@@ -285,14 +281,10 @@ void add_remarks_on_sources(const std::vector<EvaluatedItem>& items, std::vector
             "through it, with the covariance of what both state for the source.");
     }
     if (!ambiguous.empty()) {
-        std::string names;
-        for (const std::string& source : ambiguous) {
-            names += (names.empty() ? "" : ", ") + source;
-        }
         remarks.push_back(
             "Budgets name a source for several inputs, and not for the same ones: how their results share it cannot be "
             "told, and the largest covariance that it can give was taken (" +
-            names + ").");
+            listed({ambiguous.begin(), ambiguous.end()}) + ").");
     }
 }
 

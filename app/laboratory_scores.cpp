@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "app/comparison_print.h"
 #include "app/laboratory_covariance.h"
@@ -30,19 +29,9 @@ const char* word_of(gum::Signal signal) {
     return signal == gum::Signal::none ? "none" : signal == gum::Signal::warning ? "warning" : "action";
 }
 
-/// A score that is a limit but for the rounding of binary numbers is that limit: 10.2 − 10 over 0.1 is a z of 2, which
-/// double precision makes 1.999999999999993.
-/// \param scale  what D was divided by, in the unit of the item
-double settled(double score, double scale, const ComparisonPoint& point) {
-    constexpr double k_roundings = 8.0;
-    const double rounding = k_roundings * std::numeric_limits<double>::epsilon() *
-                            (std::abs(score) + (std::abs(point.value) + std::abs(point.reference_value)) / scale);
-    for (const double limit : {1.0, 2.0, 3.0}) {
-        if (std::abs(std::abs(score) - limit) <= rounding) {
-            return std::copysign(limit, score);
-        }
-    }
-    return score;
+/// D over a scale, settled.
+double score_of(const ComparisonPoint& point, double scale) {
+    return gum::settled_score(point.value, point.reference_value, scale);
 }
 
 /// u_D, U_D and with them E_n and ζ.
@@ -56,8 +45,8 @@ void score_with_uncertainty(const Scene& scene, std::size_t position, Comparison
         point.correlation = r;
     }
     if (*point.u_D > 0.0 && *point.U_D > 0.0) {
-        point.En = settled(point.D / *point.U_D, *point.U_D, point);
-        point.zeta = settled(point.D / *point.u_D, *point.u_D, point);
+        point.En = score_of(point, *point.U_D);
+        point.zeta = score_of(point, *point.u_D);
     }
 }
 
@@ -67,9 +56,6 @@ void score_with_unknown_group(const Scene& scene, double variance_change, Compar
     if (scene.data.reference && scene.item.U == scene.assigned.stated->U) {
         point.En_worst =
             gum::worst_plausible_en({point.value, *point.u, *point.U}, {point.reference_value, u_X, *scene.item.U});
-        if (point.En_worst && *point.En_worst != 0.0) {
-            point.En_worst = settled(*point.En_worst, std::abs(point.D / *point.En_worst), point);
-        }
         return;
     }
     const double least = *point.u_D * *point.u_D + variance_change;
@@ -77,7 +63,7 @@ void score_with_unknown_group(const Scene& scene, double variance_change, Compar
     if (least > 0.0 && std::abs(r) <= 1.0) {
         const double U = gum::uncertainty_of_difference(*point.U, *scene.item.U, r);
         if (U > 0.0) {
-            point.En_worst = settled(point.D / U, U, point);
+            point.En_worst = score_of(point, U);
         }
     }
 }
@@ -102,23 +88,20 @@ void score_audited(const Scene& scene, std::size_t position, ComparisonPoint& po
         square += audited_change(*reference, reference->uncertainty->U);
     }
     if (square > 0.0) {
-        point.En_audited = settled(point.D / std::sqrt(square), std::sqrt(square), point);
+        point.En_audited = score_of(point, std::sqrt(square));
     }
 }
 
 void score_without_uncertainty(const Scene& scene, ComparisonPoint& point) {
     if (scene.item.sigma_pt) {
         const double sigma = *scene.item.sigma_pt;
-        point.z = settled(gum::z_score(point.value, point.reference_value, sigma), sigma, point);
+        point.z = gum::z_score(point.value, point.reference_value, sigma);
         if (scene.item.u) {
-            point.z_prime = settled(gum::z_prime_score(point.value, point.reference_value, sigma, *scene.item.u),
-                                    std::hypot(sigma, *scene.item.u), point);
+            point.z_prime = gum::z_prime_score(point.value, point.reference_value, sigma, *scene.item.u);
         }
     }
     if (scene.item.delta_E) {
-        const double allowed = *scene.item.delta_E;
-        const double share = gum::percent_of_allowed(point.value, point.reference_value, allowed) / 100.0;
-        point.P_A = 100.0 * settled(share, allowed, point);
+        point.P_A = gum::percent_of_allowed(point.value, point.reference_value, *scene.item.delta_E);
     }
     if (!scene.data.item->unit.is_celsius_temperature()) {
         point.D_percent = gum::percent_difference(point.value, point.reference_value);

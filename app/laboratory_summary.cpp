@@ -12,6 +12,7 @@
 #include "gum/comparison.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/robust_statistics.h"
 
 namespace gumcert::app {
 
@@ -150,22 +151,6 @@ void add_variants(const std::vector<const ComparisonPoint*>& points, reports::Co
     }
 }
 
-double median_of(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t n = values.size();
-    return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
-}
-
-/// MADe, 1.483 times the median of |x − median|.
-double scale_of(const std::vector<double>& values, double centre) {
-    constexpr double k_scale_of_normal = 1.483;
-    std::vector<double> deviations;
-    for (const double value : values) {
-        deviations.push_back(std::abs(value - centre));
-    }
-    return k_scale_of_normal * median_of(std::move(deviations));
-}
-
 /// Ranks from 0, those of equal values averaged.
 std::vector<double> ranks_of(const std::vector<double>& values) {
     std::vector<std::size_t> order(values.size());
@@ -206,23 +191,24 @@ double rank_correlation(const std::vector<double>& first, const std::vector<doub
 void add_ellipse(reports::YoudenDiagram& diagram) {
     constexpr std::size_t k_least_points = 3;
     constexpr std::size_t k_corners = 72;
-    constexpr double k_square_of_radius = 5.991464547107979;  // −2 ln 0.05: the 95 % quantile of chi-square for two
+    constexpr double k_probability = 0.95;
+    constexpr double k_scale_of_normal = 1.483;  // as of MADe; one point has a scale of 0
     std::vector<double> first;
     std::vector<double> second;
     for (const reports::YoudenPoint& point : diagram.points) {
         first.push_back(point.first);
         second.push_back(point.second);
     }
-    diagram.centre_first = median_of(first);
-    diagram.centre_second = median_of(second);
-    diagram.scale_first = scale_of(first, diagram.centre_first);
-    diagram.scale_second = scale_of(second, diagram.centre_second);
+    diagram.centre_first = gum::median(first);
+    diagram.centre_second = gum::median(second);
+    diagram.scale_first = k_scale_of_normal * gum::median_absolute_deviation(first);
+    diagram.scale_second = k_scale_of_normal * gum::median_absolute_deviation(second);
     diagram.correlation =
         std::clamp(2.0 * std::sin(std::numbers::pi / 6.0 * rank_correlation(first, second)), -1.0, 1.0);
     if (diagram.points.size() < k_least_points || !(diagram.scale_first > 0.0) || !(diagram.scale_second > 0.0)) {
         return;
     }
-    const double radius = std::sqrt(k_square_of_radius);
+    const double radius = gum::ellipsoid_coverage_factor(k_probability, 2, std::numeric_limits<double>::infinity());
     const double across = std::sqrt(1.0 - diagram.correlation * diagram.correlation);
     for (std::size_t i = 0; i <= k_corners; ++i) {
         const double angle =

@@ -9,6 +9,7 @@
 #include "app/method_remarks.h"
 #include "app/record_parts.h"
 #include "gum/agreement.h"
+#include "gum/argument_check.h"
 #include "gum/comparison.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
@@ -36,11 +37,6 @@ struct Differences {
     std::vector<double> correlation;  ///< of both values at a point
 };
 
-[[noreturn]] void refuse(const std::string& code, const std::string& where, const std::string& what,
-                         const std::string& rule, const std::string& action) {
-    throw gum::InputError(gum::Diagnostic{.code = code, .where = where, .what = what, .rule = rule, .action = action});
-}
-
 std::string place_of(const ComparedPoint& point, std::size_t i) {
     std::string place = "point " + (point.name.empty() ? std::to_string(i + 1) : point.name);
     if (point.name.empty() && point.angle_deg) {
@@ -54,11 +50,11 @@ void require_sizes(const MethodComparison& comparison) {
     const auto fits = [&](const Eigen::MatrixXd& matrix) { return matrix.rows() == m && matrix.cols() == m; };
     if (m == 0 || !fits(comparison.covariance) || !fits(comparison.reference_covariance) ||
         (comparison.cross_covariance.size() > 0 && !fits(comparison.cross_covariance))) {
-        refuse("GC-COMPARE-0201", "comparison of methods",
-               std::to_string(m) + " points and a covariance of " + std::to_string(comparison.covariance.rows()) +
-                   " and " + std::to_string(comparison.reference_covariance.rows()),
-               "every point has its row in the covariance of both methods",
-               "Give at least 1 point and all covariances.");
+        gum::refuse("GC-COMPARE-0201", "comparison of methods",
+                    std::to_string(m) + " points and a covariance of " + std::to_string(comparison.covariance.rows()) +
+                        " and " + std::to_string(comparison.reference_covariance.rows()),
+                    "every point has its row in the covariance of both methods",
+                    "Give at least 1 point and all covariances.");
     }
 }
 
@@ -70,11 +66,12 @@ double correlation_of(const MethodComparison& comparison, std::size_t i) {
     }
     const double r = comparison.cross_covariance(at, at) / (point.u * point.reference_u);
     if (!(std::abs(r) <= 1.0 + k_rounding_of_correlation)) {
-        refuse("GC-COMPARE-0202", place_of(point, i),
-               "the covariance of both methods is " + shortest(comparison.cross_covariance(at, at)) +
-                   ", with standard uncertainties " + shortest(point.u) + " and " + shortest(point.reference_u),
-               "a correlation coefficient lies between -1 and 1",
-               "State the same uncertainty of a shared source in both budgets, or list it in \"independent_sources\".");
+        gum::refuse(
+            "GC-COMPARE-0202", place_of(point, i),
+            "the covariance of both methods is " + shortest(comparison.cross_covariance(at, at)) +
+                ", with standard uncertainties " + shortest(point.u) + " and " + shortest(point.reference_u),
+            "a correlation coefficient lies between -1 and 1",
+            "State the same uncertainty of a shared source in both budgets, or list it in \"independent_sources\".");
     }
     return std::clamp(r, -1.0, 1.0);
 }
@@ -107,7 +104,9 @@ Differences differences_of(const MethodComparison& comparison) {
             }
             throw gum::InputError(std::move(problems));
         }
-        all.d(at) = score.difference;
+        // A settled E_n of 1 is one in every number that is computed from the differences.
+        const bool at_limit = std::abs(score.en) == 1.0;
+        all.d(at) = at_limit ? std::copysign(score.U_difference, score.en) : score.difference;
         all.U(at) = score.U_difference;
         all.U_method(at) = point.U;
         all.U_reference(at) = point.reference_U;
@@ -213,8 +212,8 @@ std::vector<Row> rows_of(const MethodComparison& comparison) {
         const std::string& direction = comparison.points[i].direction;
         all.points.push_back(static_cast<Index>(i));
         if (direction == "all") {
-            refuse("GC-COMPARE-0203", place_of(comparison.points[i], i), "the direction is called \"all\"",
-                   "\"all\" stands for all directions together", "Give the direction another name.");
+            gum::refuse("GC-COMPARE-0203", place_of(comparison.points[i], i), "the direction is called \"all\"",
+                        "\"all\" stands for all directions together", "Give the direction another name.");
         }
         if (direction.empty()) {
             has_unnamed = true;

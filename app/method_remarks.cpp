@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "app/comparison_print.h"
+#include "app/record_parts.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
 
@@ -23,10 +24,6 @@ constexpr double k_negligible_reference = 1.0 / 3.0;
 constexpr double k_noise_of_positions = 5.0;  // spread of reference values over their u, for a slope to mean much
 constexpr double k_visible_slope = 0.1;       // of U of the slope
 constexpr double k_visible_beyond = 0.05;     // of a standard uncertainty, a point
-
-std::string count_of(std::int64_t count, const std::string& noun) {
-    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
 
 /// The sentences of one comparison.
 class Remarks {

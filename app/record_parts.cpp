@@ -38,6 +38,18 @@ std::string shortest(double value) {
     return {text.data(), end};
 }
 
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) {
+        text += (text.empty() ? "" : ", ") + name;
+    }
+    return text;
+}
+
+std::string count_of(std::int64_t count, const std::string& noun) {
+    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 gum::MonteCarloOptions monte_carlo_options(const engine::MonteCarloRequest& asked, unsigned threads) {
     // The numerical error has to be small against the tolerance where the law of propagation is validated
     // (JCGM 101:2008, 8.2).

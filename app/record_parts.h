@@ -37,6 +37,11 @@ struct JobHead {
 /// Shortest decimal text that reads back as the same double.
 [[nodiscard]] std::string shortest(double value);
 
+/// Names one after the other, with a comma between.
+[[nodiscard]] std::string listed(const std::vector<std::string>& names);
+/// "1 point", "3 points".
+[[nodiscard]] std::string count_of(std::int64_t count, const std::string& noun);
+
 /// Carries a value, and a difference of values, from SI to the unit of a document.
 struct ToUnit {
     std::function<double(double)> value, difference;

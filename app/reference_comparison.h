@@ -11,11 +11,10 @@ namespace gumcert::app {
 ///
 /// The reference values are the mean readings, and their covariance that of the indicator: resolution and repeatability
 /// of each point apart, the maximum permissible error common to a direction or of each point apart. With a budget of
-/// the reference, values, uncertainties and covariance are those of the budget, evaluated at every point. \param
-/// displacement  of the contact point, angle by angle, x, y, z, [m] \throws InputError    GC-REFERENCE-0008 a
-/// correlation that the covariances do not allow; those of compare_methods() \throws NoResultError GC-REFERENCE-0006 a
-/// reference value without uncertainty, -0007 without expanded uncertainty;
-///                        those of evaluate_budget()
+/// the reference, values, uncertainties and covariance are those of the budget, evaluated at every point.
+/// \param displacement  of the contact point, angle by angle, x, y, z, [m]
+/// \throws InputError, NoResultError  those of side_of_budget(), covariance_of_stated_correlation() and
+///                                    compare_methods()
 [[nodiscard]] reports::Comparison reference_comparison(const engine::RotaryTableJob& job,
                                                        const gum::Propagation& displacement);
 

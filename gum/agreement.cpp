@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gum/argument_check.h"
+#include "gum/comparison.h"
 #include "gum/coverage.h"
 #include "gum/propagation.h"
 
@@ -195,17 +196,18 @@ Whitened whitened(const MatrixXd& R, const MatrixXd& B) {
 }
 
 void add_scores(const MethodDifferences& differences, const VectorXd& zeta, Agreement& result) {
-    const auto m = static_cast<double>(differences.d.size());
-    double sum_of_squares = 0.0;
+    std::vector<ComparisonScore> scores;
     for (Index i = 0; i < differences.d.size(); ++i) {
-        const double en = std::abs(differences.d(i) / differences.U(i));
-        result.count_above_1 += en > 1.0 ? 1 : 0;
-        result.mean_absolute_en += en / m;
-        result.largest_absolute_en = std::max(result.largest_absolute_en, en);
-        sum_of_squares += en * en;
-        result.sum_of_squared_zeta += zeta(i) * zeta(i);
+        scores.push_back({.en = differences.d(i) / differences.U(i), .zeta = zeta(i)});
     }
-    result.rms_en = std::sqrt(sum_of_squares / m);
+    const ComparisonSummary summary = summarise(scores);
+    result.count_above_1 = summary.count_above_1;
+    result.mean_absolute_en = summary.mean_absolute_en;
+    result.largest_absolute_en = summary.largest_absolute_en;
+    result.rms_en = summary.rms_en;
+    result.sum_of_squared_zeta = summary.sum_of_squared_zeta;
+    result.p_low_independent = summary.p_low;
+    result.p_high_independent = summary.p_high;
     result.d_fail_smallest = differences.U.minCoeff();
     result.d_fail_largest = differences.U.maxCoeff();
     const double of_method = differences.U_method.norm();
@@ -219,8 +221,6 @@ void add_distributions(const MethodDifferences& differences, const VectorXd& u, 
     const std::vector<double> of_zeta = spectrum(R);
     result.p_low = weighted_chi_square_lower_tail(of_zeta, result.sum_of_squared_zeta);
     result.p_high = weighted_chi_square_upper_tail(of_zeta, result.sum_of_squared_zeta);
-    result.p_low_independent = chi_square_lower_tail(result.sum_of_squared_zeta, m);
-    result.p_high_independent = chi_square_upper_tail(result.sum_of_squared_zeta, m);
     result.effective_points = m * m / R.squaredNorm();
     result.largest_en_by_chance = largest_en_by_chance(result.points, coverage_probability);
     // E_n = ζ u/U: another spectrum only where the coverage factors of the points differ.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -53,6 +54,23 @@ double uncertainty_of_difference(double laboratory, double reference, double cor
     return std::sqrt(gap * gap + 2.0 * (1.0 - correlation) * laboratory * reference);
 }
 
+double settled_score(double value, double reference, double scale) {
+    constexpr double k_most_settled = 1e-6;  // values that are stated too coarsely for more are not helped
+    constexpr double k_roundings = 8.0;      // of the two values, their difference, the scale and the quotient
+    const double difference = difference_of(value, reference);
+    require_positive(scale, "scale of a score");
+    const double score = difference / scale;
+    const double rounding =
+        std::min(k_most_settled, k_roundings * std::numeric_limits<double>::epsilon() *
+                                     (std::abs(score) + (std::abs(value) + std::abs(reference)) / scale));
+    for (const double limit : {1.0, 2.0, 3.0}) {
+        if (std::abs(std::abs(score) - limit) <= rounding) {
+            return std::copysign(limit, score);
+        }
+    }
+    return score;
+}
+
 ComparisonScore score(const ComparedValue& laboratory, const ComparedValue& reference, double correlation) {
     ComparisonScore result;
     result.difference = difference_of(laboratory.value, reference.value);
@@ -60,20 +78,20 @@ ComparisonScore score(const ComparedValue& laboratory, const ComparedValue& refe
                                                            reference.standard_uncertainty, correlation, "u");
     result.U_difference = difference_uncertainty_for_score(laboratory.expanded_uncertainty,
                                                            reference.expanded_uncertainty, correlation, "U");
-    result.en = result.difference / result.U_difference;
-    result.zeta = result.difference / result.u_difference;
+    result.en = settled_score(laboratory.value, reference.value, result.U_difference);
+    result.zeta = settled_score(laboratory.value, reference.value, result.u_difference);
     return result;
 }
 
 std::optional<double> worst_plausible_en(const ComparedValue& laboratory, const ComparedValue& reference) {
-    const double difference = score(laboratory, reference).difference;
+    static_cast<void>(score(laboratory, reference));  // refuses what is no comparison
     const double larger = std::max(laboratory.expanded_uncertainty, reference.expanded_uncertainty);
     const double smaller = std::min(laboratory.expanded_uncertainty, reference.expanded_uncertainty);
     if (larger == smaller) {
         return std::nullopt;
     }
     // With r = smaller/larger: larger² + smaller² − 2 smaller², written so that nothing cancels.
-    return difference / std::sqrt((larger - smaller) * (larger + smaller));
+    return settled_score(laboratory.value, reference.value, std::sqrt(larger - smaller) * std::sqrt(larger + smaller));
 }
 
 double z_score(double value, double assigned_value, double sigma_pt) {
@@ -83,7 +101,7 @@ double z_score(double value, double assigned_value, double sigma_pt) {
 double z_prime_score(double value, double assigned_value, double sigma_pt, double u_assigned_value) {
     require_positive(sigma_pt, "standard deviation for proficiency assessment");
     require_not_negative(u_assigned_value, "uncertainty of the assigned value");
-    return difference_of(value, assigned_value) / std::hypot(sigma_pt, u_assigned_value);
+    return settled_score(value, assigned_value, std::hypot(sigma_pt, u_assigned_value));
 }
 
 std::optional<double> percent_difference(double value, double assigned_value) {
@@ -96,7 +114,7 @@ std::optional<double> percent_difference(double value, double assigned_value) {
 
 double percent_of_allowed(double value, double assigned_value, double largest_allowed) {
     require_positive(largest_allowed, "largest error allowed");
-    return 100.0 * difference_of(value, assigned_value) / largest_allowed;
+    return 100.0 * settled_score(value, assigned_value, largest_allowed);
 }
 
 Signal signal_of_z(double score) {

@@ -30,6 +30,13 @@ struct ComparisonScore {
 /// \throws InputError  GC-GUM-0001, -0002 for an uncertainty, GC-GUM-0030 for r out of range
 [[nodiscard]] double uncertainty_of_difference(double laboratory, double reference, double correlation = 0.0);
 
+/// (value − reference) / scale as a score. A score that is ±1, ±2 or ±3 but for the rounding of binary numbers is that
+/// limit: 10.2 − 10 over 0.1 is 2, which double precision makes 1.999999999999993. All scores below are settled so.
+/// \param value, reference  as stated, whose rounding is meant
+/// \param scale             > 0, in their unit
+/// \throws InputError  GC-GUM-0001, GC-GUM-0003 for the scale
+[[nodiscard]] double settled_score(double value, double reference, double scale);
+
 /// E_n number and ζ-score of a laboratory value against a reference value (ISO 13528:2022; ISO/IEC 17043 for E_n).
 ///
 /// E_n = D / √(U_x² + U_X² − 2 r U_x U_X),  ζ = D / √(u_x² + u_X² − 2 r u_x u_X)

@@ -1,11 +1,12 @@
 #include "app/cli/summary.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "gum/quantity/unit.h"
 
@@ -104,6 +105,16 @@ const char* score_symbol(const std::string& score) {
     return score == "z_prime" ? "z'" : score == "D" ? "P_A %" : score.c_str();
 }
 
+void print_names(const char* what, const std::vector<std::string>& names) {
+    constexpr std::size_t k_most_names = 30;
+    const std::size_t shown = std::min(names.size(), k_most_names);
+    if (shown > 0) {
+        fmt::print("  {}: {}{}\n", what,
+                   fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+                   names.size() > shown ? fmt::format(" and {} more", names.size() - shown) : "");
+    }
+}
+
 void print_item(const reports::Comparison& comparison, const reports::ComparisonItemEvaluation& item,
                 const std::string& coverage) {
     constexpr std::size_t k_most_lines = 30;
@@ -121,12 +132,8 @@ void print_item(const reports::Comparison& comparison, const reports::Comparison
                    item.consistency->degrees_of_freedom == 1 ? "degree" : "degrees", item.consistency->printed.p_value,
                    item.consistency->consistent ? "" : "   NOT consistent");
     }
-    for (const std::string& id : item.missing) {
-        fmt::print("  without a result: {}\n", id);
-    }
-    for (const std::string& id : item.not_consistent) {
-        fmt::print("  not in the largest consistent subset: {}\n", id);
-    }
+    print_names("without a result", item.missing);
+    print_names("not in the largest consistent subset", item.not_consistent);
     std::size_t lines = 0;
     std::size_t left_out = 0;
     for (const reports::ComparisonPoint& point : comparison.points) {
@@ -157,7 +164,7 @@ void print_laboratories(const reports::Comparison& comparison, const std::string
         print_item(comparison, comparison.items[i], coverage);
     }
     if (comparison.items.size() > k_most_items) {
-        fmt::print("\n… and {} more items, all of them in the record\n", comparison.items.size() - k_most_items);
+        fmt::print("\n… and {} more, all of them in the record\n", comparison.items.size() - k_most_items);
     }
     std::size_t warnings = 0;
     std::size_t actions = 0;

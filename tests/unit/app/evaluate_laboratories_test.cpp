@@ -85,7 +85,7 @@ ComparisonJob twelve_results() {
 }
 
 reports::Comparison evaluated(const ComparisonJob& job) {
-    return evaluate_laboratories(job, 1, {});
+    return evaluate_laboratories(job, {});
 }
 
 /// What is refused, or has no result, as its first message.
@@ -817,7 +817,7 @@ TEST(EvaluateComparison, RecordOfAComparison) {
     job.certificate.emplace();
     std::vector<std::string> told;
     const reports::EvaluationRecord record =
-        evaluate_comparison(job, {}, 1, [&](const std::string& text) { told.push_back(text); });
+        evaluate_comparison(job, {}, [&](const std::string& text) { told.push_back(text); });
     EXPECT_EQ(record.kind, "comparison");
     EXPECT_EQ(record.title, "Key comparison");
     ASSERT_TRUE(record.comparison);

@@ -66,6 +66,20 @@ std::string all_remarks(const reports::Comparison& record) {
     return text;
 }
 
+TEST(CompareMethods, ADifferenceThatIsItsUncertaintyButForRoundingIsNotAboveIt) {
+    // 10.3 − 10.1 over 0.2 is 1, which double precision makes 1.0000000000000053.
+    MethodComparison comparison = comparison_of({{0.0, 0.2, 0.0}});
+    comparison.points.front().value = 10.3;
+    comparison.points.front().reference_value = 10.1;
+    const reports::Comparison record = compared(comparison);
+    EXPECT_EQ(*record.points.front().En, 1.0);
+    EXPECT_EQ(record.points.front().D, *record.points.front().U_D);
+    EXPECT_EQ(record.points.front().signal, "none");
+    EXPECT_EQ(record.summary.front().count_above_1, 0);
+    EXPECT_EQ(record.summary.front().max_abs_En, 1.0);
+    EXPECT_NE(record.summary.front().verdict, "disagreement");
+}
+
 TEST(CompareMethods, MaximumPermissibleErrorAsOnlyTerm) {
     // Golden vector 8: D = 18, U_X = 5; MPE = 10 as u gives U = 20. An audit corrects it to MPE/√3.
     MethodComparison comparison = comparison_of({{18.0, 20.0, 5.0}});

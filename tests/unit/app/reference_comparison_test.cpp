@@ -208,7 +208,7 @@ TEST(ReferenceComparison, TakesAStatedCorrelationPointByPointWhereNothingIsCommo
     const reports::Comparison comparison = reference_comparison(read(files), displacement());
     EXPECT_NEAR(*comparison.points[0].u_D, std::sqrt(0.25 - 2.0 * 0.9 * 0.12), 1e-12);
     EXPECT_NEAR(*row(comparison, "x").effective_points, 3.0, 1e-9);
-    EXPECT_THAT(joined(comparison.remarks), HasSubstr("an effect of each point apart"));
+    EXPECT_THAT(joined(comparison.remarks), HasSubstr("is taken to hold at equal points"));
 }
 
 TEST(ReferenceComparison, RefusesACorrelationThatTheCovariancesDoNotAllow) {
@@ -219,7 +219,7 @@ TEST(ReferenceComparison, RefusesACorrelationThatTheCovariancesDoNotAllow) {
         (void)reference_comparison(job, displacement());
         FAIL() << "an impossible correlation was accepted";
     } catch (const gum::InputError& error) {
-        EXPECT_EQ(error.diagnostics().front().code, "GC-REFERENCE-0008");
+        EXPECT_EQ(error.diagnostics().front().code, "GC-COMPARE-0204");
         EXPECT_THAT(gum::message(error.diagnostics().front()), HasSubstr("the value is 0.9, and neither"));
     }
 }
@@ -289,7 +289,7 @@ TEST(ReferenceComparison, EvaluatesTheBudgetAtEveryPoint) {
     EXPECT_EQ(comparison.reference_budget[0].input, "reading");
     EXPECT_NEAR(comparison.reference_budget[1].contribution, 0.5, 1e-12);
     EXPECT_THAT(joined(comparison.remarks), HasSubstr("budgets/indicator.json, evaluated at every point"));
-    EXPECT_THAT(joined(comparison.remarks), HasSubstr("largest, x 0°"));
+    EXPECT_THAT(joined(comparison.remarks), HasSubstr("largest uncertainty, x 0°"));
     EXPECT_THAT(joined(comparison.remarks), testing::Not(HasSubstr("maximum permissible error")));
 }
 
@@ -332,7 +332,7 @@ TEST(ReferenceComparison, RefusesAReferenceValueWithoutUncertainty) {
         (void)reference_comparison(job, displacement());
         FAIL() << "a reference value without uncertainty was accepted";
     } catch (const gum::NoResultError& error) {
-        EXPECT_EQ(error.diagnostics().front().code, "GC-REFERENCE-0006");
+        EXPECT_EQ(error.diagnostics().front().code, "GC-COMPARE-0206");
         EXPECT_THAT(gum::message(error.diagnostics().front()), HasSubstr("budgets/indicator.json, point x 45°"));
     }
 }

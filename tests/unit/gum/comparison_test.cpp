@@ -27,8 +27,8 @@ ComparedValue with_k_2(double value, double U) {
 }
 
 TEST(EnNumber, SignZeroAndBoundary) {
-    // Computed from the formula in double arithmetic, so a boundary case is not exactly 1.
-    EXPECT_NEAR(score(with_k_2(10.05, 0.03), with_k_2(10.0, 0.04)).en, 1.00000000000001, 1e-12);
+    // Double arithmetic makes 1.00000000000001 of the first one, which is not above 1 all the same.
+    EXPECT_EQ(score(with_k_2(10.05, 0.03), with_k_2(10.0, 0.04)).en, 1.0);
     EXPECT_NEAR(score(with_k_2(9.97, 0.03), with_k_2(10.0, 0.04)).en, -0.599999999999987, 1e-12);
     EXPECT_EQ(score(with_k_2(10.0, 0.03), with_k_2(10.0, 0.04)).en, 0.0);
     EXPECT_NEAR(score(with_k_2(10.01, 0.02), with_k_2(10.0, 0.0)).en, 0.499999999999989, 1e-12);
@@ -39,6 +39,28 @@ TEST(EnNumber, ExactlyOneIsNotAboveOne) {
     const std::array<ComparisonScore, 1> points{score(with_k_2(5.0, 3.0), with_k_2(0.0, 4.0))};
     EXPECT_EQ(points[0].en, 1.0);
     EXPECT_EQ(summarise(points).count_above_1, 0U);
+}
+
+TEST(Scores, ThatAreALimitButForRoundingAreTheLimit) {
+    EXPECT_EQ(score(with_k_2(10.3, 0.2), with_k_2(10.1, 0.0)).en, 1.0);
+    EXPECT_EQ(score(with_k_2(10.1, 0.2), with_k_2(10.3, 0.0)).en, -1.0);
+    EXPECT_EQ(score(with_k_2(10.3, 0.2), with_k_2(10.1, 0.0)).zeta, 2.0);
+    EXPECT_EQ(z_score(10.2, 10.0, 0.1), 2.0);
+    EXPECT_EQ(z_score(9.7, 10.0, 0.1), -3.0);
+    EXPECT_EQ(z_prime_score(10.5, 10.0, 0.3, 0.4), 1.0);
+    EXPECT_EQ(percent_of_allowed(10.3, 10.0, 0.3), 100.0);
+    EXPECT_EQ(*worst_plausible_en(with_k_2(10.3, 0.5), with_k_2(10.7, 0.3)), -1.0);
+    // What can be seen in the numbers is no rounding.
+    EXPECT_GT(score(with_k_2(10.3000000000001, 0.2), with_k_2(10.1, 0.0)).en, 1.0);
+    EXPECT_LT(z_score(10.1999999999999, 10.0, 0.1), 2.0);
+}
+
+TEST(Scores, OfValuesWithTooFewDigitsAreNotSettled) {
+    // 1e9 and the next doubles: the difference is 2.4e-7, and no rounding of them makes 2.4 a limit.
+    const double next = std::nextafter(std::nextafter(1e9, 2e9), 2e9);
+    EXPECT_DOUBLE_EQ(z_score(next, 1e9, 1e-7), (next - 1e9) / 1e-7);
+    EXPECT_EQ(code_of<InputError>([] { (void)settled_score(1.0, 0.0, 0.0); }), "GC-GUM-0003");
+    EXPECT_EQ(code_of<InputError>([] { (void)settled_score(1.0, std::nan(""), 1.0); }), "GC-GUM-0001");
 }
 
 TEST(EnNumber, Correlated) {

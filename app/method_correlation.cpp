@@ -1,0 +1,205 @@
+#include "app/method_correlation.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "app/comparison_print.h"
+#include "app/record_parts.h"
+#include "app/shared_sources.h"
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::app {
+
+namespace {
+
+using engine::ComparisonJob;
+using engine::MethodComparisonRequest;
+using engine::MethodCorrelation;
+
+// Below it an eigenvalue of a correlation matrix of m quantities is rounding: m times this.
+constexpr double k_rounding = 1e-10;
+
+/// Whether values of covariances V and W can have the covariance C with each other.
+bool is_possible(const Eigen::MatrixXd& V, const Eigen::MatrixXd& W, const Eigen::MatrixXd& C) {
+    const Eigen::Index m = V.rows();
+    Eigen::MatrixXd joint(2 * m, 2 * m);
+    joint << V, C, C.transpose(), W;
+    const Eigen::VectorXd scale =
+        joint.diagonal().unaryExpr([](double variance) { return variance > 0.0 ? 1.0 / std::sqrt(variance) : 0.0; });
+    joint = scale.asDiagonal() * joint * scale.asDiagonal();
+    joint.diagonal().array() += k_rounding * static_cast<double>(2 * m);
+    return Eigen::LLT<Eigen::MatrixXd>(joint).info() == Eigen::Success;
+}
+
+/// One entry a source, at the point where it ties both methods most. None where a side has no budget.
+std::vector<reports::SharedSource> found_sources(const MethodComparisonRequest& request, const MethodSide& method,
+                                                 const MethodSide& reference,
+                                                 const std::vector<std::string>& independent,
+                                                 std::vector<std::string>& ambiguous) {
+    std::vector<reports::SharedSource> found;
+    const std::size_t points = std::min(method.sources.all.size(), reference.sources.all.size());
+    for (std::size_t i = 0; i < points; ++i) {
+        for (const SourceCovariance& shared :
+             shared_covariance(method.sources.all[i], reference.sources.all[i], independent)) {
+            auto entry = std::find_if(found.begin(), found.end(), [&](const reports::SharedSource& other) {
+                return other.source == shared.source;
+            });
+            if (entry == found.end()) {
+                found.push_back({.source = shared.source,
+                                 .first = request.laboratory.name,
+                                 .second = request.reference.name,
+                                 .covariance = 0.0});
+                entry = std::prev(found.end());
+            }
+            if (shared.ambiguous && std::find(ambiguous.begin(), ambiguous.end(), shared.source) == ambiguous.end()) {
+                ambiguous.push_back(shared.source);
+            }
+            if (std::abs(shared.covariance) > std::abs(entry->covariance)) {
+                entry->covariance = shared.covariance;
+                entry->correlation = shared.covariance / (method.uncertainty[i].u * reference.uncertainty[i].u);
+            }
+        }
+    }
+    for (reports::SharedSource& source : found) {
+        source.printed_correlation = printed_score(source.correlation);
+    }
+    return found;
+}
+
+/// Names of the sources that both budgets have, also of those that the job calls independent.
+std::vector<std::string> sources_in_both(const MethodComparisonRequest& request, const MethodSide& method,
+                                         const MethodSide& reference) {
+    std::vector<std::string> ambiguous;
+    std::vector<std::string> names;
+    for (const reports::SharedSource& source : found_sources(request, method, reference, {}, ambiguous)) {
+        names.push_back(source.source);
+    }
+    return names;
+}
+
+/// One budget calls an input the same at all points, and the other one calls it another at each.
+[[noreturn]] void refuse_shared_sources(const std::vector<std::string>& names) {
+    throw gum::InputError(gum::Diagnostic{
+        .code = "GC-COMPARE-0207",
+        .where = "correlation",
+        .what = "both budgets name " + listed(names) + ", and what they say of it cannot hold together",
+        .rule = "an input whose source both methods share is the same at all points in both budgets, or "
+                "\"between_points\": \"independent\" in both",
+        .action = "State it alike in both budgets, or list the source in \"independent_sources\"."});
+}
+
+void add_shared_sources(const ComparisonJob& job, const MethodSide& method, const MethodSide& reference,
+                        MethodComparison& comparison, reports::Comparison& record) {
+    const MethodComparisonRequest& request = *job.methods;
+    std::vector<std::string> ambiguous;
+    record.shared_sources = found_sources(request, method, reference, job.independent_sources, ambiguous);
+    std::vector<std::string> names;
+    for (const reports::SharedSource& source : record.shared_sources) {
+        names.push_back(source.source);
+    }
+    if (names.empty()) {
+        record.remarks.emplace_back(
+            "The budgets of both methods name no source in common that is shared; the covariance between the methods "
+            "is taken as zero.");
+    } else {
+        comparison.cross_covariance =
+            cross_covariance_of_sources(method.sources, reference.sources, job.independent_sources);
+        if (ambiguous.empty() &&
+            !is_possible(comparison.covariance, comparison.reference_covariance, comparison.cross_covariance)) {
+            refuse_shared_sources(names);
+        }
+        record.remarks.push_back("Both budgets name " + listed(names) +
+                                 ". The covariance between the methods is computed from what these sources contribute "
+                                 "to each of them, with its sign.");
+    }
+    if (!ambiguous.empty()) {
+        record.remarks.push_back("The budgets do not tell which inputs of " + listed(ambiguous) +
+                                 " are the same quantity: the largest covariance that they can have is taken, which "
+                                 "makes |En| larger.");
+    }
+    std::vector<std::string> set_aside;
+    for (const std::string& name : sources_in_both(request, method, reference)) {
+        if (std::find(names.begin(), names.end(), name) == names.end()) {
+            set_aside.push_back(name);
+        }
+    }
+    if (!set_aside.empty()) {
+        record.remarks.push_back("Both budgets name " + listed(set_aside) +
+                                 "; the job states that they are independent of each other all the same.");
+    }
+}
+
+}  // namespace
+
+Eigen::MatrixXd covariance_of_stated_correlation(double r, const MethodComparison& comparison,
+                                                 const std::vector<std::string>& may_share, const std::string& where,
+                                                 std::vector<std::string>& remarks) {
+    Eigen::MatrixXd common = r * comparison.covariance.diagonal().cwiseSqrt() *
+                             comparison.reference_covariance.diagonal().cwiseSqrt().transpose();
+    bool all_share = true;
+    for (Eigen::Index i = 0; i < common.rows(); ++i) {
+        for (Eigen::Index j = 0; j < common.cols(); ++j) {
+            if (may_share[static_cast<std::size_t>(i)] != may_share[static_cast<std::size_t>(j)]) {
+                common(i, j) = 0.0;
+                all_share = false;
+            }
+        }
+    }
+    const Eigen::MatrixXd apart = common.diagonal().asDiagonal();
+    const std::string stated = "The stated correlation " + printed_as_stated(r) + " of both methods ";
+    if (is_possible(comparison.covariance, comparison.reference_covariance, apart)) {
+        remarks.push_back(stated +
+                          "is taken to hold at equal points; different points of the two methods are taken as "
+                          "not correlated with each other.");
+        return apart;
+    }
+    if (is_possible(comparison.covariance, comparison.reference_covariance, common)) {
+        remarks.push_back(stated + "is taken to come from an effect that all points " +
+                          (all_share ? "" : "of a direction ") +
+                          "share: the points of the methods share so much that it cannot hold at equal points alone.");
+        return common;
+    }
+    throw gum::InputError(gum::Diagnostic{
+        .code = "GC-COMPARE-0204",
+        .where = where,
+        .what = "the value is " + printed_as_stated(r) +
+                ", and neither an effect of each point apart nor one that all points share can have that correlation",
+        .rule = "the covariance matrix of both methods together is positive semi-definite",
+        .action = "State a smaller correlation, or \"unknown\", or give budgets that name the shared sources."});
+}
+
+void add_correlation(const ComparisonJob& job, const MethodSide& method, const MethodSide& reference,
+                     MethodComparison& comparison, reports::Comparison& record) {
+    const MethodComparisonRequest& request = *job.methods;
+    switch (request.correlation) {
+        case MethodCorrelation::none:
+            record.correlation = "none";
+            record.remarks.emplace_back(
+                "The job states that both methods have no source of uncertainty in common; the covariance between "
+                "them is taken as zero.");
+            break;
+        case MethodCorrelation::given:
+            record.correlation = "given";
+            record.correlation_given = request.r;
+            comparison.cross_covariance = covariance_of_stated_correlation(
+                request.r, comparison, std::vector<std::string>(request.points.size()), "correlation", record.remarks);
+            break;
+        case MethodCorrelation::unknown:
+            record.correlation = "unknown";
+            comparison.correlation_unknown = true;
+            break;
+        case MethodCorrelation::shared_sources:
+            record.correlation = "shared_sources";
+            add_shared_sources(job, method, reference, comparison, record);
+            return;
+    }
+    const std::vector<std::string> both = sources_in_both(request, method, reference);
+    if (!both.empty()) {
+        record.remarks.push_back("Both budgets name " + listed(both) +
+                                 "; the covariance that follows from it is not used, because the job states the "
+                                 "correlation of the methods.");
+    }
+}
+
+}  // namespace gumcert::app
