@@ -188,21 +188,27 @@ double rank_correlation(const std::vector<double>& first, const std::vector<doub
     return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0;
 }
 
+/// With MADe as scale, which one value has not.
+gum::RobustEstimate median_of(const std::vector<double>& values) {
+    return values.size() > 1 ? gum::median_with_made(values) : gum::RobustEstimate{.location = values.front()};
+}
+
 void add_ellipse(reports::YoudenDiagram& diagram) {
     constexpr std::size_t k_least_points = 3;
     constexpr std::size_t k_corners = 72;
     constexpr double k_probability = 0.95;
-    constexpr double k_scale_of_normal = 1.483;  // as of MADe; one point has a scale of 0
     std::vector<double> first;
     std::vector<double> second;
     for (const reports::YoudenPoint& point : diagram.points) {
         first.push_back(point.first);
         second.push_back(point.second);
     }
-    diagram.centre_first = gum::median(first);
-    diagram.centre_second = gum::median(second);
-    diagram.scale_first = k_scale_of_normal * gum::median_absolute_deviation(first);
-    diagram.scale_second = k_scale_of_normal * gum::median_absolute_deviation(second);
+    const gum::RobustEstimate of_first = median_of(first);
+    const gum::RobustEstimate of_second = median_of(second);
+    diagram.centre_first = of_first.location;
+    diagram.centre_second = of_second.location;
+    diagram.scale_first = of_first.scale;
+    diagram.scale_second = of_second.scale;
     diagram.correlation =
         std::clamp(2.0 * std::sin(std::numbers::pi / 6.0 * rank_correlation(first, second)), -1.0, 1.0);
     if (diagram.points.size() < k_least_points || !(diagram.scale_first > 0.0) || !(diagram.scale_second > 0.0)) {

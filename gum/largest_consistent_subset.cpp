@@ -85,12 +85,14 @@ private:
     }
     [[nodiscard]] double limit() const { return std::min(bound_, best_.chi_square * (1.0 + k_tie)); }
 
-    /// Weighted mean and chi-square of a subset, centred on one of its members.
+    /// Weighted mean and chi-square of a subset, centred on its most precise member: a mean far from it would round by
+    /// more than the uncertainty of that member.
     struct Fit {
         double y = 0.0, chi_square = 0.0, weight = 0.0;
     };
     [[nodiscard]] Fit fit(const Members& members) const {
-        const double centre = x_[members.front()];
+        const double centre =
+            x_[*std::min_element(members.begin(), members.end(), [&](auto a, auto b) { return u_[a] < u_[b]; })];
         double weight = 0.0;
         double sum = 0.0;
         for (const std::uint32_t i : members) {
@@ -281,8 +283,11 @@ private:
         };
         for (std::size_t j = 0; j < representatives_.size(); ++j) {
             for (std::size_t i = 0; i < j; ++i) {
-                const std::uint32_t a = representatives_[i];
-                const std::uint32_t b = representatives_[j];
+                std::uint32_t a = representatives_[i];
+                std::uint32_t b = representatives_[j];
+                if (u_[b] < u_[a]) {
+                    std::swap(a, b);  // both points lie closer to the more precise one: they round least from there
+                }
                 const double gap = x_[b] - x_[a];
                 add(x_[a] + gap * u_[a] / (u_[a] + u_[b]));
                 if (u_[a] != u_[b]) {

@@ -1,8 +1,10 @@
 #include "gum/proficiency_scheme.h"
 
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "gum/argument_check.h"
@@ -32,8 +34,9 @@ void require_results(const Eigen::MatrixXd& results, std::size_t least) {
     }
 }
 
-/// Means of the items, their mean, and the standard deviations between and within.
+/// Means of the items and their mean, both about the first result, and the standard deviations between and within.
 struct ItemStatistics {
+    Real origin = 0.0L;
     RealVector means;
     Real mean = 0.0L;
     Real s_means = 0.0L;   ///< 0 with one item
@@ -42,9 +45,8 @@ struct ItemStatistics {
 
 ItemStatistics item_statistics(const Eigen::MatrixXd& results) {
     // About the first result: a large common value is taken off without rounding.
-    const Real origin = results(0, 0);
-    const RealMatrix values = results.cast<Real>().array() - origin;
-    ItemStatistics statistics;
+    ItemStatistics statistics{.origin = results(0, 0), .means = {}};
+    const RealMatrix values = results.cast<Real>().array() - statistics.origin;
     statistics.means = values.rowwise().mean();
     statistics.mean = statistics.means.mean();
     if (values.rows() > 1) {
@@ -55,7 +57,6 @@ ItemStatistics item_statistics(const Eigen::MatrixXd& results) {
         const Real squares = (values.colwise() - statistics.means).squaredNorm();
         statistics.s_within = std::sqrt(squares / static_cast<Real>(values.rows() * (values.cols() - 1)));
     }
-    statistics.mean += origin;
     return statistics;
 }
 
@@ -84,9 +85,10 @@ double sigma_pt_of_precision(double reproducibility, double repeatability, std::
                "repeatability is a part of reproducibility and cannot be greater",
                "Check whether the two numbers were exchanged.");
     }
-    const double ratio = repeatability / reproducibility;
-    const double sigma_pt =
-        reproducibility * std::sqrt(1.0 - ratio * ratio * (1.0 - 1.0 / static_cast<double>(replicates)));
+    const Real ratio = static_cast<Real>(repeatability) / static_cast<Real>(reproducibility);
+    // (1 − ρ)(1 + ρ) + ρ²/m: nothing cancels where ρ is close to 1.
+    const Real share = (1.0L - ratio) * (1.0L + ratio) + ratio * ratio / static_cast<Real>(replicates);
+    const auto sigma_pt = static_cast<double>(static_cast<Real>(reproducibility) * std::sqrt(share));
     require_positive(sigma_pt, "standard deviation for proficiency assessment");
     return sigma_pt;
 }
@@ -109,7 +111,8 @@ HomogeneityCheck check_homogeneity(const Eigen::MatrixXd& results, double sigma_
     HomogeneityCheck check;
     check.items = static_cast<std::size_t>(results.rows());
     check.replicates = static_cast<std::size_t>(results.cols());
-    check.mean = static_cast<double>(statistics.mean);
+    check.mean = static_cast<double>(statistics.origin + statistics.mean);
+    check.mean_remainder = static_cast<double>(statistics.origin - static_cast<Real>(check.mean) + statistics.mean);
     check.s_x = static_cast<double>(statistics.s_means);
     check.s_w = static_cast<double>(statistics.s_within);
     const Real between = statistics.s_means * statistics.s_means -
@@ -117,7 +120,7 @@ HomogeneityCheck check_homogeneity(const Eigen::MatrixXd& results, double sigma_
     check.s_s = between > 0.0L ? static_cast<double>(std::sqrt(between)) : 0.0;
     check.limit = k_assigned_value_criterion * sigma_pt;
     const HomogeneityFactors factors = homogeneity_factors(check.items, check.replicates);
-    check.expanded_limit = std::sqrt(factors.f1 * check.limit * check.limit + factors.f2 * check.s_w * check.s_w);
+    check.expanded_limit = std::hypot(std::sqrt(factors.f1) * check.limit, std::sqrt(factors.f2) * check.s_w);
     for (const double number : {check.mean, check.s_x, check.s_w, check.expanded_limit}) {
         require_finite(number, "check of homogeneity");
     }
@@ -132,8 +135,9 @@ StabilityCheck check_stability(const HomogeneityCheck& before, const Eigen::Matr
     require_positive(sigma_pt, "standard deviation for proficiency assessment");
     const ItemStatistics statistics = item_statistics(results);
     StabilityCheck check;
-    check.mean = static_cast<double>(statistics.mean);
-    check.difference = static_cast<double>(std::abs(statistics.mean - static_cast<Real>(before.mean)));
+    check.mean = static_cast<double>(statistics.origin + statistics.mean);
+    check.difference = static_cast<double>(std::abs((statistics.origin - static_cast<Real>(before.mean)) +
+                                                    (statistics.mean - static_cast<Real>(before.mean_remainder))));
     const double u_before = before.s_x / std::sqrt(static_cast<double>(before.items));
     const double u_after = static_cast<double>(statistics.s_means) / std::sqrt(static_cast<double>(results.rows()));
     check.u_difference = std::hypot(u_before, u_after);
@@ -142,8 +146,11 @@ StabilityCheck check_stability(const HomogeneityCheck& before, const Eigen::Matr
     for (const double number : {check.mean, check.difference, check.expanded_limit}) {
         require_finite(number, "check of stability");
     }
-    check.stable = check.difference <= check.limit;
-    check.stable_expanded = check.difference <= check.expanded_limit;
+    // 10.3 − 10 is 0.3, which binary numbers make a little more.
+    const double rounding =
+        2.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(check.mean), std::abs(before.mean));
+    check.stable = check.difference - rounding <= check.limit;
+    check.stable_expanded = check.difference - rounding <= check.expanded_limit;
     return check;
 }
 

@@ -32,6 +32,7 @@ struct HomogeneityFactors {
 struct HomogeneityCheck {
     std::size_t items = 0, replicates = 0;
     double mean = 0.0;
+    double mean_remainder = 0.0;       ///< what the rounding of the mean has cut off
     double s_x = 0.0;                  ///< standard deviation of the means of the items
     double s_w = 0.0;                  ///< within items
     double s_s = 0.0;                  ///< between items, √max(0, s_x² − s_w²/m)
@@ -45,7 +46,9 @@ struct HomogeneityCheck {
 /// \throws InputError  GC-GUM-0001, GC-GUM-0003 for σ_pt, GC-GUM-0111 too few items or replicates
 [[nodiscard]] HomogeneityCheck check_homogeneity(const Eigen::MatrixXd& results, double sigma_pt);
 
-/// Check of stability: mean of items measured again, later, against the mean of the homogeneity check.
+/// Check of stability: mean of items measured again, later, against the mean of the homogeneity check. The difference
+/// keeps the digits that the results have, whatever they have in common; one that is at a limit but for the rounding of
+/// the two means counts as at it.
 struct StabilityCheck {
     double mean = 0.0;
     double difference = 0.0;      ///< |ȳ1 − ȳ2|

@@ -59,27 +59,21 @@ double variance_of_values(const CentredResults& c) {
     return (c.x - c.x.mean()).square().sum() / static_cast<double>(c.x.size() - 1);
 }
 
-ReferenceValue random_effects_mean(const CentredResults& c, double between_variance, int iterations) {
+ReferenceValue random_effects_mean(const CentredResults& c, double between_variance) {
     const WeightedSums sums = weighted_sums(c, between_variance);
     return {.value = c.centre + c.unit * sums.mean,
             .u = c.unit / std::sqrt(sums.total),
             .weights = (sums.weights / sums.total).matrix(),
-            .between_standard_deviation = c.unit * std::sqrt(between_variance),
-            .iterations = iterations};
+            .between_standard_deviation = c.unit * std::sqrt(between_variance)};
 }
-
-struct BetweenVariance {
-    double value = 0.0;
-    int iterations = 0;
-};
 
 /// Σ (x_i − y)²/(u_i² + τ²) falls with τ². At τ² = s², the variance of the values, it is at most n − 1: the sum is the
 /// least one over y, and with the arithmetic mean and without the u_i² it would be n − 1.
-BetweenVariance mandel_paule_variance(const CentredResults& c) {
+double mandel_paule_variance(const CentredResults& c) {
     const double target = static_cast<double>(c.x.size() - 1);
     const auto excess = [&](double between_variance) { return weighted_sums(c, between_variance).squares - target; };
     if (excess(0.0) <= 0.0) {
-        return {};
+        return 0.0;
     }
     double high = variance_of_values(c) * (1.0 + 1e-9);
     double low = 0.5 * high;
@@ -90,7 +84,7 @@ BetweenVariance mandel_paule_variance(const CentredResults& c) {
         high = low;
         low *= k_step;
         if (++steps > k_most_steps || low == 0.0) {
-            return {.value = 0.0, .iterations = steps};  // far below the smallest u²: the sum is n − 1 but for rounding
+            return 0.0;  // far below the smallest u²: the sum is n − 1 but for rounding
         }
     }
     std::uintmax_t iterations = 200;
@@ -103,7 +97,7 @@ BetweenVariance mandel_paule_variance(const CentredResults& c) {
                                        .rule = "Σ (x − y)²/(u² + τ²) must become n − 1",
                                        .action = "Review the uncertainties, or choose another reference value."});
     }
-    return {.value = 0.5 * (below + above), .iterations = steps + static_cast<int>(iterations)};
+    return 0.5 * (below + above);
 }
 
 }  // namespace
@@ -122,7 +116,7 @@ ReferenceValue dersimonian_laird(const LaboratoryResults& results) {
         others += share(i);
     }
     const double between_variance = std::max(0.0, (sums.squares - nu) / scale);
-    return random_effects_mean(c, between_variance, 0);
+    return random_effects_mean(c, between_variance);
 }
 
 double hartung_knapp_u(const LaboratoryResults& results, const ReferenceValue& mean) {
@@ -148,8 +142,7 @@ double cochran_between_standard_deviation(const LaboratoryResults& results) {
 ReferenceValue mandel_paule(const LaboratoryResults& results) {
     require_independent_results(results);
     const CentredResults c = centred(results);
-    const BetweenVariance between = mandel_paule_variance(c);
-    return random_effects_mean(c, between.value, between.iterations);
+    return random_effects_mean(c, mandel_paule_variance(c));
 }
 
 ReferenceValue power_moderated_mean(const LaboratoryResults& results) {
@@ -165,18 +158,17 @@ ReferenceValue power_moderated_mean(const LaboratoryResults& results, double alp
     }
     const CentredResults c = centred(results);
     const double n = static_cast<double>(c.x.size());
-    const BetweenVariance between = mandel_paule_variance(c);
+    const double between_variance = mandel_paule_variance(c);
     const double of_arithmetic_mean = variance_of_values(c) / n;
-    const double of_mandel_paule_mean = 1.0 / weighted_sums(c, between.value).total;
+    const double of_mandel_paule_mean = 1.0 / weighted_sums(c, between_variance).total;
     const double characteristic = n * std::max(of_arithmetic_mean, of_mandel_paule_mean);  // S²
-    const ArrayXd weights = ((c.variance + between.value) / characteristic).pow(-0.5 * alpha);
+    const ArrayXd weights = ((c.variance + between_variance) / characteristic).pow(-0.5 * alpha);
     const double total = weights.sum();
     const double mean = (weights * c.x).sum() / total;
     return {.value = c.centre + c.unit * mean,
             .u = c.unit * std::sqrt(characteristic / total),
             .weights = (weights / total).matrix(),
-            .between_standard_deviation = c.unit * std::sqrt(between.value),
-            .iterations = between.iterations};
+            .between_standard_deviation = c.unit * std::sqrt(between_variance)};
 }
 
 }  // namespace gumcert::gum

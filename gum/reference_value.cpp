@@ -289,11 +289,15 @@ ReferenceValue arithmetic_mean(const Eigen::VectorXd& x) {
     }
     const auto count = static_cast<double>(n);
     const double centre = x(0);
-    const Eigen::ArrayXd from_centre = x.array() - centre;
+    Eigen::ArrayXd from_centre = x.array() - centre;
+    const double range = from_centre.abs().maxCoeff();
+    require_finite(range, "range of the results");
+    const double unit = range > 0.0 ? std::scalbn(1.0, std::ilogb(range)) : 1.0;  // a power of 2: no rounding
+    from_centre /= unit;
     const double mean = from_centre.mean();
     const double sum_of_squares = (from_centre - mean).square().sum();
-    return {.value = centre + mean,
-            .u = std::sqrt(sum_of_squares / ((count - 1.0) * count)),
+    return {.value = centre + unit * mean,
+            .u = unit * std::sqrt(sum_of_squares / ((count - 1.0) * count)),
             .weights = Eigen::VectorXd::Constant(n, 1.0 / count)};
 }
 
@@ -336,7 +340,6 @@ std::size_t incompatible_pairs(const LaboratoryResults& results, double kappa) {
     require_positive(kappa, "kappa");
     const Index n = results.x.size();
     const double unit = results.u.maxCoeff();
-    const Eigen::ArrayXd x = (results.x.array() - results.x(0)) / unit;
     const Eigen::ArrayXd u = results.u.array() / unit;
     std::size_t pairs = 0;
     for (Index i = 0; i < n; ++i) {
@@ -346,7 +349,9 @@ std::size_t incompatible_pairs(const LaboratoryResults& results, double kappa) {
                 const double u_d = pair_difference(results, static_cast<std::size_t>(i), static_cast<std::size_t>(j)).u;
                 variance = (u_d / unit) * (u_d / unit);
             }
-            const double d = x(i) - x(j);
+            // Values that are stated to be κ u apart are compatible, however their binary numbers round.
+            const double rounding = 2.0 * k_epsilon * std::max(std::abs(results.x(i)), std::abs(results.x(j)));
+            const double d = std::max(0.0, std::abs(results.x(i) - results.x(j)) - rounding) / unit;
             pairs += d * d > kappa * kappa * variance ? 1 : 0;
         }
     }

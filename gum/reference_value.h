@@ -30,7 +30,6 @@ struct ReferenceValue {
     double u = 0.0;
     Eigen::VectorXd weights = {};             ///< n; empty or all 0: the value does not depend on the results
     double between_standard_deviation = 0.0;  ///< τ of a random-effects model; 0 without one
-    int iterations = 0;
 };
 
 /// The same value with the weights spread over all n results: those of the members, 0 for the others.
@@ -45,7 +44,7 @@ struct ReferenceValue {
 [[nodiscard]] ReferenceValue weighted_mean(const LaboratoryResults& results);
 
 /// Arithmetic mean with u = s/√n of the values themselves; stated uncertainties are not used.
-/// \throws InputError  GC-GUM-0001, -0131 fewer than 2
+/// \throws InputError  GC-GUM-0001 also where the range of the values is no number any more, -0131 fewer than 2
 [[nodiscard]] ReferenceValue arithmetic_mean(const Eigen::VectorXd& x);
 
 /// Test whether results are consistent with one value and their stated uncertainties.

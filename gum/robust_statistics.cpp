@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <string>
 
@@ -27,20 +26,12 @@ constexpr double k_algorithm_a_factor = 1.134;                                //
 constexpr double k_algorithm_a_limit = 1.5;                                   // in units of s*
 constexpr double k_third_normal_quartile = 0.674489750196081743202227014541;  // Φ⁻¹(0.75)
 constexpr double k_location_factor = 1.25;  // u(x*) = 1.25 s* / √p; √(π/2) ≈ 1.2533 for a median
-constexpr double k_stand_still = 1e-13;     // of the scale
-constexpr int k_most_steps = 1000;
+constexpr double k_stand_still = 1e-16;  // of the scale; steps may be a hundred times shorter than what is left to go
+constexpr int k_most_steps = 10'000;
 
-[[noreturn]] void refuse_scale(const std::string& method, const std::string& what) {
+[[noreturn]] void refuse_scale(const std::string& method, const std::string& what, const std::string& other = "") {
     refuse("GC-GUM-0102", method, what, "a robust standard deviation greater than 0 is needed",
-           "Report the median, use the Q method with Hampel's estimator, or give the results with more digits.");
-}
-
-[[noreturn]] void not_converged(const std::string& method) {
-    throw NoResultError(Diagnostic{.code = "GC-GUM-0103",
-                                   .where = method,
-                                   .what = "not converged after " + std::to_string(k_most_steps) + " steps",
-                                   .rule = "two successive steps must agree",
-                                   .action = "Use the median, or the Q method with Hampel's estimator."});
+           "Report the median, " + other + "or give the results with more digits.");
 }
 
 /// In ascending order, so that no sum depends on the order of the results.
@@ -59,17 +50,17 @@ std::vector<double> sorted(std::span<const double> results, std::size_t least) {
     return ascending;
 }
 
-double median_of_sorted(const std::vector<double>& ascending) {
+Real median_of_sorted(const std::vector<double>& ascending) {
     const std::size_t n = ascending.size();
-    return n % 2 == 1 ? ascending[n / 2] : std::midpoint(ascending[n / 2 - 1], ascending[n / 2]);
+    return (static_cast<Real>(ascending[(n - 1) / 2]) + static_cast<Real>(ascending[n / 2])) / 2;
 }
 
-/// x − median, ascending: a large common value is taken off, and nothing below depends on it.
-std::vector<Real> centred(const std::vector<double>& ascending, double centre) {
+/// (x − median)/unit, ascending: a large common value is taken off, and nothing below depends on it.
+std::vector<Real> centred(const std::vector<double>& ascending, Real centre, Real unit = 1.0L) {
     std::vector<Real> differences;
     differences.reserve(ascending.size());
     for (const double value : ascending) {
-        differences.push_back(static_cast<Real>(value) - static_cast<Real>(centre));
+        differences.push_back((static_cast<Real>(value) - centre) / unit);
     }
     return differences;
 }
@@ -85,12 +76,11 @@ Real median_of_absolute(const std::vector<Real>& differences) {
     return absolute.size() % 2 == 1 ? *middle : (*std::max_element(absolute.begin(), middle) + *middle) / 2;
 }
 
-RobustEstimate estimate(Real location, Real scale, std::size_t results, int iterations) {
+RobustEstimate estimate(Real location, Real scale, std::size_t results) {
     const RobustEstimate found{
         .location = static_cast<double>(location),
         .scale = static_cast<double>(scale),
-        .u = static_cast<double>(k_location_factor * scale / std::sqrt(static_cast<Real>(results))),
-        .iterations = iterations};
+        .u = static_cast<double>(k_location_factor * scale / std::sqrt(static_cast<Real>(results)))};
     require_finite(found.location, "robust mean");
     require_finite(found.scale, "robust standard deviation");
     return found;
@@ -184,8 +174,12 @@ private:
 class PairwiseDifferences {
 public:
     explicit PairwiseDifferences(const std::vector<double>& ascending) : x_(ascending) {
-        const double largest = std::max(std::abs(x_.front()), std::abs(x_.back()));
-        same_ = 8.0 * std::numeric_limits<double>::epsilon() * largest;
+        std::vector<double> sizes(x_.size());
+        std::transform(x_.begin(), x_.end(), sizes.begin(), [](double x) { return std::abs(x); });
+        std::sort(sizes.begin(), sizes.end());
+        // Half a unit in the last place of each of four numbers, and a little. No outlier may stretch it.
+        const double size = std::min(sizes.back(), 100.0 * sizes[sizes.size() / 2]);
+        same_ = 2.5 * (size - std::nextafter(size, 0.0));
     }
 
     [[nodiscard]] std::uint64_t pairs() const { return static_cast<std::uint64_t>(x_.size()) * (x_.size() - 1) / 2; }
@@ -472,21 +466,14 @@ Real greatest_mode(const std::vector<Real>& q) {
 }  // namespace
 
 double median(std::span<const double> results) {
-    return median_of_sorted(sorted(results, 1));
-}
-
-double median_absolute_deviation(std::span<const double> results) {
-    const std::vector<double> ascending = sorted(results, 1);
-    const auto deviation = static_cast<double>(median_of_absolute(centred(ascending, median_of_sorted(ascending))));
-    require_finite(deviation, "median absolute deviation");
-    return deviation;
+    return static_cast<double>(median_of_sorted(sorted(results, 1)));
 }
 
 RobustEstimate median_with_made(std::span<const double> results) {
     const std::vector<double> ascending = sorted(results, 2);
-    const double centre = median_of_sorted(ascending);
+    const Real centre = median_of_sorted(ascending);
     const Real made = static_cast<Real>(k_made_factor) * median_of_absolute(centred(ascending, centre));
-    return estimate(centre, made, ascending.size(), 0);
+    return estimate(centre, made, ascending.size());
 }
 
 double normalised_interquartile_range(std::span<const double> results) {
@@ -499,20 +486,22 @@ double normalised_interquartile_range(std::span<const double> results) {
 
 RobustEstimate algorithm_a(std::span<const double> results, AlgorithmAConstants constants) {
     const std::vector<double> ascending = sorted(results, 2);
-    const double centre = median_of_sorted(ascending);
+    const Real centre = median_of_sorted(ascending);
     const std::vector<Real> values = centred(ascending, centre);
     const bool published = constants == AlgorithmAConstants::published;
     const Real start = median_of_absolute(values) * (published ? static_cast<Real>(k_made_factor)
                                                                : 1.0L / static_cast<Real>(k_third_normal_quartile));
     const Real factor = published ? static_cast<Real>(k_algorithm_a_factor) : exact_algorithm_a_factor();
     if (!(start > 0.0L)) {
-        refuse_scale("algorithm A", "the median absolute deviation of " + std::to_string(ascending.size()) +
-                                        " results is 0: more than half of them are equal");
+        refuse_scale("algorithm A",
+                     "the median absolute deviation of " + std::to_string(ascending.size()) +
+                         " results is 0: more than half of them are equal",
+                     "use the Q method with Hampel's estimator, ");
     }
     const DrawnIn drawn(values);
     Real x = 0.0L;  // x* − median
     Real s = start;
-    for (int step = 1; step <= k_most_steps; ++step) {
+    for (int step = 0; step < k_most_steps; ++step) {
         const auto [mean, deviation] = drawn.mean_and_deviation(x, static_cast<Real>(k_algorithm_a_limit) * s);
         const Real scale = factor * deviation;
         const Real limit = static_cast<Real>(k_stand_still) * scale;
@@ -520,19 +509,30 @@ RobustEstimate algorithm_a(std::span<const double> results, AlgorithmAConstants 
         x = mean;
         s = scale;
         if (stands_still) {
-            return estimate(static_cast<Real>(centre) + x, s, ascending.size(), step);
+            return estimate(centre + x, s, ascending.size());
         }
     }
-    not_converged("algorithm A");
+    throw NoResultError(Diagnostic{.code = "GC-GUM-0103",
+                                   .where = "algorithm A",
+                                   .what = "not converged after " + std::to_string(k_most_steps) + " steps",
+                                   .rule = "two successive steps must agree",
+                                   .action = "Use the median, or the Q method with Hampel's estimator."});
 }
 
 AlgorithmSFactors algorithm_s_factors(double degrees_of_freedom) {
     require_positive(degrees_of_freedom, "degrees of freedom of a standard deviation");
+    constexpr double k_most_degrees_of_freedom = 1e10;
+    if (degrees_of_freedom > k_most_degrees_of_freedom) {
+        refuse("GC-GUM-0005", "degrees of freedom of a standard deviation", number_text(degrees_of_freedom),
+               "must not be greater than " + number_text(k_most_degrees_of_freedom), "Correct the number.");
+    }
     const boost::math::chi_squared_distribution<double> distribution(degrees_of_freedom);
     const double limit_square = boost::math::quantile(distribution, 0.9) / degrees_of_freedom;
     const double mean_square =
         chi_square_lower_tail(limit_square * degrees_of_freedom, degrees_of_freedom + 2.0) + 0.1 * limit_square;
-    return {.limit = std::sqrt(limit_square), .adjustment = 1.0 / std::sqrt(mean_square)};
+    const AlgorithmSFactors factors{.limit = std::sqrt(limit_square), .adjustment = 1.0 / std::sqrt(mean_square)};
+    require_finite(factors.adjustment, "adjustment factor of algorithm S");
+    return factors;
 }
 
 double algorithm_s(std::span<const double> standard_deviations, double degrees_of_freedom) {
@@ -542,58 +542,54 @@ double algorithm_s(std::span<const double> standard_deviations, double degrees_o
 double algorithm_s(std::span<const double> standard_deviations, const AlgorithmSFactors& factors) {
     require_positive(factors.limit, "limit factor of algorithm S");
     require_positive(factors.adjustment, "adjustment factor of algorithm S");
+    require_positive(factors.limit * factors.adjustment - 1.0, "product of the factors of algorithm S, less 1");
     const std::vector<double> ascending = sorted(standard_deviations, 1);
     require_not_negative(ascending.front(), "standard deviation");
-    const Real start = median_of_sorted(ascending);
-    if (!(start > 0.0L)) {
+    const auto count = static_cast<Real>(ascending.size());
+    const Real adjustment_square = static_cast<Real>(factors.adjustment) * static_cast<Real>(factors.adjustment);
+    const Real step_square = adjustment_square * static_cast<Real>(factors.limit) * static_cast<Real>(factors.limit);
+    // From the largest on they are drawn in, as long as η w* would be smaller even if they were just at the limit.
+    std::vector<Real> sums{0.0L};  // of the squares of the smallest 0, 1, … of them
+    for (const double value : ascending) {
+        sums.push_back(sums.back() + static_cast<Real>(value) * static_cast<Real>(value));
+    }
+    std::size_t inside = ascending.size();
+    Real drawn_in = 0.0L;
+    for (; inside > 0; --inside, ++drawn_in) {
+        const Real limit = ascending[inside - 1];
+        if (step_square * (sums[inside] + drawn_in * limit * limit) >= count * limit * limit) {
+            break;
+        }
+    }
+    // w² = ξ² (Σ of those inside + drawn_in η² w²)/p
+    const Real w_square = adjustment_square * sums[inside] / (count - step_square * drawn_in);
+    if (!(median_of_sorted(ascending) > 0.0L && w_square > 0.0L)) {
+        const auto zeros = std::upper_bound(ascending.begin(), ascending.end(), 0.0) - ascending.begin();
         refuse("GC-GUM-0102", "algorithm S",
-               "the median of " + std::to_string(ascending.size()) + " standard deviations is 0",
+               std::to_string(zeros) + " of " + std::to_string(ascending.size()) + " standard deviations are 0",
                "a robust standard deviation greater than 0 is needed",
                "Give the replicates with more digits, or leave out the pooled standard deviation.");
     }
-    Real w = start;
-    for (int step = 1; step <= k_most_steps; ++step) {
-        const Real limit = static_cast<Real>(factors.limit) * w;
-        Real squares = 0.0L;
-        for (const double value : ascending) {
-            const Real drawn = std::min(static_cast<Real>(value), limit);
-            squares += drawn * drawn;
-        }
-        const Real next =
-            static_cast<Real>(factors.adjustment) * std::sqrt(squares / static_cast<Real>(ascending.size()));
-        const bool stands_still = std::abs(next - w) <= static_cast<Real>(k_stand_still) * next;
-        w = next;
-        if (stands_still) {
-            const auto pooled = static_cast<double>(w);
-            require_finite(pooled, "pooled standard deviation");
-            return pooled;
-        }
-    }
-    not_converged("algorithm S");
+    const auto pooled = static_cast<double>(std::sqrt(w_square));
+    require_finite(pooled, "pooled standard deviation");
+    return pooled;
 }
 
 RobustEstimate q_hampel(std::span<const double> results) {
     const std::vector<double> ascending = sorted(results, 2);
     const double scale = q_scale(ascending);
     require_positive(scale, "scale of the Q method");
-    const double centre = median_of_sorted(ascending);
-    std::vector<Real> q = centred(ascending, centre);
-    for (Real& value : q) {
-        value /= static_cast<Real>(scale);
-    }
-    const Real location = static_cast<Real>(centre) + static_cast<Real>(scale) * hampel_location(q);
-    return estimate(location, scale, ascending.size(), 0);
+    const Real centre = median_of_sorted(ascending);
+    const Real location = centre + static_cast<Real>(scale) * hampel_location(centred(ascending, centre, scale));
+    return estimate(location, scale, ascending.size());
 }
 
 double kernel_density_mode(std::span<const double> results, double bandwidth) {
     require_positive(bandwidth, "bandwidth of the kernel density");
     const std::vector<double> ascending = sorted(results, 1);
-    const double centre = median_of_sorted(ascending);
-    std::vector<Real> q = centred(ascending, centre);
-    for (Real& value : q) {
-        value /= static_cast<Real>(bandwidth);
-    }
-    return static_cast<double>(static_cast<Real>(centre) + static_cast<Real>(bandwidth) * greatest_mode(q));
+    const Real centre = median_of_sorted(ascending);
+    const Real mode = greatest_mode(centred(ascending, centre, bandwidth));
+    return static_cast<double>(centre + static_cast<Real>(bandwidth) * mode);
 }
 
 }  // namespace gumcert::gum

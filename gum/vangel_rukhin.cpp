@@ -337,8 +337,7 @@ ReferenceValue vangel_rukhin(const ReplicatedResults& results) {
     return {.value = centre + unit * best.point.mu,
             .u = unit / std::sqrt(total),
             .weights = (weights / total).matrix(),
-            .between_standard_deviation = unit * std::sqrt(best.point.between),
-            .iterations = best.steps};
+            .between_standard_deviation = unit * std::sqrt(best.point.between)};
 }
 
 }  // namespace gumcert::gum

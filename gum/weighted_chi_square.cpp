@@ -6,6 +6,7 @@
 #include <complex>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -19,12 +20,12 @@ namespace {
 constexpr int k_bisections_of_saddle = 60;  // any point near the saddle will do
 constexpr double k_first_step = 0.5;        // of t, where y = w sinh t and w is the width of the bell on the path
 constexpr int k_most_halvings = 12;
-constexpr double k_converged = 1e-7;              // relative change by halving the step, which squares the error
+constexpr double k_converged = 1e-10;             // relative change by halving the step, which nearly squares the error
 constexpr double k_negligible = 1e-18;            // of a term against the first one, which is w
 constexpr std::size_t k_most_terms = 20'000'000;  // never reached; a loop must end
 constexpr double k_slope = 0.6;                   // c, of the asymptotes of the path
 constexpr double k_least_bend = 0.2;              // of the path, relative to the width of the bell
-constexpr double k_smallest_ratio = 1e-200;       // x / λ_max below which the lower tail is 0 for every purpose
+constexpr double k_smallest_ratio = 1e-100;       // x / λ_max below which the lower tail is 0 for every purpose
 constexpr double k_smallest_exponent = 800.0;     // e^-800 is 0
 constexpr double k_smallest_weight = 1e-30;       // relative to the largest: adds nothing to Q
 constexpr std::uintmax_t k_most_steps_of_quantile = 200;
@@ -32,35 +33,28 @@ constexpr std::uintmax_t k_most_steps_of_quantile = 200;
 /// The weights that matter, relative to the largest one, and x relative to it.
 struct Scaled {
     std::vector<double> weights;
+    double largest = 0.0;  ///< in its unit
     double x = 0.0;
     double sum = 0.0;
 };
 
-std::vector<double> checked(std::span<const double> weights, double& largest) {
-    largest = 0.0;
+Scaled scaled(std::span<const double> weights, double x) {
+    double largest = 0.0;
     for (const double weight : weights) {
         require_not_negative(weight, "weight of a sum of chi-squares");
         largest = std::max(largest, weight);
     }
     require_positive(largest, "largest weight of a sum of chi-squares");
-    std::vector<double> relative;
+    require_finite(x, "sum of chi-squares");
+    Scaled result{.weights = {}, .largest = largest, .x = x / largest};
     for (const double weight : weights) {
         if (weight > k_smallest_weight * largest) {
-            relative.push_back(weight / largest);
+            result.weights.push_back(weight / largest);
         }
     }
-    std::sort(relative.begin(), relative.end());  // the same sum for the same weights in another order
-    return relative;
-}
-
-Scaled scaled(std::span<const double> weights, double x) {
-    double largest = 0.0;
-    Scaled result{.weights = checked(weights, largest)};
-    require_finite(x, "sum of chi-squares");
-    result.x = x / largest;
-    for (const double weight : result.weights) {
-        result.sum += weight;
-    }
+    // The same sum for the same weights in another order.
+    std::sort(result.weights.begin(), result.weights.end());
+    result.sum = std::accumulate(result.weights.begin(), result.weights.end(), 0.0);
     return result;
 }
 
@@ -106,7 +100,7 @@ public:
                                        .where = "sum of chi-squares",
                                        .what = "the integral at " + number_text(of_.x) + " times the largest of " +
                                                std::to_string(of_.weights.size()) + " weights has not converged",
-                                       .rule = "two steps of integration agree within 1e-7",
+                                       .rule = "two steps of integration agree within 1e-10",
                                        .action = "Report the weights; this is not expected to happen."});
     }
 
@@ -220,8 +214,6 @@ double weighted_chi_square_upper_tail(std::span<const double> weights, double x)
 double weighted_chi_square_quantile(std::span<const double> weights, double probability) {
     require_probability(probability, "probability of the quantile");
     Scaled at = scaled(weights, 0.0);
-    double largest = 0.0;
-    (void)checked(weights, largest);
     // In the logarithm of x and of the smaller tail, where both ends of the distribution are nearly straight lines.
     const bool lower = probability <= 0.5;
     const double wanted = std::log(lower ? probability : 1.0 - probability);
@@ -242,7 +234,7 @@ double weighted_chi_square_quantile(std::span<const double> weights, double prob
     std::uintmax_t steps = k_most_steps_of_quantile;
     const auto [below, above] = boost::math::tools::toms748_solve(
         excess, low, high, [](double a, double b) { return std::abs(b - a) <= 1e-12; }, steps);
-    return std::exp(0.5 * (below + above)) * largest;
+    return std::exp(0.5 * (below + above)) * at.largest;
 }
 
 }  // namespace gumcert::gum

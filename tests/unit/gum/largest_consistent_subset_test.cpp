@@ -122,6 +122,23 @@ TEST(LargestConsistentSubset, CorrelatedResultsByEverySubset) {
     EXPECT_EQ(code_of<NoResultError>([&] { (void)largest_consistent_subset(singular); }), "GC-GUM-0132");
 }
 
+TEST(LargestConsistentSubset, UncertaintiesOfVeryDifferentSize) {
+    // Every subset in 40 digits (mpmath). One imprecise result first in the list: all six are consistent.
+    const ConsistentSubset all =
+        largest_consistent_subset(results({-31364.845955593617, 3.785917944607355e-12, 2.006654348923086e-12,
+                                           4.579778014707386e-14, 1.0109358338332220e-12, 1.756833778589485e-12},
+                                          {1e5, 8.450036842481452e-13, 1.43624077461813e-12, 8.523971230151797e-13,
+                                           1.132160076208483e-12, 1.3185062042746253e-12}));
+    EXPECT_THAT(all.members, ElementsAre(0, 1, 2, 3, 4, 5));
+    // Two imprecise ones: the mean of the best subset lies 1e-17 of them beside the precise ones.
+    const ConsistentSubset three = largest_consistent_subset(results(
+        {-183213.9746513662, 156733.50756805378, -3.5998914716813627e-12, 8.304110305328209e-13, 3.758294316970057e-12},
+        {1e5, 1e5, 5.329045651013124e-13, 9.847044687848874e-13, 1.4515298127322195e-12}));
+    EXPECT_THAT(three.members, ElementsAre(1, 3, 4));
+    EXPECT_TRUE(three.unique);
+    EXPECT_TRUE(agrees(three.test.chi_square, 5.24291106640179863, 1e-13));
+}
+
 TEST(LargestConsistentSubset, RefusesWhatItCannotDoExactly) {
     const std::size_t too_many = k_most_results_of_subset + 1;
     const LaboratoryResults many{.x = Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(too_many), 0.0, 1.0),

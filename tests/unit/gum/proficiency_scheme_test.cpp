@@ -55,6 +55,8 @@ TEST(ProficiencyScheme, SigmaFromPrecision) {
     EXPECT_TRUE(prints_as(sigma_pt_of_precision(23.2, 14.3, 2), "20.9"));
     EXPECT_TRUE(agrees(sigma_pt_of_precision(23.2, 14.3, 2), 20.8804932891922, 1e-13));
     EXPECT_EQ(sigma_pt_of_precision(23.2, 14.3, 1), 23.2);
+    // Repeatability alone: σ_r/√m.
+    EXPECT_TRUE(agrees(sigma_pt_of_precision(1.0, 1.0, 1'000'000'000'000), 1e-6, 1e-14));
     // With many replicates what is between laboratories remains.
     EXPECT_TRUE(prints_as(sigma_pt_of_precision(23.2, 14.3, 1000000), "18.3"));
     EXPECT_EQ(code_of<InputError>([] { return sigma_pt_of_precision(14.3, 23.2, 2); }), "GC-GUM-0110");
@@ -155,6 +157,43 @@ TEST(ProficiencyScheme, OneItemMeasuredAgain) {
     again << 0.19;
     const StabilityCheck check = check_stability(before, again, 0.028);
     EXPECT_TRUE(agrees(check.u_difference, before.s_x / std::sqrt(10.0), 1e-14));
+}
+
+TEST(ProficiencyScheme, StabilityDifferenceKeepsItsDigitsAtALargeOffset) {
+    // Around 2^20 doubles are 2^-32 apart. In this unit: means 1/3 (three items, one of them 1) and 7/4.
+    const double unit = std::exp2(-32.0), offset = std::exp2(20.0);
+    Eigen::MatrixXd before(3, 2), later(2, 2);
+    before << 0.0, 0.0, 1.0, 1.0, 0.0, 0.0;
+    later << 1.0, 2.0, 2.0, 2.0;
+    before = (before * unit).array() + offset;
+    later = (later * unit).array() + offset;
+    const StabilityCheck check = check_stability(check_homogeneity(before, unit), later, unit);
+    EXPECT_TRUE(agrees(check.difference, (7.0 / 4.0 - 1.0 / 3.0) * unit, 1e-12));
+    EXPECT_TRUE(agrees(check.u_difference, unit * std::sqrt(1.0 / 9.0 + 1.0 / 16.0), 1e-12));
+    // Decimal numbers: 10 + 1e-6 (0, 1, 2, 3)/4 and the same 1e-6 up; 16 digits leave 1e-9 of the difference.
+    const Eigen::MatrixXd ten = (Eigen::MatrixXd(2, 2) << 10.0, 10.00000025, 10.0000005, 10.00000075).finished();
+    const Eigen::MatrixXd more = (Eigen::MatrixXd(2, 2) << 10.000001, 10.00000125, 10.0000015, 10.00000175).finished();
+    EXPECT_TRUE(agrees(check_stability(check_homogeneity(ten, 1.0), more, 1.0).difference, 1e-6, 2e-9));
+}
+
+TEST(ProficiencyScheme, DifferenceAtTheLimitIsStable) {
+    // 10.3 − 10 is 0.30000000000000071 in binary numbers.
+    const HomogeneityCheck before = check_homogeneity(Eigen::MatrixXd::Constant(3, 2, 10.0), 1.0);
+    const StabilityCheck at_limit = check_stability(before, Eigen::MatrixXd::Constant(2, 2, 10.3), 1.0);
+    EXPECT_GT(at_limit.difference, at_limit.limit);
+    EXPECT_TRUE(at_limit.stable);
+    EXPECT_TRUE(at_limit.stable_expanded);
+    EXPECT_FALSE(check_stability(before, Eigen::MatrixXd::Constant(2, 2, 10.3 + 1e-13), 1.0).stable);
+}
+
+TEST(ProficiencyScheme, NumbersWhoseSquaresAreNone) {
+    const HomogeneityCheck plain = check_homogeneity(table_e2(), 0.028);
+    for (const double factor : {1e300, 1e-300}) {
+        const HomogeneityCheck check = check_homogeneity(factor * table_e2(), factor * 0.028);
+        EXPECT_TRUE(agrees(check.expanded_limit, factor * plain.expanded_limit, 1e-13));
+        EXPECT_TRUE(agrees(check.s_w, factor * plain.s_w, 1e-11));
+        EXPECT_TRUE(check.sufficient_expanded);
+    }
 }
 
 TEST(ProficiencyScheme, RefusesWhatIsNoCheck) {

@@ -50,7 +50,6 @@ TEST(RandomEffects, PauleMandelAndCochranOfKacker) {
     const double k = coverage_factor(0.95, std::numeric_limits<double>::infinity());
     EXPECT_TRUE(agrees(mean.value - k * mean.u, 61.7450921043961, 1e-14));
     EXPECT_TRUE(agrees(mean.value + k * mean.u, 63.0701477182604, 1e-14));
-    EXPECT_GT(mean.iterations, 0);
     // The mean without a variance between laboratories, and its chi-square.
     const ReferenceValue fixed = weighted_mean(labs);
     EXPECT_TRUE(prints_as(fixed.value, "62.5833970939982"));

@@ -210,6 +210,11 @@ TEST(ReferenceValue, ArithmeticMeanHasTheStandardDeviationOfTheValues) {
     EXPECT_EQ(mean.weights(2), 0.25);
     EXPECT_EQ(code_of<InputError>([] { (void)arithmetic_mean(vector({1.0})); }), "GC-GUM-0131");
     EXPECT_EQ(code_of<InputError>([] { (void)arithmetic_mean(vector({1.0, std::nan("")})); }), "GC-GUM-0001");
+    // Squares beyond the numbers, and a range beyond them.
+    for (const double factor : {1e200, 1e-200, 1e-320}) {
+        EXPECT_TRUE(agrees(arithmetic_mean(vector({factor, 3.0 * factor})).u, factor, 1e-15)) << factor;
+    }
+    EXPECT_EQ(code_of<InputError>([] { (void)arithmetic_mean(vector({1e308, -1e308})); }), "GC-GUM-0001");
 }
 
 TEST(ReferenceValue, IncompatiblePairs) {
@@ -220,6 +225,11 @@ TEST(ReferenceValue, IncompatiblePairs) {
     const LaboratoryResults pair = results({0.0, 2.0}, {1.0, 1.0});
     EXPECT_EQ(incompatible_pairs(pair, 2.0), 0u);
     EXPECT_EQ(incompatible_pairs(with_correlation(pair, 0, 1, 0.9), 2.0), 1u);
+    // Just at the limit, where 10.3 − 10.1 is a little more than 0.2, and a little beyond it.
+    EXPECT_EQ(incompatible_pairs(results({10.1, 10.3}, {0.06, 0.08})), 0u);
+    EXPECT_EQ(incompatible_pairs(results({10.1, 10.3 + 1e-13}, {0.06, 0.08})), 1u);
+    // Two that differ by 7 u, beside a first one that is far away.
+    EXPECT_EQ(incompatible_pairs(results({1e6, 1e-12, 2e-12}, {1e6, 1e-13, 1e-13})), 1u);
     EXPECT_EQ(code_of<InputError>([&] { (void)incompatible_pairs(pair, 0.0); }), "GC-GUM-0003");
     EXPECT_EQ(code_of<InputError>([&] { (void)pair_difference(pair, 1, 1); }), "GC-GUM-0135");
     EXPECT_EQ(code_of<InputError>([&] { (void)pair_difference(pair, 0, 2); }), "GC-GUM-0135");
