@@ -27,21 +27,21 @@ constexpr std::array<std::pair<std::string_view, Method>, 12> k_methods{
      {"vangel_rukhin", Method::vangel_rukhin},
      {"power_moderated_mean", Method::power_moderated_mean}}};
 
-/// Keys that belong to some methods only.
-struct KeyOfMethods {
+/// A key that belongs to one method only.
+struct KeyOfMethod {
     std::string_view key;
-    std::array<Method, 1> methods;
+    Method method;
 };
-constexpr std::array<KeyOfMethods, 10> k_keys_of_methods{{{"participant", {Method::reference}},
-                                                          {"value", {Method::given}},
-                                                          {"u", {Method::given}},
-                                                          {"U", {Method::given}},
-                                                          {"k", {Method::given}},
-                                                          {"nu", {Method::given}},
-                                                          {"sources", {Method::given}},
-                                                          {"constants", {Method::algorithm_a}},
-                                                          {"uncertainty", {Method::median}},
-                                                          {"power", {Method::power_moderated_mean}}}};
+constexpr std::array<KeyOfMethod, 10> k_keys_of_methods{{{"participant", Method::reference},
+                                                         {"value", Method::given},
+                                                         {"u", Method::given},
+                                                         {"U", Method::given},
+                                                         {"k", Method::given},
+                                                         {"nu", Method::given},
+                                                         {"sources", Method::given},
+                                                         {"constants", Method::algorithm_a},
+                                                         {"uncertainty", Method::median},
+                                                         {"power", Method::power_moderated_mean}}};
 
 void refuse_word_alone(const JsonObject& object, Method method) {
     if (method == Method::reference) {
@@ -59,8 +59,8 @@ void warn_of_unused_keys(const ComparisonReading& reading, const JsonObject& obj
         reading.problems.warn(k_warn_unused_value, object.where(key), "the key " + in_quotes(key) + " is not used",
                               rule, "remove it, or choose the method that it is for");
     };
-    for (const KeyOfMethods& entry : k_keys_of_methods) {
-        if (object.has(entry.key) && entry.methods.front() != method) {
+    for (const KeyOfMethod& entry : k_keys_of_methods) {
+        if (object.has(entry.key) && entry.method != method) {
             warn(entry.key,
                  "the method " + in_quotes(k_methods[static_cast<std::size_t>(method)].first) + " has no use for it");
         }
@@ -74,8 +74,8 @@ void warn_of_unused_keys(const ComparisonReading& reading, const JsonObject& obj
 
 void read_given(const ComparisonReading& reading, const JsonObject& object, AssignedValueRequest& request) {
     request.value = object.required_number("value", compared_value()).value_or(0.0);
-    request.uncertainty = read_uncertainty(reading, object, true);
-    if (!object.has("u") && !object.has("U") && !object.has("k")) {
+    request.uncertainty = read_uncertainty(reading, object);
+    if (!states_uncertainty(object)) {
         reading.problems.warn(k_warn_exact_assigned_value, object.where(),
                               "the assigned value " + shortest(request.value) + " has no uncertainty",
                               "it is taken as exactly known, and E_n then judges the laboratories alone",
@@ -118,13 +118,11 @@ AssignedValueRequest read_object(const ComparisonReading& reading, const JsonObj
         read_given(reading, object, request);
     } else {
         (void)object.optional_number("value", compared_value());
-        (void)read_uncertainty(reading, object, true);
+        (void)read_uncertainty(reading, object);
         (void)read_sources(reading, object, std::nullopt);
     }
-    if (method == Method::reference) {
-        if (!object.has("participant")) {
-            refuse_word_alone(object, method);
-        }
+    if (method == Method::reference && !object.has("participant")) {
+        refuse_word_alone(object, method);
     }
     warn_of_unused_keys(reading, object, method);
     return request;

@@ -15,9 +15,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t k_most_in_matrix = 2000;  // dense, with its eigenvalues
-constexpr double k_same_number = 1e-9;
-constexpr NumberRange k_correlation{
-    .low = -1.0, .high = 1.0, .hint = "a correlation coefficient is at least -1 and at most 1"};
 
 /// Correlations of participants: pairs and groups, and whether they can hold together.
 class CorrelationsReader {
@@ -73,9 +70,9 @@ private:
             return;
         }
         const double r = pair[2].get<double>();
-        if (!k_correlation.contains(r)) {
+        if (!k_correlation_coefficient.contains(r)) {
             reading_.problems.refuse(k_number_out_of_range, where(pointer + "/2"), "r is " + shortest(r),
-                                     k_correlation.rule(), "state a correlation coefficient, not a covariance");
+                                     k_correlation_coefficient.rule(), k_correlation_coefficient.action());
             return;
         }
         if (!first || !second) {
@@ -132,9 +129,9 @@ private:
                     reading_.problems.refuse(k_wrong_type, at, described(value), "must be a number",
                                              "state r inside the group; a group without is \"unknown\"");
                 }
-            } else if (!k_correlation.contains(value.get<double>())) {
+            } else if (!k_correlation_coefficient.contains(value.get<double>())) {
                 reading_.problems.refuse(k_number_out_of_range, at, "r is " + shortest(value.get<double>()),
-                                         k_correlation.rule(), "state a correlation coefficient");
+                                         k_correlation_coefficient.rule(), k_correlation_coefficient.action());
             } else {
                 reading_.job.group_correlation[name] = value.get<double>();
             }
@@ -311,7 +308,7 @@ std::optional<Eigen::MatrixXd> read_correlation_matrix(const ComparisonReading& 
         }
         for (Eigen::Index j = 0; j < i; ++j) {
             const double r = (*matrix)(i, j);
-            if (std::abs(r - (*matrix)(j, i)) > k_same_number || !k_correlation.contains(r)) {
+            if (std::abs(r - (*matrix)(j, i)) > k_same_number || !k_correlation_coefficient.contains(r)) {
                 return refuse(k_correlation_matrix,
                               "r of " + in_quotes(name) + " and " + in_quotes(items[static_cast<std::size_t>(j)]) +
                                   " is " + shortest(r) + " in one place and " + shortest((*matrix)(j, i)) +

@@ -14,13 +14,6 @@ using nlohmann::json;
 
 constexpr std::size_t k_usual_items_to_check = 10;
 
-/// A number above 0 that can be squared and divided by.
-std::optional<double> read_positive(const JsonObject& object, std::string_view key, std::string_view hint) {
-    const auto number = object.optional_number(key, {.low = 0.0, .low_open = true, .hint = hint});
-    return number ? object.optional_number(key, {.low = k_least_compared_u, .high = k_largest_compared, .hint = hint})
-                  : std::nullopt;
-}
-
 /// σ_pt as an object: exactly one of its three forms.
 std::optional<SigmaPtRequest> read_sigma_object(const JsonObject& object) {
     SigmaPtRequest request;
@@ -130,8 +123,8 @@ void read_item_keys(const ComparisonReading& reading, const JsonObject& object, 
     read_replicates(reading, object, item);
     if (const auto reference = object.optional_object("reference_value", k_reference_value_keys)) {
         const auto value = reference->required_number("value", compared_value());
-        const auto uncertainty = read_uncertainty(reading, *reference, true);
-        if (!reference->has("u") && !reference->has("U") && !reference->has("k")) {
+        const auto uncertainty = read_uncertainty(reading, *reference);
+        if (!states_uncertainty(*reference)) {
             reference->refuse(k_assigned_value_incomplete, "", "a reference value without uncertainty",
                               "it is held against the consensus with the uncertainties of both",
                               "add \"u\", or \"U\" and \"k\"");

@@ -46,9 +46,11 @@ std::optional<std::string_view> view(const std::optional<std::string>& text) {
 }  // namespace
 
 void ParticipantsReader::read() {
+    std::size_t refused = reading_.problems.refusals();
     read_items();
+    items_are_read_ = reading_.problems.refusals() == refused;
     read_rounds();
-    const std::size_t refused = reading_.problems.refusals();
+    refused = reading_.problems.refusals();
     read_participants();
     read_results();
     refuse_mixed_labels();
@@ -66,7 +68,7 @@ void ParticipantsReader::read() {
 
 void ParticipantsReader::read_items() {
     read_item_keys(reading_, root_, defaults_);
-    items_are_listed_ = root_.has("items");
+    items_.are_listed = root_.has("items");
     const json* array = root_.optional_array("items");
     if (array == nullptr) {
         return;
@@ -75,17 +77,17 @@ void ParticipantsReader::read_items() {
         root_.refuse(k_wrong_size, "items", "an empty list of items", "there must be at least one",
                      "list the items, or leave the key out when there is one");
     }
-    engine::read_items(reading_, *array, defaults_, items_);
+    engine::read_items(reading_, *array, defaults_, items_.index);
     is_whole_ = is_whole_ && reading_.job.items.size() == array->size();
 }
 
 void ParticipantsReader::read_rounds() {
-    rounds_are_listed_ = root_.has("rounds");
-    if (!rounds_are_listed_) {
+    rounds_.are_listed = root_.has("rounds");
+    if (!rounds_.are_listed) {
         return;
     }
     for (std::string& round : read_texts(reading_, root_, "rounds")) {
-        if (!rounds_.add(round).second) {
+        if (!rounds_.index.add(round).second) {
             root_.refuse(k_repeated_id, "rounds", "the round " + in_quotes(round) + " occurs twice",
                          "a round is listed once", "remove one of the two");
             continue;
@@ -244,36 +246,43 @@ void ParticipantsReader::describe(std::size_t participant, const ComparisonParti
     }
 }
 
+std::optional<std::size_t> ParticipantsReader::position_of(Labels& labels, const std::optional<std::string_view>& label,
+                                                           const Place& place) {
+    if (!labels.are_listed) {
+        if (!label && !labels.without) {
+            labels.without = Place{place.text(), place.problems};
+        }
+        return labels.index.add(label.value_or(std::string_view{})).first;
+    }
+    const std::string noun(labels.noun);
+    if (label) {
+        const auto found = labels.index.find(*label);
+        if (!found) {
+            place.problems->refuse(*labels.code, place.text(),
+                                   "the " + noun + " " + in_quotes(*label) + " is none of \"" + noun + "s\"",
+                                   "results are those of " + noun + "s of the job",
+                                   labels.index.advice(*label, "correct the " + noun + ", or add it to the list"));
+            is_whole_ = false;
+        }
+        return found;
+    }
+    if (labels.index.size() == 1) {
+        return 0;
+    }
+    if (labels.index.size() > 1) {
+        place.problems->refuse(*labels.code, place.text(), "the result does not say " + std::string(labels.which),
+                               "a job with several " + noun + "s has results with " + in_quotes(noun),
+                               "add the " + noun);
+    }
+    is_whole_ = false;
+    return std::nullopt;
+}
+
 std::optional<std::size_t> ParticipantsReader::item_of(const std::optional<std::string_view>& label,
                                                        const Place& place) {
     std::vector<ComparisonItem>& items = reading_.job.items;
-    if (items_are_listed_) {
-        if (label) {
-            const auto found = items_.find(*label);
-            if (!found) {
-                place.problems->refuse(k_unknown_item, place.text(),
-                                       "the item " + in_quotes(*label) + " is none of \"items\"",
-                                       "results are those of items of the job",
-                                       items_.advice(*label, "correct the item, or add it to the list"));
-                is_whole_ = false;
-            }
-            return found;
-        }
-        if (items.size() == 1) {
-            return 0;
-        }
-        if (items.size() > 1) {
-            place.problems->refuse(k_unknown_item, place.text(), "the result does not say of which item it is",
-                                   "a job with several items has results with \"item\"", "add the item");
-        }
-        is_whole_ = false;
-        return std::nullopt;
-    }
-    if (!label && !without_item_) {
-        without_item_ = Place{place.text(), place.problems};
-    }
-    const auto [position, is_new] = items_.add(label.value_or(std::string_view{}));
-    if (is_new) {
+    const auto position = position_of(items_, label, place);
+    if (position && *position == items.size()) {
         ComparisonItem& item = items.emplace_back(defaults_);
         item.id = std::string(label.value_or(std::string_view{}));
         item.name = item.id;
@@ -284,50 +293,23 @@ std::optional<std::size_t> ParticipantsReader::item_of(const std::optional<std::
 std::optional<std::size_t> ParticipantsReader::round_of(const std::optional<std::string_view>& label,
                                                         const Place& place) {
     std::vector<std::string>& rounds = reading_.job.rounds;
-    if (rounds_are_listed_) {
-        if (label) {
-            const auto found = rounds_.find(*label);
-            if (!found) {
-                place.problems->refuse(k_unknown_round, place.text(),
-                                       "the round " + in_quotes(*label) + " is none of \"rounds\"",
-                                       "results are those of rounds of the job",
-                                       rounds_.advice(*label, "correct the round, or add it to the list"));
-                is_whole_ = false;
-            }
-            return found;
-        }
-        if (rounds.size() == 1) {
-            return 0;
-        }
-        if (rounds.size() > 1) {
-            place.problems->refuse(k_unknown_round, place.text(), "the result does not say in which round it is",
-                                   "a job with several rounds has results with \"round\"", "add the round");
-        }
-        is_whole_ = false;
-        return std::nullopt;
-    }
-    if (!label && !without_round_) {
-        without_round_ = Place{place.text(), place.problems};
-    }
-    const auto [position, is_new] = rounds_.add(label.value_or(std::string_view{}));
-    if (is_new) {
+    const auto position = position_of(rounds_, label, place);
+    if (position && *position == rounds.size()) {
         rounds.emplace_back(label.value_or(std::string_view{}));
     }
     return position;
 }
 
 void ParticipantsReader::refuse_mixed_labels() {
-    if (without_item_ && items_.size() > 1) {
-        without_item_->problems->refuse(k_unknown_item, without_item_->text(),
-                                        "the result does not say of which item it is, and others do",
-                                        "all results state the item, or none does", "add the item");
-        is_whole_ = false;
-    }
-    if (without_round_ && rounds_.size() > 1) {
-        without_round_->problems->refuse(k_unknown_round, without_round_->text(),
-                                         "the result does not say in which round it is, and others do",
-                                         "all results state the round, or none does", "add the round");
-        is_whole_ = false;
+    for (const Labels* labels : {&items_, &rounds_}) {
+        if (labels->without && labels->index.size() > 1) {
+            const std::string noun(labels->noun);
+            labels->without->problems->refuse(
+                *labels->code, labels->without->text(),
+                "the result does not say " + std::string(labels->which) + ", and others do",
+                "all results state the " + noun + ", or none does", "add the " + noun);
+            is_whole_ = false;
+        }
     }
 }
 
@@ -363,12 +345,8 @@ void ParticipantsReader::read_table(const JsonObject& file_object, bool with_par
     const auto table =
         read_csv_table(std::move(file->bytes), k_required_columns,
                        optional.first(optional.size() - (with_participants ? 0 : k_participant_columns)), problems);
-    if (!table ||
-        !check_uncertainty_columns(*table, {.u = c_u, .U = c_U, .k = c_k, .nu = c_nu, .bare = c_bare}, problems)) {
-        is_whole_ = false;
-        return;
-    }
-    if (are_too_many(table->rows(), printable(problems.file()), problems)) {
+    if (!table || !check_uncertainty_columns(*table, k_uncertainty_columns, problems) ||
+        are_too_many(table->rows(), printable(problems.file()), problems)) {
         is_whole_ = false;
         return;
     }
@@ -421,36 +399,28 @@ void ParticipantsReader::read_row(const CsvTable& table, std::size_t row, bool w
 }
 
 std::optional<std::string_view> ParticipantsReader::text_of(const CsvTable& table, std::size_t row, Column column) {
-    if (!table.has_column(column) || table.cell(row, column).text.empty()) {
-        return std::nullopt;
-    }
-    return table.name(row, column);
+    return is_stated(table, row, column) ? table.name(row, column) : std::nullopt;
 }
 
 bool ParticipantsReader::read_cells(const CsvTable& table, std::size_t row, ComparisonResult& result,
                                     ProblemList& problems) const {
     static constexpr std::array<std::string_view, 4> k_words{"true", "yes", "false", "no"};
-    const UncertaintyColumns columns{.u = c_u, .U = c_U, .k = c_k, .nu = c_nu, .bare = c_bare};
-    result.uncertainty = read_uncertainty(table, row, columns, reading_.job.coverage_probability, problems);
+    result.uncertainty =
+        read_uncertainty(table, row, k_uncertainty_columns, reading_.job.coverage_probability, problems);
     result.standard_deviation = table.number_if_any(row, c_s, k_deviation);
-    const bool states_n = table.has_column(c_n) && !table.cell(row, c_n).text.empty();
-    const bool states_s = table.has_column(c_s) && !table.cell(row, c_s).text.empty();
+    const bool states_n = is_stated(table, row, c_n);
+    const bool states_s = is_stated(table, row, c_s);
     if (states_n) {
         result.observations = static_cast<std::size_t>(table.integer(row, c_n, k_observations).value_or(0));
     }
-    if (table.has_column(c_contributes) && !table.cell(row, c_contributes).text.empty()) {
+    if (is_stated(table, row, c_contributes)) {
         result.contributes = table.choice(row, c_contributes, k_words).value_or(0) < 2;
     }
     result.reason = std::string(text_of(table, row, c_reason).value_or(""));
-    const CsvCell& value = table.cell(row, c_value);
-    if (value.text.empty()) {
+    if (!is_stated(table, row, c_value)) {
         return false;
     }
-    if (is_censored(value.text)) {
-        refuse_censored(value.text, table.where(value), problems);
-    } else {
-        result.value = table.number(row, c_value, compared_value()).value_or(0.0);
-    }
+    result.value = read_value(table, row, c_value, "leave the cell empty: a missing result", problems).value_or(0.0);
     if (!result.contributes && result.reason.empty()) {
         problems.refuse(k_no_reason, table.where(table.cell(row, c_contributes)),
                         "the result does not contribute, without a reason",
@@ -491,11 +461,15 @@ void ParticipantsReader::read_result(const JsonObject& object, std::size_t parti
     result.participant = participant;
     result.item = item.value_or(0);
     result.round = round.value_or(0);
-    result.uncertainty = read_uncertainty(reading_, object, true);
+    result.uncertainty = read_uncertainty(reading_, object);
     result.contributes = object.optional_boolean("contributes").value_or(true);
     result.reason = object.optional_name("reason", 1000).value_or("");
-    bool is_missing = false;
-    read_value(object, result, is_missing);
+    const json* value = object.find("value");
+    const bool is_null = value != nullptr && value->is_null();
+    const bool is_missing = !object.has("budget") && (!object.has("value") || is_null);
+    if (!is_null) {
+        result.value = read_value(reading_, object, "write null: a missing result").value_or(0.0);
+    }
     read_replicates(object, result);
     read_audited(object, result);
     if (object.has("budget")) {
@@ -527,19 +501,6 @@ void ParticipantsReader::read_result(const JsonObject& object, std::size_t parti
     problems_of_result_.push_back(&reading_.problems);
 }
 
-void ParticipantsReader::read_value(const JsonObject& object, ComparisonResult& result, bool& is_missing) {
-    const json* value = object.find("value");
-    is_missing = !object.has("budget") && (!object.has("value") || (value != nullptr && value->is_null()));
-    if (value == nullptr || value->is_null()) {
-        return;
-    }
-    if (value->is_string() && is_censored(value->get_ref<const std::string&>())) {
-        refuse_censored(value->get_ref<const std::string&>(), object.where("value"), reading_.problems);
-        return;
-    }
-    result.value = object.optional_number("value", compared_value()).value_or(0.0);
-}
-
 void ParticipantsReader::read_replicates(const JsonObject& object, ComparisonResult& result) {
     result.standard_deviation = object.optional_number("s", k_deviation);
     result.observations = static_cast<std::size_t>(object.optional_integer("n", k_observations).value_or(0));
@@ -557,8 +518,8 @@ void ParticipantsReader::read_audited(const JsonObject& object, ComparisonResult
         return;
     }
     const auto finding = audited->required_name("finding", 1000);
-    const auto uncertainty = read_uncertainty(reading_, *audited, true);
-    if (!audited->has("u") && !audited->has("U") && !audited->has("k")) {
+    const auto uncertainty = read_uncertainty(reading_, *audited);
+    if (!states_uncertainty(*audited)) {
         audited->refuse(k_bare_uncertainty, "", "an audit finding without the corrected uncertainty",
                         "E_n is formed again with the corrected uncertainty", "add \"u\", or \"U\" and \"k\"");
     }
@@ -589,8 +550,10 @@ void ParticipantsReader::read_budget(const JsonObject& object, ComparisonResult&
                       "write a budget of this result alone, or compare methods point by point");
         return;
     }
-    (void)reading_.budgets.has_output_of(*result.budget, reading_.job.items[result.item].unit, object.where("budget"),
-                                         reading_.problems);
+    if (items_are_read_) {  // else the unit may be the one that was refused
+        refuse_other_results(*result.budget, reading_.job.items[result.item].unit, object.where("budget"),
+                             reading_.problems);
+    }
 }
 
 }  // namespace gumcert::engine

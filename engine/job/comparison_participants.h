@@ -21,7 +21,7 @@ public:
     void read();
 
     [[nodiscard]] const LabelIndex& participants() const { return participants_; }
-    [[nodiscard]] const LabelIndex& items() const { return items_; }
+    [[nodiscard]] const LabelIndex& items() const { return items_.index; }
     /// False when something was refused that may have hidden a participant, an item or a result: what seems to be
     /// missing may then be there.
     [[nodiscard]] bool is_whole() const { return is_whole_; }
@@ -37,6 +37,14 @@ private:
         const CsvCell* cell = nullptr;
 
         [[nodiscard]] std::string text() const { return cell == nullptr ? where : table->where(*cell); }
+    };
+    /// The items, or the rounds: listed by the job, or as the results name them.
+    struct Labels {
+        const InputCode* code;
+        std::string_view noun, which;  ///< for messages
+        LabelIndex index = {};
+        bool are_listed = false;
+        std::optional<Place> without = {};  ///< the first result that states none, where they are not listed
     };
     /// What a result states of whose, of which item and in which round it is; positions in the job.
     struct Address {
@@ -61,6 +69,7 @@ private:
         c_group,
         c_cmc,
     };
+    static constexpr UncertaintyColumns k_uncertainty_columns{.u = c_u, .U = c_U, .k = c_k, .nu = c_nu, .bare = c_bare};
 
     void read_items();
     void read_rounds();
@@ -76,6 +85,9 @@ private:
 
     /// A participant by its id, a new one if the results name them. \return nothing when it was refused
     [[nodiscard]] std::optional<std::size_t> participant_of(std::string_view id, bool may_be_new, const Place& place);
+    /// Position of a label; one that is new comes last. \return nothing when it was refused
+    [[nodiscard]] std::optional<std::size_t> position_of(Labels& labels, const std::optional<std::string_view>& label,
+                                                         const Place& place);
     [[nodiscard]] std::optional<std::size_t> item_of(const std::optional<std::string_view>& label, const Place& place);
     [[nodiscard]] std::optional<std::size_t> round_of(const std::optional<std::string_view>& label, const Place& place);
     /// Takes over what one row or entry says of a participant beside its result.
@@ -83,7 +95,6 @@ private:
     /// \return false when the participant has a result for this item and round already
     bool is_first(const Address& address, const Place& place);
 
-    void read_value(const JsonObject& object, ComparisonResult& result, bool& is_missing);
     void read_budget(const JsonObject& object, ComparisonResult& result);
     void read_replicates(const JsonObject& object, ComparisonResult& result);
     void read_audited(const JsonObject& object, ComparisonResult& result);
@@ -93,10 +104,11 @@ private:
     const ComparisonReading& reading_;
     const JsonObject& root_;
     ComparisonItem defaults_;
-    LabelIndex participants_, items_, rounds_;
-    bool items_are_listed_ = false, rounds_are_listed_ = false;
-    std::optional<Place> without_item_, without_round_;  ///< the first results that state none
-    std::unordered_map<std::uint64_t, Place> first_;     ///< (participant, item, round) → place of the result
+    bool items_are_read_ = false;  ///< nothing of them was refused
+    LabelIndex participants_;
+    Labels items_{.code = &k_unknown_item, .noun = "item", .which = "of which item it is"};
+    Labels rounds_{.code = &k_unknown_round, .noun = "round", .which = "in which round it is"};
+    std::unordered_map<std::uint64_t, Place> first_;  ///< (participant, item, round) → place of the result
     std::vector<ProblemList*> problems_of_result_;
     bool is_whole_ = true;
 };

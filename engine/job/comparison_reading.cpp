@@ -7,12 +7,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "engine/job/budget_results.h"
 #include "engine/job/comparison_keys.h"
 #include "gum/coverage.h"
-#include "gum/expression/equation_system.h"
 
 namespace gumcert::engine {
 
@@ -20,36 +21,103 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double k_same_number = 1e-9;  // of numbers that another program wrote with fewer digits
-
 constexpr NumberRange k_coverage_factor{
     .low = 0.0, .high = 1e6, .low_open = true, .hint = "state the coverage factor of the certificate, usually 2"};
 
-constexpr const char* k_beyond = "an uncertainty, or its coverage factor, beyond what the program computes with";
-constexpr const char* k_beyond_rule =
-    "u and U lie between 1e-60 and 1e60, and nu is large enough for a coverage factor to exist";
-constexpr const char* k_beyond_action = "check the numbers, and choose a unit in which they are moderate";
+constexpr std::string_view k_infinite = "inf";
+constexpr double k_infinitely_many = std::numeric_limits<double>::infinity();
 
-/// Units of the results of a budget, without evaluating it.
-std::vector<gum::Unit> output_units(const BudgetJob& budget) {
-    std::vector<gum::Unit> units;
-    if (!budget.model.empty()) {
-        const gum::EquationSystem system =
-            gum::EquationSystem::compile(budget.model, model_inputs(budget), budget.unknowns, model_outputs(budget));
-        for (std::size_t i = 0; i < system.output_count(); ++i) {
-            units.push_back(system.output_unit(i));
-        }
-        return units;
+/// u, U, k and nu of one result as they are stated, before they are looked at together.
+struct StatedUncertainty {
+    std::optional<double> u = {}, U = {}, k = {}, nu = {};
+    bool has_u = false, has_U = false, has_k = false, has_nu = false;  ///< stated, perhaps not readable
+
+    [[nodiscard]] bool is_stated() const { return has_u || has_U || has_k || has_nu; }
+    [[nodiscard]] bool is_readable() const { return (has_U ? U && k : u.has_value()) && (!has_nu || nu); }
+};
+
+/// Keys that must stand together, and do not.
+struct UncertaintyObjection {
+    const InputCode* code = nullptr;
+    std::string_view key;
+    std::string what, rule, action;
+};
+
+std::optional<UncertaintyObjection> objection(const StatedUncertainty& stated) {
+    if (stated.has_u && (stated.has_U || stated.has_k)) {
+        return UncertaintyObjection{&k_u_and_expanded_u, stated.has_U ? "U" : "k",
+                                    stated.has_U ? "\"u\" and \"U\" are given together"
+                                                 : "a coverage factor \"k\" beside the standard uncertainty \"u\"",
+                                    "a result states u, or U with k", "keep one of the two statements"};
     }
-    const std::vector<gum::InputSymbol> symbols = model_inputs(budget);
-    for (const gum::InputSymbol& symbol : symbols) {
-        const auto stated = std::find_if(budget.outputs.begin(), budget.outputs.end(),
-                                         [&](const BudgetOutput& output) { return output.name == symbol.name; });
-        if (stated != budget.outputs.end() || budget.outputs.empty()) {
-            units.push_back(stated != budget.outputs.end() && stated->unit ? *stated->unit : symbol.unit);
+    if (stated.has_U && !stated.has_k) {
+        return UncertaintyObjection{&k_no_coverage_factor, "U", "\"U\" without its coverage factor \"k\"",
+                                    "an expanded uncertainty means something only with its coverage factor",
+                                    "add \"k\" from the certificate, or state the standard uncertainty as \"u\""};
+    }
+    if (stated.has_k && !stated.has_U) {
+        return UncertaintyObjection{&k_no_coverage_factor, "k",
+                                    "a coverage factor \"k\" without an expanded uncertainty", "k belongs to U",
+                                    "add \"U\", or remove \"k\""};
+    }
+    if (!stated.has_u && !stated.has_U) {
+        return UncertaintyObjection{&k_degrees_of_freedom_of_nothing, "nu",
+                                    "degrees of freedom \"nu\" without an uncertainty",
+                                    "nu belongs to u, or to U and k", "add \"u\", or remove \"nu\""};
+    }
+    return std::nullopt;
+}
+
+/// U = t_p(ν) u where u is stated, u = U/k else. \param stated  without objection, its numbers read
+/// \return nothing when no coverage factor exists for its degrees of freedom
+std::optional<ResultUncertainty> evaluate(const StatedUncertainty& stated, double coverage_probability) {
+    ResultUncertainty uncertainty;
+    uncertainty.degrees_of_freedom = stated.nu.value_or(uncertainty.degrees_of_freedom);
+    uncertainty.stated_as_expanded = stated.has_U;
+    if (stated.has_U) {
+        uncertainty.U = stated.U.value();
+        uncertainty.k = stated.k.value();
+        uncertainty.u = uncertainty.U / uncertainty.k;
+    } else {
+        try {
+            uncertainty.u = stated.u.value();
+            uncertainty.k = gum::coverage_factor(coverage_probability, uncertainty.degrees_of_freedom);
+            uncertainty.U = uncertainty.k * uncertainty.u;
+        } catch (const gum::DiagnosedError&) {
+            return std::nullopt;
         }
     }
-    return units;
+    const NumberRange range = between(k_least_compared_u, k_largest_compared, "");
+    return range.contains(uncertainty.u) && range.contains(uncertainty.U) ? std::optional{uncertainty} : std::nullopt;
+}
+
+/// \param where  tells the place of a key
+template <typename Where>
+std::optional<ResultUncertainty> evaluate(const StatedUncertainty& stated, double coverage_probability,
+                                          ProblemList& problems, const Where& where) {
+    if (!stated.is_stated()) {
+        return std::nullopt;
+    }
+    if (const auto found = objection(stated)) {
+        problems.refuse(*found->code, where(found->key), found->what, found->rule, found->action);
+        return std::nullopt;
+    }
+    if (stated.k && *stated.k < 1.0) {
+        problems.warn(k_warn_small_coverage_factor, where("k"), "a coverage factor of " + shortest(*stated.k),
+                      "U = k u with k about 2 for a coverage probability of 95 %",
+                      "check that it is the coverage factor and not the coverage probability");
+    }
+    if (!stated.is_readable()) {
+        return std::nullopt;
+    }
+    const auto uncertainty = evaluate(stated, coverage_probability);
+    if (!uncertainty) {
+        problems.refuse(k_not_representable, where(stated.has_U ? "U" : "u"),
+                        "an uncertainty, or its coverage factor, beyond what the program computes with",
+                        "u and U lie between 1e-60 and 1e60, and nu is large enough for a coverage factor to exist",
+                        "check the numbers, and choose a unit in which they are moderate");
+    }
+    return uncertainty;
 }
 
 }  // namespace
@@ -86,27 +154,26 @@ std::shared_ptr<const BudgetJob> ComparisonBudgets::read(const std::string& name
     return budget;
 }
 
-bool ComparisonBudgets::has_output_of(const BudgetJob& budget, const gum::Unit& wanted, const std::string& where,
-                                      ProblemList& problems) const {
-    const std::vector<gum::Unit> units = output_units(budget);
+void refuse_other_results(const BudgetJob& budget, const gum::Unit& wanted, const std::string& where,
+                          ProblemList& problems) {
+    const auto results = budget_results(budget);
     const auto is_of_kind = [&](const gum::Unit& unit) {
         return unit.dimension() == wanted.dimension() &&
                unit.is_celsius_temperature() == wanted.is_celsius_temperature();
     };
-    if (units.size() == 1 && is_of_kind(units.front())) {
-        return true;
+    if (results.size() == 1 && is_of_kind(results.front().second)) {
+        return;
     }
-    std::vector<std::string> found;
-    for (const gum::Unit& unit : units) {
-        found.push_back(unit.text());
+    std::vector<std::string> units;
+    for (const auto& [name, unit] : results) {
+        units.push_back(unit.text());
     }
     problems.refuse(k_comparison_budget, where,
                     units.size() == 1
-                        ? "the result of the budget has the unit " + in_quotes(units.front().text())
-                        : "the budget has " + std::to_string(units.size()) + " results, in " + list_of(found),
+                        ? "the result of the budget has the unit " + in_quotes(units.front())
+                        : "the budget has " + std::to_string(units.size()) + " results, in " + list_of(units),
                     "it has one result, of a unit of the same kind as " + in_quotes(wanted.text()),
                     "state one output in the budget, or correct the unit of the comparison");
-    return false;
 }
 
 // ---- labels ---------------------------------------------------------------------------------------------------------
@@ -177,89 +244,30 @@ std::optional<JsonObject> object_at(const ComparisonReading& reading, const std:
 
 // ---- uncertainties --------------------------------------------------------------------------------------------------
 
-std::optional<UncertaintyObjection> objection(const StatedUncertainty& stated) {
-    if (stated.has_u && (stated.has_U || stated.has_k)) {
-        return UncertaintyObjection{&k_u_and_expanded_u, stated.has_U ? "U" : "k",
-                                    stated.has_U ? "\"u\" and \"U\" are given together"
-                                                 : "a coverage factor \"k\" beside the standard uncertainty \"u\"",
-                                    "a result states u, or U with k", "keep one of the two statements"};
-    }
-    if (stated.has_U && !stated.has_k) {
-        return UncertaintyObjection{&k_no_coverage_factor, "U", "\"U\" without its coverage factor \"k\"",
-                                    "an expanded uncertainty means something only with its coverage factor",
-                                    "add \"k\" from the certificate, or state the standard uncertainty as \"u\""};
-    }
-    if (stated.has_k && !stated.has_U) {
-        return UncertaintyObjection{&k_no_coverage_factor, "k",
-                                    "a coverage factor \"k\" without an expanded uncertainty", "k belongs to U",
-                                    "add \"U\", or remove \"k\""};
-    }
-    return std::nullopt;
+bool states_uncertainty(const JsonObject& object) {
+    return object.has("u") || object.has("U") || object.has("k");
 }
 
-std::optional<ResultUncertainty> evaluate(const StatedUncertainty& stated, double coverage_probability) {
-    ResultUncertainty uncertainty;
-    uncertainty.degrees_of_freedom = stated.nu.value_or(uncertainty.degrees_of_freedom);
-    uncertainty.stated_as_expanded = stated.has_U;
-    if (stated.has_U) {
-        uncertainty.U = stated.U.value();
-        uncertainty.k = stated.k.value();
-        uncertainty.u = uncertainty.U / uncertainty.k;
-    } else {
-        try {
-            uncertainty.u = stated.u.value();
-            uncertainty.k = gum::coverage_factor(coverage_probability, uncertainty.degrees_of_freedom);
-            uncertainty.U = uncertainty.k * uncertainty.u;
-        } catch (const gum::DiagnosedError&) {
-            return std::nullopt;
-        }
-    }
-    const NumberRange range = between(k_least_compared_u, k_largest_compared, "");
-    return range.contains(uncertainty.u) && range.contains(uncertainty.U) ? std::optional{uncertainty} : std::nullopt;
+std::optional<ResultUncertainty> of_standard_uncertainty(double u, double coverage_probability) {
+    return evaluate({.u = u, .has_u = true}, coverage_probability);
 }
 
-void warn_of_small_k(double k, const std::string& where, ProblemList& problems) {
-    if (k < 1.0) {
-        problems.warn(k_warn_small_coverage_factor, where, "a coverage factor of " + shortest(k),
-                      "U = k u with k about 2 for a coverage probability of 95 %",
-                      "check that it is the coverage factor and not the coverage probability");
-    }
-}
-
-std::optional<ResultUncertainty> read_uncertainty(const ComparisonReading& reading, const JsonObject& object,
-                                                  bool may_have_nu) {
+std::optional<ResultUncertainty> read_uncertainty(const ComparisonReading& reading, const JsonObject& object) {
     StatedUncertainty stated;
     stated.has_u = object.has("u");
     stated.has_U = object.has("U");
     stated.has_k = object.has("k");
-    stated.has_nu = may_have_nu && object.has("nu");
+    stated.has_nu = object.has("nu");
     stated.u = object.optional_number("u", compared_uncertainty());
     stated.U = object.optional_number("U", compared_uncertainty());
     stated.k = object.optional_number("k", k_coverage_factor);
-    const json* nu = stated.has_nu ? object.find("nu") : nullptr;
-    bool nu_is_read = !stated.has_nu;
-    if (nu != nullptr && nu->is_string() && nu->get_ref<const std::string&>() == "inf") {
-        nu_is_read = true;
-    } else if (nu != nullptr) {
+    if (const json* nu = object.find("nu"); nu != nullptr && nu->is_string() && *nu == k_infinite) {
+        stated.nu = k_infinitely_many;
+    } else {
         stated.nu = object.optional_number("nu", above_zero(""));
-        nu_is_read = stated.nu.has_value();
     }
-    if (const auto found = objection(stated)) {
-        object.refuse(*found->code, found->key, found->what, found->rule, found->action);
-        return std::nullopt;
-    }
-    if (stated.k) {
-        warn_of_small_k(*stated.k, object.where("k"), reading.problems);
-    }
-    const bool is_read = stated.has_U ? stated.U && stated.k : stated.u.has_value();
-    if (!is_read || !nu_is_read) {
-        return std::nullopt;
-    }
-    const auto uncertainty = evaluate(stated, reading.job.coverage_probability);
-    if (!uncertainty) {
-        object.refuse(k_not_representable, stated.has_U ? "U" : "u", k_beyond, k_beyond_rule, k_beyond_action);
-    }
-    return uncertainty;
+    return evaluate(stated, reading.job.coverage_probability, reading.problems,
+                    [&](std::string_view key) { return object.where(key); });
 }
 
 bool check_uncertainty_columns(const CsvTable& table, const UncertaintyColumns& columns, ProblemList& problems) {
@@ -288,54 +296,77 @@ bool check_uncertainty_columns(const CsvTable& table, const UncertaintyColumns& 
 std::optional<ResultUncertainty> read_uncertainty(const CsvTable& table, std::size_t row,
                                                   const UncertaintyColumns& columns, double coverage_probability,
                                                   ProblemList& problems) {
-    const auto is_stated = [&](std::size_t column) {
-        return table.has_column(column) && !table.cell(row, column).text.empty();
-    };
     StatedUncertainty stated;
-    stated.has_u = is_stated(columns.u);
-    stated.has_U = is_stated(columns.U);
-    stated.has_k = is_stated(columns.k);
-    stated.has_nu = is_stated(columns.nu);
+    stated.has_u = is_stated(table, row, columns.u);
+    stated.has_U = is_stated(table, row, columns.U);
+    stated.has_k = is_stated(table, row, columns.k);
+    stated.has_nu = is_stated(table, row, columns.nu);
     stated.u = table.number_if_any(row, columns.u, compared_uncertainty());
     stated.U = table.number_if_any(row, columns.U, compared_uncertainty());
     stated.k = table.number_if_any(row, columns.k, k_coverage_factor);
-    bool nu_is_read = true;
-    if (stated.has_nu && table.cell(row, columns.nu).text != "inf") {
-        stated.nu = table.number(row, columns.nu, above_zero(""));
-        nu_is_read = stated.nu.has_value();
-    }
-    if (!stated.is_stated()) {
-        return std::nullopt;
-    }
-    if (const auto found = objection(stated)) {
-        const std::size_t column = found->key == "U" ? columns.U : columns.k;
-        problems.refuse(*found->code, table.where(table.cell(row, column)), found->what, found->rule, found->action);
-        return std::nullopt;
-    }
-    if (stated.k && *stated.k < 1.0) {
-        warn_of_small_k(*stated.k, table.where(table.cell(row, columns.k)), problems);
-    }
-    const bool is_read = stated.has_U ? stated.U && stated.k : stated.u.has_value();
-    if (!is_read || !nu_is_read) {
-        return std::nullopt;
-    }
-    const auto uncertainty = evaluate(stated, coverage_probability);
-    if (!uncertainty) {
-        problems.refuse(k_not_representable, table.where(table.cell(row, stated.has_U ? columns.U : columns.u)),
-                        k_beyond, k_beyond_rule, k_beyond_action);
-    }
-    return uncertainty;
+    stated.nu = stated.has_nu && table.cell(row, columns.nu).text == k_infinite
+                    ? std::optional{k_infinitely_many}
+                    : table.number_if_any(row, columns.nu, above_zero(""));
+    return evaluate(stated, coverage_probability, problems, [&](std::string_view key) {
+        const std::size_t column = key == "u"   ? columns.u
+                                   : key == "U" ? columns.U
+                                   : key == "k" ? columns.k
+                                                : columns.nu;
+        return table.where(table.cell(row, column));
+    });
 }
 
+// ---- values ---------------------------------------------------------------------------------------------------------
+
+/// "<0.3" and ">5": results that state no value.
 bool is_censored(std::string_view text) {
     return text.starts_with('<') || text.starts_with('>') || text.starts_with("≤") || text.starts_with("≥");
 }
 
-void refuse_censored(std::string_view text, const std::string& where, ProblemList& problems) {
+void refuse_censored(std::string_view text, const std::string& where, std::string_view if_none, ProblemList& problems) {
     problems.refuse(k_censored_result, where, "the result " + in_quotes(text) + " is a limit and no value",
                     "scores and means need the value that was measured",
-                    "report what was measured, with its uncertainty, or leave the value empty: a missing result");
+                    "report what was measured, with its uncertainty, or " + std::string(if_none));
 }
+
+std::optional<double> read_value(const ComparisonReading& reading, const JsonObject& object, std::string_view if_none) {
+    const json* value = object.find("value");
+    if (value == nullptr || !value->is_string()) {
+        return object.optional_number("value", compared_value());
+    }
+    const auto& text = value->get_ref<const std::string&>();
+    if (is_censored(text)) {
+        refuse_censored(text, object.where("value"), if_none, reading.problems);
+    } else {
+        object.refuse(k_wrong_type, "value", described(*value), "must be a number",
+                      "write the number with a decimal point and without quotes, or " + std::string(if_none));
+    }
+    return std::nullopt;
+}
+
+std::optional<double> read_value(const CsvTable& table, std::size_t row, std::size_t column, std::string_view if_none,
+                                 ProblemList& problems) {
+    const CsvCell& cell = table.cell(row, column);
+    if (is_censored(cell.text)) {
+        refuse_censored(cell.text, table.where(cell), if_none, problems);
+        return std::nullopt;
+    }
+    // What people write for "no result": NA, n/a, ND, -.
+    if (!cell.text.empty() && cell.text.find_first_of("0123456789") == std::string_view::npos) {
+        problems.refuse(k_csv_not_a_number, table.where(cell), in_quotes(cell.text) + " in column value",
+                        "must be a number with a decimal point", "state the value, or " + std::string(if_none));
+        return std::nullopt;
+    }
+    return table.number(row, column, compared_value());
+}
+
+std::optional<double> read_positive(const JsonObject& object, std::string_view key, std::string_view hint) {
+    const auto number = object.optional_number(key, {.low = 0.0, .low_open = true, .hint = hint});
+    return number ? object.optional_number(key, {.low = k_least_compared_u, .high = k_largest_compared, .hint = hint})
+                  : std::nullopt;
+}
+
+// ---- sources --------------------------------------------------------------------------------------------------------
 
 std::vector<UncertaintySource> read_sources(const ComparisonReading& reading, const JsonObject& object,
                                             const std::optional<double>& u) {

@@ -31,6 +31,10 @@ inline constexpr double k_least_compared_u = 1e-60;
 
 [[nodiscard]] NumberRange compared_value();
 [[nodiscard]] NumberRange compared_uncertainty();
+inline constexpr NumberRange k_correlation_coefficient{
+    .low = -1.0, .high = 1.0, .hint = "state a correlation coefficient, not a covariance"};
+/// Difference, relative, of numbers that another program wrote with fewer digits.
+inline constexpr double k_same_number = 1e-9;
 
 /// Budget jobs that results name, each read once.
 class ComparisonBudgets {
@@ -38,16 +42,17 @@ public:
     ComparisonBudgets(const FileSource& source, JobFiles& files) : source_(source), files_(files) {}
     /// \return null when it was refused; the problems are told with the others
     [[nodiscard]] std::shared_ptr<const BudgetJob> read(const std::string& name);
-    /// The unit of its only output; refuses more than one, or a unit of another kind than wanted.
-    /// \param where  of the key that names the budget
-    [[nodiscard]] bool has_output_of(const BudgetJob& budget, const gum::Unit& wanted, const std::string& where,
-                                     ProblemList& problems) const;
 
 private:
     const FileSource& source_;
     JobFiles& files_;
     std::map<std::string, std::shared_ptr<const BudgetJob>> read_;
 };
+
+/// Refuses a budget with more than one result, or with one of another kind of unit than wanted.
+/// \param where  of the key that names the budget
+void refuse_other_results(const BudgetJob& budget, const gum::Unit& wanted, const std::string& where,
+                          ProblemList& problems);
 
 struct ComparisonReading {
     const JsonDocument& document;
@@ -110,29 +115,15 @@ void for_each_object(const ComparisonReading& reading, const nlohmann::json& arr
     }
 }
 
-/// u, U, k and nu of one result as they are stated, before they are looked at together.
-struct StatedUncertainty {
-    std::optional<double> u = {}, U = {}, k = {}, nu = {};
-    bool has_u = false, has_U = false, has_k = false, has_nu = false;  ///< stated, perhaps not readable
+/// Whether u, U or k is stated.
+[[nodiscard]] bool states_uncertainty(const JsonObject& object);
 
-    [[nodiscard]] bool is_stated() const { return has_u || has_U || has_k; }
-};
-/// Keys that must stand together, and do not.
-struct UncertaintyObjection {
-    const InputCode* code = nullptr;
-    std::string_view key;
-    std::string what, rule, action;
-};
-[[nodiscard]] std::optional<UncertaintyObjection> objection(const StatedUncertainty& stated);
-
-/// U = t_p(ν) u where u is stated, u = U/k else. \param stated  without objection, its numbers read
-/// \return nothing when no coverage factor exists for its degrees of freedom
-[[nodiscard]] std::optional<ResultUncertainty> evaluate(const StatedUncertainty& stated, double coverage_probability);
-
-/// The keys u | U with k, and nu where the object may have it, of an object. \return nothing when none is stated or it
-/// was refused
+/// The keys u | U with k, and nu, of an object. \return nothing when none is stated or it was refused
 [[nodiscard]] std::optional<ResultUncertainty> read_uncertainty(const ComparisonReading& reading,
-                                                                const JsonObject& object, bool may_have_nu);
+                                                                const JsonObject& object);
+
+/// A standard uncertainty of infinite degrees of freedom. \return nothing beyond what is computed with
+[[nodiscard]] std::optional<ResultUncertainty> of_standard_uncertainty(double u, double coverage_probability);
 
 /// Columns of a table that state uncertainties: positions as CsvTable knows them.
 struct UncertaintyColumns {
@@ -143,11 +134,22 @@ bool check_uncertainty_columns(const CsvTable& table, const UncertaintyColumns& 
 [[nodiscard]] std::optional<ResultUncertainty> read_uncertainty(const CsvTable& table, std::size_t row,
                                                                 const UncertaintyColumns& columns,
                                                                 double coverage_probability, ProblemList& problems);
-void warn_of_small_k(double k, const std::string& where, ProblemList& problems);
 
-/// "<0.3" and ">5": results that state no value.
-[[nodiscard]] bool is_censored(std::string_view text);
-void refuse_censored(std::string_view text, const std::string& where, ProblemList& problems);
+/// Whether a table has a column, and the row a text in it.
+[[nodiscard]] inline bool is_stated(const CsvTable& table, std::size_t row, std::size_t column) {
+    return table.has_column(column) && !table.cell(row, column).text.empty();
+}
+
+/// The value of a result. "<0.3" and words such as "n/a" are told as what they are.
+/// \param if_none  what to do where no value was measured
+[[nodiscard]] std::optional<double> read_value(const ComparisonReading& reading, const JsonObject& object,
+                                               std::string_view if_none);
+[[nodiscard]] std::optional<double> read_value(const CsvTable& table, std::size_t row, std::size_t column,
+                                               std::string_view if_none, ProblemList& problems);
+
+/// A number above 0 that can be squared and divided by.
+[[nodiscard]] std::optional<double> read_positive(const JsonObject& object, std::string_view key,
+                                                  std::string_view hint);
 
 /// The key `sources`, signed parts of an uncertainty. \param u  of the whole; nothing: not known here
 [[nodiscard]] std::vector<UncertaintySource> read_sources(const ComparisonReading& reading, const JsonObject& object,

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/job/budget_results.h"
 #include "engine/job/input_text.h"
 #include "engine/job/problem_list.h"
-#include "gum/expression/equation_system.h"
 #include "gum/quantity/unit.h"
 
 namespace gumcert::engine {
@@ -47,18 +47,7 @@ std::size_t after_first_brace(std::string_view bytes) {
 }
 
 void check_output(const BudgetJob& budget, ProblemList& problems) {
-    std::vector<std::pair<std::string, gum::Unit>> outputs;
-    if (budget.model.empty()) {
-        for (const BudgetInput& input : budget.inputs) {
-            outputs.emplace_back(input.name, input.unit);
-        }
-    } else {
-        const auto system =
-            gum::EquationSystem::compile(budget.model, model_inputs(budget), budget.unknowns, model_outputs(budget));
-        for (std::size_t i = 0; i < system.output_count(); ++i) {
-            outputs.emplace_back(system.output_name(i), system.output_unit(i));
-        }
-    }
+    const auto outputs = budget_results(budget);
     if (outputs.size() == 1 && outputs.front().second.dimension() == gum::Unit::parse("m").dimension()) {
         return;
     }

@@ -2,18 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 #include <vector>
 
 #include "engine/job/budget_job.h"
 #include "engine/job/json_document.h"
+#include "tests/support/job_schema.h"
 #include "tests/unit/engine/job/budget_campaign.h"
 #include "tests/unit/engine/job/campaign.h"
 
@@ -22,61 +17,13 @@ namespace {
 
 using nlohmann::json;
 
-class BudgetSchemaTest : public testing::Test {
+class BudgetSchemaTest : public gumcert::test::JobSchema {
 protected:
-    void SetUp() override {
-        std::ifstream stream(std::filesystem::path(GUMCERT_SOURCE_DIR) / "schemas/job-1.schema.json", std::ios::binary);
-        const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-        document_ = parse_json_document(text, "job-1.schema.json").value;
-        valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-            .populateSchema(valijson::adapters::NlohmannJsonAdapter(document_), schema_);
-    }
-    [[nodiscard]] bool accepts(const json& job) {
-        valijson::Validator validator;
-        return validator.validate(schema_, valijson::adapters::NlohmannJsonAdapter(job), nullptr);
-    }
-    /// A node with its reference followed; among alternatives the object with keys of its own.
-    [[nodiscard]] const json& resolved(const json& node) const {
-        if (node.contains("$ref")) {
-            return document_.at(json::json_pointer(node.at("$ref").get<std::string>().substr(1)));
-        }
-        if (node.contains("anyOf")) {
-            for (const json& alternative : node.at("anyOf")) {
-                if (alternative.contains("properties")) {
-                    return alternative;
-                }
-            }
-        }
-        return node;
-    }
-    /// The schema of an object of the job; `*` stands for any name or position.
-    [[nodiscard]] const json& schema_of(std::string_view pointer) const {
-        const json* node = &document_.at("definitions").at("budget");
-        for (std::string_view rest = pointer; !rest.empty();) {
-            rest.remove_prefix(1);
-            const std::size_t end = std::min(rest.find('/'), rest.size());
-            const std::string key{rest.substr(0, end)};
-            node = &resolved(key != "*"                ? node->at("properties").at(key)
-                             : node->contains("items") ? node->at("items")
-                                                       : node->at("additionalProperties"));
-            rest.remove_prefix(end);
-        }
-        return *node;
-    }
-    json document_;
-    valijson::Schema schema_;
+    BudgetSchemaTest() : JobSchema("budget") {}
 };
 
 TEST_F(BudgetSchemaTest, HasTheKeysOfTheReader) {
-    for (const JobKeys& object : budget_job_keys()) {
-        std::vector<std::string> of_schema;
-        for (const auto& [key, value] : schema_of(object.pointer).at("properties").items()) {
-            of_schema.push_back(key);
-        }
-        const std::vector<std::string> of_reader(object.keys.begin(), object.keys.end());
-        EXPECT_THAT(of_schema, testing::UnorderedElementsAreArray(of_reader)) << object.pointer;
-        EXPECT_EQ(schema_of(object.pointer).at("additionalProperties"), false) << object.pointer;
-    }
+    expect_keys(budget_job_keys());
 }
 
 TEST_F(BudgetSchemaTest, AgreesWithTheReader) {

@@ -2,18 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
 #include "engine/job/json_document.h"
 #include "tests/support/certificate_keys.h"
+#include "tests/support/job_schema.h"
 #include "tests/unit/engine/job/bad_certificate_data.h"
 #include "tests/unit/engine/job/certificate_json.h"
 
@@ -25,40 +20,14 @@ using gumcert::test::DescribedKey;
 using nlohmann::json;
 
 /// The certificate part of the schema of jobs.
-class CertificateSchema : public testing::Test {
+class CertificateSchema : public gumcert::test::JobSchema {
 protected:
-    void SetUp() override {
-        std::ifstream stream(std::filesystem::path(GUMCERT_SOURCE_DIR) / "schemas/job-1.schema.json", std::ios::binary);
-        const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-        document_ = parse_json_document(text, "job-1.schema.json").value;
-        valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-            .populateSchema(valijson::adapters::NlohmannJsonAdapter(document_), schema_);
+    CertificateSchema() : JobSchema("certificate_data") {}
+
+    [[nodiscard]] bool accepts_data(const json& data) const {
+        return accepts(
+            json{{"schema", "gumcert/job/1"}, {"kind", "budget"}, {"inputs", json::object()}, {"certificate", data}});
     }
-    [[nodiscard]] bool accepts(const json& data) {
-        const json job{
-            {"schema", "gumcert/job/1"}, {"kind", "budget"}, {"inputs", json::object()}, {"certificate", data}};
-        valijson::Validator validator;
-        return validator.validate(schema_, valijson::adapters::NlohmannJsonAdapter(job), nullptr);
-    }
-    /// A node with its reference followed.
-    [[nodiscard]] const json& resolved(const json& node) const {
-        return node.contains("$ref") ? document_.at(json::json_pointer(node.at("$ref").get<std::string>().substr(1)))
-                                     : node;
-    }
-    /// The schema of an object; `*` stands for any position.
-    [[nodiscard]] const json& schema_of(std::string_view pointer) const {
-        const json* node = &document_.at("definitions").at("certificate_data");
-        for (std::string_view rest = pointer; !rest.empty();) {
-            rest.remove_prefix(1);
-            const std::size_t end = std::min(rest.find('/'), rest.size());
-            const std::string key{rest.substr(0, end)};
-            node = &resolved(key != "*" ? node->at("properties").at(key) : node->at("items"));
-            rest.remove_prefix(end);
-        }
-        return *node;
-    }
-    json document_;
-    valijson::Schema schema_;
 };
 
 TEST_F(CertificateSchema, HasTheKeysOfTheDescription) {
@@ -101,9 +70,9 @@ TEST_F(CertificateSchema, HasTheKeysOfTheDescription) {
 
 TEST_F(CertificateSchema, AcceptsEveryKey) {
     const json whole = test::CertificateJsonWriter::structure(test::complete_certificate_data());
-    EXPECT_TRUE(accepts(whole));
-    EXPECT_TRUE(accepts(json::object()));
-    EXPECT_TRUE(accepts("certificate.json"));
+    EXPECT_TRUE(accepts_data(whole));
+    EXPECT_TRUE(accepts_data(json::object()));
+    EXPECT_TRUE(accepts_data("certificate.json"));
     // And the complete data have every key, so that the tests of the reader leave none out.
     for (const auto& [pointer, keys] : described_objects<certificate::CertificateData>()) {
         if (pointer == "/own_profile") {
@@ -144,7 +113,7 @@ TEST_F(CertificateSchema, RefusesWhatTheReaderRefusesWhereASchemaCan) {
         "deviations"};
     const json whole = test::CertificateJsonWriter::structure(test::complete_certificate_data());
     for (const test::BadData& bad : test::bad_certificate_data()) {
-        EXPECT_EQ(accepts(bad.in(whole)), beyond.contains(bad.name)) << bad.name;
+        EXPECT_EQ(accepts_data(bad.in(whole)), beyond.contains(bad.name)) << bad.name;
     }
 }
 
@@ -155,16 +124,8 @@ TEST_F(CertificateSchema, AcceptsTheExamples) {
         if (entry.path().extension() != ".json") {
             continue;
         }
-        std::ifstream stream(entry.path(), std::ios::binary);
-        const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-        const json document = parse_json_document(text, entry.path().filename().string()).value;
-        if (document.contains("kind")) {
-            valijson::Validator validator;
-            EXPECT_TRUE(validator.validate(schema_, valijson::adapters::NlohmannJsonAdapter(document), nullptr))
-                << entry.path();
-        } else {
-            EXPECT_TRUE(accepts(document)) << entry.path();
-        }
+        const json document = parse_json_document(gumcert::test::file_content(entry.path()), "job.json").value;
+        EXPECT_TRUE(document.contains("kind") ? accepts(document) : accepts_data(document)) << entry.path();
         ++count;
     }
     EXPECT_EQ(count, 4U);

@@ -83,6 +83,14 @@ std::vector<BadComparison> bad_of_results() {
          "together"},
         {"u_and_k", ab(R"("value": 1, "u": 1, "k": 2)"), {}, k_u_and_expanded_u, "#/participants/0/k", "beside"},
         {"no_k", ab(R"("value": 1, "U": 2)"), {}, k_no_coverage_factor, "#/participants/0/U", "without"},
+        {"only_nu",
+         ab(R"("value": 1, "nu": 5)"),
+         {},
+         k_degrees_of_freedom_of_nothing,
+         "#/participants/0/nu",
+         "without"},
+        {"only_nu_cell", k_csv, csv("participant,value,u,nu\nA,1,,5\nB,2,1,5\n"), k_degrees_of_freedom_of_nothing,
+         "r.csv:2:6", "without"},
         {"no_U", ab(R"("value": 1, "k": 2)"), {}, k_no_coverage_factor, "#/participants/0/k", "without"},
         {"no_k_column", k_csv, csv("participant,value,U\nA,1,1\nB,2,1\n"), k_no_coverage_factor, "r.csv:2:5",
          "without a column k"},
@@ -557,6 +565,39 @@ std::vector<BadComparison> bad_of_methods() {
          k_comparison_budget,
          "#/lab",
          "has no point \"P3\""},
+        // What is wrong with a budget, or with the unit, is told once and not again with every point.
+        {"points_of_unreadable_budget",
+         R"("lab": {"budget": "b.json", "points": [{"point": "P1"}, {"point": "P2"}]}, "reference": "reference.csv")",
+         {{"b.json", "{]"}, {"reference.csv", "point,value,u\nP1,1,1\nP2,1,1\n"}},
+         k_json_syntax,
+         "b.json",
+         ""},
+        {"table_of_unreadable_budget",
+         R"("lab": {"budget": "b.json", "points": "lab.csv"}, "reference": "reference.csv")",
+         {{"b.json", "{]"},
+          {"lab.csv", "point,position\nP1,1\nP2,2\n"},
+          {"reference.csv", "point,value,u\nP1,1,1\nP2,1,1\n"}},
+         k_json_syntax,
+         "b.json",
+         ""},
+        {"budget_and_unknown_unit",
+         R"("unit": 3, "lab": {"budget": "b.json"}, "reference": "reference.csv")",
+         {{"b.json", test::point_budget()}, {"reference.csv", "point,value,u\nP1,1,1\nP2,1,1\n"}},
+         k_wrong_type,
+         "#/unit",
+         "3"},
+        {"result_budget_and_unknown_unit",
+         R"("unit": 3, "participants": [{"id": "A", "budget": "b.json"}, {"id": "B", "value": 1, "u": 1}])",
+         {{"b.json", test::point_budget("[]")}},
+         k_wrong_type,
+         "#/unit",
+         "3"},
+        {"table_without_uncertainties", k_two_methods,
+         tables_with("lab.csv", "point,direction,value\nP1,x,1\nP1,y,1\n"), k_bare_uncertainty, "lab.csv:2:1",
+         "a table without uncertainties"},
+        {"audited_factor_too_small",
+         R"("lab": {"points": "lab.csv", "audited": {"factor": 1e-200, "finding": "f"}}, "reference": "reference.csv")",
+         method_tables(), k_number_out_of_range, "#/lab/audited/factor", "1e-200"},
     };
 }
 
@@ -647,6 +688,25 @@ TEST(ComparisonJob, ARecordThatIsTakenForAJobIsToldOnce) {
     } catch (const gum::InputError& error) {
         ASSERT_EQ(error.diagnostics().size(), 1U) << test::texts(error.diagnostics());
         EXPECT_EQ(error.diagnostics()[0].code, k_wrong_schema.code);
+    }
+}
+
+// What people write where they have no value, and what they are told to write.
+TEST(ComparisonJob, SaysHowAMissingResultIsReported) {
+    for (const std::string word : {"NA", "n/a", "-", "nan", "ND", "<0.3", "> 5"}) {
+        auto found = comparison_refusals(k_csv, csv("participant,value,u\nA,1,1\nB,2,1\nC," + word + ",1\n"));
+        ASSERT_EQ(found.size(), 1U) << word << test::texts(found);
+        EXPECT_EQ(found[0].where, "r.csv:4:3");
+        EXPECT_THAT(found[0].action, HasSubstr("leave the cell empty: a missing result")) << word;
+        found = comparison_refusals(ab(R"("value": ")" + word + R"(", "u": 1)"));
+        ASSERT_EQ(found.size(), 1U) << word << test::texts(found);
+        EXPECT_THAT(found[0].where, HasSubstr("#/participants/0/value"));
+        EXPECT_THAT(found[0].action, HasSubstr("write null: a missing result")) << word;
+        // A point of two methods has both values.
+        found = comparison_refusals(k_two_methods,
+                                    tables_with("lab.csv", "point,direction,value,u\nP1,x," + word + ",1\n"));
+        ASSERT_EQ(found.size(), 1U) << word << test::texts(found);
+        EXPECT_THAT(found[0].action, HasSubstr("remove the point from both sides")) << word;
     }
 }
 

@@ -1,20 +1,12 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 #include <vector>
 
 #include "engine/job/comparison_job.h"
-#include "engine/job/json_document.h"
+#include "tests/support/job_schema.h"
 #include "tests/unit/engine/job/campaign.h"
 #include "tests/unit/engine/job/comparison_campaign.h"
 
@@ -24,72 +16,18 @@ namespace {
 using nlohmann::json;
 using test::k_three_laboratories;
 
-std::string content(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-class ComparisonSchemaTest : public testing::Test {
+class ComparisonSchemaTest : public gumcert::test::JobSchema {
 protected:
-    void SetUp() override {
-        document_ =
-            parse_json_document(content(std::filesystem::path(GUMCERT_SOURCE_DIR) / "schemas/job-1.schema.json"),
-                                "job-1.schema.json")
-                .value;
-        valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-            .populateSchema(valijson::adapters::NlohmannJsonAdapter(document_), schema_);
-    }
-    [[nodiscard]] bool accepts(const json& job) {
-        valijson::Validator validator;
-        return validator.validate(schema_, valijson::adapters::NlohmannJsonAdapter(job), nullptr);
-    }
-    /// A node with its reference followed; among alternatives the array, or the object with the most keys.
-    [[nodiscard]] const json& resolved(const json& node) const {
-        if (node.contains("$ref")) {
-            return resolved(document_.at(json::json_pointer(node.at("$ref").get<std::string>().substr(1))));
-        }
-        if (!node.contains("anyOf") || node.contains("properties")) {
-            return node;
-        }
-        const json* best = &node;
-        for (const json& alternative : node.at("anyOf")) {
-            const json& candidate = resolved(alternative);
-            if (candidate.contains("items") || (candidate.contains("properties") && !best->contains("items"))) {
-                best = &candidate;
-            }
-        }
-        return *best;
-    }
-    /// The schema of an object of the job; `*` stands for any position.
-    [[nodiscard]] const json& schema_of(std::string_view pointer) const {
-        const json* node = &document_.at("definitions").at("comparison");
-        for (std::string_view rest = pointer; !rest.empty();) {
-            rest.remove_prefix(1);
-            const std::size_t end = std::min(rest.find('/'), rest.size());
-            const std::string key{rest.substr(0, end)};
-            node = &resolved(key == "*" ? node->at("items") : node->at("properties").at(key));
-            rest.remove_prefix(end);
-        }
-        return *node;
-    }
-    json document_;
-    valijson::Schema schema_;
+    ComparisonSchemaTest() : JobSchema("comparison") {}
 };
 
 TEST_F(ComparisonSchemaTest, HasTheKeysOfTheReader) {
-    for (const JobKeys& object : comparison_job_keys()) {
-        std::vector<std::string> of_schema;
-        for (const auto& [key, value] : schema_of(object.pointer).at("properties").items()) {
-            of_schema.push_back(key);
-        }
-        const std::vector<std::string> of_reader(object.keys.begin(), object.keys.end());
-        EXPECT_THAT(of_schema, testing::UnorderedElementsAreArray(of_reader)) << object.pointer;
-        EXPECT_EQ(schema_of(object.pointer).at("additionalProperties"), false) << object.pointer;
-    }
+    expect_keys(comparison_job_keys());
 }
 
 TEST_F(ComparisonSchemaTest, EveryKeyIsExplainedInTheDocumentation) {
-    const std::string text = content(std::filesystem::path(GUMCERT_SOURCE_DIR) / "docs/comparison_job.md");
+    const std::string text =
+        gumcert::test::file_content(std::filesystem::path(GUMCERT_SOURCE_DIR) / "docs/comparison_job.md");
     for (const JobKeys& object : comparison_job_keys()) {
         for (const std::string_view key : object.keys) {
             EXPECT_NE(text.find("`" + std::string(key) + "`"), std::string::npos) << object.pointer << "/" << key;
@@ -105,7 +43,7 @@ TEST_F(ComparisonSchemaTest, AcceptsTheShippedExamples) {
     std::size_t count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         if (entry.path().extension() == ".json") {
-            EXPECT_TRUE(accepts(parse_json_document(content(entry.path()), "job.json").value)) << entry.path();
+            EXPECT_TRUE(accepts(entry.path())) << entry.path();
             ++count;
         }
     }

@@ -3,19 +3,14 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 #include <vector>
 
 #include "engine/job/json_document.h"
 #include "engine/job/rotary_table_job.h"
+#include "tests/support/job_schema.h"
 #include "tests/unit/engine/job/campaign.h"
 
 namespace gumcert::engine {
@@ -27,43 +22,9 @@ using test::refusals;
 using test::replace;
 using test::small_campaign;
 
-std::string content(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-class JobSchemaTest : public testing::Test {
+class JobSchemaTest : public gumcert::test::JobSchema {
 protected:
-    void SetUp() override {
-        document_ =
-            parse_json_document(content(std::filesystem::path(GUMCERT_SOURCE_DIR) / "schemas/job-1.schema.json"),
-                                "job-1.schema.json")
-                .value;
-        valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-            .populateSchema(valijson::adapters::NlohmannJsonAdapter(document_), schema_);
-    }
-    [[nodiscard]] bool accepts(const json& job) {
-        valijson::Validator validator;
-        return validator.validate(schema_, valijson::adapters::NlohmannJsonAdapter(job), nullptr);
-    }
-    /// A node with its reference followed.
-    [[nodiscard]] const json& resolved(const json& node) const {
-        return node.contains("$ref") ? document_.at(json::json_pointer(node.at("$ref").get<std::string>().substr(1)))
-                                     : node;
-    }
-    /// The schema of an object inside the job, following references.
-    [[nodiscard]] const json& schema_of(std::string_view pointer) const {
-        const json* node = &document_.at("definitions").at("rotary_table");
-        for (std::string_view rest = pointer; !rest.empty();) {
-            rest.remove_prefix(1);
-            const std::size_t end = std::min(rest.find('/'), rest.size());
-            node = &resolved(node->at("properties").at(std::string(rest.substr(0, end))));
-            rest.remove_prefix(end);
-        }
-        return *node;
-    }
-    json document_;
-    valijson::Schema schema_;
+    JobSchemaTest() : JobSchema("rotary_table") {}
 };
 
 json job_of(const Files& files) {
@@ -120,7 +81,7 @@ TEST_F(JobSchemaTest, AcceptsTheJobsOfTheSharedData) {
     }
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        EXPECT_TRUE(accepts(parse_json_document(content(entry.path() / "job.json"), "job.json").value)) << entry.path();
+        EXPECT_TRUE(accepts(entry.path() / "job.json")) << entry.path();
         ++count;
     }
     EXPECT_EQ(count, 4);
@@ -129,7 +90,7 @@ TEST_F(JobSchemaTest, AcceptsTheJobsOfTheSharedData) {
 TEST_F(JobSchemaTest, AcceptsTheShippedExamples) {
     const std::filesystem::path folder = std::filesystem::path(GUMCERT_SOURCE_DIR) / "examples/rotary_table";
     for (const char* const name : {"job.json", "job_with_fixture_budget.json", "fixture_budget.json"}) {
-        EXPECT_TRUE(accepts(parse_json_document(content(folder / name), name).value)) << name;
+        EXPECT_TRUE(accepts(folder / name)) << name;
     }
     EXPECT_TRUE(read_rotary_table_job(folder / "job_with_fixture_budget.json").fixture_budget);
 }
@@ -145,22 +106,14 @@ TEST_F(JobSchemaTest, AcceptsOtherKindsWithAnyKeys) {
 }
 
 TEST_F(JobSchemaTest, HasTheKeysOfTheReader) {
-    for (const JobKeys& object : rotary_table_job_keys()) {
-        std::vector<std::string> of_schema;
-        for (const auto& [key, value] : schema_of(object.pointer).at("properties").items()) {
-            of_schema.push_back(key);
-        }
-        const std::vector<std::string> of_reader(object.keys.begin(), object.keys.end());
-        EXPECT_THAT(of_schema, testing::UnorderedElementsAreArray(of_reader)) << object.pointer;
-        EXPECT_EQ(schema_of(object.pointer).at("additionalProperties"), false) << object.pointer;
-    }
+    expect_keys(rotary_table_job_keys());
     // And no object of the schema is missing in the table of the reader.
     std::size_t objects = 0;
     const auto count = [&](const auto& self, const json& node) -> void {
         if (node.contains("properties")) {
             ++objects;
             for (const auto& [key, value] : node.at("properties").items()) {
-                self(self, resolved(value));
+                self(self, followed(value));
             }
         }
     };

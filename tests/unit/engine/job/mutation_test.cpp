@@ -2,33 +2,16 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "tests/fuzz/job_targets.h"
+#include "tests/support/fuzz_corpus.h"
 
 namespace gumcert::engine {
 namespace {
-
-std::vector<std::string> corpus(const std::string& target) {
-    std::vector<std::filesystem::path> paths;
-    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(GUMCERT_SOURCE_DIR) /
-                                                                 "tests/fuzz/corpus" / target)) {
-        paths.push_back(entry.path());
-    }
-    std::sort(paths.begin(), paths.end());
-    std::vector<std::string> contents;
-    for (const auto& path : paths) {
-        std::ifstream stream(path, std::ios::binary);
-        contents.emplace_back(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-    }
-    return contents;
-}
 
 /// One to four small changes, of the kinds that find holes in readers of text.
 std::string mutated(std::string text, std::mt19937_64& random) {
@@ -107,7 +90,7 @@ std::string mutated(std::string text, std::mt19937_64& random) {
 
 /// Replays the corpus and mutations of it; the target throws when something other than a result or a refusal comes out.
 void replay(const std::string& target, const std::function<bool(std::string_view)>& run, std::size_t mutations) {
-    const std::vector<std::string> seeds = corpus(target);
+    const std::vector<std::string> seeds = gumcert::test::fuzz_corpus(target);
     ASSERT_FALSE(seeds.empty());
     std::size_t accepted_seeds = 0;
     for (const std::string& seed : seeds) {
