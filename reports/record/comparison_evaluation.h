@@ -24,7 +24,7 @@ struct BiasLineSummary {
 
 /// One way to get a reference value from the results of an item.
 struct ReferenceEstimate {
-    std::string method;  ///< word of the job: "weighted_mean" …, also "mean", "kernel_mode"
+    std::string method;  ///< word of the job: "weighted_mean" …, also "niqr", "kernel_mode"
     double value = 0.0;
     std::optional<double> u = {};
     std::optional<double> scale = {};    ///< s*, s, MADe … of the results
@@ -117,7 +117,7 @@ struct ComparisonItemEvaluation {
     std::optional<double> s_star = {};                     ///< robust standard deviation of the results (algorithm A)
     std::optional<double> pooled_standard_deviation = {};  ///< of replicates, algorithm S
     std::optional<double> sigma_pt = {}, delta_E = {};
-    std::string sigma_pt_method = {};
+    std::string sigma_pt_method = {};      ///< "given", "percent" …; "" where there is no sigma_pt
     std::optional<double> criterion = {};  ///< u(X) / σ_pt
     bool criterion_met = true;             ///< ≤ 0.3: z is used, else z'
     std::string score = {};  ///< that decides: "En", "zeta", "z", "z_prime", "D"; "" where none can be formed

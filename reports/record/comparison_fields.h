@@ -36,7 +36,10 @@ void describe(Archive& a, Struct& r) {
 template <class Archive, certificate::Described<ReferenceEstimate> Struct>
 void describe(Archive& a, Struct& r) {
     using Range = certificate::NumberRule;
-    a("method", r.method);
+    // The methods of a job that rest on the results of the laboratories, and two that are computed beside them.
+    a("method", r.method,
+      {"weighted_mean", "arithmetic_mean", "median", "algorithm_a", "q_hampel", "largest_consistent_subset",
+       "dersimonian_laird", "mandel_paule", "vangel_rukhin", "power_moderated_mean", "niqr", "kernel_mode"});
     a("value", r.value);
     a("u", r.u, Range::not_negative);
     a("scale", r.scale, Range::not_negative);
@@ -165,7 +168,9 @@ void describe(Archive& a, Struct& r) {
     a("round", r.round);
     a("unit", r.unit);
     a("difference_unit", r.difference_unit);
-    a("method", r.method);
+    a("method", r.method,
+      {"reference", "given", "weighted_mean", "arithmetic_mean", "median", "algorithm_a", "q_hampel",
+       "largest_consistent_subset", "dersimonian_laird", "mandel_paule", "vangel_rukhin", "power_moderated_mean"});
     a("reference_participant", r.reference_participant);
     a("traceability", r.traceability);
     a("value", r.value);
@@ -187,7 +192,8 @@ void describe(Archive& a, Struct& r) {
     a("pooled_standard_deviation", r.pooled_standard_deviation, Range::not_negative);
     a("sigma_pt", r.sigma_pt, Range::not_negative);
     a("delta_E", r.delta_E, Range::not_negative);
-    a("sigma_pt_method", r.sigma_pt_method);
+    a("sigma_pt_method", r.sigma_pt_method,
+      {"", "given", "percent", "mass_fraction", "precision", "robust", "standard_deviation"});
     a("criterion", r.criterion, Range::not_negative);
     a("criterion_met", r.criterion_met);
     a("score", r.score, {"", "En", "zeta", "z", "z_prime", "D"});

@@ -2,6 +2,7 @@
 
 #include "certificate/certificate_fields.h"
 #include "reports/record/canonical_json.h"
+#include "reports/record/comparison_check.h"
 #include "reports/record/comparison_fields.h"
 
 #include <nlohmann/json.hpp>
@@ -938,67 +939,6 @@ void check_results(const EvaluationRecord& r, const Report& report) {
     }
 }
 
-/// What must hold between the parts of a comparison, so that a document can be made of it. Calls
-/// `report(pointer, what, rule)` for each breach.
-template <class Report>
-void check_comparison(const Comparison& c, const Report& report) {
-    const auto correlation = [&](const std::string& at, double r) {
-        if (!(std::abs(r) <= 1.0 + 1e-9)) {
-            report(at, shortest(r), "a correlation coefficient lies between -1 and 1");
-        }
-    };
-    const auto at = [](const char* list, std::size_t i) { return std::string("/") + list + "/" + std::to_string(i); };
-    std::set<std::string> participants;
-    for (std::size_t i = 0; i < c.participants.size(); ++i) {
-        if (!participants.insert(c.participants[i].id).second) {
-            report(at("participants", i) + "/id", '"' + c.participants[i].id + '"', "a participant is listed once");
-        }
-    }
-    std::set<std::pair<std::string, std::string>> items;
-    for (std::size_t i = 0; i < c.items.size(); ++i) {
-        const ComparisonItemEvaluation& item = c.items[i];
-        if (!items.emplace(item.id, item.round).second) {
-            report(at("items", i) + "/id", '"' + item.id + '"', "an item is listed once in a round");
-        }
-        if (item.consistency && item.consistency->pairs && item.consistency->incompatible_pairs &&
-            *item.consistency->incompatible_pairs > *item.consistency->pairs) {
-            report(at("items", i) + "/consistency/incompatible_pairs",
-                   std::to_string(*item.consistency->incompatible_pairs),
-                   "not more than the " + std::to_string(*item.consistency->pairs) + " pairs");
-        }
-    }
-    for (std::size_t i = 0; i < c.points.size(); ++i) {
-        const ComparisonPoint& p = c.points[i];
-        if (p.correlation) {
-            correlation(at("points", i) + "/correlation", *p.correlation);
-        }
-        if (c.form != "laboratories") {
-            continue;
-        }
-        if (!participants.contains(p.participant)) {
-            report(at("points", i) + "/participant", '"' + p.participant + '"', "must be one of the participants");
-        }
-        if (!items.contains({p.item, p.round})) {
-            report(at("points", i) + "/item", '"' + p.item + "\" in round \"" + p.round + '"',
-                   "must be one of the items, in its round");
-        }
-    }
-    for (std::size_t i = 0; i < c.shared_sources.size(); ++i) {
-        correlation(at("shared_sources", i) + "/correlation", c.shared_sources[i].correlation);
-    }
-    for (std::size_t i = 0; i < c.youden.size(); ++i) {
-        correlation(at("youden", i) + "/correlation", c.youden[i].correlation);
-    }
-    if (c.correlation_given) {
-        correlation("/correlation_given", *c.correlation_given);
-    }
-    for (std::size_t i = 0; i + 1 < c.summary.size(); ++i) {
-        if (c.summary[i].direction == "all") {
-            report("/summary/all", "before other directions", "the summary of all directions comes last");
-        }
-    }
-}
-
 /// What must hold between the parts of a certificate, so that a document can be made of it. Calls
 /// `report(pointer, what, rule)` for each breach.
 template <class Report>
@@ -1199,12 +1139,14 @@ public:
         object["U"] = std::move(U);
     }
 
-    [[noreturn]] static void refuse(const std::string& pointer, std::string what, std::string rule) {
+    /// \param action  a record that breaks its own rules is a fault of the program, unless the caller knows better
+    [[noreturn]] static void refuse(const std::string& pointer, std::string what, std::string rule,
+                                    std::string action = "nothing was written; report this as a defect") {
         throw gum::NoResultError(gum::Diagnostic{.code = "GC-RECORD-0003",
                                                  .where = "record#" + pointer,
                                                  .what = std::move(what),
                                                  .rule = std::move(rule),
-                                                 .action = "nothing was written; report this as a defect"});
+                                                 .action = std::move(action)});
     }
 
 private:
@@ -1734,7 +1676,9 @@ private:
             if (item.is_null()) {
                 v.reset();
             } else {
-                from_json(item, v.emplace(), at, range);
+                // Not emplace(): for Clang a nested struct with initialisers is not constructible there.
+                v = typename Type::value_type{};
+                from_json(item, *v, at, range);
             }
         } else if constexpr (requires { v.size(); }) {
             list(item, v, at, range);
@@ -1891,7 +1835,8 @@ std::string to_canonical_json(const EvaluationRecord& record) {
     std::string text = canonical_json(writer.object);
     if (text.size() > k_max_record_bytes) {
         Writer::refuse("", std::to_string(text.size()) + " bytes",
-                       "a record has at most " + std::to_string(k_max_record_bytes) + " bytes");
+                       "a record has at most " + std::to_string(k_max_record_bytes) + " bytes",
+                       "nothing was written; split the job into several");
     }
     return text;
 }

@@ -1,3 +1,4 @@
+#include "reports/record/canonical_json.h"
 #include "reports/record/evaluation_record.h"
 #include "tests/support/sample_comparison_record.h"
 
@@ -10,6 +11,8 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace gumcert::reports {
@@ -186,6 +189,61 @@ TEST(ComparisonRecord, RefusesPartsThatDoNotFitTogether) {
                 HasSubstr("/comparison/shared_sources/0/correlation — 1.2"));
 }
 
+TEST(ComparisonRecord, RefusesWordsThatItDoesNotKnow) {
+    const std::vector<std::pair<const char*, const char*>> words = {{"/items/0/method", "mean_of_friends"},
+                                                                    {"/items/0/method", "niqr"},
+                                                                    {"/items/0/method", ""},
+                                                                    {"/items/0/estimates/0/method", "reference"},
+                                                                    {"/items/0/estimates/1/method", "mean"},
+                                                                    {"/items/0/sigma_pt_method", "Horwitz"},
+                                                                    {"/items/0/score", "zeta_prime"},
+                                                                    {"/points/0/realism", "good"},
+                                                                    {"/points/0/signal", "alarm"},
+                                                                    {"/correlation", "guessed"},
+                                                                    {"/summary/all/verdict", "validated twice"},
+                                                                    {"/summary/all/bias/against", "time"}};
+    for (const auto& [pointer, word] : words) {
+        const bool between = std::string_view(pointer).find("summary") == std::string_view::npos;
+        json r = json::parse(
+            to_canonical_json(between ? test::sample_laboratories_record() : test::sample_methods_record()));
+        r["comparison"].at(json::json_pointer(pointer)) = word;
+        EXPECT_THAT(refusal(r.dump()), HasSubstr("GC-RECORD-0016 record.json#/comparison" + std::string(pointer) +
+                                                 " — \"" + word + "\" — must be one of"));
+    }
+}
+
+TEST(ComparisonRecord, RefusesIdsThatNameNothing) {
+    const std::vector<std::pair<const char*, const char*>> ids = {
+        {"/items/0/reference_participant", "participants"}, {"/items/0/not_contributing/0", "participants"},
+        {"/items/0/not_consistent/0", "participants"},      {"/items/0/missing/0", "participants"},
+        {"/items/1/weights/2/participant", "participants"}, {"/items/1/pairs/3/first", "participants"},
+        {"/items/1/pairs/3/second", "participants"},        {"/points/1/participant", "participants"},
+        {"/points/1/item", "items, in its round"},          {"/points/1/round", "items, in its round"},
+        {"/vectors/0/participant", "participants"},         {"/youden/0/first_item", "items, in its round"},
+        {"/youden/0/second_item", "items, in its round"},   {"/youden/0/points/2/participant", "participants"},
+        {"/shared_sources/0/first", "participants"},        {"/shared_sources/0/second", "participants"}};
+    const json record = json::parse(to_canonical_json(test::sample_laboratories_record()));
+    for (const auto& [pointer, what] : ids) {
+        for (const char* const id : {"L999", ""}) {
+            if (id == std::string_view{} && std::string_view(pointer) == "/items/0/reference_participant") {
+                continue;  // "": the assigned value is not the result of a reference
+            }
+            json r = record;
+            r["comparison"].at(json::json_pointer(pointer)) = id;
+            const std::string told = refusal(r.dump());
+            EXPECT_THAT(told, HasSubstr("GC-RECORD-0017 record.json#/comparison/")) << pointer;
+            EXPECT_THAT(told, HasSubstr("must be one of the " + std::string(what))) << pointer;
+        }
+    }
+    for (const char* const side : {"first", "second"}) {
+        json r = json::parse(to_canonical_json(test::sample_methods_record()));
+        r["comparison"]["shared_sources"][0][side] = "another method";
+        EXPECT_THAT(refusal(r.dump()),
+                    HasSubstr("GC-RECORD-0017 record.json#/comparison/shared_sources/0/" + std::string(side) +
+                              " — \"another method\" — must be one of the two methods"));
+    }
+}
+
 TEST(ComparisonRecord, WriterRefusesWhatTheReaderWouldRefuse) {
     const auto refused = [](const std::function<void(Comparison&)>& alter) {
         EvaluationRecord r = test::sample_laboratories_record();
@@ -207,6 +265,17 @@ TEST(ComparisonRecord, WriterRefusesWhatTheReaderWouldRefuse) {
                     c.summary[0].direction = c.summary[1].direction = "x";
                 }),
                 HasSubstr("the name \"x\" is used twice"));
+    EXPECT_THAT(refused([](Comparison& c) { c.items[1].weights[3].participant = "nobody"; }),
+                HasSubstr("record#/comparison/items/1/weights/3/participant — \"nobody\" — must be one of the "
+                          "participants — nothing was written; report this as a defect"));
+}
+
+TEST(ComparisonRecord, ARecordThatIsTooLargeIsNoDefectOfTheProgram) {
+    EvaluationRecord r = test::sample_methods_record();
+    r.comparison->remarks.emplace_back(k_max_record_bytes, 'x');
+    const std::string told = write_refusal(r);
+    EXPECT_THAT(told, HasSubstr("a record has at most 67108864 bytes — nothing was written; split the job"));
+    EXPECT_THAT(told, testing::Not(HasSubstr("defect")));
 }
 
 TEST(ComparisonRecord, TenThousandLaboratoriesFitIntoARecord) {
