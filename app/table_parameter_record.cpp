@@ -137,7 +137,6 @@ PositioningScope positioning_scope(const engine::TableParameterModel& model) {
     constexpr double k_largest_ratio = 0.25;
     const engine::PositioningAccuracy positioning = model.positioning();
     PositioningScope scope;
-    scope.largest_share = k_largest_share;
     scope.largest_ratio = k_largest_ratio;
     scope.u_deviation = model.rms_position_uncertainty();
     double squares = 0.0;

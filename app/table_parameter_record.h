@@ -27,7 +27,6 @@ struct PositioningScope {
     bool scatter_stated = false;  ///< those that rest on standard deviations of runs
     double u_deviation = 0.0;     ///< standard uncertainty of one deviation, rms over the runs, [rad]
     double s_runs = 0.0;          ///< standard deviation of the runs at a target, rms over the targets, [rad]
-    double largest_share = 0.0;   ///< share of the measurement in s_runs² that is still accepted
     double largest_ratio = 0.0;   ///< u_deviation against E that is still accepted
     [[nodiscard]] bool states(const std::string& short_name) const {
         return stated && (scatter_stated || !rests_on_scatter(short_name));

@@ -14,16 +14,6 @@ namespace gumcert::engine {
 
 namespace {
 
-/// Where a reflector is seen from a station by an ideal table without set-up errors.
-double ideal_distance(const RotaryTableMeasurement& measurement, const Eigen::Matrix3d& rotation, std::size_t station,
-                      std::size_t reflector) {
-    const double stretch =
-        1.0 + measurement.expansion * measurement.temperature_difference[static_cast<Eigen::Index>(station)];
-    return (stretch * (rotation * measurement.fixture.row(static_cast<Eigen::Index>(reflector)).transpose()) -
-            *measurement.station_start[station])
-        .norm();
-}
-
 void require_layout(const RotaryTableMeasurement& measurement) {
     std::vector<gum::Diagnostic> problems;
     if (measurement.angles.empty()) {
@@ -43,6 +33,15 @@ void require_layout(const RotaryTableMeasurement& measurement) {
 }
 
 }  // namespace
+
+double ideal_distance(const RotaryTableMeasurement& measurement, const Eigen::Matrix3d& rotation, std::size_t station,
+                      std::size_t reflector) {
+    const double stretch =
+        1.0 + measurement.expansion * measurement.temperature_difference[static_cast<Eigen::Index>(station)];
+    return (stretch * (rotation * measurement.fixture.row(static_cast<Eigen::Index>(reflector)).transpose()) -
+            *measurement.station_start[station])
+        .norm();
+}
 
 void lay_out(RotaryTableMeasurement& measurement, bool both_senses, bool dead_path_per_reflector) {
     require_layout(measurement);

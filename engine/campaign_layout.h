@@ -1,10 +1,17 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 
 #include "engine/rotary_table_measurement.h"
 
 namespace gumcert::engine {
+
+/// Distance of a reflector from a station with an ideal table and a fixture without set-up errors at its stated
+/// temperature, [m].
+/// \param rotation  of the table
+[[nodiscard]] double ideal_distance(const RotaryTableMeasurement& measurement, const Eigen::Matrix3d& rotation,
+                                    std::size_t station, std::size_t reflector);
 
 /// Plans the distances of a measurement that has stations with start values, reflectors, fixture and angles: every
 /// station sees every reflector at every angle, reflector after reflector within one visit of the table.

@@ -1,6 +1,7 @@
 #include "engine/campaign_simulation.h"
 
 #include "engine/joint_adjustment.h"
+#include "engine/rotary_table_model.h"
 #include "engine/rotation.h"
 
 namespace gumcert::engine {
@@ -58,22 +59,6 @@ RotaryTableMeasurement simulate_campaign(const RotaryTableMeasurement& layout, c
         result.lengths[outlier.length].length += outlier.error;
     }
     return result;
-}
-
-Eigen::VectorXd reported_order(const RotaryTableMeasurement& layout, const Eigen::MatrixXd& errors,
-                               const Vector6& set_up, const Vector6* reversal) {
-    const auto across = across_axis(layout.axis);
-    const Eigen::Index size = errors.size();
-    Eigen::VectorXd values(size + 4 + (reversal != nullptr ? 6 : 0));
-    values.head(size) = errors.reshaped();
-    for (int c = 0; c < 2; ++c) {
-        values[size + c] = set_up[across[static_cast<std::size_t>(c)]];
-        values[size + 2 + c] = set_up[3 + across[static_cast<std::size_t>(c)]];
-    }
-    if (reversal != nullptr) {
-        values.tail<6>() = *reversal;
-    }
-    return values;
 }
 
 Eigen::VectorXd truth_in_datum(const RotaryTableMeasurement& layout, const CampaignTruth& truth, Datum datum,

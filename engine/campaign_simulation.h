@@ -48,11 +48,6 @@ struct CampaignNoise {
 /// The lengths of a layout without their noise, [m]; of use where the noise depends on the distance.
 [[nodiscard]] Eigen::VectorXd true_distances(const RotaryTableMeasurement& layout, const CampaignTruth& truth);
 
-/// Values in the order of `reported_quantities`: errors angle by angle, the set-up across the axis, and the reversal.
-[[nodiscard]] Eigen::VectorXd reported_order(const RotaryTableMeasurement& layout, const Eigen::MatrixXd& errors,
-                                             const Eigen::Matrix<double, 6, 1>& set_up,
-                                             const Eigen::Matrix<double, 6, 1>* reversal);
-
 /// The truth as a campaign can know it: carried to a datum exactly, in the order of `reported_quantities`.
 ///
 /// Distances do not tell the assumed error motions from others that differ by a motion of the world and by the set-up

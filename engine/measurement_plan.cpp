@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/campaign_layout.h"
 #include "engine/datum.h"
 #include "engine/geometry_check.h"
 #include "engine/reliability.h"
@@ -20,14 +21,6 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 // Squared pivot of the scaled normal equations below which a parameter counts as not determined; as
 // SolverOptions::rank_tolerance.
 constexpr double k_pivot_tolerance = 1e-12;
-
-Eigen::Vector3d ideal_position(const RotaryTableMeasurement& measurement, std::size_t station, std::size_t reflector,
-                               std::size_t angle) {
-    const double stretch =
-        1.0 + measurement.expansion * measurement.temperature_difference[static_cast<Eigen::Index>(station)];
-    return nominal_rotation(measurement, angle) *
-           (stretch * measurement.fixture.row(static_cast<Eigen::Index>(reflector)).transpose());
-}
 
 StartValues ideal_values(const RotaryTableMeasurement& measurement) {
     StartValues values;
@@ -152,9 +145,8 @@ void predict_lengths(RotaryTableMeasurement& measurement) {
         throw gum::InputError(std::move(problems));
     }
     for (LengthObservation& length : measurement.lengths) {
-        length.length = (ideal_position(measurement, length.station, length.reflector, length.angle) -
-                         *measurement.station_start[length.station])
-                            .norm();
+        length.length =
+            ideal_distance(measurement, nominal_rotation(measurement, length.angle), length.station, length.reflector);
     }
 }
 

@@ -55,19 +55,28 @@ ReportedQuantities reported_quantities(const RotaryTableMeasurement& measurement
     return quantities;
 }
 
-Eigen::VectorXd reported_values(const JointAdjustment& adjustment, const DatumSolution& datum) {
-    const auto across = across_axis(adjustment.measurement().axis);
-    const Eigen::Index errors = datum.errors.size();
-    Eigen::VectorXd values(errors + 4 + (adjustment.has_reversal() ? 6 : 0));
-    values.head(errors) = datum.errors.reshaped();
+Eigen::VectorXd reported_order(const RotaryTableMeasurement& measurement, const Eigen::MatrixXd& errors,
+                               const Eigen::Matrix<double, 6, 1>& set_up, const Eigen::Matrix<double, 6, 1>* reversal) {
+    const auto across = across_axis(measurement.axis);
+    const Eigen::Index size = errors.size();
+    Eigen::VectorXd values(size + 4 + (reversal != nullptr ? 6 : 0));
+    values.head(size) = errors.reshaped();
     for (int c = 0; c < 2; ++c) {
-        values[errors + c] = datum.set_up[across[static_cast<std::size_t>(c)]];
-        values[errors + 2 + c] = datum.set_up[3 + across[static_cast<std::size_t>(c)]];
+        values[size + c] = set_up[across[static_cast<std::size_t>(c)]];
+        values[size + 2 + c] = set_up[3 + across[static_cast<std::size_t>(c)]];
     }
-    if (adjustment.has_reversal()) {
-        values.tail<6>() = adjustment.adjustment().parameters(adjustment.reversal_block());
+    if (reversal != nullptr) {
+        values.tail<6>() = *reversal;
     }
     return values;
+}
+
+Eigen::VectorXd reported_values(const JointAdjustment& adjustment, const DatumSolution& datum) {
+    if (!adjustment.has_reversal()) {
+        return reported_order(adjustment.measurement(), datum.errors, datum.set_up, nullptr);
+    }
+    const Eigen::Matrix<double, 6, 1> reversal = adjustment.adjustment().parameters(adjustment.reversal_block());
+    return reported_order(adjustment.measurement(), datum.errors, datum.set_up, &reversal);
 }
 
 Eigen::MatrixXd reported_map(const JointAdjustment& adjustment, const NormalEquations& normal,

@@ -26,6 +26,12 @@ struct ReportedQuantities {
 
 [[nodiscard]] ReportedQuantities reported_quantities(const RotaryTableMeasurement& measurement, bool has_reversal);
 
+/// Values in the order of `reported_quantities`: errors angle by angle, the set-up across the axis, and the reversal.
+/// \param reversal  null: there is none
+[[nodiscard]] Eigen::VectorXd reported_order(const RotaryTableMeasurement& measurement, const Eigen::MatrixXd& errors,
+                                             const Eigen::Matrix<double, 6, 1>& set_up,
+                                             const Eigen::Matrix<double, 6, 1>* reversal);
+
 /// Values of the reported quantities, [m] and [rad].
 [[nodiscard]] Eigen::VectorXd reported_values(const JointAdjustment& adjustment, const DatumSolution& datum);
 
