@@ -278,6 +278,19 @@ std::string deciding_score(const LaboratoryData& data, const ComparisonItemEvalu
     return evaluation.delta_E ? "D" : "";
 }
 
+/// A consensus of results that are equal has no uncertainty: without another limit nothing can be scored.
+void require_score(const LaboratoryData& data, const ComparisonItemEvaluation& evaluation) {
+    if (!evaluation.u && evaluation.score.empty()) {
+        throw gum::InputError(gum::Diagnostic{
+            .code = "GC-COMPARE-0126",
+            .where = data.where,
+            .what = "more than half of the results are equal: no uncertainty of the assigned value can be stated",
+            .rule = "a score needs it, or sigma_pt, or delta_E",
+            .action = "Ask for results with more digits, state sigma_pt or delta_E, or give an "
+                      "assigned value with its uncertainty."});
+    }
+}
+
 }  // namespace
 
 ComparisonItemEvaluation item_evaluation(const engine::ComparisonJob& job, const LaboratoryData& data,
@@ -303,6 +316,7 @@ ComparisonItemEvaluation item_evaluation(const engine::ComparisonJob& job, const
     evaluation.printed.pooled_standard_deviation = printed_uncertainty(evaluation.pooled_standard_deviation);
     add_consensus_check(data, evaluation);
     evaluation.score = deciding_score(data, evaluation);
+    require_score(data, evaluation);
     return evaluation;
 }
 

@@ -69,7 +69,8 @@ bool inconsistent(const ComparisonItemEvaluation& item) {
 std::string test_text(const ComparisonItemEvaluation& item) {
     const reports::ConsistencySummary& test = *item.consistency;
     return "the results are not consistent with their uncertainties: chi-square " + test.printed.chi_square + " on " +
-           count_of(test.degrees_of_freedom, "degree") + " of freedom, p = " + test.printed.p_value;
+           count_of(test.degrees_of_freedom, "degree") + " of freedom, p = " + test.printed.p_value +
+           ", below alpha = " + shortest(test.alpha);
 }
 
 void add_consistency(ItemMessages& messages) {
@@ -77,7 +78,7 @@ void add_consistency(ItemMessages& messages) {
         .code = "GC-COMPARE-0120",
         .where = "",
         .what = "",
-        .rule = "the uncertainty of a weighted mean holds for results that are (p ≥ 0.05)",
+        .rule = "the uncertainty of a weighted mean holds for results that are",
         .action =
             "Take largest_consistent_subset, or a mean with a variance between laboratories (mandel_paule), unless "
             "a laboratory corrects its result.",

@@ -466,8 +466,8 @@ TEST(EvaluateLaboratories, EqualResults) {
     // The median exists; its uncertainty does not.
     for (engine::ComparisonItem& item : job.items) {
         item.assigned_value.method = AssignedValueMethod::median;
+        item.sigma_pt = {.method = engine::SigmaPtMethod::given, .value = 0.1};
     }
-    job.items[0].sigma_pt = {.method = engine::SigmaPtMethod::given, .value = 0.1};
     const reports::Comparison comparison = evaluated(job);
     EXPECT_FALSE(comparison.items[0].u);
     EXPECT_EQ(comparison.items[0].printed.U, "");
@@ -674,6 +674,7 @@ TEST(EvaluateLaboratories, AuditOfTheReferenceLaboratory) {
 TEST(EvaluateLaboratories, EqualResultsHaveNoStandardDeviation) {
     ComparisonJob job = job_of({10.3, 10.3, 10.3}, {0.1, 0.2, 0.1});
     job.items[0].assigned_value.method = AssignedValueMethod::arithmetic_mean;
+    job.items[0].delta_E = 0.5;
     const reports::Comparison comparison = evaluated(job);
     EXPECT_FALSE(comparison.items[0].u) << "0 would say that the value is exactly known";
     EXPECT_FALSE(comparison.points[0].En);
@@ -681,9 +682,24 @@ TEST(EvaluateLaboratories, EqualResultsHaveNoStandardDeviation) {
     // The standard deviation of seven equal numbers is 0, not the rounding of their mean.
     ComparisonJob large = job_of(std::vector<double>(7, 1000000.1), {});
     large.items[0].assigned_value.method = AssignedValueMethod::median;
+    large.items[0].delta_E = 0.5;
     const reports::Comparison far = evaluated(large);
     EXPECT_EQ(*far.items[0].estimates.front().scale, 0.0);
     EXPECT_FALSE(far.items[0].estimates.front().u);
+}
+
+TEST(EvaluateLaboratories, EqualResultsThatNothingCanScoreAreRefused) {
+    for (const AssignedValueMethod method : {AssignedValueMethod::arithmetic_mean, AssignedValueMethod::median}) {
+        ComparisonJob job = job_of({10.3, 10.3, 10.3, 10.4}, {0.1, 0.2, 0.1, 0.1});
+        if (method == AssignedValueMethod::arithmetic_mean) {
+            job.results.pop_back();
+        }
+        job.items[0].assigned_value.method = method;
+        const gum::Diagnostic refused = refusal(job);
+        EXPECT_EQ(refused.code, "GC-COMPARE-0126");
+        EXPECT_EQ(refused.where, "item \"block\"");
+        EXPECT_THAT(refused.what, HasSubstr("are equal"));
+    }
 }
 
 TEST(EvaluateLaboratories, OneUncertaintyInAnArithmeticMean) {
