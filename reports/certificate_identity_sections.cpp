@@ -204,7 +204,9 @@ std::pair<const certificate::CertifiedColumn*, const certificate::CertifiedValue
 /// "l = 50000838 nm ± 68 nm, k = 2.16" where that is the whole of the results; else where they stand. A value with a
 /// mark (outside of the accreditation, external) stands where the mark is explained.
 Text results_in_one_line(const Certificate& certificate, const Wording& words, const std::string& coverage) {
-    const auto [column, value] = only_value(certificate);
+    const auto only = only_value(certificate);  // Clang 14 lets no lambda below capture a structured binding
+    const certificate::CertifiedColumn* column = only.first;
+    const certificate::CertifiedValue* value = only.second;
     if (column == nullptr || value->printed_value.empty() || !CertifiedOverview(certificate).note(*value).empty()) {
         return words("statement", "see_following_pages");
     }

@@ -51,21 +51,12 @@ Text signal_name(const Wording& words, const std::string& signal) {
     return signal.empty() ? Text() : words("comparison_signal", signal);
 }
 
-std::optional<double> score_value(const ComparisonPoint& p, const std::string& score) {
-    return score == "En"        ? p.En
-           : score == "zeta"    ? p.zeta
-           : score == "z"       ? p.z
-           : score == "z_prime" ? p.z_prime
-           : score == "D"       ? std::optional<double>(p.D)
-                                : std::nullopt;
-}
-
 /// How much the signal of a result matters: 0 without one; an action more than any warning.
 double weight_of(const ComparisonPoint& p, const std::string& score) {
     if (!has_signal(p)) {
         return 0.0;
     }
-    const double magnitude = std::abs(score_value(p, score).value_or(0.0));
+    const double magnitude = std::abs(score_of(p, score).value_or(0.0));
     return (p.signal == "action" ? 2.0 : 1.0) + magnitude / (1.0 + magnitude);
 }
 
@@ -271,9 +262,8 @@ void items_table(CertificateBuilder& builder, const Wording& words, const std::v
 
 void values_figure(CertificateBuilder& builder, const Wording& words, const Comparison& c, const ComparedItem& compared,
                    const std::string& id) {
-    builder.figure(id, words.filled("comparison", "figure_values", {{"item", compared.name}}),
-                   words("plot", "laboratory_values_description").first(),
-                   laboratory_values_plot(c, *compared.item, id, words));
+    figure_if_any(builder, id, words.filled("comparison", "figure_values", {{"item", compared.name}}),
+                  words("plot", "laboratory_values_description"), laboratory_values_plot(c, *compared.item, id, words));
 }
 
 /// Results of one item with every score that was asked for.
@@ -335,74 +325,6 @@ void realism_table(CertificateBuilder& builder, const Wording& words, const Comp
                             rows);
 }
 
-/// Names of the laboratories of the pairs, in the order in which they first appear.
-std::vector<std::string> laboratories_of(const std::vector<PairEquivalence>& pairs) {
-    std::vector<std::string> names;
-    const auto add = [&](const std::string& name) {
-        if (std::find(names.begin(), names.end(), name) == names.end()) {
-            names.push_back(name);
-        }
-    };
-    for (const PairEquivalence& pair : pairs) {
-        add(pair.first);
-        add(pair.second);
-    }
-    return names;
-}
-
-void pair_list(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared, const std::string& id) {
-    const std::string unit = gum::unit_for_people(compared.item->difference_unit);
-    Rows rows;
-    for (const PairEquivalence& pair : compared.item->pairs) {
-        rows.push_back({pair.first, pair.second, pair.printed.d, pair.printed.U, pair.printed.En});
-    }
-    table_of_filled_columns(builder, "pairs-" + id, words("comparison", "pairs_table"),
-                            {{words("comparison", "laboratory_i"), ""},
-                             {words("comparison", "laboratory_j"), ""},
-                             {"d_ij", unit, true},
-                             {"U(d_ij)", unit, true},
-                             {words("label", "En"), "", true}},
-                            rows);
-}
-
-void pair_matrix(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared, const std::string& id,
-                 const std::vector<std::string>& names) {
-    std::map<std::pair<std::string, std::string>, std::string> En;
-    for (const PairEquivalence& pair : compared.item->pairs) {
-        En[{pair.first, pair.second}] = pair.printed.En;
-    }
-    std::vector<Column> columns = {{"i \\ j", ""}};
-    Rows rows;
-    for (const std::string& first : names) {
-        columns.push_back({first, "", true});
-        std::vector<Text> row = {first};
-        for (const std::string& second : names) {
-            const auto found = En.find({first, second});
-            row.push_back(found == En.end() ? "\u00A0" : found->second);
-        }
-        rows.push_back(std::move(row));
-    }
-    builder.table("pairs-" + id, words("comparison", "pairs_matrix"), columns, rows);
-}
-
-/// Degrees of equivalence of pairs: as a list, as a matrix of E_n, or as a drawing only.
-void pairs_of(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared, const std::string& id) {
-    constexpr std::size_t k_most_listed = 7;
-    constexpr std::size_t k_most_in_matrix = 12;
-    if (compared.item->pairs.empty()) {
-        return;
-    }
-    const std::vector<std::string> names = laboratories_of(compared.item->pairs);
-    if (names.size() <= k_most_listed) {
-        pair_list(builder, words, compared, id);
-    } else if (names.size() <= k_most_in_matrix) {
-        pair_matrix(builder, words, compared, id, names);
-    }
-    const std::string plot = "plot-pairs-" + id;
-    builder.figure(plot, words.filled("comparison", "figure_pairs", {{"item", compared.name}}),
-                   words("plot", "pairs_description").first(), pairs_plot(*compared.item, plot, words));
-}
-
 void item_sections(CertificateBuilder& builder, const Wording& words, const Comparison& c,
                    const std::vector<ComparedItem>& items) {
     std::size_t detailed = 0;
@@ -425,13 +347,13 @@ void item_sections(CertificateBuilder& builder, const Wording& words, const Comp
         }
         if (!compared.item->score.empty()) {
             const std::string plot = "plot-scores-" + id;
-            builder.figure(plot,
-                           words.filled("comparison", "figure_scores",
-                                        {{"item", compared.name}, {"score", score_name(words, compared.item->score)}}),
-                           words("plot", "laboratory_scores_description").first(),
-                           laboratory_scores_plot(c, *compared.item, plot, words));
+            figure_if_any(builder, plot,
+                          words.filled("comparison", "figure_scores",
+                                       {{"item", compared.name}, {"score", score_name(words, compared.item->score)}}),
+                          words("plot", "laboratory_scores_description"),
+                          laboratory_scores_plot(c, *compared.item, plot, words));
         }
-        pairs_of(builder, words, compared, id);
+        pairs_of_item(builder, words, compared, id);
         realism_table(builder, words, compared, id);
     }
     if (detailed < items.size()) {
@@ -447,21 +369,7 @@ void shared_sources(CertificateBuilder& builder, const Wording& words, const Com
     }
     builder.section("comparison_correlations");
     builder.paragraph(words("comparison", "shared_sources"));
-    Rows rows;
-    for (const SharedSource& s : c.shared_sources) {
-        if (rows.size() < k_most_rows) {
-            rows.push_back({s.source, s.first, s.second, s.printed_correlation});
-        }
-    }
-    if (rows.size() < c.shared_sources.size()) {
-        builder.paragraph(words.fill("more_in_record", {{"count", count(c.shared_sources.size() - rows.size())}}));
-    }
-    table_of_filled_columns(builder, "shared-sources", words("comparison", "shared_sources_table"),
-                            {{words("label", "source"), ""},
-                             {words("comparison", "first"), ""},
-                             {words("comparison", "second"), ""},
-                             {"r", "", true}},
-                            rows);
+    shared_sources_table(builder, words, c);
 }
 
 void participants_section(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
@@ -546,13 +454,13 @@ void youden_section(CertificateBuilder& builder, const Wording& words, const Com
         diagram.first_item = first.first();
         diagram.second_item = second.first();
         const std::string id = "plot-youden-" + count(i + 1);
-        builder.figure(id,
-                       words.filled("comparison", "figure_youden",
-                                    {{"first", first},
-                                     {"second", second},
-                                     {"r", words.number(gum::round_to_quantum(diagram.correlation, 2))}}),
-                       words.filled("plot", "youden_description", {{"first", first}, {"second", second}}).first(),
-                       youden_plot(diagram, id, words));
+        figure_if_any(builder, id,
+                      words.filled("comparison", "figure_youden",
+                                   {{"first", first},
+                                    {"second", second},
+                                    {"r", words.number(gum::round_to_quantum(diagram.correlation, 2))}}),
+                      words.filled("plot", "youden_description", {{"first", first}, {"second", second}}),
+                      youden_plot(diagram, id, words));
     }
 }
 

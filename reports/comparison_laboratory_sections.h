@@ -33,6 +33,10 @@ void laboratory_sections(CertificateBuilder& builder, const Wording& words, cons
 void assigned_value_section(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared,
                             const std::string& id);
 
+/// Degrees of equivalence of pairs: as a list, as a matrix of E_n, or as a drawing only.
+void pairs_of_item(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared,
+                   const std::string& id);
+
 /// Name of a method that finds a reference value.
 [[nodiscard]] Text reference_value_method(const Wording& words, const std::string& method);
 

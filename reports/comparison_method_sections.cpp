@@ -310,19 +310,6 @@ void point_table(CertificateBuilder& builder, const Wording& words, const Compar
         rows);
 }
 
-void shared_sources(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
-    Rows rows;
-    for (const SharedSource& s : c.shared_sources) {
-        rows.push_back({s.source, s.first, s.second, s.printed_correlation});
-    }
-    table_of_filled_columns(builder, "shared-sources", words("comparison", "shared_sources_table"),
-                            {{words("label", "source"), ""},
-                             {words("comparison", "first"), ""},
-                             {words("comparison", "second"), ""},
-                             {"r", "", true}},
-                            rows);
-}
-
 void budgets(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
     if (c.method_budget.empty() && c.reference_budget.empty()) {
         return;
@@ -342,8 +329,7 @@ void budgets(CertificateBuilder& builder, const Wording& words, const Comparison
 void method_figure(CertificateBuilder& builder, const Wording& words, const Comparison& c, const std::string& id,
                    const char* plot, const Text& caption,
                    std::string (*draw)(const Comparison&, const std::string&, const Wording&)) {
-    const Text description = words("plot", std::string(plot) + "_description");
-    builder.figure(id, caption, description.first(), draw(c, id, words));
+    figure_if_any(builder, id, caption, words("plot", std::string(plot) + "_description"), draw(c, id, words));
 }
 
 }  // namespace
@@ -371,7 +357,7 @@ void method_sections_of_comparison(CertificateBuilder& builder, const Wording& w
     builder.section("companion");
     companion_table(builder, words, c, "companion");
     how_to_read(builder, words, c);
-    shared_sources(builder, words, c);
+    shared_sources_table(builder, words, c);
     remarks_section(builder, c);
     builder.section("bias");
     if (has_bias(c)) {
@@ -413,7 +399,7 @@ void reference_comparison_section(CertificateBuilder& builder, const Wording& wo
         method_figure(builder, words, c, "plot-displacement", "method_values", words("sentence", "figure_displacement"),
                       method_values_plot);
     }
-    shared_sources(builder, words, c);
+    shared_sources_table(builder, words, c);
     if (has_bias(c)) {
         bias_lines(builder, words, c);
     }

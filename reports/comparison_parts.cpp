@@ -45,6 +45,13 @@ void table_of_filled_columns(CertificateBuilder& builder, const std::string& id,
     builder.table(id, caption, kept, lines);
 }
 
+void figure_if_any(CertificateBuilder& builder, const std::string& id, const Text& caption, const Text& description,
+                   const std::string& drawing) {
+    if (!drawing.empty()) {
+        builder.figure(id, caption, description.first(), drawing);
+    }
+}
+
 std::vector<std::size_t> shown_rows(const std::vector<double>& weights, std::size_t most) {
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -75,6 +82,26 @@ void say_what_is_shown(CertificateBuilder& builder, const Wording& words, const 
                      {{"shown", count(shown)}, {"signals", count(signals)}, {"count", count(weights.size())}}));
 }
 
+void shared_sources_table(CertificateBuilder& builder, const Wording& words, const Comparison& comparison) {
+    const std::size_t count = comparison.shared_sources.size();
+    ComparisonRows rows;
+    for (const SharedSource& s : comparison.shared_sources) {
+        if (rows.size() < k_most_rows) {
+            rows.push_back({s.source, s.first, s.second, s.printed_correlation});
+        }
+    }
+    if (rows.size() < count) {
+        builder.paragraph(
+            words.fill("more_in_record", {{"count", plain(static_cast<std::int64_t>(count - rows.size()))}}));
+    }
+    table_of_filled_columns(builder, "shared-sources", words("comparison", "shared_sources_table"),
+                            {{words("label", "source"), ""},
+                             {words("comparison", "first"), ""},
+                             {words("comparison", "second"), ""},
+                             {"r", "", true}},
+                            rows);
+}
+
 void remarks_section(CertificateBuilder& builder, const Comparison& comparison) {
     if (comparison.remarks.empty()) {
         return;
@@ -93,6 +120,15 @@ Text some_of(const Wording& words, const std::vector<std::string>& names) {
     const std::vector<std::string> first(names.begin(), names.begin() + k_most_names);
     return words.fill("and_more", {{"names", joined(first)},
                                    {"count", plain(static_cast<std::int64_t>(names.size() - k_most_names))}});
+}
+
+std::optional<double> score_of(const ComparisonPoint& p, const std::string& score) {
+    return score == "En"        ? p.En
+           : score == "zeta"    ? p.zeta
+           : score == "z"       ? p.z
+           : score == "z_prime" ? p.z_prime
+           : score == "D"       ? std::optional<double>(p.D)
+                                : std::nullopt;
 }
 
 std::string unrounded(const std::optional<double>& v) {

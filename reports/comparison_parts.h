@@ -31,6 +31,10 @@ void add_fact(ComparisonFacts& facts, const Text& label, const Text& value);
 void table_of_filled_columns(CertificateBuilder& builder, const std::string& id, const Text& caption,
                              const std::vector<Column>& columns, const ComparisonRows& rows);
 
+/// A figure; nothing where the plot has nothing to draw.
+void figure_if_any(CertificateBuilder& builder, const std::string& id, const Text& caption, const Text& description,
+                   const std::string& drawing);
+
 /// Rows that a table shows: all, or of more than `most` those with a signal, the largest of these where they are too
 /// many. Positions in ascending order.
 /// \param weights  one a row: 0 without a signal, else how much it matters
@@ -40,11 +44,17 @@ void table_of_filled_columns(CertificateBuilder& builder, const std::string& id,
 void say_what_is_shown(CertificateBuilder& builder, const Wording& words, const std::vector<double>& weights,
                        std::size_t shown);
 
+/// Sources that two results, or two methods, share; nothing where there are none.
+void shared_sources_table(CertificateBuilder& builder, const Wording& words, const Comparison& comparison);
+
 /// What the record remarks on the comparison; nothing where it has no remarks.
 void remarks_section(CertificateBuilder& builder, const Comparison& comparison);
 
 /// The first names of a list with the number of the others: "A, B, C and 17 more".
 [[nodiscard]] Text some_of(const Wording& words, const std::vector<std::string>& names);
+
+/// A score of a result by its name in the record; none where the result has no such score.
+[[nodiscard]] std::optional<double> score_of(const ComparisonPoint& point, const std::string& score);
 
 /// A number of the record without a printed text: all its digits, so that it reads back as the same number.
 [[nodiscard]] std::string unrounded(const std::optional<double>& v);

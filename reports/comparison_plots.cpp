@@ -24,6 +24,7 @@ using Symbol = PlotKey::Symbol;
 constexpr std::size_t k_most_panels = 12;
 constexpr double k_most_of_axis = 1e4;  // above it a tick label needs more room than there is
 constexpr std::size_t k_many = 150;     // points of a direction above which directions get panels of their own
+constexpr double k_margin = 8.0;        // between the outermost points and the frame
 constexpr std::size_t k_dense = 1200;   // points of a direction above which only the outermost of each place are drawn
 
 /// The points of one direction, in the order of the record.
@@ -53,6 +54,20 @@ std::size_t most_points(const std::vector<Direction>& directions) {
     }
     return most;
 }
+
+/// Panels of directions: below each other, or in two columns where they would need more than half of a page.
+struct PanelGrid {
+    int columns = 1, rows = 1;
+    double panel_height = 120.0;
+
+    /// \param alone  height of a single panel
+    PanelGrid(std::size_t panels, double alone)
+        : columns(panels > 3 ? 2 : 1),
+          rows((static_cast<int>(panels) + columns - 1) / columns),
+          panel_height(panels <= 1   ? alone
+                       : panels <= 8 ? 120.0
+                                     : 90.0) {}
+};
 
 /// Horizontal axis of all points: angle, position, or the number of the point in its direction where one has neither.
 struct PositionAxis {
@@ -130,7 +145,8 @@ std::vector<PlotPoint> visible(std::vector<PlotPoint> points) {
 std::string panel_name(const Direction& direction, const Wording& words) {
     return direction.name.empty()
                ? words("plot", "all_points").first()
-               : words.filled("plot", "direction", {{"direction", shortened(printable(direction.name), 40)}}).first();
+               : words.filled("plot", "direction", {{"direction", shortened_name(printable(direction.name), 30)}})
+                     .first();
 }
 
 Wording::Values method_names(const Comparison& comparison, const Wording& words) {
@@ -201,6 +217,8 @@ PlotSeries value_series(const Direction& direction, const PositionAxis& axis, co
     series.points = visible(std::move(series.points));
     return series;
 }
+
+constexpr double k_room_at_ends = 0.03;  // of the vertical axis, so that no point lies on the frame
 
 /// One panel of the differences with the bias line of its direction.
 struct BiasPanel {
@@ -287,24 +305,29 @@ std::string method_scores_plot(const Comparison& comparison, const std::string& 
         return "";
     }
     const Wording::Values names = method_names(comparison, words);
+    // A cross stands for what is beyond the axis, and for no direction.
+    static constexpr std::array<PlotMarker, 4> k_markers = {PlotMarker::disc, PlotMarker::square, PlotMarker::triangle,
+                                                            PlotMarker::ring};
+    const bool together = directions.size() <= k_markers.size() && most_points(directions) <= k_many;
+    const bool one_panel = together || directions.size() > k_most_panels;
+    const PanelGrid grid(one_panel ? 1 : directions.size(), 180.0);
     Plot plot{.id = id,
               .title = words.filled("plot", "method_scores_title", names).first(),
               .description = words("plot", "method_scores_description").first(),
               .x_label = axis.title,
               .panels = {},
-              .columns = 1,
-              .panel_height = 180.0,
-              .x_is_angle = axis.is_angle(comparison)};
-    static constexpr std::array<PlotMarker, 5> k_markers = {PlotMarker::disc, PlotMarker::square, PlotMarker::triangle,
-                                                            PlotMarker::ring, PlotMarker::cross};
-    const bool together = directions.size() <= k_markers.size() && most_points(directions) <= k_many;
-    if (together || directions.size() > k_most_panels) {
+              .columns = grid.columns,
+              .panel_height = grid.panel_height,
+              .x_is_angle = axis.is_angle(comparison),
+              .x_is_number = axis.kind == PositionAxis::Kind::number,
+              .margin = k_margin};
+    if (one_panel) {
         PlotPanel panel = score_panel(words);
         for (std::size_t i = 0; i < directions.size(); ++i) {
             PlotSeries series = score_series(directions[i], axis);
             series.marker = together ? k_markers.at(i) : PlotMarker::disc;
             if (together) {
-                series.label = shortened(printable(directions[i].name), 80 / directions.size());
+                series.label = shortened_name(printable(directions[i].name), 40);
             }
             if (!series.points.empty()) {
                 panel.series.push_back(std::move(series));
@@ -313,7 +336,6 @@ std::string method_scores_plot(const Comparison& comparison, const std::string& 
         mark_beyond(panel, k_most_score, words);
         plot.panels.push_back(std::move(panel));
     } else {
-        plot.panel_height = 120.0;
         for (const Direction& direction : directions) {
             PlotPanel panel = score_panel(words);
             panel.heading = panel_name(direction, words);
@@ -351,14 +373,17 @@ std::string method_values_plot(const Comparison& comparison, const std::string& 
     const PositionAxis axis(comparison, words);
     const AxisScale scale = AxisScale::of(most, k_most_of_axis);
     const Wording::Values names = method_names(comparison, words);
+    const PanelGrid grid(directions.size(), 190.0);
     Plot plot{.id = id,
               .title = words.filled("plot", "method_values_title", names).first(),
               .description = words("plot", "method_values_description").first(),
               .x_label = axis.title,
               .panels = {},
-              .columns = 1,
-              .panel_height = directions.size() == 1 ? 190.0 : 120.0,
-              .x_is_angle = axis.is_angle(comparison)};
+              .columns = grid.columns,
+              .panel_height = grid.panel_height,
+              .x_is_angle = axis.is_angle(comparison),
+              .x_is_number = axis.kind == PositionAxis::Kind::number,
+              .margin = k_margin};
     for (const Direction& direction : directions) {
         const std::string name = shortened(printable(direction.name), 14);
         PlotPanel panel{
@@ -447,12 +472,15 @@ std::string bias_plot(const Comparison& comparison, const std::string& id, const
             y_range.include(y);
         }
     }
-    PlotFrame frame{.height = panels.size() == 1 ? 190.0 : 120.0};
+    const PanelGrid grid(panels.size(), 190.0);
+    PlotFrame frame{.height = grid.panel_height, .margin = k_margin};
     frame.across = by_position && positions.is_angle(comparison) ? angle_ticks(x_range.low, x_range.high)
                                                                  : nice_ticks(x_range.low, x_range.high, 8);
+    y_range = y_range.widened(k_room_at_ends);
     frame.up = nice_ticks(y_range.low, y_range.high, 5);
+    const double column_width = k_drawing_width / grid.columns;
     frame.x = room_for_axis(frame.up);
-    frame.width = k_drawing_width - frame.x - 16.0;
+    frame.width = column_width - frame.x - 16.0;
     bool beyond = false;
     for (const BiasPanel& panel : panels) {
         for (const PlotPoint& p : panel.points) {
@@ -474,15 +502,20 @@ std::string bias_plot(const Comparison& comparison, const std::string& id, const
                   words.filled("plot", "reference_value_axis", {{"reference", shortened(reference, 40)}}).first(),
                   unit);
     Drawing body;
-    double top = key.draw(body, frame.x, k_drawing_width);
+    const bool headed = panels.size() > 1 || !panels[0].heading.empty();
+    const double head = headed ? 22.0 : 4.0;
+    const double top = key.draw(body, frame.x, k_drawing_width);
+    const double pitch = head + frame.height + 8.0;
     for (std::size_t i = 0; i < panels.size(); ++i) {
-        const bool headed = !panels[i].heading.empty();
-        frame.y = top + (headed ? 22.0 : 4.0);
+        const int column = static_cast<int>(i) / grid.rows;
+        const int row = static_cast<int>(i) % grid.rows;
+        frame.x = column * column_width + room_for_axis(frame.up);
+        frame.y = top + row * pitch + head;
         if (headed) {
             body.text(frame.x, frame.y - 7.0, panels[i].heading, "start", 11.0, " font-weight=\"bold\"");
         }
         draw_up_axis(body, frame, scale.label(words("plot", "difference_axis").first(), unit));
-        if (i + 1 == panels.size()) {
+        if (row + 1 == grid.rows || i + 1 == panels.size()) {
             draw_across_axis(body, frame, x_title);
         }
         body.line(frame.x, frame.py(0.0), frame.right(), frame.py(0.0), "stroke=\"#000000\" stroke-width=\"0.7\"");
@@ -491,14 +524,10 @@ std::string bias_plot(const Comparison& comparison, const std::string& id, const
         const auto& [x2, y2] = panels[i].line.back();
         body.line(frame.px(x1), frame.py(y1), frame.px(x2), frame.py(y2), "stroke=\"#000000\" stroke-width=\"1.2\"");
         draw_outline(body, frame);
-        top = frame.bottom() + 8.0;
     }
-    const double height = frame.bottom() + 42.0;
-    Drawing drawing;
-    drawing.rectangle(0.0, 0.0, k_drawing_width, height, "fill=\"#ffffff\" stroke=\"none\"");
-    drawing.body += body.body;
-    return svg_document(id, words.filled("plot", "bias_title", names).first(),
-                        words("plot", "bias_description").first(), height, drawing);
+    const double height = top + grid.rows * pitch + 34.0;
+    return plot_document(id, words.filled("plot", "bias_title", names).first(),
+                         words("plot", "bias_description").first(), height, body);
 }
 
 }  // namespace gumcert::reports

@@ -1,16 +1,16 @@
-// The plots of a comparison between laboratories.
+// Values and scores of a comparison between laboratories.
 
 #include "reports/comparison_plots.h"
 
 #include "gum/quantity/unit.h"
 #include "reports/certificate_view.h"
+#include "reports/comparison_parts.h"
 #include "reports/plot_frame.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -24,7 +24,6 @@ using Symbol = PlotKey::Symbol;
 
 constexpr std::size_t k_most_names = 60;     // laboratories whose names fit below their columns
 constexpr std::size_t k_most_columns = 400;  // laboratories that are told apart at all
-constexpr std::size_t k_most_pairs = 40;
 constexpr std::size_t k_name_length = 22;
 constexpr double k_name_size = 9.5;
 constexpr double k_panel = 230.0;
@@ -33,33 +32,18 @@ constexpr const char* k_band = "fill=\"#d9d9d9\" stroke=\"none\"";
 constexpr const char* k_bar = "stroke=\"#555555\" stroke-width=\"0.8\"";
 
 /// One laboratory of an item.
-struct Column {
+struct LaboratoryColumn {
     std::string name;
     double value = 0.0, U = 0.0;  ///< U = 0: none is stated
     bool contributes = true;
     std::optional<double> score = {};
 };
 
-std::optional<double> deciding_score(const ComparisonPoint& p, const std::string& score) {
-    if (score == "En") {
-        return p.En;
-    }
-    if (score == "zeta") {
-        return p.zeta;
-    }
-    if (score == "z") {
-        return p.z;
-    }
-    if (score == "z_prime") {
-        return p.z_prime;
-    }
-    return score == "D" ? std::optional<double>(p.D) : std::nullopt;
-}
-
 /// The laboratories of an item in ascending order of their values.
 /// \throws gum::NoResultError  GC-REPORT-0003 a value or its U is not finite
-std::vector<Column> columns_of(const Comparison& comparison, const ComparisonItemEvaluation& item, bool deviations) {
-    std::vector<Column> columns;
+std::vector<LaboratoryColumn> columns_of(const Comparison& comparison, const ComparisonItemEvaluation& item,
+                                         bool deviations) {
+    std::vector<LaboratoryColumn> columns;
     for (const ComparisonPoint& p : comparison.points) {
         if (p.item == item.id && p.round == item.round) {
             require_finite("result of " + p.participant, {p.value, p.D, p.U.value_or(0.0)});
@@ -67,19 +51,19 @@ std::vector<Column> columns_of(const Comparison& comparison, const ComparisonIte
                                .value = deviations ? p.D : p.value,
                                .U = p.U.value_or(0.0),
                                .contributes = p.contributes,
-                               .score = deciding_score(p, item.score)});
+                               .score = score_of(p, item.score)});
         }
     }
-    std::sort(columns.begin(), columns.end(), [](const Column& a, const Column& b) {
+    std::sort(columns.begin(), columns.end(), [](const LaboratoryColumn& a, const LaboratoryColumn& b) {
         return a.value != b.value ? a.value < b.value : a.name < b.name;
     });
     return columns;
 }
 
 /// Values, uncertainties and scores in the units of their axes.
-void scale_columns(const std::string& id, std::vector<Column>& columns, const AxisScale& values,
+void scale_columns(const std::string& id, std::vector<LaboratoryColumn>& columns, const AxisScale& values,
                    const AxisScale& scores) {
-    for (Column& c : columns) {
+    for (LaboratoryColumn& c : columns) {
         c.value = on_axis(id + ", " + c.name, values(c.value));
         c.U = on_axis(id + ", " + c.name, values(c.U));
         if (c.score) {
@@ -89,7 +73,7 @@ void scale_columns(const std::string& id, std::vector<Column>& columns, const Ax
 }
 
 std::string short_name(const std::string& name) {
-    return shortened(printable(name), k_name_length);
+    return shortened_name(printable(name), k_name_length);
 }
 
 std::string name_of(const ComparisonItemEvaluation& item) {
@@ -101,9 +85,9 @@ struct NameRow {
     bool upright = false;
     double height = 0.0;
 
-    NameRow(const std::vector<Column>& columns, double pitch) {
+    NameRow(const std::vector<LaboratoryColumn>& columns, double pitch) {
         double widest = 0.0;
-        for (const Column& c : columns) {
+        for (const LaboratoryColumn& c : columns) {
             widest = std::max(widest, label_width(short_name(c.name), k_name_size));
         }
         upright = widest > pitch - 5.0;
@@ -115,20 +99,17 @@ struct NameRow {
             drawing.text(x, bottom + 13.0, name, "middle", k_name_size);
             return;
         }
-        const double tx = x + 3.2;
-        const double ty = bottom + 6.0;
-        const std::string turn = " transform=\"rotate(-90 " + drawing_number(tx) + " " + drawing_number(ty) + ")\"";
-        drawing.text(tx, ty, name, "end", k_name_size, turn.c_str());
+        draw_upright_name(drawing, x + 3.2, bottom + 6.0, name, k_name_size);
     }
 };
 
 /// The horizontal axis of laboratories: their names, or their numbers in ascending order.
 class LaboratoryAxis {
 public:
-    LaboratoryAxis(const std::vector<Column>& columns, double width)
+    LaboratoryAxis(const std::vector<LaboratoryColumn>& columns, double width)
         : columns_(columns),
           pitch_(width / static_cast<double>(std::max<std::size_t>(1, columns.size()))),
-          names_(columns.size() <= k_most_names ? columns : std::vector<Column>(), pitch_) {}
+          names_(columns.size() <= k_most_names ? columns : std::vector<LaboratoryColumn>(), pitch_) {}
 
     [[nodiscard]] bool named() const { return columns_.size() <= k_most_names; }
     [[nodiscard]] double pitch() const { return pitch_; }
@@ -157,17 +138,17 @@ public:
     }
 
 private:
-    const std::vector<Column>& columns_;
+    const std::vector<LaboratoryColumn>& columns_;
     double pitch_;
     NameRow names_;
 };
 
 /// What the vertical axis has to show of values: the bulk of the laboratories with their U and the assigned value;
 /// outliers many spreads away would press all others into a line, and stand at the edge instead.
-AxisRange range_of_values(const std::vector<Column>& columns, double assigned, double assigned_U) {
+AxisRange range_of_values(const std::vector<LaboratoryColumn>& columns, double assigned, double assigned_U) {
     std::vector<double> values;
     std::vector<double> uncertainties;
-    for (const Column& c : columns) {
+    for (const LaboratoryColumn& c : columns) {
         values.push_back(c.value);
         uncertainties.push_back(c.U);
     }
@@ -176,7 +157,7 @@ AxisRange range_of_values(const std::vector<Column>& columns, double assigned, d
     constexpr double k_spreads = 10.0;
     constexpr double k_spreads_of_bar = 4.0;  // a longer bar of U is cut off at the edge
     AxisRange range{.low = assigned - assigned_U, .high = assigned + assigned_U};
-    for (const Column& c : columns) {
+    for (const LaboratoryColumn& c : columns) {
         const double reach = spread > 0.0 ? k_spreads * spread : std::abs(c.value - middle) + c.U;
         if (std::abs(c.value - middle) <= reach) {
             const double bar = spread > 0.0 ? std::min(c.U, k_spreads_of_bar * spread) : c.U;
@@ -184,17 +165,18 @@ AxisRange range_of_values(const std::vector<Column>& columns, double assigned, d
             range.include(c.value + bar);
         }
     }
-    return range;
+    constexpr double k_room_at_ends = 0.03;  // no end of a bar on the frame
+    return range.widened(k_room_at_ends);
 }
 
 /// Value by value: bar of U, then a mark.
-void draw_columns(Drawing& drawing, const PlotFrame& frame, const std::vector<Column>& columns) {
+void draw_columns(Drawing& drawing, const PlotFrame& frame, const std::vector<LaboratoryColumn>& columns) {
     const bool thin = columns.size() > k_most_names;
     const double cap = thin ? 0.0 : 1.8;
     const double radius = thin ? 1.3 : 2.4;
     std::vector<Stroke> bars;
     for (std::size_t i = 0; i < columns.size(); ++i) {
-        const Column& c = columns[i];
+        const LaboratoryColumn& c = columns[i];
         const double x = frame.px(LaboratoryAxis::middle(i));
         const double low = frame.py_inside(c.value - c.U);
         const double high = frame.py_inside(c.value + c.U);
@@ -209,7 +191,7 @@ void draw_columns(Drawing& drawing, const PlotFrame& frame, const std::vector<Co
     }
     draw_strokes(drawing, bars, thin ? "stroke=\"#777777\" stroke-width=\"0.6\"" : k_bar);
     for (std::size_t i = 0; i < columns.size(); ++i) {
-        const Column& c = columns[i];
+        const LaboratoryColumn& c = columns[i];
         const double x = frame.px(LaboratoryAxis::middle(i));
         if (c.value < frame.up.low || c.value > frame.up.high) {
             draw_beyond(drawing, frame, x, c.value > frame.up.high);
@@ -226,7 +208,7 @@ struct Pixel {
 
 /// \param ends  of a laboratory: what it spans on the vertical axis
 template <class Ends>
-std::vector<Pixel> pixels_of(const PlotFrame& frame, const std::vector<Column>& columns, const Ends& ends) {
+std::vector<Pixel> pixels_of(const PlotFrame& frame, const std::vector<LaboratoryColumn>& columns, const Ends& ends) {
     std::vector<Pixel> pixels;
     for (std::size_t i = 0; i < columns.size(); ++i) {
         const std::optional<std::pair<double, double>> span = ends(columns[i]);
@@ -246,23 +228,25 @@ std::vector<Pixel> pixels_of(const PlotFrame& frame, const std::vector<Column>& 
 
 /// Values in ascending order as a curve, the bars of U around it as a band, laboratories that do not contribute as
 /// rings where they can be told apart.
-void draw_curve(Drawing& drawing, const PlotFrame& frame, const std::vector<Column>& columns) {
+void draw_curve(Drawing& drawing, const PlotFrame& frame, const std::vector<LaboratoryColumn>& columns) {
     std::vector<Stroke> bars;
-    for (const Pixel& p : pixels_of(
-             frame, columns, [](const Column& c) { return std::optional(std::pair(c.value - c.U, c.value + c.U)); })) {
+    for (const Pixel& p : pixels_of(frame, columns, [](const LaboratoryColumn& c) {
+             return std::optional(std::pair(c.value - c.U, c.value + c.U));
+         })) {
         bars.push_back({.x = p.x, .low = frame.py_inside(p.low), .high = frame.py_inside(p.high)});
     }
     draw_strokes(drawing, bars, "stroke=\"#a8a8a8\" stroke-width=\"1\"");
     std::vector<std::pair<double, double>> curve;
-    for (const Pixel& p :
-         pixels_of(frame, columns, [](const Column& c) { return std::optional(std::pair(c.value, c.value)); })) {
+    for (const Pixel& p : pixels_of(
+             frame, columns, [](const LaboratoryColumn& c) { return std::optional(std::pair(c.value, c.value)); })) {
         curve.emplace_back(p.x, frame.py_inside(p.low));
         if (p.high > p.low) {
             curve.emplace_back(p.x, frame.py_inside(p.high));
         }
     }
     drawing.points("polyline", curve, "fill=\"none\" stroke=\"#000000\" stroke-width=\"1.4\"");
-    const auto open = std::count_if(columns.begin(), columns.end(), [](const Column& c) { return !c.contributes; });
+    const auto open =
+        std::count_if(columns.begin(), columns.end(), [](const LaboratoryColumn& c) { return !c.contributes; });
     for (std::size_t i = 0; i < columns.size() && open <= static_cast<std::ptrdiff_t>(k_most_names); ++i) {
         if (!columns[i].contributes) {
             drawing.marker(PlotMarker::ring, frame.px(LaboratoryAxis::middle(i)), frame.py_inside(columns[i].value),
@@ -318,7 +302,8 @@ std::string name_of_score(const ComparisonItemEvaluation& item, const Wording& w
     return item.score == "D" ? words("plot", "difference_axis").first() : words("label", item.score).first();
 }
 
-void draw_score_bars(Drawing& drawing, const PlotFrame& frame, const std::vector<Column>& columns, double pitch) {
+void draw_score_bars(Drawing& drawing, const PlotFrame& frame, const std::vector<LaboratoryColumn>& columns,
+                     double pitch) {
     const double width = std::clamp(0.6 * pitch, 0.8, 26.0);
     const double zero = frame.py(0.0);
     for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -342,9 +327,9 @@ void draw_score_bars(Drawing& drawing, const PlotFrame& frame, const std::vector
     }
 }
 
-void draw_score_curve(Drawing& drawing, const PlotFrame& frame, const std::vector<Column>& columns) {
+void draw_score_curve(Drawing& drawing, const PlotFrame& frame, const std::vector<LaboratoryColumn>& columns) {
     std::vector<Stroke> bars;
-    for (const Pixel& p : pixels_of(frame, columns, [](const Column& c) {
+    for (const Pixel& p : pixels_of(frame, columns, [](const LaboratoryColumn& c) {
              return c.score ? std::optional(std::pair(std::min(0.0, *c.score), std::max(0.0, *c.score))) : std::nullopt;
          })) {
         bars.push_back({.x = p.x, .low = frame.py_inside(p.low), .high = frame.py_inside(p.high)});
@@ -357,9 +342,10 @@ void draw_score_curve(Drawing& drawing, const PlotFrame& frame, const std::vecto
     draw_strokes(drawing, bars, "stroke=\"#777777\" stroke-width=\"1\"");
 }
 
-void add_column_keys(PlotKey& key, const std::vector<Column>& columns, Symbol contributing, Symbol other,
+void add_column_keys(PlotKey& key, const std::vector<LaboratoryColumn>& columns, Symbol contributing, Symbol other,
                      const Wording& words) {
-    const auto open = std::count_if(columns.begin(), columns.end(), [](const Column& c) { return !c.contributes; });
+    const auto open =
+        std::count_if(columns.begin(), columns.end(), [](const LaboratoryColumn& c) { return !c.contributes; });
     const bool curve = columns.size() > k_most_columns;
     if (open > 0 && !(curve && open > static_cast<std::ptrdiff_t>(k_most_names))) {
         if (!curve && open < static_cast<std::ptrdiff_t>(columns.size())) {
@@ -369,105 +355,12 @@ void add_column_keys(PlotKey& key, const std::vector<Column>& columns, Symbol co
     }
 }
 
-/// Ids of the pairs, those with the lowest values first. Σ d over the partners of a laboratory is n times its distance
-/// from the mean.
-std::vector<std::string> in_ascending_order(const std::vector<PairEquivalence>& pairs) {
-    std::map<std::string, double> height;
-    for (const PairEquivalence& p : pairs) {
-        require_finite("pair " + p.first + ", " + p.second, {p.d});
-        height[p.first] += p.d;
-        height[p.second] -= p.d;
-    }
-    std::vector<std::string> ids;
-    for (const auto& [id, sum] : height) {
-        ids.push_back(id);
-    }
-    std::stable_sort(ids.begin(), ids.end(),
-                     [&](const std::string& a, const std::string& b) { return height.at(a) < height.at(b); });
-    return ids;
-}
-
-/// Mark of one pair in its cell; its area grows with |E_n|.
-void draw_pair(Drawing& drawing, double x, double y, double cell, double absolute_En) {
-    constexpr double k_full = 1.5;  // |E_n| whose mark fills the cell
-    const double r = 0.44 * cell * std::sqrt(std::min(absolute_En, k_full) / k_full);
-    if (absolute_En > 1.0) {
-        drawing.rectangle(x - r, y - r, 2.0 * r, 2.0 * r, "fill=\"#000000\" stroke=\"none\"");
-    } else if (r > 0.0) {
-        drawing.marker(PlotMarker::ring, x, y, r);
-    }
-}
-
-bool is_inside(const std::vector<std::pair<double, double>>& curve, double x, double y) {
-    bool inside = false;
-    for (std::size_t i = 0, j = curve.size() - 1; i < curve.size(); j = i++) {
-        const auto& [xi, yi] = curve[i];
-        const auto& [xj, yj] = curve[j];
-        if ((yi > y) != (yj > y) && x < (xj - xi) * (y - yi) / (yj - yi) + xi) {
-            inside = !inside;
-        }
-    }
-    return inside;
-}
-
-/// One axis of a Youden plot: the ellipse and the bulk of the points; what is beyond stands at the edge.
-AxisRange range_of_youden(const std::vector<double>& points, const std::vector<double>& ellipse, double centre) {
-    AxisRange range{.low = centre, .high = centre};
-    for (const double v : ellipse) {
-        range.include(v);
-    }
-    constexpr double k_spreads = 10.0;
-    const double reach = std::max(k_spreads * spread_of(points), 2.0 * (range.high - range.low));
-    for (const double v : points) {
-        if (reach == 0.0 || std::abs(v - centre) <= reach) {
-            range.include(v);
-        }
-    }
-    const double room = 0.04 * (range.high - range.low);
-    return {.low = range.low - room, .high = range.high + room};
-}
-
-std::vector<double> scaled(const std::string& where, std::vector<double> numbers, const AxisScale& scale) {
-    for (double& v : numbers) {
-        v = on_axis(where, scale(v));
-    }
-    return numbers;
-}
-
-/// Numbers of one of the two items.
-struct YoudenAxis {
-    std::vector<double> points, ellipse;
-    double centre = 0.0;
-    AxisScale scale;
-    std::string title;
-
-    YoudenAxis(std::vector<double> p, std::vector<double> e, double c, const std::string& item, const std::string& unit,
-               const Wording& words) {
-        double largest = std::abs(c);
-        for (const auto* numbers : {&p, &e}) {
-            for (const double v : *numbers) {
-                largest = std::max(largest, std::abs(v));
-            }
-        }
-        // An outlier must not take the digits of all others.
-        const double bulk = std::max({std::abs(c), std::abs(middle_of(p)), 10.0 * spread_of(p)});
-        scale = AxisScale::of(bulk > 0.0 ? std::min(bulk, largest) : largest);
-        points = scaled("Youden, " + item, std::move(p), scale);
-        ellipse = scaled("Youden, " + item, std::move(e), scale);
-        centre = on_axis("Youden, " + item, scale(c));
-        title =
-            scale.label(words.filled("plot", "deviation_of_axis", {{"item", shortened(printable(item), 40)}}).first(),
-                        gum::unit_for_people(unit));
-    }
-    [[nodiscard]] AxisRange range() const { return range_of_youden(points, ellipse, centre); }
-};
-
 }  // namespace
 
 std::string laboratory_values_plot(const Comparison& comparison, const ComparisonItemEvaluation& item,
                                    const std::string& id, const Wording& words) {
     // Values that differ in their last digits only are shown as deviations from the assigned value.
-    std::vector<Column> columns = columns_of(comparison, item, false);
+    std::vector<LaboratoryColumn> columns = columns_of(comparison, item, false);
     if (columns.empty()) {
         return "";
     }
@@ -489,7 +382,7 @@ std::string laboratory_values_plot(const Comparison& comparison, const Compariso
     PlotKey key;
     add_column_keys(key, columns, Symbol::disc, Symbol::ring, words);
     key.add(item.U ? Symbol::band : Symbol::line, words("plot", item.U ? "assigned_U_key" : "assigned_key").first());
-    const bool bars = std::any_of(columns.begin(), columns.end(), [](const Column& c) { return c.U > 0.0; });
+    const bool bars = std::any_of(columns.begin(), columns.end(), [](const LaboratoryColumn& c) { return c.U > 0.0; });
     if (bars) {
         key.add(Symbol::bar, words("plot", "value_U_key").first());
     }
@@ -529,24 +422,22 @@ std::string laboratory_values_plot(const Comparison& comparison, const Compariso
     axis.draw(body, frame, words);
 
     const double height = frame.bottom() + axis.height();
-    Drawing drawing;
-    drawing.rectangle(0.0, 0.0, k_drawing_width, height, "fill=\"#ffffff\" stroke=\"none\"");
-    drawing.body += body.body;
-    return svg_document(id, words.filled("plot", "laboratory_values_title", {{"item", name_of(item)}}).first(),
-                        words("plot", "laboratory_values_description").first(), height, drawing);
+    return plot_document(id, words.filled("plot", "laboratory_values_title", {{"item", name_of(item)}}).first(),
+                         words("plot", "laboratory_values_description").first(), height, body);
 }
 
 std::string laboratory_scores_plot(const Comparison& comparison, const ComparisonItemEvaluation& item,
                                    const std::string& id, const Wording& words) {
-    std::vector<Column> columns = columns_of(comparison, item, false);
-    const bool any = std::any_of(columns.begin(), columns.end(), [](const Column& c) { return c.score.has_value(); });
+    std::vector<LaboratoryColumn> columns = columns_of(comparison, item, false);
+    const bool any =
+        std::any_of(columns.begin(), columns.end(), [](const LaboratoryColumn& c) { return c.score.has_value(); });
     if (!any) {
         return "";
     }
     const std::vector<std::pair<double, std::string>> limits = limits_of(item, words);
     double largest = 0.0;
     std::vector<double> magnitudes;
-    for (const Column& c : columns) {
+    for (const LaboratoryColumn& c : columns) {
         largest = std::max(largest, std::abs(c.score.value_or(0.0)));
         magnitudes.push_back(std::abs(c.score.value_or(0.0)));
     }
@@ -555,7 +446,7 @@ std::string laboratory_scores_plot(const Comparison& comparison, const Compariso
         limits.empty() ? largest : std::min(largest, std::max(k_limits * limits.back().first, middle_of(magnitudes)));
     const double most = 1.04 * std::max(shown, limits.empty() ? 0.0 : 1.15 * limits.back().first);
     double largest_value = 0.0;
-    for (const Column& c : columns) {
+    for (const LaboratoryColumn& c : columns) {
         largest_value = std::max({largest_value, std::abs(c.value), c.U});
     }
     const bool differences = item.score == "D";
@@ -568,7 +459,7 @@ std::string laboratory_scores_plot(const Comparison& comparison, const Compariso
         add_column_keys(key, columns, Symbol::filled_bar, Symbol::open_bar, words);
     }
     const bool missing =
-        std::any_of(columns.begin(), columns.end(), [](const Column& c) { return !c.score.has_value(); });
+        std::any_of(columns.begin(), columns.end(), [](const LaboratoryColumn& c) { return !c.score.has_value(); });
     if (missing && columns.size() <= k_most_names) {
         key.add(Symbol::cross, words("plot", "missing_score_key").first());
     }
@@ -606,170 +497,9 @@ std::string laboratory_scores_plot(const Comparison& comparison, const Compariso
     axis.draw(body, frame, words);
 
     const double height = frame.bottom() + axis.height();
-    Drawing drawing;
-    drawing.rectangle(0.0, 0.0, k_drawing_width, height, "fill=\"#ffffff\" stroke=\"none\"");
-    drawing.body += body.body;
-    return svg_document(
+    return plot_document(
         id, words.filled("plot", "laboratory_scores_title", {{"score", name}, {"item", name_of(item)}}).first(),
-        words("plot", "laboratory_scores_description").first(), height, drawing);
-}
-
-std::string pairs_plot(const ComparisonItemEvaluation& item, const std::string& id, const Wording& words) {
-    const std::vector<std::string> ids = in_ascending_order(item.pairs);
-    if (ids.size() < 2 || ids.size() > k_most_pairs) {
-        return "";
-    }
-    std::map<std::string, std::size_t> place;
-    double names = 0.0;
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-        place[ids[i]] = i;
-        names = std::max(names, label_width(short_name(ids[i]), k_name_size));
-    }
-    names += 10.0;
-    const auto count = static_cast<double>(ids.size());
-    const double cell = std::min({24.0, 500.0 / count, (k_drawing_width - names - 10.0) / count});
-    const double height_of_names = names;
-    names += 0.5 * (k_drawing_width - names - cell * count);  // in the middle
-    PlotKey key;
-    key.add(Symbol::ring, words("plot", "pairs_key").first());
-    key.add(Symbol::square, words("plot", "pairs_above_key").first());
-    Drawing body;
-    const double top = key.draw(body, std::min(names, 220.0), k_drawing_width) + 4.0;
-    const double bottom = top + cell * count;
-    for (std::size_t i = 0; i <= ids.size(); ++i) {
-        const double at = cell * static_cast<double>(i);
-        constexpr const char* k_grid = "stroke=\"#d0d0d0\" stroke-width=\"0.6\"";
-        body.line(names, top + at, names + cell * count, top + at, k_grid);
-        body.line(names + at, top, names + at, bottom, k_grid);
-    }
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-        const double middle = cell * (static_cast<double>(i) + 0.5);
-        const std::string name = short_name(ids[i]);
-        body.text(names - 5.0, top + middle + 3.2, name, "end", k_name_size);
-        const double tx = names + middle + 3.2;
-        const std::string turn =
-            " transform=\"rotate(-90 " + drawing_number(tx) + " " + drawing_number(bottom + 5.0) + ")\"";
-        body.text(tx, bottom + 5.0, name, "end", k_name_size, turn.c_str());
-        body.rectangle(names + middle - 0.5 * cell, top + middle - 0.5 * cell, cell, cell,
-                       "fill=\"#ececec\" stroke=\"none\"");
-    }
-    for (const PairEquivalence& p : item.pairs) {
-        if (!p.En) {
-            continue;
-        }
-        const double En = on_axis(id + ", " + p.first + ", " + p.second, *p.En);
-        const double a = cell * (static_cast<double>(place.at(p.first)) + 0.5);
-        const double b = cell * (static_cast<double>(place.at(p.second)) + 0.5);
-        draw_pair(body, names + a, top + b, cell, std::abs(En));
-        draw_pair(body, names + b, top + a, cell, std::abs(En));
-    }
-    body.rectangle(names, top, cell * count, cell * count, "fill=\"none\" stroke=\"#000000\" stroke-width=\"0.9\"");
-    const double height = bottom + height_of_names + 4.0;
-    Drawing drawing;
-    drawing.rectangle(0.0, 0.0, k_drawing_width, height, "fill=\"#ffffff\" stroke=\"none\"");
-    drawing.body += body.body;
-    return svg_document(id, words.filled("plot", "pairs_title", {{"item", name_of(item)}}).first(),
-                        words("plot", "pairs_description").first(), height, drawing);
-}
-
-std::string youden_plot(const YoudenDiagram& diagram, const std::string& id, const Wording& words) {
-    if (diagram.points.empty()) {
-        return "";
-    }
-    std::vector<double> first;
-    std::vector<double> second;
-    for (const YoudenPoint& p : diagram.points) {
-        first.push_back(p.first);
-        second.push_back(p.second);
-    }
-    std::vector<double> ellipse_first;
-    std::vector<double> ellipse_second;
-    for (const auto& [x, y] : diagram.ellipse) {
-        ellipse_first.push_back(x);
-        ellipse_second.push_back(y);
-    }
-    const YoudenAxis across(first, ellipse_first, diagram.centre_first, diagram.first_item, diagram.first_unit, words);
-    const YoudenAxis up(second, ellipse_second, diagram.centre_second, diagram.second_item, diagram.second_unit, words);
-    const AxisRange x_range = across.range();
-    const AxisRange y_range = up.range();
-    PlotFrame frame{.width = 400.0, .height = 400.0};
-    frame.across = nice_ticks(x_range.low, x_range.high, 7);
-    frame.up = nice_ticks(y_range.low, y_range.high, 8);
-    frame.x = 0.5 * (k_drawing_width - frame.width - room_for_axis(frame.up)) + room_for_axis(frame.up);
-
-    const auto is_shown = [&](std::size_t i) {
-        return across.points[i] >= frame.across.low && across.points[i] <= frame.across.high &&
-               up.points[i] >= frame.up.low && up.points[i] <= frame.up.high;
-    };
-    bool beyond = false;
-    for (std::size_t i = 0; i < diagram.points.size(); ++i) {
-        beyond = beyond || !is_shown(i);
-    }
-    PlotKey key;
-    const bool with_ellipse = diagram.ellipse.size() > 2;
-    if (with_ellipse) {
-        key.add(Symbol::line, words("plot", "ellipse_95_key").first());
-    }
-    key.add(Symbol::dashed, words("plot", "medians_key").first());
-    const bool same_unit = diagram.first_unit == diagram.second_unit;
-    const double slope = same_unit ? 1.0 : diagram.scale_first > 0.0 ? diagram.scale_second / diagram.scale_first : 0.0;
-    // In the units of the axes.
-    const double drawn_slope = up.scale(slope) / across.scale(1.0);
-    if (drawn_slope > 0.0) {
-        key.add(Symbol::grey_line, words("plot", "equal_key").first());
-    }
-    if (beyond) {
-        key.add(Symbol::cross, words("plot", "beyond_key").first());
-    }
-    Drawing body;
-    frame.y = key.draw(body, 40.0, k_drawing_width) + 4.0;
-    draw_up_axis(body, frame, up.title);
-    draw_across_axis(body, frame, across.title);
-    if (drawn_slope > 0.0) {
-        // The part of the line through the medians that lies inside the panel.
-        const auto height_at = [&](double x) { return up.centre + drawn_slope * (x - across.centre); };
-        const auto at_height = [&](double y) { return across.centre + (y - up.centre) / drawn_slope; };
-        const double from = std::max(frame.across.low, at_height(frame.up.low));
-        const double to = std::min(frame.across.high, at_height(frame.up.high));
-        body.line(frame.px(from), frame.py(height_at(from)), frame.px(to), frame.py(height_at(to)),
-                  "stroke=\"#8a8a8a\" stroke-width=\"0.9\"");
-    }
-    constexpr const char* k_median = "stroke=\"#000000\" stroke-width=\"0.9\" stroke-dasharray=\"4 2\"";
-    body.line(frame.px(across.centre), frame.y, frame.px(across.centre), frame.bottom(), k_median);
-    body.line(frame.x, frame.py(up.centre), frame.right(), frame.py(up.centre), k_median);
-    std::vector<std::pair<double, double>> outline;
-    for (std::size_t i = 0; i < diagram.ellipse.size(); ++i) {
-        outline.emplace_back(frame.px(across.ellipse[i]), frame.py(up.ellipse[i]));
-    }
-    if (with_ellipse) {
-        body.points("polygon", outline, "fill=\"none\" stroke=\"#000000\" stroke-width=\"1.2\"");
-    }
-    constexpr std::size_t k_all_named = 15;
-    const double radius = diagram.points.size() > k_most_columns ? 1.2
-                          : diagram.points.size() > k_most_names ? 1.8
-                                                                 : 2.4;
-    std::size_t named = 0;
-    for (std::size_t i = 0; i < diagram.points.size(); ++i) {
-        const double x = frame.px(std::clamp(across.points[i], frame.across.low, frame.across.high));
-        const double y = frame.py_inside(up.points[i]);
-        body.marker(is_shown(i) ? PlotMarker::disc : PlotMarker::cross, x, y, is_shown(i) ? radius : 3.0);
-        const bool outside = with_ellipse && !is_inside(outline, x, y);
-        if ((diagram.points.size() <= k_all_named || outside) && named < k_most_pairs) {
-            ++named;
-            const bool left = x > frame.x + 0.75 * frame.width;
-            body.text(left ? x - 5.0 : x + 5.0, std::max(y - 3.0, frame.y + 9.0),
-                      shortened(printable(diagram.points[i].participant), 18), left ? "end" : "start", 9.0);
-        }
-    }
-    draw_outline(body, frame);
-    const double height = frame.bottom() + 42.0;
-    Drawing drawing;
-    drawing.rectangle(0.0, 0.0, k_drawing_width, height, "fill=\"#ffffff\" stroke=\"none\"");
-    drawing.body += body.body;
-    const Wording::Values items = {{"first", shortened(printable(diagram.first_item), 60)},
-                                   {"second", shortened(printable(diagram.second_item), 60)}};
-    return svg_document(id, words.filled("plot", "youden_title", items).first(),
-                        words.filled("plot", "youden_description", items).first(), height, drawing);
+        words("plot", "laboratory_scores_description").first(), height, body);
 }
 
 }  // namespace gumcert::reports

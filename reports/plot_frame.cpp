@@ -97,6 +97,11 @@ void AxisRange::include(double v) {
     high = std::max(high, v);
 }
 
+AxisRange AxisRange::widened(double share) const {
+    const double room = share * (high - low);
+    return {.low = low - room, .high = high + room};
+}
+
 void require_finite(const std::string& where, std::initializer_list<double> numbers) {
     for (const double v : numbers) {
         if (!std::isfinite(v)) {
@@ -140,6 +145,25 @@ double label_width(const std::string& text, double size) {
     return text_width(text, size) + 0.5 * size * static_cast<double>(wide);
 }
 
+std::string shortened_name(const std::string& name, std::size_t most) {
+    constexpr std::size_t k_end = 8;
+    std::vector<std::size_t> starts;  // of the characters
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        if ((static_cast<unsigned char>(name[i]) & 0xC0U) != 0x80U) {
+            starts.push_back(i);
+        }
+    }
+    if (starts.size() <= most) {
+        return name;
+    }
+    return name.substr(0, starts[most - k_end - 1]) + "…" + name.substr(starts[starts.size() - k_end]);
+}
+
+void draw_upright_name(Drawing& drawing, double x, double y, const std::string& name, double size) {
+    const std::string turn = " transform=\"rotate(-90 " + drawing_number(x) + " " + drawing_number(y) + ")\"";
+    drawing.text(x, y, name, "end", size, turn.c_str());
+}
+
 double PlotFrame::py_inside(double v) const {
     return py(std::clamp(v, up.low, up.high));
 }
@@ -152,26 +176,47 @@ double room_for_axis(const Ticks& up) {
     return widest + 6.0 + 5.0 + k_title_size + 4.0;
 }
 
-void draw_up_axis(Drawing& drawing, const PlotFrame& frame, const std::string& title) {
+void draw_up_ticks(Drawing& drawing, const PlotFrame& frame) {
     for (int i = 0; i < frame.up.count(); ++i) {
         const double y = frame.py(frame.up.at(i));
         drawing.line(frame.x, y, frame.right(), y, k_grid);
         drawing.line(frame.x - 4.0, y, frame.x, y, k_tick);
         drawing.text(frame.x - 6.0, y + 3.4, tick_text(frame.up.at(i), frame.up.decimals), "end", k_tick_size);
     }
+}
+
+void draw_up_axis(Drawing& drawing, const PlotFrame& frame, const std::string& title) {
+    draw_up_ticks(drawing, frame);
     drawing.upright_text(frame.x - room_for_axis(frame.up) + k_title_size + 1.0, frame.y + 0.5 * frame.height, title,
                          k_title_size);
 }
 
-void draw_across_axis(Drawing& drawing, const PlotFrame& frame, const std::string& title) {
+void draw_across_grid(Drawing& drawing, const PlotFrame& frame) {
     for (int i = 0; i < frame.across.count(); ++i) {
         const double x = frame.px(frame.across.at(i));
         drawing.line(x, frame.y, x, frame.bottom(), k_grid);
-        drawing.line(x, frame.bottom(), x, frame.bottom() + 4.0, k_tick);
-        drawing.text(x, frame.bottom() + 15.0, tick_text(frame.across.at(i), frame.across.decimals), "middle",
-                     k_tick_size);
     }
+}
+
+void draw_across_ticks(Drawing& drawing, const PlotFrame& frame, bool numbered) {
+    for (int i = 0; i < frame.across.count(); ++i) {
+        const double x = frame.px(frame.across.at(i));
+        drawing.line(x, frame.bottom(), x, frame.bottom() + 4.0, k_tick);
+        if (numbered) {
+            drawing.text(x, frame.bottom() + 15.0, tick_text(frame.across.at(i), frame.across.decimals), "middle",
+                         k_tick_size);
+        }
+    }
+}
+
+void draw_across_title(Drawing& drawing, const PlotFrame& frame, const std::string& title) {
     drawing.text(frame.x + 0.5 * frame.width, frame.bottom() + 31.0, title, "middle", k_title_size);
+}
+
+void draw_across_axis(Drawing& drawing, const PlotFrame& frame, const std::string& title) {
+    draw_across_grid(drawing, frame);
+    draw_across_ticks(drawing, frame);
+    draw_across_title(drawing, frame, title);
 }
 
 void draw_outline(Drawing& drawing, const PlotFrame& frame) {
@@ -222,6 +267,14 @@ double PlotKey::draw(Drawing& drawing, double left, double right) const {
         x += room;
     }
     return entries_.empty() ? 4.0 : y + 12.0;
+}
+
+std::string plot_document(const std::string& id, const std::string& title, const std::string& description,
+                          double height, const Drawing& elements) {
+    Drawing drawing;
+    drawing.rectangle(0.0, 0.0, k_drawing_width, height, "fill=\"#ffffff\" stroke=\"none\"");
+    drawing.body += elements.body;
+    return svg_document(id, title, description, height, drawing);
 }
 
 }  // namespace gumcert::reports

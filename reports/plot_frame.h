@@ -2,6 +2,7 @@
 
 #include "reports/svg_drawing.h"
 
+#include <cstddef>
 #include <initializer_list>
 #include <string>
 #include <utility>
@@ -27,6 +28,8 @@ struct AxisRange {
     double low = 0.0, high = 0.0;
 
     void include(double v);
+    /// The same with room at both ends, a share of the range.
+    [[nodiscard]] AxisRange widened(double share) const;
 };
 
 /// \throws gum::NoResultError  GC-REPORT-0003 a number is not finite
@@ -46,12 +49,22 @@ void require_finite(const std::string& where, std::initializer_list<double> numb
 /// Width of a text, about, in drawing units; ideographs count as squares.
 [[nodiscard]] double label_width(const std::string& text, double size);
 
+/// At most so many characters of a name. What is left out of a longer one was in its middle: names of laboratories
+/// often differ at their end only.
+[[nodiscard]] std::string shortened_name(const std::string& name, std::size_t most);
+
+/// A name turned upright below `y`.
+void draw_upright_name(Drawing& drawing, double x, double y, const std::string& name, double size);
+
 /// A panel with its axes, in drawing units.
 struct PlotFrame {
     double x = 0.0, y = 0.0, width = 0.0, height = 0.0;
     Ticks across = {}, up = {};
+    double margin = 0.0;  ///< left and right of the horizontal axis, inside the panel
 
-    [[nodiscard]] double px(double v) const { return x + (v - across.low) / (across.high - across.low) * width; }
+    [[nodiscard]] double px(double v) const {
+        return x + margin + (v - across.low) / (across.high - across.low) * (width - 2.0 * margin);
+    }
     [[nodiscard]] double py(double v) const { return y + height - (v - up.low) / (up.high - up.low) * height; }
     [[nodiscard]] double bottom() const { return y + height; }
     [[nodiscard]] double right() const { return x + width; }
@@ -62,7 +75,15 @@ struct PlotFrame {
 /// Room that the labels of a vertical axis and its title need left of the panel.
 [[nodiscard]] double room_for_axis(const Ticks& up);
 
+/// Grid, ticks and their numbers left of the panel.
+void draw_up_ticks(Drawing& drawing, const PlotFrame& frame);
+/// The same with a title.
 void draw_up_axis(Drawing& drawing, const PlotFrame& frame, const std::string& title);
+void draw_across_grid(Drawing& drawing, const PlotFrame& frame);
+/// Ticks below the panel, and where asked for their numbers.
+void draw_across_ticks(Drawing& drawing, const PlotFrame& frame, bool numbered = true);
+void draw_across_title(Drawing& drawing, const PlotFrame& frame, const std::string& title);
+/// Grid, ticks with their numbers, and title below the panel.
 void draw_across_axis(Drawing& drawing, const PlotFrame& frame, const std::string& title);
 void draw_outline(Drawing& drawing, const PlotFrame& frame);
 /// Dashed line across the panel with its label right of it.
@@ -90,5 +111,9 @@ public:
 private:
     std::vector<std::pair<Symbol, std::string>> entries_;
 };
+
+/// The elements of a plot on a white ground, inside its document.
+[[nodiscard]] std::string plot_document(const std::string& id, const std::string& title, const std::string& description,
+                                        double height, const Drawing& elements);
 
 }  // namespace gumcert::reports

@@ -1,5 +1,6 @@
 #include "reports/svg_plot.h"
 
+#include "reports/plot_frame.h"
 #include "reports/svg_drawing.h"
 
 #include <algorithm>
@@ -26,16 +27,8 @@ constexpr const char* k_grid = "stroke=\"#e2e2e2\" stroke-width=\"0.6\"";
 constexpr const char* k_tick = "stroke=\"#000000\" stroke-width=\"0.8\"";
 constexpr std::size_t k_many = 150;  // points of a series above which they are drawn as one path
 
-struct Frame {
-    double x = 0.0, y = 0.0, width = 0.0, height = 0.0;
-    Ticks across, up;
-
-    [[nodiscard]] double px(double v) const { return x + (v - across.low) / (across.high - across.low) * width; }
-    [[nodiscard]] double py(double v) const { return y + height - (v - up.low) / (up.high - up.low) * height; }
-};
-
 /// One path of dots for points too many to be told apart one by one. Dots that fall on the same place are drawn once.
-void draw_dense(Drawing& drawing, const std::vector<PlotPoint>& sorted, const Frame& frame, double shift) {
+void draw_dense(Drawing& drawing, const std::vector<PlotPoint>& sorted, const PlotFrame& frame, double shift) {
     std::set<std::pair<long, long>> places;  // twice the drawing units
     for (const PlotPoint& p : sorted) {
         places.emplace(std::lround(2.0 * (frame.px(p.x) + shift)), std::lround(2.0 * frame.py(p.y)));
@@ -48,7 +41,7 @@ void draw_dense(Drawing& drawing, const std::vector<PlotPoint>& sorted, const Fr
     drawing.body += "\" fill=\"none\" stroke=\"#000000\" stroke-width=\"1.6\"/>\n";
 }
 
-void draw_series(Drawing& drawing, const PlotSeries& series, const Frame& frame) {
+void draw_series(Drawing& drawing, const PlotSeries& series, const PlotFrame& frame) {
     std::vector<PlotPoint> sorted = series.points;
     std::stable_sort(sorted.begin(), sorted.end(), [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
     const double radius = sorted.size() > 80 ? 1.3 : 2.2;
@@ -89,19 +82,11 @@ void draw_series(Drawing& drawing, const PlotSeries& series, const Frame& frame)
     }
 }
 
-void draw_panel(Drawing& drawing, const PlotPanel& panel, const Frame& frame, bool with_axis) {
+void draw_panel(Drawing& drawing, const PlotPanel& panel, const PlotFrame& frame, bool with_axis) {
     drawing.text(frame.x, frame.y - 7.0, panel.heading, "start", 11.0, " font-weight=\"bold\"");
     drawing.rectangle(frame.x, frame.y, frame.width, frame.height, "fill=\"#ffffff\" stroke=\"none\"");
-    for (int i = 0; i < frame.across.count(); ++i) {
-        drawing.line(frame.px(frame.across.at(i)), frame.y, frame.px(frame.across.at(i)), frame.y + frame.height,
-                     k_grid);
-    }
-    for (int i = 0; i < frame.up.count(); ++i) {
-        const double y = frame.py(frame.up.at(i));
-        drawing.line(frame.x, y, frame.x + frame.width, y, k_grid);
-        drawing.line(frame.x - 4.0, y, frame.x, y, "stroke=\"#000000\" stroke-width=\"0.8\"");
-        drawing.text(frame.x - 6.0, y + 3.4, tick_text(frame.up.at(i), frame.up.decimals), "end", 10.0);
-    }
+    draw_across_grid(drawing, frame);
+    draw_up_ticks(drawing, frame);
     for (const PlotSeries& series : panel.series) {
         if (series.bars == PlotBars::band) {
             draw_series(drawing, series, frame);
@@ -126,17 +111,8 @@ void draw_panel(Drawing& drawing, const PlotPanel& panel, const Frame& frame, bo
             draw_series(drawing, series, frame);
         }
     }
-    drawing.rectangle(frame.x, frame.y, frame.width, frame.height,
-                      "fill=\"none\" stroke=\"#000000\" stroke-width=\"0.9\"");
-    for (int i = 0; i < frame.across.count(); ++i) {
-        const double x = frame.px(frame.across.at(i));
-        drawing.line(x, frame.y + frame.height, x, frame.y + frame.height + 4.0,
-                     "stroke=\"#000000\" stroke-width=\"0.8\"");
-        if (with_axis) {
-            drawing.text(x, frame.y + frame.height + 15.0, tick_text(frame.across.at(i), frame.across.decimals),
-                         "middle", 10.0);
-        }
-    }
+    draw_outline(drawing, frame);
+    draw_across_ticks(drawing, frame, with_axis);
     drawing.upright_text(frame.x - 38.0, frame.y + 0.5 * frame.height, panel.y_label, 11.0);
 }
 
@@ -174,6 +150,64 @@ void fill_part(Drawing& drawing, double x, double y, double width, double height
     }
 }
 
+/// The key above the panels, in as many lines as it needs.
+/// \return its height
+double draw_key(Drawing& drawing, const std::vector<PlotSeries>& series) {
+    constexpr double k_line = 16.0;
+    constexpr double k_letter = 6.4;
+    const double scale = k_letter / text_width("x", 1.0);
+    double x = k_left + 6.0;
+    double y = 0.5 * k_key;
+    for (const PlotSeries& s : series) {
+        const double room = 8.0 + scale * label_width(s.label, 1.0);
+        if (x + room > k_drawing_width && x > k_left + 6.0) {
+            x = k_left + 6.0;
+            y += k_line;
+        }
+        drawing.marker(s.marker, x, y, 2.6);
+        drawing.text(x + 8.0, y + 3.5, s.label, "start", 10.5);
+        x += room + 18.0;
+    }
+    return series.empty() ? 0.0 : y + 0.5 * k_key;
+}
+
+/// Ticks at whole numbers, between which the points stand.
+Ticks number_ticks(double low, double high, int most) {
+    if (high - low < 1.0) {
+        return {.low = std::floor(low) - 1.0, .high = std::ceil(high) + 1.0};
+    }
+    const Ticks ticks = nice_ticks(low, high, most);
+    return ticks.decimals == 0 ? ticks : Ticks{.low = std::floor(low), .high = std::ceil(high)};
+}
+
+/// What the vertical axis of a panel shows. The zero line belongs to every panel: errors and differences are read
+/// against it.
+AxisRange range_of(const PlotPanel& panel, double margin) {
+    AxisRange range{.low = -panel.y_most, .high = panel.y_most};
+    for (const PlotLimit& limit : panel.limits) {
+        range.include(limit.y * 1.15);
+    }
+    if (panel.y_most > 0.0) {
+        return range;
+    }
+    std::vector<double> ends;
+    for (const PlotSeries& series : panel.series) {
+        for (const PlotPoint& p : series.points) {
+            const double U = series.bars == PlotBars::none ? 0.0 : p.U;
+            ends.insert(ends.end(), {p.y - U, p.y + U});
+        }
+    }
+    for (const double end : ends) {
+        range.include(end);
+    }
+    const double room = margin * (range.high - range.low);
+    for (const double end : ends) {
+        range.include(end - room);
+        range.include(end + room);
+    }
+    return range;
+}
+
 void require_finite(const Plot& plot) {
     for (const PlotPanel& panel : plot.panels) {
         for (const PlotSeries& series : panel.series) {
@@ -206,50 +240,32 @@ std::string svg(const Plot& plot) {
     }
     Ticks across;
     if (x_low <= x_high) {
-        across = plot.x_is_angle ? angle_ticks(x_low, x_high) : nice_ticks(x_low, x_high, 8);
+        across = plot.x_is_number  ? number_ticks(x_low, x_high, 8)
+                 : plot.x_is_angle ? angle_ticks(x_low, x_high)
+                                   : nice_ticks(x_low, x_high, 8);
     }
 
     Drawing drawing;
     const int count = static_cast<int>(plot.panels.size());
     const int columns = std::max(1, plot.columns);
     const int rows = (count + columns - 1) / columns;
-    const double top = key.empty() ? 0.0 : k_key;
+    const double top = draw_key(drawing, key);
     const double panel_pitch = k_head + plot.panel_height + k_foot;
     const double height = top + rows * panel_pitch - k_foot + k_axis;
     const double column_width = (k_drawing_width - (columns - 1) * k_between) / columns;
 
-    drawing.rectangle(0.0, 0.0, k_drawing_width, height, "fill=\"#ffffff\" stroke=\"none\"");
-    double key_x = k_left + 6.0;
-    for (const PlotSeries& series : key) {
-        drawing.marker(series.marker, key_x, 10.0, 2.6);
-        drawing.text(key_x + 8.0, 13.5, series.label, "start", 10.5);
-        key_x += 8.0 + 6.4 * static_cast<double>(series.label.size()) + 18.0;
-    }
     for (int i = 0; i < count; ++i) {
         PlotPanel panel = plot.panels[static_cast<std::size_t>(i)];
         const int column = i / rows;
         const int row = i % rows;
-        double low = -panel.y_most;  // the zero line belongs to every panel: errors and differences are read against it
-        double high = panel.y_most;
-        for (const PlotSeries& series : panel.series) {
-            for (const PlotPoint& p : series.points) {
-                const double U = series.bars == PlotBars::none ? 0.0 : p.U;
-                if (panel.y_most == 0.0) {
-                    low = std::min(low, p.y - U);
-                    high = std::max(high, p.y + U);
-                }
-            }
-        }
-        for (const PlotLimit& limit : panel.limits) {
-            low = std::min(low, limit.y * 1.15);
-            high = std::max(high, limit.y * 1.15);
-        }
-        const Frame frame{.x = column * (column_width + k_between) + k_left,
-                          .y = top + row * panel_pitch + k_head,
-                          .width = column_width - k_left - k_right,
-                          .height = plot.panel_height,
-                          .across = across,
-                          .up = nice_ticks(low, high, plot.panel_height > 100.0 ? 6 : 4)};
+        const AxisRange range = range_of(panel, plot.margin / plot.panel_height);
+        const PlotFrame frame{.x = column * (column_width + k_between) + k_left,
+                              .y = top + row * panel_pitch + k_head,
+                              .width = column_width - k_left - k_right,
+                              .height = plot.panel_height,
+                              .across = across,
+                              .up = nice_ticks(range.low, range.high, plot.panel_height > 100.0 ? 6 : 4),
+                              .margin = plot.margin};
         if (panel.y_most > 0.0) {
             const double room = 3.0 * (frame.up.high - frame.up.low) / frame.height;  // the marker stays inside
             for (PlotSeries& series : panel.series) {
@@ -261,11 +277,11 @@ std::string svg(const Plot& plot) {
         const bool lowest = row == rows - 1 || i == count - 1;
         draw_panel(drawing, panel, frame, lowest);
         if (lowest) {
-            drawing.text(frame.x + 0.5 * frame.width, frame.y + frame.height + 31.0, plot.x_label, "middle", 11.0);
+            draw_across_title(drawing, frame, plot.x_label);
         }
     }
 
-    return svg_document(plot.id, plot.title, plot.description, height, drawing);
+    return plot_document(plot.id, plot.title, plot.description, height, drawing);
 }
 
 std::string svg(const BarPlot& plot) {
@@ -289,11 +305,10 @@ std::string svg(const BarPlot& plot) {
     const auto px = [&](double v) { return labels + (v - ticks.low) / (ticks.high - ticks.low) * width; };
 
     Drawing drawing;
-    drawing.rectangle(0.0, 0.0, k_drawing_width, height, "fill=\"#ffffff\" stroke=\"none\"");
     for (int i = 0; i < ticks.count(); ++i) {
         const double x = px(ticks.at(i));
-        drawing.line(x, top, x, bottom, "stroke=\"#e2e2e2\" stroke-width=\"0.6\"");
-        drawing.line(x, bottom, x, bottom + 4.0, "stroke=\"#000000\" stroke-width=\"0.8\"");
+        drawing.line(x, top, x, bottom, k_grid);
+        drawing.line(x, bottom, x, bottom + 4.0, k_tick);
         drawing.text(x, bottom + 15.0, tick_text(ticks.at(i), ticks.decimals), "middle", 10.0);
     }
     for (std::size_t i = 0; i < plot.bars.size(); ++i) {
@@ -309,7 +324,7 @@ std::string svg(const BarPlot& plot) {
     drawing.line(px(0.0), top, px(0.0), bottom, "stroke=\"#000000\" stroke-width=\"0.9\"");
     drawing.line(labels, bottom, labels + width, bottom, "stroke=\"#000000\" stroke-width=\"0.9\"");
     drawing.text(labels + 0.5 * width, bottom + 31.0, plot.x_label, "middle", 11.0);
-    return svg_document(plot.id, plot.title, plot.description, height, drawing);
+    return plot_document(plot.id, plot.title, plot.description, height, drawing);
 }
 
 std::string svg(const DensityPlot& plot) {
@@ -334,17 +349,16 @@ std::string svg(const DensityPlot& plot) {
         high = std::max(high, interval.high);
     }
     const double strips = k_strip * static_cast<double>(plot.intervals.size());
-    const Frame frame{.x = k_side,
-                      .y = k_key + 2.0,
-                      .width = k_drawing_width - k_side - k_right,
-                      .height = strips + k_curve,
-                      .across = nice_ticks(low, high, 10),
-                      .up = {.low = 0.0, .high = most > 0.0 ? most * (strips + k_curve) / (0.96 * k_curve) : 1.0}};
+    const PlotFrame frame{.x = k_side,
+                          .y = k_key + 2.0,
+                          .width = k_drawing_width - k_side - k_right,
+                          .height = strips + k_curve,
+                          .across = nice_ticks(low, high, 10),
+                          .up = {.low = 0.0, .high = most > 0.0 ? most * (strips + k_curve) / (0.96 * k_curve) : 1.0}};
     const double bottom = frame.y + frame.height;
     const double height = bottom + k_axis;
 
     Drawing drawing;
-    drawing.rectangle(0.0, 0.0, k_drawing_width, height, "fill=\"#ffffff\" stroke=\"none\"");
     drawing.rectangle(frame.x, 5.0, 16.0, 9.0, "fill=\"#cfcfcf\" stroke=\"#777777\" stroke-width=\"0.6\"");
     drawing.text(frame.x + 21.0, 13.5, plot.cells_label, "start", 10.5);
     const double second = frame.x + 0.42 * frame.width;
@@ -378,16 +392,11 @@ std::string svg(const DensityPlot& plot) {
         drawing.line(from, y, to, y, "stroke=\"#000000\" stroke-width=\"1.2\"");
         drawing.text(0.5 * (from + to), y - 4.0, interval.label, "middle", 10.0);
     }
-    drawing.rectangle(frame.x, frame.y, frame.width, frame.height,
-                      "fill=\"none\" stroke=\"#000000\" stroke-width=\"0.9\"");
-    for (int i = 0; i < frame.across.count(); ++i) {
-        const double x = frame.px(frame.across.at(i));
-        drawing.line(x, bottom, x, bottom + 4.0, "stroke=\"#000000\" stroke-width=\"0.8\"");
-        drawing.text(x, bottom + 15.0, tick_text(frame.across.at(i), frame.across.decimals), "middle", 10.0);
-    }
-    drawing.text(frame.x + 0.5 * frame.width, bottom + 31.0, plot.x_label, "middle", 11.0);
+    draw_outline(drawing, frame);
+    draw_across_ticks(drawing, frame);
+    draw_across_title(drawing, frame, plot.x_label);
     drawing.upright_text(frame.x - 10.0, frame.y + 0.5 * frame.height, plot.y_label, 11.0);
-    return svg_document(plot.id, plot.title, plot.description, height, drawing);
+    return plot_document(plot.id, plot.title, plot.description, height, drawing);
 }
 
 std::string svg(const HistogramPlot& plot) {
@@ -400,22 +409,16 @@ std::string svg(const HistogramPlot& plot) {
         most = std::max(most, count);
     }
     const double end = plot.first_edge + plot.cell_width * static_cast<double>(plot.counts.size());
-    const Frame frame{.x = k_left + 8.0,
-                      .y = k_above,
-                      .width = k_drawing_width - k_left - 8.0 - k_right,
-                      .height = k_panel,
-                      .across = nice_ticks(plot.first_edge, end, 10),
-                      .up = nice_ticks(0.0, std::max(1.0, most), 5)};
+    const PlotFrame frame{.x = k_left + 8.0,
+                          .y = k_above,
+                          .width = k_drawing_width - k_left - 8.0 - k_right,
+                          .height = k_panel,
+                          .across = nice_ticks(plot.first_edge, end, 10),
+                          .up = nice_ticks(0.0, std::max(1.0, most), 5)};
     const double bottom = frame.y + frame.height;
     const double height = bottom + k_axis;
     Drawing drawing;
-    drawing.rectangle(0.0, 0.0, k_drawing_width, height, "fill=\"#ffffff\" stroke=\"none\"");
-    for (int i = 0; i < frame.up.count(); ++i) {
-        const double y = frame.py(frame.up.at(i));
-        drawing.line(frame.x, y, frame.x + frame.width, y, k_grid);
-        drawing.line(frame.x - 4.0, y, frame.x, y, k_tick);
-        drawing.text(frame.x - 6.0, y + 3.4, tick_text(frame.up.at(i), frame.up.decimals), "end", 10.0);
-    }
+    draw_up_ticks(drawing, frame);
     for (std::size_t i = 0; i < plot.counts.size(); ++i) {
         const double left = frame.px(plot.first_edge + plot.cell_width * static_cast<double>(i));
         const double right = frame.px(plot.first_edge + plot.cell_width * static_cast<double>(i + 1));
@@ -425,16 +428,11 @@ std::string svg(const HistogramPlot& plot) {
                               "fill=\"#b5b5b5\" stroke=\"#000000\" stroke-width=\"0.8\"");
         }
     }
-    drawing.rectangle(frame.x, frame.y, frame.width, frame.height,
-                      "fill=\"none\" stroke=\"#000000\" stroke-width=\"0.9\"");
-    for (int i = 0; i < frame.across.count(); ++i) {
-        const double x = frame.px(frame.across.at(i));
-        drawing.line(x, bottom, x, bottom + 4.0, k_tick);
-        drawing.text(x, bottom + 15.0, tick_text(frame.across.at(i), frame.across.decimals), "middle", 10.0);
-    }
-    drawing.text(frame.x + 0.5 * frame.width, bottom + 31.0, plot.x_label, "middle", 11.0);
+    draw_outline(drawing, frame);
+    draw_across_ticks(drawing, frame);
+    draw_across_title(drawing, frame, plot.x_label);
     drawing.upright_text(frame.x - 44.0, frame.y + 0.5 * frame.height, plot.y_label, 11.0);
-    return svg_document(plot.id, plot.title, plot.description, height, drawing);
+    return plot_document(plot.id, plot.title, plot.description, height, drawing);
 }
 
 std::string svg(const StackedPlot& plot) {
@@ -469,7 +467,6 @@ std::string svg(const StackedPlot& plot) {
     const auto px = [&](double v) { return labels + v / 100.0 * width; };
 
     Drawing drawing;
-    drawing.rectangle(0.0, 0.0, k_drawing_width, height, "fill=\"#ffffff\" stroke=\"none\"");
     drawing.body += key.body;
     drawing.text(labels + width + 8.0, top - 4.0, plot.text_head, "start", 10.5);
     for (int percent = 0; percent <= 100; percent += 10) {
@@ -508,7 +505,7 @@ std::string svg(const StackedPlot& plot) {
     drawing.line(px(0.0), top, px(0.0), bottom, "stroke=\"#000000\" stroke-width=\"0.9\"");
     drawing.line(labels, bottom, labels + width, bottom, "stroke=\"#000000\" stroke-width=\"0.9\"");
     drawing.text(labels + 0.5 * width, bottom + 31.0, plot.x_label, "middle", 11.0);
-    return svg_document(plot.id, plot.title, plot.description, height, drawing);
+    return plot_document(plot.id, plot.title, plot.description, height, drawing);
 }
 
 }  // namespace gumcert::reports

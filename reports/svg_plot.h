@@ -46,6 +46,9 @@ struct Plot {
     int columns = 1;
     double panel_height = 150.0;  ///< drawing units; a plot is 680 wide
     bool x_is_angle = true;       ///< ticks divide a circle of 360
+    bool x_is_number = false;     ///< of a point: ticks are whole numbers
+    /// Drawing units that stay free between points and frame; 0: the outermost points may lie on it.
+    double margin = 0.0;
 };
 
 /// One horizontal bar of a bar plot, with the text that stands at its end.

@@ -32,10 +32,11 @@ public:
         : asked_(std::move(options)),
           signer_(asked_.signer.empty() ? nullptr : signing::signer_from_description(asked_.signer)) {}
 
-    [[nodiscard]] const app::IssueOptions& options() {
-        if (!worker_) {
+    /// \param with_templates  false: for a form of the document that needs none
+    [[nodiscard]] const app::IssueOptions& options(bool with_templates = true) {
+        options_.signer = signer_.get();
+        if (with_templates && !worker_) {
             options_.assets = render_assets(asked_.share, asked_.languages);
-            options_.signer = signer_.get();
             options_.signing_time = seconds_now();
             worker_ = std::make_unique<reports::PdfWorker>(options_.assets);
             options_.worker = worker_.get();
@@ -203,7 +204,9 @@ ExitCode render_record(const std::string& name, const std::string& format, const
         report_withheld(name, {file}, common);
         return negative_answer;
     }
-    const std::string bytes = app::issue_document(record, form_of(format), issuer.options());
+    const app::DocumentForm form = form_of(format);
+    const std::string bytes =
+        app::issue_document(record, form, issuer.options(/*with_templates=*/form != app::DocumentForm::csv));
     if (file.empty()) {
         write_to_stdout(bytes);
         return done;

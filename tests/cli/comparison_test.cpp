@@ -159,6 +159,16 @@ TEST_F(ComparisonProgram, CsvHasARowForEachResult) {
     ASSERT_EQ(lines.size(), 7U);
     EXPECT_NE(lines[5].find("NMI5"), std::string::npos) << lines[5];
     EXPECT_NE(lines[5].find("12.95"), std::string::npos) << lines[5];
+    // It needs no templates.
+    const fs::path again = folder() / "again.csv";
+    const Ended alone = gumcert({"render", record_file().string(), "--format", "csv", "-o", again.string(), "--share",
+                                 (folder() / "nowhere").string()});
+    ASSERT_EQ(alone.code, 0) << alone.err;
+    EXPECT_EQ(bytes_of(again), bytes_of(csv));
+    EXPECT_EQ(gumcert({"render", record_file().string(), "--format", "html", "-o", again.string(), "--share",
+                       (folder() / "nowhere").string()})
+                  .code,
+              5);
 }
 
 TEST_F(ComparisonProgram, OtherKindsAreNotCompared) {

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -289,6 +290,123 @@ TEST_F(ComparisonPlots, AnyNumberOfPointsAndDirections) {
         p.En = {};
     }
     EXPECT_EQ(method_scores_plot(c, "p", words()), "");
+}
+
+std::vector<double> numbers_of(const std::string& svg, const std::string& before) {
+    std::vector<double> numbers;
+    for (std::size_t at = svg.find(before); at != std::string::npos; at = svg.find(before, at + 1)) {
+        numbers.push_back(std::stod(svg.substr(at + before.size())));
+    }
+    return numbers;
+}
+
+double height_of(const std::string& svg) {
+    return numbers_of(svg, "viewBox=\"0 0 680 ").at(0);
+}
+
+TEST_F(ComparisonPlots, NoPointLiesOnTheFrame) {
+    Comparison c = *test::sample_methods_record().comparison;
+    for (ComparisonPoint& p : c.points) {
+        p.direction = "x";
+    }
+    c.summary[0].direction = "x";
+    c.points[1].En = 1.5;  // a tick
+    for (const std::string& svg : method_plots(c)) {
+        const std::string panel = "\" fill=\"none\" stroke=\"#000000\" stroke-width=\"0.9\"/>";
+        const std::size_t frame = svg.rfind("<rect", svg.find(panel));
+        const std::string rectangle = svg.substr(frame, 120);
+        const double x = numbers_of(rectangle, " x=\"").at(0);
+        const double y = numbers_of(rectangle, " y=\"").at(0);
+        const double right = x + numbers_of(rectangle, " width=\"").at(0);
+        const double bottom = y + numbers_of(rectangle, " height=\"").at(0);
+        const std::vector<double> xs = numbers_of(svg, "cx=\"");
+        const std::vector<double> ys = numbers_of(svg, "cy=\"");
+        std::size_t inside = 0;
+        for (std::size_t i = 0; i < xs.size(); ++i) {
+            if (ys[i] > y - 1.0) {  // the others are those of the key
+                ++inside;
+                EXPECT_GE(xs[i], x + 5.0);
+                EXPECT_LE(xs[i], right - 5.0);
+                EXPECT_GE(ys[i], y + 3.0);
+                EXPECT_LE(ys[i], bottom - 3.0);
+            }
+        }
+        EXPECT_EQ(inside, c.points.size());
+    }
+}
+
+TEST_F(ComparisonPlots, NumbersOfPointsAreWhole) {
+    Comparison c = *test::sample_methods_record().comparison;
+    for (const std::size_t points : {1U, 2U, 3U}) {
+        c.points.resize(points == 1 ? 1 : c.points.size());
+        if (points > 1) {
+            c = *test::sample_methods_record(points).comparison;
+        }
+        for (ComparisonPoint& p : c.points) {
+            p.position = {};
+            p.direction = "x";
+        }
+        const std::string svg = method_scores_plot(c, "p", words());
+        EXPECT_THAT(svg, HasSubstr(">1</text>"));
+        EXPECT_THAT(svg, Not(HasSubstr(">1.2</text>")));
+        EXPECT_THAT(svg, Not(HasSubstr(">1.05</text>")));
+    }
+}
+
+TEST_F(ComparisonPlots, PanelsOfManyDirectionsFitOnAPage) {
+    constexpr double k_page = 900.0;  // drawing units: 228 mm at the width of a page
+    Comparison c = *test::sample_methods_record(48).comparison;
+    const ComparisonSummary summary = c.summary[0];
+    for (const std::size_t directions : {4U, 5U, 8U, 12U}) {
+        c.summary.assign(directions, summary);
+        for (std::size_t i = 0; i < c.points.size(); ++i) {
+            c.points[i].direction = "d" + std::to_string(i % directions);
+            c.summary[i % directions].direction = c.points[i].direction;
+        }
+        for (const std::string& svg : method_plots(c)) {
+            expect_sound(svg);
+            EXPECT_LT(height_of(svg), k_page) << directions;
+        }
+        // A mark for each direction: a cross says that a point is beyond the axis, and nothing else.
+        EXPECT_EQ(count(method_scores_plot(c, "p", words()), ">direction d"), directions > 4 ? directions : 0U);
+    }
+}
+
+TEST_F(ComparisonPlots, LongNamesCanBeToldApart) {
+    Comparison c = *test::sample_laboratories_record(9).comparison;
+    const auto lengthened = [](std::string& id) { id = "Calibration laboratory of the region " + id; };
+    for (ComparisonPoint& p : c.points) {
+        lengthened(p.participant);
+    }
+    for (PairEquivalence& p : c.items[0].pairs) {
+        lengthened(p.first);
+        lengthened(p.second);
+    }
+    for (YoudenPoint& p : c.youden[0].points) {
+        lengthened(p.participant);
+    }
+    for (const std::string& svg : laboratory_plots(c)) {
+        EXPECT_THAT(svg, HasSubstr("ion L001</text>"));
+        EXPECT_THAT(svg, HasSubstr("ion L002</text>"));
+    }
+}
+
+TEST_F(ComparisonPlots, NamesOfNeighboursInAYoudenPlotDoNotCoverEachOther) {
+    YoudenDiagram d = test::sample_laboratories_record(9).comparison->youden[0];
+    d.points.resize(3);
+    for (YoudenPoint& p : d.points) {
+        p.first = d.centre_first;
+        p.second = d.centre_second;
+    }
+    const std::string svg = youden_plot(d, "p", words());
+    std::set<std::string> places;
+    for (const YoudenPoint& p : d.points) {
+        const std::size_t name = svg.find(">" + p.participant + "</text>");
+        ASSERT_NE(name, std::string::npos);
+        const std::size_t begin = svg.rfind("<text", name);
+        places.insert(svg.substr(begin, svg.find(" font-size", begin) - begin));
+    }
+    EXPECT_EQ(places.size(), 3U);
 }
 
 TEST_F(ComparisonPlots, ALineForAllDirectionsIsDrawnOnce) {

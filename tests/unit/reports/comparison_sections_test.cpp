@@ -540,6 +540,39 @@ TEST(ComparisonReport, ThePairsAreListedDrawnOrBoth) {
     }
 }
 
+TEST(ComparisonReport, LongNamesAreNoHeadsOfColumns) {
+    EvaluationRecord record = one_item(12);
+    for (PairEquivalence& pair : record.comparison->items[0].pairs) {
+        pair.first = "Calibration Laboratory " + pair.first;
+        pair.second = "Calibration Laboratory " + pair.second;
+    }
+    const json view = view_of(record);
+    const auto rows = rows_of(view, "pairs-1");
+    EXPECT_EQ(rows[0][0], "1: Calibration Laboratory L001");
+    EXPECT_EQ(rows[9][0], "10: Calibration Laboratory L012");
+    EXPECT_EQ(rows[0][2], record.comparison->items[0].pairs[0].printed.En);
+    const json columns = block(view, "table", "pairs-1")["columns"];
+    EXPECT_EQ(columns[1]["head"], "1");
+    EXPECT_EQ(columns[10]["head"], "10");
+}
+
+TEST(ComparisonReport, APlotThatShowsNothingIsLeftOut) {
+    EvaluationRecord record = test::sample_methods_record();
+    EXPECT_FALSE(block(view_of(record), "figure", "plot-values").is_null());
+    for (ComparisonPoint& p : record.comparison->points) {
+        p.value += 1e6;  // no difference can be seen beside it
+        p.reference_value += 1e6;
+    }
+    const json view = view_of(record);
+    EXPECT_TRUE(block(view, "figure", "plot-values").is_null());
+    EXPECT_FALSE(block(view, "table", "comparison-points").is_null());
+    for (const json& section : view["sections"]) {
+        for (const json& entry : section["blocks"]) {
+            EXPECT_TRUE(entry["figure"].empty() || entry["figure"][0]["svg"] != "");
+        }
+    }
+}
+
 TEST(ComparisonReport, NumbersToRecomputeAreUnrounded) {
     const EvaluationRecord record = one_item(6);
     const auto rows = rows_of(view_of(record), "unrounded");
@@ -691,6 +724,32 @@ TEST(ComparisonReport, PdfHasTheNumbersOfTheTable) {
     }
     EXPECT_THAT(text, HasSubstr("End of comparison report"));
     EXPECT_THAT(lower(text), Not(HasSubstr("certificate")));
+}
+
+TEST(ComparisonReport, PdfHasNoPageOfAFewLines) {
+    SKIP_WITHOUT_PDF();
+    RenderAssets a = assets();
+    a.languages = {"en", "de"};
+    for (const std::size_t laboratories : {5U, 12U, 24U, 60U}) {
+        const std::string text = pdf_text(render_pdf(one_item(laboratories), a));
+        if (text.empty()) {
+            GTEST_SKIP() << "pdftotext is missing: the pages of the PDF were not read back";
+        }
+        const auto page_ends = [&](std::size_t page) { return text.find("page " + std::to_string(page) + " of "); };
+        const std::size_t second = page_ends(1);
+        ASSERT_NE(page_ends(2), std::string::npos);
+        // Where the answer needs more than its page, the report goes on behind it.
+        EXPECT_THAT(text.substr(second, page_ends(2) - second), HasSubstr("How to read the scores")) << laboratories;
+        // The last sentence never stands alone.
+        const std::size_t last = text.find("End of comparison report");
+        ASSERT_NE(last, std::string::npos);
+        std::size_t pages = 1;
+        while (page_ends(pages) < last) {
+            ++pages;
+        }
+        const std::size_t from = page_ends(pages - 1);
+        EXPECT_THAT(text.substr(from, last - from), HasSubstr("Input data")) << laboratories;
+    }
 }
 
 TEST(ReferenceComparisonSection, HoldsVerdictAndCompanionNumbers) {

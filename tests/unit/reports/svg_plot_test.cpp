@@ -191,6 +191,49 @@ TEST(SvgPlot, AnAxisThatIsNoAngleHasDecimalTicks) {
     EXPECT_THAT(svg(plot), HasSubstr(">150</text>"));
 }
 
+TEST(SvgPlot, AMarginKeepsPointsOffTheFrame) {
+    Plot plot = one_panel(0.0, 3.0);  // from 0 to 180, and 3 is a tick
+    plot.panels[0].series[0].marker = PlotMarker::disc;
+    EXPECT_THAT(svg(plot), HasSubstr("<circle cx=\"50\""));
+    EXPECT_THAT(svg(plot), HasSubstr("<circle cx=\"670\" cy=\"42\""));
+    plot.margin = 8.0;
+    const std::string text = svg(plot);
+    EXPECT_THAT(text, HasSubstr("<circle cx=\"58\""));
+    EXPECT_THAT(text, HasSubstr("<circle cx=\"662\""));
+    EXPECT_THAT(text, Not(HasSubstr("cy=\"42\"")));
+}
+
+TEST(SvgPlot, NumbersOfPointsHaveWholeTicks) {
+    Plot plot = one_panel(-2.0, 3.0);
+    plot.x_is_number = true;
+    auto& points = plot.panels[0].series[0].points;
+    points = {{1.0, 0.0, 0.0}};
+    EXPECT_THAT(svg(plot), HasSubstr(">1</text>"));
+    EXPECT_THAT(svg(plot), HasSubstr(">2</text>"));
+    points.push_back({3.0, 0.5, 0.0});
+    EXPECT_THAT(svg(plot), HasSubstr(">3</text>"));
+    EXPECT_THAT(svg(plot), Not(HasSubstr(">1.5</text>")));
+    points.push_back({400.0, 0.5, 0.0});
+    EXPECT_THAT(svg(plot), HasSubstr(">400</text>"));
+}
+
+TEST(SvgPlot, AKeyThatIsTooLongHasSeveralLines) {
+    Plot plot = one_panel(-2.0, 3.0);
+    plot.panels[0].series[0].label = "one";
+    const std::string one = svg(plot);
+    EXPECT_THAT(one, HasSubstr("x=\"64\" y=\"13.5\""));
+    for (const char* name : {"工作間的三坐標測量機與溫度補償以及空氣折射率補償系統",
+                             "帶有折射率計的激光干涉儀與階梯規和環境站的組合系統"}) {
+        PlotSeries series = plot.panels[0].series[0];
+        series.label = name;
+        plot.panels[0].series.push_back(series);
+    }
+    const std::string three = svg(plot);
+    EXPECT_THAT(three, HasSubstr("x=\"64\" y=\"13.5\""));
+    EXPECT_THAT(three, HasSubstr("x=\"64\" y=\"29.5\""));
+    EXPECT_THAT(three, Not(HasSubstr("y=\"45.5\"")));
+}
+
 TEST(SvgPlot, RefusesNumbersThatAreNotFinite) {
     for (const double v : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {
         EXPECT_THROW(static_cast<void>(svg(one_panel(0.0, v))), gum::NoResultError);
