@@ -295,6 +295,21 @@ const BiasLineSummary* bias_of(const Comparison& comparison, const std::string& 
     return nullptr;
 }
 
+/// A plot without panels over the positions of the points. \param texts  its words: texts_title, texts_description
+Plot plot_over(const PositionAxis& axis, const PanelGrid& grid, const Comparison& comparison, const Wording& words,
+               const std::string& texts) {
+    return {.id = {},
+            .title = words.filled("plot", texts + "_title", method_names(comparison, words)).first(),
+            .description = words("plot", texts + "_description").first(),
+            .x_label = axis.title,
+            .panels = {},
+            .columns = grid.columns,
+            .panel_height = grid.panel_height,
+            .x_is_angle = axis.is_angle(comparison),
+            .x_is_number = axis.kind == PositionAxis::Kind::number,
+            .margin = k_margin};
+}
+
 }  // namespace
 
 std::string method_scores_plot(const Comparison& comparison, const std::string& id, const Wording& words) {
@@ -304,23 +319,14 @@ std::string method_scores_plot(const Comparison& comparison, const std::string& 
                      [](const ComparisonPoint& p) { return p.En.has_value(); })) {
         return "";
     }
-    const Wording::Values names = method_names(comparison, words);
     // A cross stands for what is beyond the axis, and for no direction.
     static constexpr std::array<PlotMarker, 4> k_markers = {PlotMarker::disc, PlotMarker::square, PlotMarker::triangle,
                                                             PlotMarker::ring};
     const bool together = directions.size() <= k_markers.size() && most_points(directions) <= k_many;
     const bool one_panel = together || directions.size() > k_most_panels;
     const PanelGrid grid(one_panel ? 1 : directions.size(), 180.0);
-    Plot plot{.id = id,
-              .title = words.filled("plot", "method_scores_title", names).first(),
-              .description = words("plot", "method_scores_description").first(),
-              .x_label = axis.title,
-              .panels = {},
-              .columns = grid.columns,
-              .panel_height = grid.panel_height,
-              .x_is_angle = axis.is_angle(comparison),
-              .x_is_number = axis.kind == PositionAxis::Kind::number,
-              .margin = k_margin};
+    Plot plot = plot_over(axis, grid, comparison, words, "method_scores");
+    plot.id = id;
     if (one_panel) {
         PlotPanel panel = score_panel(words);
         for (std::size_t i = 0; i < directions.size(); ++i) {
@@ -374,16 +380,8 @@ std::string method_values_plot(const Comparison& comparison, const std::string& 
     const AxisScale scale = AxisScale::of(most, k_most_of_axis);
     const Wording::Values names = method_names(comparison, words);
     const PanelGrid grid(directions.size(), 190.0);
-    Plot plot{.id = id,
-              .title = words.filled("plot", "method_values_title", names).first(),
-              .description = words("plot", "method_values_description").first(),
-              .x_label = axis.title,
-              .panels = {},
-              .columns = grid.columns,
-              .panel_height = grid.panel_height,
-              .x_is_angle = axis.is_angle(comparison),
-              .x_is_number = axis.kind == PositionAxis::Kind::number,
-              .margin = k_margin};
+    Plot plot = plot_over(axis, grid, comparison, words, "method_values");
+    plot.id = id;
     for (const Direction& direction : directions) {
         const std::string name = shortened(printable(direction.name), 14);
         PlotPanel panel{

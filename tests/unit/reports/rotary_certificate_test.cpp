@@ -2,6 +2,7 @@
 #include "reports/render.h"
 #include "tests/support/sample_record.h"
 #include "tests/unit/reports/document_text.h"
+#include "tests/unit/reports/view_blocks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,34 +27,6 @@ using ::testing::Not;
 json view_of(const EvaluationRecord& record) {
     std::ifstream file(std::string(GUMCERT_SOURCE_DIR) + "/templates/wording/en.json");
     return certificate_view(record, json::parse(file));
-}
-
-/// The table or figure with that id, or null.
-json block(const json& view, const char* kind, const std::string& id) {
-    for (const json& section : view["sections"]) {
-        for (const json& entry : section["blocks"]) {
-            if (!entry[kind].empty() && entry[kind][0]["id"] == id) {
-                return entry[kind][0];
-            }
-        }
-    }
-    return nullptr;
-}
-
-std::vector<std::vector<std::string>> rows_of(const json& view, const std::string& id) {
-    std::vector<std::vector<std::string>> rows;
-    const json table = block(view, "table", id);
-    if (table.is_null()) {
-        ADD_FAILURE() << "no table " << id;
-        return rows;
-    }
-    for (const json& row : table["rows"]) {
-        auto& cells = rows.emplace_back();
-        for (const json& cell : row["cells"]) {
-            cells.push_back(cell["text"]);
-        }
-    }
-    return rows;
 }
 
 std::string text_of(const EvaluationRecord& record) {

@@ -1,5 +1,6 @@
 #include "reports/record/canonical_json.h"
 #include "reports/record/evaluation_record.h"
+#include "tests/support/record_refusal.h"
 #include "tests/support/sample_comparison_record.h"
 
 #include <gmock/gmock.h>
@@ -19,20 +20,8 @@ namespace gumcert::reports {
 namespace {
 
 using nlohmann::json;
+using test::record_refusal;
 using ::testing::HasSubstr;
-
-std::string refusal(const std::string& text) {
-    try {
-        static_cast<void>(record_from_json(text, "record.json"));
-    } catch (const gum::InputError& e) {
-        std::string all;
-        for (const gum::Diagnostic& d : e.diagnostics()) {
-            all += d.code + " " + gum::message(d) + "\n";
-        }
-        return all;
-    }
-    return "accepted";
-}
 
 std::string write_refusal(const EvaluationRecord& record) {
     try {
@@ -124,7 +113,7 @@ json of_an_earlier_release() {
 
 TEST(ComparisonRecord, ARecordOfAnEarlierReleaseIsRead) {
     const json old = of_an_earlier_release();
-    EXPECT_EQ(refusal(old.dump()), "accepted");
+    EXPECT_EQ(record_refusal(old.dump()), "accepted");
     const EvaluationRecord r = record_from_json(old.dump(), "x");
     EXPECT_EQ(r.comparison->form, "rotary_table");
     EXPECT_EQ(r.comparison->unit, "um");
@@ -141,17 +130,17 @@ TEST(ComparisonRecord, ARecordOfAnEarlierReleaseIsRead) {
 TEST(ComparisonRecord, ARecordOfThisKindSaysItsForm) {
     json without_form = json::parse(to_canonical_json(test::sample_laboratories_record()));
     without_form["comparison"].erase("form");
-    EXPECT_THAT(refusal(without_form.dump()), HasSubstr("/comparison/form"));
+    EXPECT_THAT(record_refusal(without_form.dump()), HasSubstr("/comparison/form"));
     json without_comparison = json::parse(to_canonical_json(test::sample_methods_record()));
     without_comparison["comparison"] = nullptr;
-    EXPECT_THAT(refusal(without_comparison.dump()), HasSubstr("GC-RECORD-0017 record.json#/comparison"));
+    EXPECT_THAT(record_refusal(without_comparison.dump()), HasSubstr("GC-RECORD-0017 record.json#/comparison"));
 }
 
 TEST(ComparisonRecord, RefusesPartsThatDoNotFitTogether) {
     const auto refused = [](const EvaluationRecord& record, const std::function<void(json&)>& alter) {
         json r = json::parse(to_canonical_json(record));
         alter(r["comparison"]);
-        return refusal(r.dump());
+        return record_refusal(r.dump());
     };
     const EvaluationRecord between = test::sample_laboratories_record();
     const EvaluationRecord methods = test::sample_methods_record();
@@ -207,8 +196,16 @@ TEST(ComparisonRecord, RefusesWordsThatItDoesNotKnow) {
         json r = json::parse(
             to_canonical_json(between ? test::sample_laboratories_record() : test::sample_methods_record()));
         r["comparison"].at(json::json_pointer(pointer)) = word;
-        EXPECT_THAT(refusal(r.dump()), HasSubstr("GC-RECORD-0016 record.json#/comparison" + std::string(pointer) +
-                                                 " — \"" + word + "\" — must be one of"));
+        EXPECT_THAT(record_refusal(r.dump()), HasSubstr("GC-RECORD-0016 record.json#/comparison" +
+                                                        std::string(pointer) + " — \"" + word + "\" — must be one of"));
+    }
+}
+
+TEST(ComparisonRecord, RefusesACriterionWithoutItsVerdict) {
+    for (const char* const key : {"criterion", "criterion_met"}) {
+        json r = json::parse(to_canonical_json(test::sample_laboratories_record()));
+        r["comparison"]["items"][0][key] = nullptr;
+        EXPECT_THAT(record_refusal(r.dump()), HasSubstr("criterion and criterion_met stand together")) << key;
     }
 }
 
@@ -230,7 +227,7 @@ TEST(ComparisonRecord, RefusesIdsThatNameNothing) {
             }
             json r = record;
             r["comparison"].at(json::json_pointer(pointer)) = id;
-            const std::string told = refusal(r.dump());
+            const std::string told = record_refusal(r.dump());
             EXPECT_THAT(told, HasSubstr("GC-RECORD-0017 record.json#/comparison/")) << pointer;
             EXPECT_THAT(told, HasSubstr("must be one of the " + std::string(what))) << pointer;
         }
@@ -238,7 +235,7 @@ TEST(ComparisonRecord, RefusesIdsThatNameNothing) {
     for (const char* const side : {"first", "second"}) {
         json r = json::parse(to_canonical_json(test::sample_methods_record()));
         r["comparison"]["shared_sources"][0][side] = "another method";
-        EXPECT_THAT(refusal(r.dump()),
+        EXPECT_THAT(record_refusal(r.dump()),
                     HasSubstr("GC-RECORD-0017 record.json#/comparison/shared_sources/0/" + std::string(side) +
                               " — \"another method\" — must be one of the two methods"));
     }

@@ -1,6 +1,7 @@
 #include "reports/record/evaluation_record.h"
 
 #include "reports/record/canonical_json.h"
+#include "tests/support/record_refusal.h"
 #include "tests/support/sample_budget_record.h"
 #include "tests/support/sample_record.h"
 
@@ -19,20 +20,8 @@ namespace gumcert::reports {
 namespace {
 
 using nlohmann::json;
+using test::record_refusal;
 using ::testing::HasSubstr;
-
-std::string refusal(const std::string& text) {
-    try {
-        static_cast<void>(record_from_json(text, "record.json"));
-    } catch (const gum::InputError& e) {
-        std::string all;
-        for (const gum::Diagnostic& d : e.diagnostics()) {
-            all += d.code + " " + gum::message(d) + "\n";
-        }
-        return all;
-    }
-    return "accepted";
-}
 
 json sample_json() {
     return json::parse(to_canonical_json(test::sample_record()));
@@ -173,7 +162,7 @@ json of_the_first_release() {
 
 TEST(EvaluationRecord, ARotaryRecordOfTheFirstReleaseIsRead) {
     const json old = of_the_first_release();
-    EXPECT_EQ(refusal(old.dump()), "accepted");
+    EXPECT_EQ(record_refusal(old.dump()), "accepted");
     const EvaluationRecord r = record_from_json(old.dump(), "x");
     EXPECT_FALSE(r.rotary->iso230_2.has_value());
     EXPECT_TRUE(r.rotary->variance_components[0].used);
@@ -190,7 +179,7 @@ TEST(EvaluationRecord, RefusesPartsOfTheRotaryTableThatDoNotFit) {
     const auto refused = [](const std::function<void(json&)>& alter) {
         json r = sample_json();
         alter(r["rotary"]);
-        return refusal(r.dump());
+        return record_refusal(r.dump());
     };
     EXPECT_THAT(refused([](json& r) { r["iso230_2"]["M"] = 6.2; }),
                 HasSubstr("GC-RECORD-0016 record.json#/rotary/iso230_2/M — 6.2 — must be 6.1, as the parameter"));
@@ -272,7 +261,7 @@ TEST(EvaluationRecord, ReportsEveryProblemWithItsPointer) {
     r["results"]["O_y"]["u"] = -0.1;
     r["comparison"]["points"][2]["En"] = "0.4";
     r["audit"] = json::object();
-    const std::string all = refusal(r.dump());
+    const std::string all = record_refusal(r.dump());
     EXPECT_THAT(all, HasSubstr("GC-RECORD-0013 record.json#/rotary/errors/5/EBA — missing"));
     EXPECT_THAT(all, HasSubstr("GC-RECORD-0015 record.json#/rotary/errors/6/EXA/U — string — must be a number"));
     EXPECT_THAT(all, HasSubstr("GC-RECORD-0017 record.json#/rotary/set_up/O_um — 2 items — must be 3"));
@@ -285,22 +274,22 @@ TEST(EvaluationRecord, ReportsEveryProblemWithItsPointer) {
 }
 
 TEST(EvaluationRecord, RefusesAnotherSchemaBeforeAnythingElse) {
-    EXPECT_THAT(refusal(R"({"schema": "gumcert/record/2", "x": 1})"),
+    EXPECT_THAT(record_refusal(R"({"schema": "gumcert/record/2", "x": 1})"),
                 HasSubstr("GC-RECORD-0020 record.json#/schema — \"gumcert/record/2\""));
-    EXPECT_THAT(refusal("{}"), HasSubstr("GC-RECORD-0020"));
-    EXPECT_THAT(refusal("[1]"), HasSubstr("GC-RECORD-0015"));
+    EXPECT_THAT(record_refusal("{}"), HasSubstr("GC-RECORD-0020"));
+    EXPECT_THAT(record_refusal("[1]"), HasSubstr("GC-RECORD-0015"));
 }
 
 TEST(EvaluationRecord, RefusesTextsThatAreNotStrictJson) {
-    EXPECT_THAT(refusal(""), HasSubstr("GC-RECORD-0011"));
-    EXPECT_THAT(refusal(R"({"schema": )"), HasSubstr("GC-RECORD-0011"));
-    EXPECT_THAT(refusal(R"({"a": 1e999})"), HasSubstr("GC-RECORD-0011"));
-    EXPECT_THAT(refusal(R"({"a": NaN})"), HasSubstr("GC-RECORD-0011"));
-    EXPECT_THAT(refusal(R"({"a": 1} trailing)"), HasSubstr("GC-RECORD-0011"));
-    EXPECT_THAT(refusal("{\"a\": \"\xC3(\"}"), HasSubstr("GC-RECORD-0011"));
-    EXPECT_THAT(refusal(R"({"b": {"a": 1, "a": 2}, "b": 3})"), HasSubstr("GC-RECORD-0012 record.json#/b/a"));
-    EXPECT_THAT(refusal(std::string(100'000, '[')), HasSubstr("GC-RECORD-0018"));
-    EXPECT_THAT(refusal(std::string(k_max_record_bytes + 1, ' ')), HasSubstr("GC-RECORD-0010"));
+    EXPECT_THAT(record_refusal(""), HasSubstr("GC-RECORD-0011"));
+    EXPECT_THAT(record_refusal(R"({"schema": )"), HasSubstr("GC-RECORD-0011"));
+    EXPECT_THAT(record_refusal(R"({"a": 1e999})"), HasSubstr("GC-RECORD-0011"));
+    EXPECT_THAT(record_refusal(R"({"a": NaN})"), HasSubstr("GC-RECORD-0011"));
+    EXPECT_THAT(record_refusal(R"({"a": 1} trailing)"), HasSubstr("GC-RECORD-0011"));
+    EXPECT_THAT(record_refusal("{\"a\": \"\xC3(\"}"), HasSubstr("GC-RECORD-0011"));
+    EXPECT_THAT(record_refusal(R"({"b": {"a": 1, "a": 2}, "b": 3})"), HasSubstr("GC-RECORD-0012 record.json#/b/a"));
+    EXPECT_THAT(record_refusal(std::string(100'000, '[')), HasSubstr("GC-RECORD-0018"));
+    EXPECT_THAT(record_refusal(std::string(k_max_record_bytes + 1, ' ')), HasSubstr("GC-RECORD-0010"));
 }
 
 TEST(EvaluationRecord, ListsAtMostTwoHundredProblems) {
@@ -308,7 +297,7 @@ TEST(EvaluationRecord, ListsAtMostTwoHundredProblems) {
     for (json& row : r["rotary"]["errors"]) {
         row = {{"unknown", 1}};
     }
-    const std::string all = refusal(r.dump());
+    const std::string all = record_refusal(r.dump());
     EXPECT_THAT(all, HasSubstr("GC-RECORD-0019"));
     EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 201);
 }
@@ -384,14 +373,14 @@ TEST(BudgetRecord, ARecordFromBeforeTheseKeysIsRead) {
             row["printed"].erase(key);
         }
     }
-    EXPECT_EQ(refusal(r.dump()), "accepted");
+    EXPECT_EQ(record_refusal(r.dump()), "accepted");
 }
 
 TEST(BudgetRecord, RefusesPartsThatDoNotFitTogether) {
     const auto refused = [](const std::function<void(json&)>& alter) {
         json r = json::parse(to_canonical_json(test::sample_two_results_record()));
         alter(r);
-        return refusal(r.dump());
+        return record_refusal(r.dump());
     };
     EXPECT_THAT(refused([](json& r) { r["covariance"]["matrix"][1].erase(0); }),
                 HasSubstr("GC-RECORD-0017 record.json#/covariance/matrix/1 — 1 items — must be 2, one a name"));
@@ -417,7 +406,7 @@ TEST(BudgetRecord, RefusesPartsThatDoNotFitTogether) {
     const auto trials_refused = [](const std::function<void(json&)>& alter) {
         json r = json::parse(to_canonical_json(test::sample_budget_record()));
         alter(r["results"]["l"]["monte_carlo"]);
-        return refusal(r.dump());
+        return record_refusal(r.dump());
     };
     EXPECT_THAT(trials_refused([](json& m) { m["trials"] = 10; }),
                 HasSubstr("/histogram/counts — more than the trials"));
