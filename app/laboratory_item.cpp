@@ -270,7 +270,7 @@ std::string printed_criterion(double criterion, bool met) {
 /// stated uncertainties else; D where there is only a limit.
 std::string deciding_score(const LaboratoryData& data, const ComparisonItemEvaluation& evaluation) {
     if (evaluation.sigma_pt) {
-        return evaluation.criterion_met ? "z" : "z_prime";
+        return evaluation.criterion_met.value_or(true) ? "z" : "z_prime";
     }
     if (evaluation.u && !data.with_u().empty()) {
         return "En";
@@ -306,7 +306,7 @@ ComparisonItemEvaluation item_evaluation(const engine::ComparisonJob& job, const
     if (evaluation.sigma_pt && evaluation.u) {
         evaluation.criterion = *evaluation.u / *evaluation.sigma_pt;
         evaluation.criterion_met = *evaluation.criterion <= gum::k_assigned_value_criterion * k_rounding;
-        evaluation.printed.criterion = printed_criterion(*evaluation.criterion, evaluation.criterion_met);
+        evaluation.printed.criterion = printed_criterion(*evaluation.criterion, *evaluation.criterion_met);
     }
     evaluation.consistency = consistency_of(data, assigned);
     evaluation.estimates = reference_estimates(data, assigned);

@@ -133,7 +133,7 @@ void add_assigned_value(ItemMessages& messages) {
          .rule = "z is used up to 0.3, z' above (ISO 13528:2022, clause 9)",
          .action = "",
          .severity = gum::Severity::note},
-        [](const ComparisonItemEvaluation& item) { return !item.criterion_met; },
+        [](const ComparisonItemEvaluation& item) { return !item.criterion_met.value_or(true); },
         [](const ComparisonItemEvaluation& item) {
             return "u(X) is " + item.printed.criterion + " sigma_pt: z' decides";
         });

@@ -45,9 +45,10 @@ Text components_of(const Wording& words, const ComparisonItemEvaluation& item) {
 }
 
 Text criterion_text(const Wording& words, const ComparisonItemEvaluation& item) {
-    return item.printed.criterion.empty() ? Text()
-                                          : sentence(words, item.criterion_met ? "criterion_met" : "criterion_not_met",
-                                                     {{"criterion", words.number(item.printed.criterion)}});
+    return item.printed.criterion.empty()
+               ? Text()
+               : sentence(words, item.criterion_met.value_or(true) ? "criterion_met" : "criterion_not_met",
+                          {{"criterion", words.number(item.printed.criterion)}});
 }
 
 Text sigma_pt_text(const Wording& words, const ComparisonItemEvaluation& item) {

@@ -104,6 +104,10 @@ private:
                 report_(at.pointer("id"), in_quotes(of.id), "an item is listed once in a round");
             }
             check_consistency(at, of);
+            if (of.criterion.has_value() != of.criterion_met.has_value()) {
+                report_(at.pointer("criterion_met"), of.criterion_met ? "without criterion" : "missing",
+                        "criterion and criterion_met stand together");
+            }
             if (!of.reference_participant.empty()) {
                 participant(at, "reference_participant", of.reference_participant);
             }

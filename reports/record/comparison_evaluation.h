@@ -117,9 +117,9 @@ struct ComparisonItemEvaluation {
     std::optional<double> s_star = {};                     ///< robust standard deviation of the results (algorithm A)
     std::optional<double> pooled_standard_deviation = {};  ///< of replicates, algorithm S
     std::optional<double> sigma_pt = {}, delta_E = {};
-    std::string sigma_pt_method = {};      ///< "given", "percent" …; "" where there is no sigma_pt
-    std::optional<double> criterion = {};  ///< u(X) / σ_pt
-    bool criterion_met = true;             ///< ≤ 0.3: z is used, else z'
+    std::string sigma_pt_method = {};        ///< "given", "percent" …; "" where there is no sigma_pt
+    std::optional<double> criterion = {};    ///< u(X) / σ_pt
+    std::optional<bool> criterion_met = {};  ///< ≤ 0.3: z is used, else z'; stands together with `criterion`
     std::string score = {};  ///< that decides: "En", "zeta", "z", "z_prime", "D"; "" where none can be formed
     std::optional<HomogeneitySummary> homogeneity = {};
     std::optional<StabilitySummary> stability = {};

@@ -66,6 +66,7 @@ inline void add_sample_item(reports::Comparison& c, const std::string& id, const
     item.delta_E = 1.5 * spread;
     item.sigma_pt_method = "percent";
     item.criterion = 0.12;
+    item.criterion_met = true;
     item.score = "En";
     item.printed = {.value = decimals(value, 2),
                     .u = decimals(*item.u, 3),

@@ -217,7 +217,7 @@ TEST(EvaluateLaboratories, AlgorithmAWithRobustSigma) {
     EXPECT_NEAR(*item.sigma_pt, 0.284752, 5e-7);
     // u(X)/σ_pt = 1.25/√12 = 0.361: z' decides.
     EXPECT_EQ(item.score, "z_prime");
-    EXPECT_FALSE(item.criterion_met);
+    EXPECT_EQ(item.criterion_met, false);
     EXPECT_EQ(item.printed.criterion, "0.361");
     const reports::ComparisonPoint& eighth = comparison.points[7];
     EXPECT_NEAR(*eighth.z, (21.96 - 20.317012) / 0.284752, 1e-4);
@@ -470,6 +470,7 @@ TEST(EvaluateLaboratories, EqualResults) {
     }
     const reports::Comparison comparison = evaluated(job);
     EXPECT_FALSE(comparison.items[0].u);
+    EXPECT_FALSE(comparison.items[0].criterion_met) << "nothing is met that cannot be formed";
     EXPECT_EQ(comparison.items[0].printed.U, "");
     EXPECT_NEAR(*comparison.points[4].z, 2.0, 1e-12);
     EXPECT_EQ(laboratory_diagnostics(comparison).front().code, "GC-COMPARE-0126");
