@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/record_parts.h"
 #include "app/shared_sources.h"
 #include "gum/argument_check.h"
 #include "gum/coverage.h"
@@ -41,18 +42,6 @@ bool takes_independent_results(AssignedValueMethod method) {
            method == AssignedValueMethod::power_moderated_mean || method == AssignedValueMethod::vangel_rukhin;
 }
 
-/// Names of some participants for a message.
-std::string names_of(const engine::ComparisonJob& job, const LaboratoryData& data,
-                     const std::vector<std::size_t>& positions) {
-    constexpr std::size_t k_most_names = 5;
-    std::string names;
-    for (std::size_t i = 0; i < std::min(positions.size(), k_most_names); ++i) {
-        names += (i > 0 ? ", " : "") + job.participants[data.results[positions[i]]->participant].id;
-    }
-    return positions.size() > k_most_names ? names + " and " + std::to_string(positions.size() - k_most_names) + " more"
-                                           : names;
-}
-
 void require_usable(const engine::ComparisonJob& job, const LaboratoryData& data) {
     const engine::AssignedValueRequest& request = data.item->assigned_value;
     const std::string method = word_of(request.method);
@@ -61,10 +50,14 @@ void require_usable(const engine::ComparisonJob& job, const LaboratoryData& data
                     method + " is computed from the results", "Let results contribute, or give an assigned value.");
     }
     if (takes_uncertainties(request) && !data.all_have_u(data.contributing)) {
-        std::vector<std::size_t> without;
-        std::copy_if(data.contributing.begin(), data.contributing.end(), std::back_inserter(without),
-                     [&](std::size_t i) { return !data.has_u(i); });
-        gum::refuse("GC-COMPARE-0101", data.where, "no uncertainty is stated by " + names_of(job, data, without),
+        constexpr std::size_t k_most_names = 5;
+        std::vector<std::string> without;
+        for (const std::size_t i : data.contributing) {
+            if (!data.has_u(i)) {
+                without.push_back(job.participants[data.results[i]->participant].id);
+            }
+        }
+        gum::refuse("GC-COMPARE-0101", data.where, "no uncertainty is stated by " + listed(without, k_most_names),
                     method + " weighs results by their uncertainties",
                     "State u, or U and k, let these results not contribute, or take median or algorithm_a.");
     }
@@ -237,8 +230,8 @@ AssignedValue consensus(const engine::ComparisonJob& job, const LaboratoryData& 
             AssignedValue mean = linear_value(data, chosen, gum::arithmetic_mean(x));
             mean.degrees_of_freedom = static_cast<double>(chosen.size() - 1);
             if (!(*mean.u > 0.0)) {
-                mean.u =
-                    std::nullopt;  // equal results say that digits are missing, not that the value is exactly known
+                // Equal results say that digits are missing, not that the value is exactly known.
+                mean.u = std::nullopt;
             }
             return mean;
         }
@@ -276,7 +269,7 @@ AssignedValue consensus(const engine::ComparisonJob& job, const LaboratoryData& 
 AssignedValue assigned_value(const engine::ComparisonJob& job, const LaboratoryData& data) {
     const AssignedValueMethod method = data.item->assigned_value.method;
     AssignedValue assigned;
-    at_item(data.where, [&] {
+    at_place(data.where, [&] {
         if (method == AssignedValueMethod::reference) {
             assigned = value_of_reference_laboratory(data);
         } else if (method == AssignedValueMethod::given) {

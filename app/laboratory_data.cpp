@@ -5,6 +5,7 @@
 
 #include "app/laboratory_covariance.h"
 #include "app/method_side.h"
+#include "app/record_parts.h"
 #include "gum/argument_check.h"
 #include "gum/quantity/diagnostic.h"
 
@@ -129,28 +130,10 @@ std::vector<LaboratoryData> laboratory_data(const engine::ComparisonJob& job,
         find_contributing(job, data);
         data.covariance = laboratory_covariance(job, data, shared, data.ambiguous_sources);
         if (data.covariance.size() > 0) {
-            at_item(data.where, [&] { gum::require_results(data.at(data.with_u())); });
+            at_place(data.where, [&] { gum::require_results(data.at(data.with_u())); });
         }
     }
     return all;
-}
-
-void at_item(const std::string& where, const std::function<void()>& work) {
-    const auto placed = [&](std::vector<gum::Diagnostic> problems) {
-        for (gum::Diagnostic& problem : problems) {
-            if (!problem.where.starts_with(where)) {
-                problem.where = where + ", " + problem.where;
-            }
-        }
-        return problems;
-    };
-    try {
-        work();
-    } catch (const gum::InputError& refused) {
-        throw gum::InputError(placed(refused.diagnostics()));
-    } catch (const gum::NoResultError& failed) {
-        throw gum::NoResultError(placed(failed.diagnostics()));
-    }
 }
 
 }  // namespace gumcert::app

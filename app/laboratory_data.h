@@ -51,7 +51,4 @@ struct LaboratoryData {
                                                           const std::vector<engine::ComparisonResult>& results,
                                                           std::vector<reports::SharedSource>& shared);
 
-/// Does some work on an item; what gum refuses is told with the item.
-void at_item(const std::string& where, const std::function<void()>& work);
-
 }  // namespace gumcert::app

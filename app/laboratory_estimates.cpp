@@ -6,6 +6,7 @@
 #include <span>
 
 #include "app/comparison_print.h"
+#include "app/record_parts.h"
 #include "gum/comparison.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/random_effects.h"
@@ -190,7 +191,7 @@ std::optional<reports::ConsistencySummary> consistency_of(const LaboratoryData& 
                    assigned.not_consistent.end();
         });
     } else {
-        at_item(data.where, [&] { test = gum::consistency_test(data.at(tested), alpha); });
+        at_place(data.where, [&] { test = gum::consistency_test(data.at(tested), alpha); });
     }
     reports::ConsistencySummary summary = summary_of(*test, alpha);
     if (tested.size() <= k_most_results_of_pair_count) {

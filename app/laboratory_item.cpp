@@ -5,6 +5,7 @@
 
 #include "app/comparison_print.h"
 #include "app/laboratory_estimates.h"
+#include "app/record_parts.h"
 #include "gum/coverage.h"
 #include "gum/proficiency_scheme.h"
 #include "gum/quantity/diagnostic.h"
@@ -298,7 +299,7 @@ ComparisonItemEvaluation item_evaluation(const engine::ComparisonJob& job, const
     ComparisonItemEvaluation evaluation;
     evaluation.value = assigned.value;
     describe(job, data, assigned, evaluation);
-    at_item(data.where, [&] {
+    at_place(data.where, [&] {
         add_sigma_pt(data, evaluation);
         add_checks(data, evaluation);
     });

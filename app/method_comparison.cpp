@@ -95,15 +95,9 @@ Differences differences_of(const MethodComparison& comparison) {
         differences.reference.push_back({point.reference_value, point.reference_u, point.reference_U});
         differences.correlation.push_back(correlation_of(comparison, i));
         gum::ComparisonScore score;
-        try {
+        at_place(place_of(point, i), [&] {
             score = gum::score(differences.method.back(), differences.reference.back(), differences.correlation.back());
-        } catch (const gum::InputError& refused) {
-            std::vector<gum::Diagnostic> problems = refused.diagnostics();
-            for (gum::Diagnostic& problem : problems) {
-                problem.where = place_of(point, i) + ", " + problem.where;
-            }
-            throw gum::InputError(std::move(problems));
-        }
+        });
         // A settled E_n of 1 is one in every number that is computed from the differences.
         const bool at_limit = std::abs(score.en) == 1.0;
         all.d(at) = at_limit ? std::copysign(score.U_difference, score.en) : score.difference;

@@ -2,6 +2,7 @@
 
 #include <gumcert_build_info.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -38,16 +39,34 @@ std::string shortest(double value) {
     return {text.data(), end};
 }
 
-std::string listed(const std::vector<std::string>& names) {
+std::string listed(const std::vector<std::string>& names, std::size_t most) {
     std::string text;
-    for (const std::string& name : names) {
-        text += (text.empty() ? "" : ", ") + name;
+    for (std::size_t i = 0; i < std::min(names.size(), most); ++i) {
+        text += (i == 0 ? "" : ", ") + names[i];
     }
-    return text;
+    return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " more" : text;
 }
 
 std::string count_of(std::int64_t count, const std::string& noun) {
     return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+void at_place(const std::string& where, const std::function<void()>& work) {
+    const auto placed = [&](std::vector<gum::Diagnostic> problems) {
+        for (gum::Diagnostic& problem : problems) {
+            if (!problem.where.starts_with(where)) {
+                problem.where = where + ", " + problem.where;
+            }
+        }
+        return problems;
+    };
+    try {
+        work();
+    } catch (const gum::InputError& refused) {
+        throw gum::InputError(placed(refused.diagnostics()));
+    } catch (const gum::NoResultError& failed) {
+        throw gum::NoResultError(placed(failed.diagnostics()));
+    }
 }
 
 gum::MonteCarloOptions monte_carlo_options(const engine::MonteCarloRequest& asked, unsigned threads) {

@@ -4,6 +4,7 @@
 #include "gum/rounding.h"
 #include "reports/comparison_parts.h"
 #include "reports/comparison_plots.h"
+#include "reports/comparison_sections.h"
 #include "reports/printed_texts.h"
 
 #include <algorithm>
@@ -113,7 +114,7 @@ Text consistency_in_brief(const Wording& words, const ComparisonItemEvaluation& 
 void open_results(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared) {
     std::vector<std::string> names;
     for (const ComparisonPoint* p : compared.points) {
-        if (p->En && p->En_worst && std::abs(*p->En) <= 1.0 && std::abs(*p->En_worst) > 1.0) {
+        if (agreement_is_open(*p)) {
             names.push_back(p->participant);
         }
     }

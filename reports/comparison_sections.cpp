@@ -7,6 +7,7 @@
 #include "reports/comparison_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -145,6 +146,10 @@ void numbers_to_recompute(CertificateBuilder& builder, const Wording& words, con
 }
 
 }  // namespace
+
+bool agreement_is_open(const ComparisonPoint& point) {
+    return point.En && point.En_worst && std::abs(*point.En) <= 1.0 && std::abs(*point.En_worst) > 1.0;
+}
 
 void comparison_report_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     const Comparison& c = *record.comparison;

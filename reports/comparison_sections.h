@@ -6,6 +6,9 @@
 
 namespace gumcert::reports {
 
+/// E_n is not above 1, and is for the worst plausible correlation: whether the result agrees cannot be said.
+[[nodiscard]] bool agreement_is_open(const ComparisonPoint& point);
+
 /// The report of a job of kind comparison: a page with the answer, the graph and the table of scores first, then
 /// everything that is needed to recompute them.
 void comparison_report_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record);

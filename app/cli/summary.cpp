@@ -1,14 +1,15 @@
 #include "app/cli/summary.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
 
+#include "app/record_parts.h"
 #include "gum/quantity/unit.h"
+#include "reports/comparison_sections.h"
 
 namespace gumcert::cli {
 
@@ -86,11 +87,6 @@ std::string method_in_words(const std::string& method) {
     return words;
 }
 
-/// E_n is not above 1, and is for the worst plausible correlation: whether the result agrees cannot be said.
-bool is_open(const reports::ComparisonPoint& point) {
-    return point.En && point.En_worst && std::abs(*point.En) <= 1.0 && std::abs(*point.En_worst) > 1.0;
-}
-
 /// The score of a result that decides.
 std::string deciding_score(const reports::ComparisonPoint& point, const std::string& score) {
     const std::string& text = score == "z"         ? point.printed.z
@@ -107,11 +103,8 @@ const char* score_symbol(const std::string& score) {
 
 void print_names(const char* what, const std::vector<std::string>& names) {
     constexpr std::size_t k_most_names = 30;
-    const std::size_t shown = std::min(names.size(), k_most_names);
-    if (shown > 0) {
-        fmt::print("  {}: {}{}\n", what,
-                   fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
-                   names.size() > shown ? fmt::format(" and {} more", names.size() - shown) : "");
+    if (!names.empty()) {
+        fmt::print("  {}: {}\n", what, app::listed(names, k_most_names));
     }
 }
 
@@ -127,9 +120,8 @@ void print_item(const reports::Comparison& comparison, const reports::Comparison
                with_uncertainty(item.printed.value, item.printed.U, item.unit, item.difference_unit),
                item.printed.k.empty() ? "" : "   (k = " + item.printed.k + ", p = " + coverage + ")");
     if (item.consistency) {
-        fmt::print("  consistency: chi-square {} on {} {} of freedom, p = {}{}\n", item.consistency->printed.chi_square,
-                   item.consistency->degrees_of_freedom,
-                   item.consistency->degrees_of_freedom == 1 ? "degree" : "degrees", item.consistency->printed.p_value,
+        fmt::print("  consistency: chi-square {} on {} of freedom, p = {}{}\n", item.consistency->printed.chi_square,
+                   app::count_of(item.consistency->degrees_of_freedom, "degree"), item.consistency->printed.p_value,
                    item.consistency->consistent ? "" : "   NOT consistent");
     }
     print_names("without a result", item.missing);
@@ -150,8 +142,9 @@ void print_item(const reports::Comparison& comparison, const reports::Comparison
         if (!item.score.empty()) {
             fmt::print("   {} {:>6}", score_symbol(item.score), deciding_score(point, item.score));
         }
-        fmt::print("{}{}\n", point.signal == "none" || point.signal.empty() ? "" : "   " + point.signal,
-                   is_open(point) ? "   " + point.printed.En_worst + " for the worst correlation" : "");
+        fmt::print(
+            "{}{}\n", point.signal == "none" || point.signal.empty() ? "" : "   " + point.signal,
+            reports::agreement_is_open(point) ? "   " + point.printed.En_worst + " for the worst correlation" : "");
     }
     if (left_out > 0) {
         fmt::print("  … and {} more, all of them in the record\n", left_out);
