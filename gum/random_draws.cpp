@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "gum/argument_check.h"
+#include "gum/correlated_normal.h"
 #include "gum/distribution_quantile.h"
 #include "gum/propagation.h"
 #include "gum/quantity/diagnostic.h"
@@ -498,6 +499,13 @@ void report_problems(const InputGroup& group, std::vector<Diagnostic>& problems)
     if (marginals.empty()) {
         return;
     }
+    if (group.dependence == Dependence::joint_samples &&
+        (!group.samples || group.samples->rows() < 1 || group.samples->cols() != group.size())) {
+        report("GC-GUM-0123", "joint samples without a column for each quantity",
+               "a group that is drawn by rows has one column of samples for each of its quantities",
+               "Give the samples.");
+        return;
+    }
     if (marginals.size() != static_cast<std::size_t>(group.size())) {
         report("GC-GUM-0122",
                std::to_string(marginals.size()) + " distributions for " + std::to_string(group.size()) + " quantities",
@@ -546,32 +554,6 @@ void report_problems(const InputGroup& group, std::vector<Diagnostic>& problems)
                    "State the dependence, for example a Gaussian copula.");
         }
     }
-}
-
-/// L with L Lᵀ = R for a positive semi-definite R; a column whose pivot is rounding only is 0.
-Eigen::MatrixXd semidefinite_root(const Eigen::MatrixXd& R) {
-    const Eigen::Index n = R.rows();
-    const double tolerance = 10.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
-    Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, n);
-    for (Eigen::Index j = 0; j < n; ++j) {
-        double pivot = R(j, j);
-        for (Eigen::Index k = 0; k < j; ++k) {
-            pivot -= L(j, k) * L(j, k);
-        }
-        if (!(pivot > tolerance)) {
-            continue;
-        }
-        const double root = std::sqrt(pivot);
-        L(j, j) = root;
-        for (Eigen::Index i = j + 1; i < n; ++i) {
-            double sum = R(i, j);
-            for (Eigen::Index k = 0; k < j; ++k) {
-                sum -= L(i, k) * L(j, k);
-            }
-            L(i, j) = sum / root;
-        }
-    }
-    return L;
 }
 
 /// Tables of one run, one for each shape that occurs. They are handed out empty, and filled together.
@@ -623,8 +605,20 @@ InputDraws::InputDraws(const std::vector<InputGroup>& groups, std::uint64_t seed
         report_streams(
             std::to_string(streams.size()) + " streams for " + std::to_string(groups.size()) + " input groups",
             "every group draws from one stream");
-    } else if (std::unordered_set<std::uint64_t>(streams.begin(), streams.end()).size() != streams.size()) {
-        report_streams("two groups have the same stream", "quantities of different groups are independent");
+    } else {
+        std::unordered_set<std::uint64_t> seen(streams.begin(), streams.end());
+        std::size_t count = streams.size();
+        for (const InputGroup& group : groups) {
+            for (const std::uint64_t own : group.own_streams) {
+                count += own == InputGroup::k_shared ? 0 : 1;
+                if (own != InputGroup::k_shared) {
+                    seen.insert(own);
+                }
+            }
+        }
+        if (seen.size() != count) {
+            report_streams("two groups have the same stream", "quantities of different groups are independent");
+        }
     }
     if (!problems.empty()) {
         throw InputError(std::move(problems));
@@ -638,7 +632,8 @@ InputDraws::InputDraws(const std::vector<InputGroup>& groups, std::uint64_t seed
         group.stream = streams.empty() ? g : streams[g];
         group.first = size_;
         group.dependence = from.dependence;
-        const bool correlated = has_correlation(from);
+        group.samples = from.dependence == Dependence::joint_samples ? from.samples : nullptr;
+        const bool correlated = has_correlation(from) && !group.samples;
         const bool needs_normal = correlated && from.dependence != Dependence::same_probability;
         for (const Distribution& marginal : marginals_of(from)) {
             Quantity quantity{.marginal = marginal, .table = nullptr};
@@ -646,7 +641,7 @@ InputDraws::InputDraws(const std::vector<InputGroup>& groups, std::uint64_t seed
                                    marginal.kind != DistributionKind::uniform &&
                                    marginal.kind != DistributionKind::empirical;
             const bool drawn_by_table = !needs_normal || from.dependence == Dependence::gaussian_copula;
-            if (tabulated && drawn_by_table) {
+            if (tabulated && drawn_by_table && !group.samples) {
                 quantity.table = cache.table(marginal);
             }
             if (marginal.kind == DistributionKind::student_t) {
@@ -655,7 +650,19 @@ InputDraws::InputDraws(const std::vector<InputGroup>& groups, std::uint64_t seed
             group.quantities.push_back(std::move(quantity));
         }
         if (correlated) {
-            group.root = semidefinite_root(correlation_matrix(from.covariance));
+            const Eigen::MatrixXd correlation =
+                from.dependence == Dependence::gaussian_copula && from.normal_correlation.size() > 0
+                    ? from.normal_correlation
+                    : correlation_matrix(from.covariance);
+            group.root = semidefinite_root(correlation);
+            if (!from.own_streams.empty()) {
+                std::vector<bool> is_given;
+                for (const std::uint64_t own : from.own_streams) {
+                    is_given.push_back(own == InputGroup::k_shared);
+                }
+                group.own_streams = from.own_streams;
+                group.conditional = conditional_normal(correlation, is_given);
+            }
         }
         if (needs_normal) {
             normal_ = cache.table(Distribution::normal(0.0, 1.0));
@@ -796,6 +803,7 @@ void InputDraws::draw_correlated(const Group& group, std::uint64_t first, Eigen:
             }
         }
     }
+    draw_own(group, first, x);
     if (group.chi_square) {
         Eigen::ArrayXd factor(trials);
         draw_standard(*group.chi_square, group.stream, static_cast<std::uint64_t>(n), first, trials, factor.data());
@@ -832,9 +840,56 @@ void InputDraws::draw_correlated(const Group& group, std::uint64_t first, Eigen:
     }
 }
 
+void InputDraws::draw_own(const Group& group, std::uint64_t first, Eigen::Ref<Eigen::MatrixXd> x) const {
+    if (!group.conditional) {
+        return;
+    }
+    const ConditionalNormal& conditional = *group.conditional;
+    const auto count = static_cast<Eigen::Index>(conditional.others.size());
+    Eigen::MatrixXd own(x.rows(), count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const auto position = static_cast<std::size_t>(conditional.others[static_cast<std::size_t>(i)]);
+        draw_standard(*normal_, group.own_streams[position], 0, first, x.rows(), own.col(i).data());
+    }
+    for (Eigen::Index i = count - 1; i >= 0; --i) {
+        double* column = x.col(group.first + conditional.others[static_cast<std::size_t>(i)]).data();
+        std::fill(column, column + x.rows(), 0.0);
+        for (std::size_t g = 0; g < conditional.given.size(); ++g) {
+            add_multiple(conditional.coefficients(i, static_cast<Eigen::Index>(g)),
+                         x.col(group.first + conditional.given[g]).data(), x.rows(), column);
+        }
+        for (Eigen::Index k = 0; k <= i; ++k) {
+            add_multiple(conditional.root(i, k), own.col(k).data(), x.rows(), column);
+        }
+    }
+}
+
+void InputDraws::draw_rows(const Group& group, std::uint64_t first, Eigen::Ref<Eigen::MatrixXd> x) const {
+    const Eigen::MatrixXd& samples = *group.samples;
+    const auto rows = static_cast<std::uint64_t>(samples.rows());
+    in_chunks(
+        first, x.rows(),
+        [&](std::uint64_t trial, Eigen::Index words, std::uint32_t* to) {
+            draw_words(group.stream, 0, trial, words, to);
+        },
+        [&](Eigen::Index offset, const std::uint32_t* words, std::uint64_t trial, Eigen::Index here) {
+            for (Eigen::Index i = 0; i < here; ++i) {
+                // 32 bits give each of a million rows its probability within 0.03 %; more rows, more bits.
+                const double bits = rows > (std::uint64_t{1} << 20U)
+                                        ? more_bits(group.stream, 0, trial + static_cast<std::uint64_t>(i))
+                                        : 0.5;
+                const double p = (static_cast<double>(words[i]) + bits) * k_word;
+                const auto row = std::min(static_cast<std::uint64_t>(p * static_cast<double>(rows)), rows - 1);
+                x.row(offset + i).segment(group.first, samples.cols()) = samples.row(static_cast<Eigen::Index>(row));
+            }
+        });
+}
+
 void InputDraws::draw(std::uint64_t first, Eigen::Ref<Eigen::MatrixXd> x) const {
     for (const Group& group : groups_) {
-        if (group.root.size() == 0) {
+        if (group.samples) {
+            draw_rows(group, first, x);
+        } else if (group.root.size() == 0) {
             draw_independent(group, first, x);
         } else {
             draw_correlated(group, first, x);

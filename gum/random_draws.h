@@ -4,9 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "gum/correlated_normal.h"
 #include "gum/quantity/distribution.h"
 #include "gum/quantity/measurement_model.h"
 
@@ -76,8 +78,13 @@ private:
 ///   (JCGM 101:2008, 6.4.8.4); L by Cholesky steps that pass over the columns of a singular matrix, so that r = ±1
 ///   gives the same deviate to the last bit
 /// - student_t: x = μ + D L z √(ν/w), one w from χ²_ν a group and trial (JCGM 102:2011, 5.3.2)
-/// - gaussian_copula: x_j = G_j⁻¹(Φ((L z)_j)). The correlation of the x is then not exactly that of the group.
+/// - gaussian_copula: x_j = G_j⁻¹(Φ((L z)_j)), L Lᵀ = InputGroup::normal_correlation
 /// - same_probability: all take the quantile of one probability; the sign of a correlation is not looked at
+/// - joint_samples: a row of the samples a trial
+///
+/// Quantities with a stream of their own (InputGroup::own_streams) get normal deviates that are drawn anew, given those
+/// of the shared quantities: L z of the whole group is drawn first, so that shared quantities have the same values
+/// whichever others are not.
 class InputDraws {
 public:
     /// \param streams  one number a group; empty: the index of the group
@@ -106,10 +113,15 @@ private:
         Eigen::MatrixXd root;  // n×n lower triangular, of the correlation matrix; empty: independent quantities
         double degrees_of_freedom = 0.0;
         std::shared_ptr<const QuantileTable> chi_square;  // gamma with shape ν/2
+        std::shared_ptr<const Eigen::MatrixXd> samples;   // joint samples
+        std::vector<std::uint64_t> own_streams;           // as InputGroup
+        std::optional<ConditionalNormal> conditional;     // where there are own streams
     };
 
     void draw_independent(const Group& group, std::uint64_t first, Eigen::Ref<Eigen::MatrixXd> x) const;
     void draw_correlated(const Group& group, std::uint64_t first, Eigen::Ref<Eigen::MatrixXd> x) const;
+    void draw_own(const Group& group, std::uint64_t first, Eigen::Ref<Eigen::MatrixXd> x) const;
+    void draw_rows(const Group& group, std::uint64_t first, Eigen::Ref<Eigen::MatrixXd> x) const;
     void draw_column(const Quantity& quantity, std::uint64_t stream, std::uint64_t index, std::uint64_t first,
                      Eigen::Index count, double* column) const;
     void draw_table(const QuantileTable& table, std::uint64_t stream, std::uint64_t index, std::uint64_t first,

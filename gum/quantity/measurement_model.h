@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 
+#include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,8 +18,9 @@ enum class Evaluation { type_a, type_b };  ///< how a standard uncertainty was o
 enum class Dependence {
     normal,            ///< multivariate normal (JCGM 101:2008, 6.4.8); all marginals are normal
     student_t,         ///< multivariate t (JCGM 102:2011, 5.3.2); all marginals are t with the same ν
-    gaussian_copula,   ///< any marginals, correlation of the underlying normal deviates; a choice, and recorded as one
+    gaussian_copula,   ///< any marginals over correlated normal deviates; a choice, and recorded as one
     same_probability,  ///< all take the quantile of one probability: r = 1 for marginals of one shape
+    joint_samples,     ///< one row of `InputGroup::samples` a trial, each with the same probability
 };
 
 /// Input quantities that share one source of uncertainty and one covariance block.
@@ -41,6 +44,14 @@ struct InputGroup {
     /// the quantities are correlated, `dependence` says how they are tied together.
     std::vector<Distribution> marginals = {};
     Dependence dependence = Dependence::normal;
+    /// Gaussian copula: correlation of the normal deviates behind the quantities, n×n; empty: that of `covariance`.
+    Eigen::MatrixXd normal_correlation = {};
+    /// Joint samples: a row a sample, a column a quantity, [unit].
+    std::shared_ptr<const Eigen::MatrixXd> samples = {};
+    /// Where test points share some quantities of a correlated group and not others: the random stream from which a
+    /// quantity is drawn at this point alone, given those that are shared; k_shared for these. Empty: none.
+    static constexpr std::uint64_t k_shared = ~std::uint64_t{0};
+    std::vector<std::uint64_t> own_streams = {};
 
     [[nodiscard]] Eigen::Index size() const { return value.size(); }
     [[nodiscard]] bool is_diagonal() const { return covariance.cols() == 1 && value.size() != 1; }

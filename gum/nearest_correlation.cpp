@@ -1,0 +1,48 @@
+#include "gum/nearest_correlation.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+
+namespace gumcert::gum {
+
+namespace {
+
+constexpr int k_most_steps = 500;
+constexpr double k_epsilon = std::numeric_limits<double>::epsilon();
+/// Smallest eigenvalue that the projection leaves: above 0, so that the box of the tolerances is reached in a finite
+/// number of steps.
+constexpr double k_floor = 1e-11;
+
+}  // namespace
+
+bool is_positive_semidefinite(const Eigen::MatrixXd& correlation) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation, Eigen::EigenvaluesOnly);
+    const Eigen::Index n = correlation.rows();
+    return eigen.eigenvalues()(0) >= -10.0 * static_cast<double>(n) * k_epsilon * eigen.eigenvalues()(n - 1);
+}
+
+std::optional<Eigen::MatrixXd> nearest_correlation(const Eigen::MatrixXd& correlation,
+                                                   const Eigen::MatrixXd& tolerance) {
+    Eigen::MatrixXd boxed = correlation;
+    Eigen::MatrixXd of_cone = Eigen::MatrixXd::Zero(correlation.rows(), correlation.cols());  // corrections
+    Eigen::MatrixXd of_box = of_cone;
+    for (int step = 0; step < k_most_steps; ++step) {
+        if (is_positive_semidefinite(boxed)) {
+            return boxed;
+        }
+        const Eigen::MatrixXd before_cone = boxed - of_cone;
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(before_cone);
+        const Eigen::MatrixXd positive = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(k_floor).asDiagonal() *
+                                         eigen.eigenvectors().transpose();
+        of_cone = positive - before_cone;
+        const Eigen::MatrixXd before_box = positive - of_box;
+        boxed = before_box.cwiseMax(correlation - tolerance).cwiseMin(correlation + tolerance);
+        boxed = (0.5 * (boxed + boxed.transpose())).eval();
+        boxed.diagonal().setOnes();
+        of_box = boxed - before_box;
+    }
+    return std::nullopt;
+}
+
+}  // namespace gumcert::gum
