@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <utility>
 
+#include "gum/copula_correlation.h"
 #include "gum/coverage.h"
+#include "gum/nearest_correlation.h"
+#include "gum/propagation.h"
+#include "gum/rounding.h"
 
 namespace gumcert::app {
 
@@ -22,6 +27,13 @@ using gum::InputGroup;
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t k_streams_an_input = 4096;  // more components than an input may have
+
+constexpr double k_attained = 1e-9;  // beyond the largest coefficient of correlation: rounding
+
+/// Of random numbers: of one component of an input, at one point of a table or of all that share it.
+std::uint64_t stream_of(std::size_t input, std::size_t component, std::optional<std::size_t> point) {
+    return (point ? std::uint64_t{*point + 1} << 32U : std::uint64_t{0}) + input * k_streams_an_input + component;
+}
 
 std::string shown(double degrees_of_freedom) {
     if (std::isinf(degrees_of_freedom)) {
@@ -59,14 +71,6 @@ std::vector<std::vector<std::size_t>> clusters(const BudgetJob& job) {
     return members;
 }
 
-/// The distribution of a whole input that is drawn together with others.
-Distribution whole_distribution(const BudgetInput& input, const InputTotal& total) {
-    if (input.components.size() == 1) {
-        return input.components.front().distribution;
-    }
-    return Distribution::student_t(total.value, total.u, total.degrees_of_freedom);
-}
-
 gum::Evaluation evaluation_of(const BudgetInput& input) {
     const bool all_a = std::all_of(input.components.begin(), input.components.end(),
                                    [](const StatedQuantity& q) { return q.evaluation == gum::Evaluation::type_a; });
@@ -87,75 +91,186 @@ InputGroup single_group(const std::string& name, const BudgetInput& input, const
     return group;
 }
 
-/// Adds inputs that are correlated with each other as one group.
-void add_correlated(const BudgetJob& job, const std::vector<std::size_t>& members, std::optional<std::size_t> point,
-                    BudgetInputs& result) {
+std::string printed_coefficient(double r) {
+    return gum::round_to_quantum(r, 4);
+}
+
+/// A component of an input, as it stands in a group.
+struct Member {
+    std::size_t input = 0;
+    std::size_t component = 0;
+    const BudgetInput* stated = nullptr;
+
+    [[nodiscard]] const StatedQuantity& quantity() const { return stated->components[component]; }
+    [[nodiscard]] std::string name() const {
+        return stated->components.size() == 1 ? stated->name : stated->name + ": " + quantity().name;
+    }
+};
+
+std::vector<Member> members_of(const BudgetJob& job, const std::vector<std::size_t>& inputs,
+                               std::optional<std::size_t> point) {
+    std::vector<Member> members;
+    for (const std::size_t input : inputs) {
+        const BudgetInput& stated = input_at(job, input, point);
+        for (std::size_t c = 0; c < stated.components.size(); ++c) {
+            members.push_back({input, c, &stated});
+        }
+    }
+    return members;
+}
+
+/// Values, marginals and quantities of a group, and a covariance without correlations.
+void begin_group(const std::vector<Member>& members, InputGroup& group, BudgetInputs& result) {
     const auto n = static_cast<Eigen::Index>(members.size());
-    InputGroup group;
     group.unit = "mixed units";
     group.evaluation = gum::Evaluation::type_a;
     group.value.resize(n);
-    Eigen::VectorXd u(n);
-    std::vector<double> degrees_of_freedom;
+    group.covariance = Eigen::MatrixXd::Zero(n, n);
     for (Eigen::Index i = 0; i < n; ++i) {
-        const std::size_t index = members[static_cast<std::size_t>(i)];
-        const BudgetInput& input = input_at(job, index, point);
-        const InputTotal total = input_total(input);
-        group.name += (group.name.empty() ? "" : ", ") + input.name;
-        if (evaluation_of(input) == gum::Evaluation::type_b) {
+        const Member& member = members[static_cast<std::size_t>(i)];
+        const StatedQuantity& quantity = member.quantity();
+        if (i == 0 || members[static_cast<std::size_t>(i - 1)].input != member.input) {
+            group.name += (group.name.empty() ? "" : ", ") + member.stated->name;
+        }
+        if (evaluation_of(*member.stated) == gum::Evaluation::type_b) {
             group.evaluation = gum::Evaluation::type_b;
         }
-        group.value(i) = total.value;
-        u(i) = total.u;
-        degrees_of_freedom.push_back(total.degrees_of_freedom);
-        group.marginals.push_back(whole_distribution(input, total));
-        result.quantities.push_back({index, BudgetQuantity::k_whole});
+        group.value(i) = quantity.value;
+        group.covariance(i, i) = quantity.u * quantity.u;
+        group.marginals.push_back(quantity.distribution);
+        result.quantities.push_back({member.input, member.component});
     }
-    group.covariance = u.array().square().matrix().asDiagonal();
-    const auto position = [&](std::size_t input) {
-        return static_cast<Eigen::Index>(std::find(members.begin(), members.end(), input) - members.begin());
-    };
-    for (const engine::InputCorrelation& correlation : job.correlations) {
-        const Eigen::Index a = position(correlation.first);
-        const Eigen::Index b = position(correlation.second);
-        if (a < n && b < n) {
-            group.covariance(a, b) = group.covariance(b, a) = correlation.r * u(a) * u(b);
-        }
-    }
+}
 
-    // Degrees of freedom. Inputs that were observed together, and nothing else, are an ensemble by construction.
-    const auto observed =
-        std::find_if(job.simultaneous.begin(), job.simultaneous.end(), [&](const engine::SimultaneousInputs& set) {
-            std::vector<std::size_t> sorted = set.inputs;
-            std::sort(sorted.begin(), sorted.end());
-            return sorted == members;
-        });
-    const bool all_equal = std::all_of(degrees_of_freedom.begin(), degrees_of_freedom.end(),
-                                       [&](double nu) { return nu == degrees_of_freedom.front(); });
-    if (observed != job.simultaneous.end()) {
+void add_note(BudgetInputs& result, const std::string& code, const std::string& inputs, std::string what,
+              std::string rule, std::string action) {
+    result.notes.push_back({.code = code,
+                            .where = "inputs " + inputs,
+                            .what = std::move(what),
+                            .rule = std::move(rule),
+                            .action = std::move(action),
+                            .severity = gum::Severity::note});
+}
+
+/// Degrees of freedom of a group of correlated inputs as one contribution.
+void set_degrees_of_freedom(const BudgetJob& job, const std::vector<std::size_t>& inputs,
+                            std::optional<std::size_t> point, const engine::SimultaneousInputs* observed,
+                            InputGroup& group, BudgetInputs& result) {
+    if (observed != nullptr) {
         group.degrees_of_freedom = static_cast<double>(observed->observations - 1);
-    } else if (all_equal) {
-        group.degrees_of_freedom = degrees_of_freedom.front();
-        if (!std::isinf(group.degrees_of_freedom)) {
-            result.notes.push_back(
-                {.code = "GC-BUDGET-0010",
-                 .where = "inputs " + group.name,
-                 .what = "correlated, with " + shown(group.degrees_of_freedom) + " degrees of freedom each",
-                 .rule = "taken as one ensemble of observations, which has that number as a whole",
-                 .action = "State `simultaneous` observations where there are some.",
-                 .severity = gum::Severity::note});
-        }
-    } else {
-        group.degrees_of_freedom = std::numeric_limits<double>::quiet_NaN();
-        group.no_degrees_of_freedom_because =
-            "the correlated inputs " + group.name + " have different degrees of freedom (";
-        for (std::size_t i = 0; i < degrees_of_freedom.size(); ++i) {
-            group.no_degrees_of_freedom_because += (i == 0 ? "" : ", ") + shown(degrees_of_freedom[i]);
-        }
-        group.no_degrees_of_freedom_because += "), and the Welch-Satterthwaite formula holds for independent ones only";
+        return;
     }
+    double least = k_infinity;
+    double most = 0.0;
+    std::string all;
+    for (const std::size_t input : inputs) {
+        const double nu = input_total(input_at(job, input, point)).degrees_of_freedom;
+        least = std::min(least, nu);
+        most = std::max(most, nu);
+        all += (all.empty() ? "" : ", ") + shown(nu);
+    }
+    group.degrees_of_freedom = least;
+    if (least == most && !std::isinf(least)) {
+        add_note(result, "GC-BUDGET-0010", group.name, "correlated, with " + shown(least) + " degrees of freedom each",
+                 "taken as one ensemble of observations, which has that number as a whole",
+                 "State `simultaneous` observations where there are some.");
+    } else if (least < most) {
+        add_note(
+            result, "GC-BUDGET-0012", group.name,
+            "correlated, with different degrees of freedom (" + all + "); " + shown(least) +
+                " are taken for all of them together",
+            "the Welch-Satterthwaite formula holds for independent contributions (JCGM 100:2008, G.4.1); the least "
+            "number claims no more than is known",
+            "State `simultaneous` observations where there are some.");
+    }
+}
 
-    // What Monte Carlo draws.
+/// Correlations of the normal deviates that give the components of a group the coefficients of its covariance.
+/// \throws InputError  GC-BUDGET-0002
+void set_copula(const std::vector<Member>& members, InputGroup& group, BudgetInputs& result) {
+    const auto n = static_cast<Eigen::Index>(members.size());
+    const Eigen::MatrixXd R = gum::correlation_matrix(group.covariance);
+    std::vector<std::optional<gum::HermiteProfile>> profiles(members.size());
+    const gum::HermiteProfile normal(Distribution::normal(0.0, 1.0));
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        if (members[i].quantity().u > 0.0 && members[i].quantity().distribution.kind != DistributionKind::constant) {
+            profiles[i].emplace(members[i].quantity().distribution);
+        }
+    }
+    const auto is_t = [&](std::size_t i) {
+        return members[i].quantity().distribution.kind == DistributionKind::student_t;
+    };
+    Eigen::MatrixXd N = Eigen::MatrixXd::Identity(n, n);
+    std::vector<Diagnostic> problems;
+    for (Eigen::Index row = 0; row < n; ++row) {
+        for (Eigen::Index column = 0; column < row; ++column) {
+            const auto i = static_cast<std::size_t>(column);
+            const auto j = static_cast<std::size_t>(row);
+            const double r = R(row, column);
+            if (r == 0.0 || !profiles[i] || !profiles[j]) {
+                continue;
+            }
+            // Degrees of freedom say how well u is known, not what the quantity is like: t counts as normal here.
+            const gum::HermiteProfile& a = is_t(i) ? normal : *profiles[i];
+            const gum::HermiteProfile& b = is_t(j) ? normal : *profiles[j];
+            const auto [lowest, highest] = gum::HermiteProfile::attainable(a, b);
+            if (r < lowest - k_attained || r > highest + k_attained) {
+                problems.push_back(
+                    {.code = "GC-BUDGET-0002",
+                     .where = "inputs " + members[i].name() + " and " + members[j].name(),
+                     .what = "correlated with r = " + printed_coefficient(r) + ", as " +
+                             std::string(gum::distribution_name(members[i].quantity().distribution.kind)) + " and " +
+                             std::string(gum::distribution_name(members[j].quantity().distribution.kind)),
+                     .rule = "two quantities with these distributions have a coefficient from " +
+                             printed_coefficient(lowest) + " to " + printed_coefficient(highest),
+                     .action = "Correct the coefficient, or state distributions of one shape."});
+                continue;
+            }
+            N(row, column) = profiles[i]->has_correlation() && profiles[j]->has_correlation()
+                                 ? gum::HermiteProfile::normal_correlation(*profiles[i], *profiles[j], r)
+                                 : r;
+            N(column, row) = N(row, column);
+        }
+    }
+    if (!problems.empty()) {
+        throw gum::InputError(std::move(problems));
+    }
+    if (!gum::is_positive_semidefinite(N)) {
+        const auto nearest = gum::nearest_correlation(N, Eigen::MatrixXd::Constant(n, n, 2.0));
+        if (!nearest) {
+            throw gum::InputError(
+                Diagnostic{.code = "GC-BUDGET-0002",
+                           .where = "inputs " + group.name,
+                           .what = "the coefficients of correlation cannot hold together for these distributions",
+                           .rule = "quantities are drawn by correlated normal deviates, whose matrix is positive "
+                                   "semi-definite",
+                           .action = "Correct the coefficients, or state distributions of one shape."});
+        }
+        double most = 0.0;
+        for (Eigen::Index row = 0; row < n; ++row) {
+            for (Eigen::Index column = 0; column < row; ++column) {
+                const auto i = static_cast<std::size_t>(column);
+                const auto j = static_cast<std::size_t>(row);
+                if (profiles[i] && profiles[j] && profiles[i]->has_correlation() && profiles[j]->has_correlation()) {
+                    const double r = gum::HermiteProfile::pearson(*profiles[i], *profiles[j], (*nearest)(row, column));
+                    most = std::max(most, std::abs(r - R(row, column)));
+                }
+            }
+        }
+        N = *nearest;
+        add_note(result, "GC-BUDGET-0014", group.name,
+                 "no correlated normal deviates give all the stated coefficients; Monte Carlo has the nearest that "
+                 "exist, off by " +
+                     gum::round_significant(most, 2) + " at most",
+                 "a correlation matrix is positive semi-definite",
+                 "Correct the coefficients if they are not meant so.");
+    }
+    group.normal_correlation = std::move(N);
+}
+
+/// What Monte Carlo draws of a group of correlated inputs.
+void set_dependence(const BudgetJob& job, const std::vector<Member>& members,
+                    const engine::SimultaneousInputs* observed, InputGroup& group, BudgetInputs& result) {
     const auto all_of_kind = [&](DistributionKind kind) {
         return std::all_of(group.marginals.begin(), group.marginals.end(),
                            [&](const Distribution& marginal) { return marginal.kind == kind; });
@@ -163,7 +278,9 @@ void add_correlated(const BudgetJob& job, const std::vector<std::size_t>& member
     const bool same_shape = std::all_of(group.marginals.begin(), group.marginals.end(), [&](const Distribution& m) {
         return m.shape == group.marginals.front().shape;
     });
-    if (observed != job.simultaneous.end() && all_of_kind(DistributionKind::student_t)) {
+    const bool single = std::all_of(members.begin(), members.end(),
+                                    [](const Member& member) { return member.stated->components.size() == 1; });
+    if (observed != nullptr && all_of_kind(DistributionKind::student_t)) {
         const std::size_t inputs = members.size();
         if (observed->observations <= inputs) {
             if (job.monte_carlo) {
@@ -179,33 +296,170 @@ void add_correlated(const BudgetJob& job, const std::vector<std::size_t>& member
         } else {
             const auto nu = static_cast<double>(observed->observations - inputs);
             const double widening = std::sqrt(static_cast<double>(observed->observations - 1) / nu);
-            for (Eigen::Index i = 0; i < n; ++i) {
-                group.marginals[static_cast<std::size_t>(i)] =
-                    Distribution::student_t(group.value(i), u(i) * widening, nu);
+            for (std::size_t i = 0; i < members.size(); ++i) {
+                group.marginals[i] = Distribution::student_t(
+                    group.value(static_cast<Eigen::Index>(i)),
+                    std::sqrt(group.covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i))) * widening,
+                    nu);
             }
         }
         group.dependence = Dependence::student_t;
     } else if (all_of_kind(DistributionKind::normal)) {
         group.dependence = Dependence::normal;
-    } else if (all_of_kind(DistributionKind::student_t) && same_shape) {
+    } else if (all_of_kind(DistributionKind::student_t) && same_shape && single) {
         group.dependence = Dependence::student_t;
     } else {
         group.dependence = Dependence::gaussian_copula;
+        set_copula(members, group, result);
         if (job.monte_carlo) {
-            result.notes.push_back(
-                {.code = "GC-BUDGET-0011",
-                 .where = "inputs " + group.name,
-                 .what = "correlated, and not all normal or all t with one number of degrees of freedom",
-                 .rule = "Monte Carlo joins them by a Gaussian copula: the coefficients stated are "
-                         "those of the normal deviates behind them",
-                 .action = "State samples of the joint distribution where it is known.",
-                 .severity = gum::Severity::note});
+            add_note(result, "GC-BUDGET-0011", group.name,
+                     "correlated, and not all normal or all t with one number of degrees of freedom",
+                     "Monte Carlo joins them by a Gaussian copula that gives them the stated coefficients of "
+                     "correlation; a coefficient does not say what else they have in common",
+                     "State samples of the joint distribution where it is known.");
         }
     }
     group.distribution = group.dependence == Dependence::normal      ? "normal"
                          : group.dependence == Dependence::student_t ? "student_t"
                                                                      : "Gaussian copula";
+}
+
+/// Adds inputs that are correlated with each other as one group of their components.
+void add_correlated(const BudgetJob& job, const std::vector<std::size_t>& inputs, std::optional<std::size_t> point,
+                    BudgetInputs& result) {
+    const std::vector<Member> members = members_of(job, inputs, point);
+    InputGroup group;
+    begin_group(members, group, result);
+    // r u_a u_b is the covariance of two inputs; each component has the part of it that its variance has in that of its
+    // input: r (u_i²/u_a)(u_j²/u_b).
+    std::map<std::pair<std::size_t, std::size_t>, double> r_of;
+    for (const engine::InputCorrelation& correlation : job.correlations) {
+        r_of.emplace(std::pair{correlation.first, correlation.second}, correlation.r);
+    }
+    std::map<std::size_t, double> u_of;
+    for (const std::size_t input : inputs) {
+        u_of.emplace(input, input_total(input_at(job, input, point)).u);
+    }
+    for (std::size_t j = 0; j < members.size(); ++j) {
+        for (std::size_t i = 0; i < j; ++i) {
+            const auto found = r_of.find({members[i].input, members[j].input});
+            if (found == r_of.end()) {
+                continue;
+            }
+            const auto part = [&](const Member& member) {
+                const double u = member.quantity().u;
+                return member.stated->components.size() == 1 ? u : u * (u / u_of.at(member.input));
+            };
+            const auto a = static_cast<Eigen::Index>(i);
+            const auto b = static_cast<Eigen::Index>(j);
+            group.covariance(a, b) = group.covariance(b, a) = found->second * part(members[i]) * part(members[j]);
+        }
+    }
+    // Inputs that were observed together, and nothing else, are an ensemble by construction.
+    const auto observed =
+        std::find_if(job.simultaneous.begin(), job.simultaneous.end(), [&](const engine::SimultaneousInputs& set) {
+            std::vector<std::size_t> sorted = set.inputs;
+            std::sort(sorted.begin(), sorted.end());
+            return sorted == inputs;
+        });
+    const engine::SimultaneousInputs* set = observed == job.simultaneous.end() ? nullptr : &*observed;
+    set_degrees_of_freedom(job, inputs, point, set, group, result);
+    set_dependence(job, members, set, group, result);
+
+    // Where some of the inputs are common to all points and others are not, these are drawn given those.
+    const auto is_own = [&](const Member& member) { return point && !member.stated->common; };
+    const bool any_shared = !std::all_of(members.begin(), members.end(), is_own);
+    result.streams.push_back(stream_of(members.front().input, 0, any_shared ? std::nullopt : point));
+    if (any_shared && std::any_of(members.begin(), members.end(), is_own)) {
+        for (const Member& member : members) {
+            group.own_streams.push_back(is_own(member) ? stream_of(member.input, member.component, point)
+                                                       : InputGroup::k_shared);
+        }
+    }
     result.groups.push_back(std::move(group));
+}
+
+/// Adds quantities whose samples come from one file as one group that is drawn by rows.
+void add_joint_samples(const std::vector<Member>& members, std::optional<std::size_t> point, BudgetInputs& result) {
+    InputGroup group;
+    begin_group(members, group, result);
+    const auto n = static_cast<Eigen::Index>(members.size());
+    const auto rows = static_cast<Eigen::Index>(members.front().quantity().sample_rows->size());
+    Eigen::MatrixXd samples(rows, n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+        const std::vector<double>& column = *members[static_cast<std::size_t>(j)].quantity().sample_rows;
+        samples.col(j) = Eigen::Map<const Eigen::VectorXd>(column.data(), rows);
+    }
+    const Eigen::MatrixXd deviations = samples.rowwise() - group.value.transpose();
+    std::string coefficients;
+    for (Eigen::Index j = 0; j < n; ++j) {
+        for (Eigen::Index i = 0; i < j; ++i) {
+            // Divisor n, as u of samples has it.
+            const double covariance = deviations.col(i).dot(deviations.col(j)) / static_cast<double>(rows);
+            const double scale = std::sqrt(group.covariance(i, i)) * std::sqrt(group.covariance(j, j));
+            group.covariance(i, j) = group.covariance(j, i) = std::clamp(covariance, -scale, scale);
+            coefficients += (coefficients.empty() ? "r(" : ", r(") + members[static_cast<std::size_t>(i)].name() +
+                            ", " + members[static_cast<std::size_t>(j)].name() +
+                            ") = " + printed_coefficient(group.covariance(i, j) / scale);
+        }
+    }
+    group.samples = std::make_shared<const Eigen::MatrixXd>(std::move(samples));
+    group.dependence = Dependence::joint_samples;
+    group.distribution = "joint samples";
+    group.degrees_of_freedom = static_cast<double>(rows - 1);
+    add_note(result, "GC-BUDGET-0013", group.name,
+             "samples of the file " + members.front().quantity().sample_file +
+                 ", taken together row by row: " + coefficients,
+             "the columns of one file of samples are one joint distribution",
+             "Put samples that do not belong together into files of their own.");
+    const bool is_own = point && !members.front().stated->common;
+    result.streams.push_back(
+        stream_of(members.front().input, members.front().component, is_own ? point : std::nullopt));
+    result.groups.push_back(std::move(group));
+}
+
+/// Quantities with samples of one file, in the order of the inputs; those that a point states apart from the others.
+/// \throws InputError  GC-BUDGET-0003
+std::vector<std::vector<Member>> joint_samples(const BudgetJob& job, std::optional<std::size_t> point) {
+    std::map<std::pair<std::string, bool>, std::vector<Member>> by_file;
+    for (std::size_t i = 0; i < job.inputs.size(); ++i) {
+        const BudgetInput& stated = input_at(job, i, point);
+        for (std::size_t c = 0; c < stated.components.size(); ++c) {
+            if (stated.components[c].sample_rows) {
+                by_file[{stated.components[c].sample_file, stated.common}].push_back({i, c, &stated});
+            }
+        }
+    }
+    std::vector<std::vector<Member>> joint;
+    std::vector<Diagnostic> problems;
+    for (auto& [key, members] : by_file) {
+        if (members.size() < 2) {
+            continue;
+        }
+        for (const engine::InputCorrelation& correlation : job.correlations) {
+            const auto has = [&](std::size_t input) {
+                return std::any_of(members.begin(), members.end(), [&](const Member& m) { return m.input == input; });
+            };
+            if (has(correlation.first) || has(correlation.second)) {
+                const bool both = has(correlation.first) && has(correlation.second);
+                problems.push_back(
+                    {.code = "GC-BUDGET-0003",
+                     .where =
+                         "inputs " + job.inputs[correlation.first].name + " and " + job.inputs[correlation.second].name,
+                     .what = "r = " + printed_coefficient(correlation.r) + " is stated beside samples of the file " +
+                             key.first,
+                     .rule = both ? "the rows of the file say how its columns are correlated"
+                                  : "quantities that are drawn by the rows of a file can be correlated with others by "
+                                    "its columns only",
+                     .action = both ? "Remove the correlation." : "Add a column for the other input to the file."});
+            }
+        }
+        joint.push_back(std::move(members));
+    }
+    if (!problems.empty()) {
+        throw gum::InputError(std::move(problems));
+    }
+    return joint;
 }
 
 }  // namespace
@@ -346,24 +600,33 @@ InputTotal input_total(const BudgetInput& input) {
 BudgetInputs budget_inputs(const BudgetJob& job, const std::vector<engine::CurveFit>& fits,
                            std::optional<std::size_t> point) {
     BudgetInputs result;
-    const auto stream_of = [&](std::size_t input, std::size_t component) {
-        const bool own = point && !input_at(job, input, point).common;
-        return (own ? std::uint64_t{*point + 1} << 32U : std::uint64_t{0}) + input * k_streams_an_input + component;
+    std::vector<std::vector<Member>> joint = joint_samples(job, point);
+    const auto group_of = [&](std::size_t input, std::size_t component) {
+        return std::find_if(joint.begin(), joint.end(), [&](const std::vector<Member>& members) {
+            return std::any_of(members.begin(), members.end(), [&](const Member& member) {
+                return member.input == input && member.component == component;
+            });
+        });
     };
     for (const std::vector<std::size_t>& members : clusters(job)) {
         if (members.size() > 1) {
-            result.streams.push_back(stream_of(members.front(), 0));
             add_correlated(job, members, point, result);
             continue;
         }
         const std::size_t index = members.front();
         const BudgetInput& input = input_at(job, index, point);
         for (std::size_t c = 0; c < input.components.size(); ++c) {
+            if (const auto together = group_of(index, c); together != joint.end()) {
+                if (together->front().input == index && together->front().component == c) {
+                    add_joint_samples(*together, point, result);
+                }
+                continue;
+            }
             const std::string& component = input.components[c].name;
             result.groups.push_back(single_group(component.empty() ? input.name : input.name + ": " + component, input,
                                                  input.components[c]));
             result.quantities.push_back({index, c});
-            result.streams.push_back(stream_of(index, c));
+            result.streams.push_back(stream_of(index, c, input.common ? std::nullopt : point));
         }
     }
     std::size_t symbol = job.inputs.size();

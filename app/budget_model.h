@@ -21,8 +21,8 @@ struct BudgetSymbol {
     gum::Unit unit;
 };
 
-/// One quantity that the law of propagation and Monte Carlo treat as one: a component of an input, a whole input where
-/// it is correlated with others, or a parameter of a fit.
+/// One quantity that the law of propagation and Monte Carlo treat as one: a component of an input, or a parameter of a
+/// fit.
 struct BudgetQuantity {
     static constexpr std::size_t k_whole = std::numeric_limits<std::size_t>::max();
     std::size_t symbol = 0;
@@ -68,15 +68,26 @@ struct BudgetInputs {
 /// Symbols of a job, in the order of its inputs and fits.
 [[nodiscard]] std::vector<BudgetSymbol> budget_symbols(const engine::BudgetJob& job);
 
-/// Puts the inputs into groups: inputs tied by correlations form one, every other component is one of its own.
+/// Puts the components of the inputs into groups: those of inputs tied by correlations form one, and those with samples
+/// of one file; every other component is one of its own. A job without a component for an input counts as one.
+///
+/// The correlation r of two inputs belongs to all of their components in proportion to their standard uncertainties,
+/// r u_i u_j/(u_a u_b): components of one input stay independent of each other, and the input keeps the distribution of
+/// their sum.
 ///
 /// Degrees of freedom of a correlated group: n − 1 of inputs observed together, the common ν of inputs that all have
-/// the same one (an ensemble in the sense of Willink 2007, Metrologia 44, 340-349), infinite when all are; none
-/// otherwise. Drawn by Monte Carlo as multivariate normal, multivariate t (observed together: ν = n − N, JCGM
-/// 102:2011, 5.3.2) or Gaussian copula; a note tells when it is the last. \param fits   one for each fit of the job
+/// the same one (an ensemble in the sense of Willink 2007, Metrologia 44, 340-349), else the least of them, which
+/// claims no more than is known. Drawn by Monte Carlo as multivariate normal, multivariate t (observed together: ν = n
+/// − N, JCGM 102:2011, 5.3.2) or Gaussian copula with the stated coefficients of correlation; notes tell what was
+/// chosen.
+///
+/// Points that share some inputs of a correlated group draw the others by themselves, given those that they share.
+/// \param fits   one for each fit of the job
 /// \param point  position in job.points, or nothing
 /// \throws NoResultError  GC-BUDGET-0001 where fewer than N + 1 observations of N inputs were taken together and Monte
 ///                        Carlo is asked for
+/// \throws InputError     GC-BUDGET-0002 for a correlation that the distributions of its inputs cannot have,
+///                        GC-BUDGET-0003 for one that contradicts joint samples
 [[nodiscard]] BudgetInputs budget_inputs(const engine::BudgetJob& job, const std::vector<engine::CurveFit>& fits,
                                          std::optional<std::size_t> point);
 

@@ -53,14 +53,14 @@ InputValues values_of(const engine::BudgetJob& job, std::size_t input) {
     return out;
 }
 
-/// P(Y ≤ x) of an output that bounded inputs dominate, x in its unit.
+/// P(Y ≤ x) of an output whose k comes from the convolution, x in its unit.
 std::function<double(double)> convolution_of(const BudgetPointResult& point, Eigen::Index output,
                                              const gum::Unit& unit) {
-    const auto dominated = gum::expand_dominated_output(*point.model, point.propagation, output);
-    if (!dominated) {
+    const auto terms = gum::convolution_terms(*point.model, point.propagation, output);
+    if (!terms) {
         return {};
     }
-    return [distribution = gum::ConvolutionDistribution(dominated->terms), centre = point.propagation.value(output),
+    return [distribution = gum::ConvolutionDistribution(*terms), centre = point.propagation.value(output),
             unit](double x) { return distribution(unit.to_si(x) - centre); };
 }
 

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <unordered_map>
 #include <utility>
 
+#include "app/budget_coverage.h"
 #include "app/record_parts.h"
-#include "gum/coverage.h"
 
 namespace gumcert::app {
 
@@ -29,8 +28,7 @@ constexpr Eigen::Index k_most_inputs_of_second_order = 1000;  // the matrices of
 constexpr std::size_t k_most_points_with_histogram = 4;       // documents draw no more
 constexpr double k_numerical_errors = 5.0;                    // beyond doubt
 constexpr double k_most_of_the_variance = 0.5;
-constexpr double k_accepted_asymmetry = 0.02;               // of half the width: below what two digits of U show
-constexpr double k_rounding_of_degrees_of_freedom = 1e-12;  // 3.999…9 is 4
+constexpr double k_accepted_asymmetry = 0.02;  // of half the width: below what two digits of U show
 
 /// The equation of a fit as the curve of the adjustment.
 class EquationCurve final : public engine::Curve {
@@ -134,57 +132,6 @@ double coverage_probability_of(const BudgetJob& job, const std::string& output) 
         }
     }
     return job.coverage_probability;
-}
-
-std::string names_of(const BudgetModel& model, const std::vector<std::size_t>& groups) {
-    std::string names;
-    for (const std::size_t g : groups) {
-        names += (names.empty() ? "" : " and ") + model.inputs()[g].name;
-    }
-    return names;
-}
-
-/// k and U of one output from the law of propagation.
-void expand(const BudgetJob& job, const BudgetPointResult& point, Eigen::Index output, BudgetOutputResult& result) {
-    const double u = point.propagation.standard_uncertainty(output);
-    result.standard_uncertainty = u;
-    result.degrees_of_freedom = point.propagation.effective_degrees_of_freedom(output);
-    if (std::isnan(result.degrees_of_freedom)) {
-        result.coverage = "none";
-        Eigen::Index g = 0;
-        for (const gum::InputGroup& group : point.model->inputs()) {
-            if (std::isnan(group.degrees_of_freedom) &&
-                point.propagation.budget[static_cast<std::size_t>(g)].variance(output) > 0.0) {
-                result.coverage_note = group.no_degrees_of_freedom_because;
-            }
-            ++g;
-        }
-        return;
-    }
-    if (u == 0.0 && point.second_order && point.second_order->standard_uncertainty(output) > 0.0) {
-        result.standard_uncertainty = point.second_order->standard_uncertainty(output);
-        result.coverage = "none";
-        result.coverage_note =
-            "the first-order terms of the law of propagation vanish at these estimates; u is that of the second-order "
-            "terms, and the distribution of the result is not known from them";
-        return;
-    }
-    if (const auto dominated = gum::expand_dominated_output(*point.model, point.propagation, output)) {
-        result.coverage = "convolution";
-        result.coverage_note = "the bounded distribution of " + names_of(*point.model, dominated->dominating) +
-                               " dominates, so that k is taken from the convolution of all distributions";
-        result.coverage_factor = dominated->coverage_factor;
-        result.expanded_uncertainty = dominated->expanded_uncertainty;
-        return;
-    }
-    result.coverage = std::isinf(result.degrees_of_freedom) ? "normal" : "student_t";
-    double nu = result.degrees_of_freedom;
-    if (job.truncate_degrees_of_freedom && std::isfinite(nu) && nu >= 1.0) {
-        nu = std::floor(nu * (1.0 + k_rounding_of_degrees_of_freedom));
-        result.coverage_note = "k is taken for the next lower whole number of degrees of freedom";
-    }
-    result.coverage_factor = gum::coverage_factor(result.coverage_probability, nu);
-    result.expanded_uncertainty = *result.coverage_factor * u;
 }
 
 bool changes(const BudgetPointResult& point, Eigen::Index output, double change, double shift) {
@@ -387,7 +334,7 @@ BudgetPointResult evaluate_point(const BudgetJob& job, const std::optional<gum::
         output.coverage_probability = coverage_probability_of(job, result.output_names[i]);
         const auto index = static_cast<Eigen::Index>(i);
         point.propagation.coverage_probability = output.coverage_probability;
-        expand(job, point, index, output);
+        expand_by_propagation(job, point, index, output);
         output.second_order_matters = changes(point, index, k_reported_change, k_reported_shift);
         point.outputs.push_back(std::move(output));
     }
@@ -400,29 +347,6 @@ BudgetPointResult evaluate_point(const BudgetJob& job, const std::optional<gum::
     }
     warn(job, point, at ? " at point " + job.points[*at].name : "", result);
     return point;
-}
-
-/// A group of inputs as points share it: its columns of the Jacobian, standard uncertainties and correlations.
-struct SharedGroup {
-    Eigen::Index column = 0;
-    Eigen::VectorXd u;
-    Eigen::MatrixXd correlation;
-};
-
-/// The groups of a point by their stream of random numbers.
-std::unordered_map<std::uint64_t, SharedGroup> shared_groups(const BudgetPointResult& point) {
-    std::unordered_map<std::uint64_t, SharedGroup> groups;
-    Eigen::Index column = 0;
-    for (std::size_t g = 0; g < point.streams.size(); ++g) {
-        const gum::InputGroup& group = point.model->inputs()[g];
-        const Eigen::MatrixXd V =
-            group.is_diagonal() ? Eigen::MatrixXd(group.covariance.col(0).asDiagonal()) : group.covariance;
-        groups.emplace(
-            point.streams[g],
-            SharedGroup{.column = column, .u = V.diagonal().cwiseSqrt(), .correlation = gum::correlation_matrix(V)});
-        column += group.size();
-    }
-    return groups;
 }
 
 }  // namespace
@@ -462,40 +386,6 @@ BudgetResult evaluate_budget(const BudgetJob& job, unsigned threads,
         result.points.push_back(evaluate_point(job, system, p, threads, progress, result));
     }
     return result;
-}
-
-Eigen::MatrixXd budget_covariance(const BudgetResult& result) {
-    const auto m = static_cast<Eigen::Index>(result.output_names.size());
-    const auto points = static_cast<Eigen::Index>(result.points.size());
-    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(m * points, m * points);
-    std::vector<std::unordered_map<std::uint64_t, SharedGroup>> groups;  // once a point, not once a pair of them
-    for (const BudgetPointResult& point : result.points) {
-        groups.push_back(shared_groups(point));
-    }
-    for (Eigen::Index a = 0; a < points; ++a) {
-        const BudgetPointResult& first = result.points[static_cast<std::size_t>(a)];
-        covariance.block(a * m, a * m, m, m) = first.propagation.covariance;
-        for (Eigen::Index b = a + 1; b < points; ++b) {
-            const BudgetPointResult& second = result.points[static_cast<std::size_t>(b)];
-            Eigen::MatrixXd block = Eigen::MatrixXd::Zero(m, m);
-            // One quantity that both points share is one stream of random numbers; its uncertainty may differ between
-            // them (percent of reading).
-            for (const std::uint64_t stream : first.streams) {
-                const SharedGroup& here = groups[static_cast<std::size_t>(a)].at(stream);
-                const auto there = groups[static_cast<std::size_t>(b)].find(stream);
-                const Eigen::Index n = here.u.size();
-                if (there != groups[static_cast<std::size_t>(b)].end() && there->second.u.size() == n) {
-                    const Eigen::MatrixXd common =
-                        here.u.asDiagonal() * here.correlation * there->second.u.asDiagonal();
-                    block += first.propagation.jacobian.middleCols(here.column, n) * common *
-                             second.propagation.jacobian.middleCols(there->second.column, n).transpose();
-                }
-            }
-            covariance.block(a * m, b * m, m, m) = block;
-            covariance.block(b * m, a * m, m, m) = block.transpose();
-        }
-    }
-    return covariance;
 }
 
 }  // namespace gumcert::app

@@ -27,6 +27,8 @@ struct BudgetOutputResult {
     std::optional<double> expanded_uncertainty;
     std::string coverage;  ///< as reports::Result::coverage
     std::string coverage_note;
+    /// Where k comes from the convolution: how far the middle of its interval lies from the estimate, in parts of U.
+    double asymmetry = 0.0;
     bool second_order_matters = false;
     std::optional<gum::MonteCarloOutput> monte_carlo;
     std::uint64_t trials = 0;
@@ -60,8 +62,5 @@ struct BudgetResult {
 /// \throws InputError, NoResultError
 [[nodiscard]] BudgetResult evaluate_budget(const engine::BudgetJob& job, unsigned threads,
                                            const std::function<void(const std::string&)>& progress = {});
-
-/// Covariance of all results, points one after the other: (points · outputs) square, coherent SI.
-[[nodiscard]] Eigen::MatrixXd budget_covariance(const BudgetResult& result);
 
 }  // namespace gumcert::app

@@ -1,5 +1,6 @@
 #include "app/evaluate_job.h"
 
+#include "app/budget_covariance.h"
 #include "app/budget_record.h"
 #include "app/certificate_inputs.h"
 #include "app/certify.h"

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "app/budget_covariance.h"
 #include "app/budget_record.h"
 #include "engine/job/budget_job.h"
 #include "engine/job/input_codes.h"

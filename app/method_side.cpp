@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "app/budget_covariance.h"
 #include "app/budget_record.h"
 #include "app/evaluate_budget.h"
 #include "gum/quantity/diagnostic.h"

@@ -12,33 +12,47 @@
 
 namespace gumcert::gum {
 
-/// A term c X of a sum of independent quantities; only the distribution about its centre matters.
+/// A term c X of a sum of independent quantities; only the distribution about its centre matters: the location of a
+/// symmetric distribution, the expectation of any other.
 struct ConvolutionTerm {
-    double sensitivity = 1.0;   ///< c, [unit of y / unit of x]
-    Distribution distribution;  ///< symmetric about its location
+    double sensitivity = 1.0;  ///< c, [unit of y / unit of x]
+    Distribution distribution;
 };
 
-/// Half-width U with P(|Σ c_i (X_i − x_i)| ≤ U) = p, for independent quantities with symmetric distributions.
+/// Ends of an interval about 0, [unit of y].
+struct ConvolutionInterval {
+    double low = 0.0;
+    double high = 0.0;
+};
+
+/// The probabilistically symmetric interval of Σ c_i (X_i − x_i) for independent quantities: P(below) = P(above) =
+/// (1 − p)/2.
 ///
-/// The distributions are convolved numerically: probabilities of cells of a grid, multiplied as Fourier transforms. All
-/// normal terms enter as one.
-/// \return U, [unit of y]
-/// \throws InputError  GC-GUM-0004 for p; GC-GUM-0060 without a term of scale > 0, or with one that is not symmetric
-/// Accuracy: relative error below 2e-6 where no term has a t-distribution with fewer than 3 degrees of freedom.
+/// Symmetric distributions with a known characteristic function: the Fourier series of the distribution on a wide
+/// interval. Others, and where that series falls slowly: probabilities of cells of a grid, multiplied as Fourier
+/// transforms. All normal terms enter as one; a single symmetric term by its quantile.
+/// \throws InputError  GC-GUM-0004 for p; GC-GUM-0060 without a term of scale > 0, or with one that has a problem
+/// Accuracy: relative error below 2e-6 of symmetric terms, of t-distributions from ν = 2 on; 1e-4 of others, 5e-3 from
+/// ν = 1 on.
+[[nodiscard]] ConvolutionInterval convolution_interval(std::span<const ConvolutionTerm> terms,
+                                                       double coverage_probability);
+
+/// Half of its width: of symmetric terms the U with P(|Σ c_i (X_i − x_i)| ≤ U) = p.
 [[nodiscard]] double convolution_half_width(std::span<const ConvolutionTerm> terms, double coverage_probability);
 
-/// P(Σ c_i (X_i − x_i) ≤ x), for independent quantities with symmetric distributions: what a decision on conformity
-/// needs where bounded inputs dominate.
+/// P(Σ c_i (X_i − x_i) ≤ x), for independent quantities: what a decision on conformity needs where k comes from the
+/// convolution.
 ///
 /// The widest term enters by its own distribution function, so that the edges of a rectangular distribution stay where
 /// they are; the others are convolved numerically about it. Copies share the table and are cheap; threads may share it.
 class ConvolutionDistribution {
 public:
-    /// \throws InputError  GC-GUM-0060 without a term of scale > 0, or with one that is not symmetric
+    /// \throws InputError  GC-GUM-0060 without a term of scale > 0, or with one that has a problem
     explicit ConvolutionDistribution(std::span<const ConvolutionTerm> terms);
 
     /// \param x  [unit of y], not NaN
-    /// Accuracy: absolute error below 1e-6 where no term has a t-distribution with fewer than 3 degrees of freedom.
+    /// Accuracy: absolute error below 1e-6 where no term has a t-distribution with fewer than 3 degrees of freedom, or
+    /// samples.
     [[nodiscard]] double operator()(double x) const;
 
 private:
@@ -49,22 +63,29 @@ private:
 /// The same for one x. \throws InputError  as the class
 [[nodiscard]] double convolution_distribution(std::span<const ConvolutionTerm> terms, double x);
 
-/// Expanded uncertainty of an output whose distribution is not normal because bounded inputs dominate it.
-struct DominatedOutput {
-    double expanded_uncertainty = 0.0;
-    double coverage_factor = 0.0;         ///< U / u(y)
-    std::vector<std::size_t> dominating;  ///< groups, one or two, the larger one first
-    std::vector<ConvolutionTerm> terms;   ///< all inputs: the distribution of Y − y is their convolution
+/// Expanded uncertainty of an output from the distribution of the sum of its contributions.
+struct ConvolvedOutput {
+    double expanded_uncertainty = 0.0;  ///< half the width of the probabilistically symmetric interval
+    double coverage_factor = 0.0;       ///< U / u(y)
+    double asymmetry = 0.0;  ///< where the middle of that interval lies beside y, in parts of U; 0: symmetric
 };
 
-/// One or two inputs with bounded distributions dominate an output when all other contributions together are not more
-/// than 0.3 of theirs: the criterion of EA-4/02, S9.14 (one rectangular) and S10.13 (two). A factor k taken from the
-/// normal or t-distribution would claim too much then; the exact convolution of all inputs gives the right one.
+/// True when the convolution certainly moves k by less than 1 % away from t_p(ν_eff): a bound from the shares of the
+/// contributions, their shapes and degrees of freedom, far cheaper than the convolution. False says nothing.
+[[nodiscard]] bool convolution_changes_little(const MeasurementModel& model, const Propagation& propagation,
+                                              Eigen::Index output);
+
+/// The contributions of all inputs to an output: the distribution of Y − y is their convolution.
 ///
-/// \return nothing when none dominates, so that k = t_p(ν_eff) stands; or when a distribution that is not symmetric
-///         contributes, which only Monte Carlo can add
-[[nodiscard]] std::optional<DominatedOutput> expand_dominated_output(const MeasurementModel& model,
-                                                                     const Propagation& propagation,
-                                                                     Eigen::Index output);
+/// Single quantities enter by their distributions, groups that are normal or t by the t-distribution of their standard
+/// uncertainty and degrees of freedom, groups that are drawn by a copula or by rows through 65 536 draws or their rows.
+/// \return nothing when no contribution is left, or the degrees of freedom of a group are not known
+[[nodiscard]] std::optional<std::vector<ConvolutionTerm>> convolution_terms(const MeasurementModel& model,
+                                                                            const Propagation& propagation,
+                                                                            Eigen::Index output);
+
+/// \return nothing when u(y) is 0, or there are no convolution_terms
+[[nodiscard]] std::optional<ConvolvedOutput> expand_by_convolution(const MeasurementModel& model,
+                                                                   const Propagation& propagation, Eigen::Index output);
 
 }  // namespace gumcert::gum

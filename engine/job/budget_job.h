@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -48,6 +49,10 @@ struct StatedQuantity {
     std::vector<double> observations;                 ///< coherent SI, in the order read
     std::optional<double> pooled_standard_deviation;  ///< coherent SI, where the job pools; its ν is degrees_of_freedom
     std::optional<GroupedReadings> groups;
+    /// Samples from a file: its name, and the values in the order of its rows, coherent SI. Quantities with samples of
+    /// one file belong together row by row.
+    std::string sample_file;
+    std::shared_ptr<const std::vector<double>> sample_rows;
     std::string where;  ///< place in the job, for messages
 };
 

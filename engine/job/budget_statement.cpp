@@ -103,7 +103,7 @@ std::string list_of(const std::vector<std::string_view>& keys, std::string_view 
     return text;
 }
 
-/// Reads one statement. Every step returns false when it refused something.
+constexpr double k_least_nu_of_limits = 0.5;  // a reliability of 1: limits that are off by all of the half-width
 
 }  // namespace
 
@@ -476,9 +476,47 @@ bool StatementReader::set_bounded(double half_width) {
         }
         shape = *d / half_width;
     }
+    if (!limits_may_have(kind, *nu)) {
+        return false;
+    }
     set_bounded(kind, half_width, shape);
     quantity_.degrees_of_freedom = *nu;
+    make_limits_inexact(quantity_, *nu);
     return true;
+}
+
+bool StatementReader::limits_may_have(DistributionKind kind, double nu) const {
+    if (std::isinf(nu)) {
+        return true;
+    }
+    const std::string_view key = keys_.has("nu") ? "nu" : "reliability";
+    if (kind != DistributionKind::uniform) {
+        const bool has_d = kind == DistributionKind::curvilinear_trapezoid;
+        keys_.refuse(k_two_statements, key,
+                     in_quotes(key) + " beside the distribution " + std::string(gum::distribution_name(kind)),
+                     has_d ? "\"d\" says already how well the limits are known"
+                           : "how well limits are known can be taken into account for rectangular ones: they become "
+                             "those of a curvilinear trapezoid",
+                     has_d ? "remove it"
+                           : "remove it, or state the distribution curvilinear_trapezoid with \"d\" = reliability x "
+                             "half-width");
+        return false;
+    }
+    if (nu < k_least_nu_of_limits) {
+        keys_.refuse(k_number_out_of_range, key, shortest(nu) + " degrees of freedom of a half-width",
+                     "limits that are uncertain by more than the half-width (nu below 0.5) are no limits",
+                     "state \"u\" with \"nu\" instead");
+        return false;
+    }
+    return true;
+}
+
+void StatementReader::make_limits_inexact(StatedQuantity& quantity, double nu) {
+    if (std::isinf(nu) || quantity.distribution.kind != DistributionKind::uniform) {
+        return;
+    }
+    quantity.distribution.kind = DistributionKind::curvilinear_trapezoid;
+    quantity.distribution.shape = std::min(1.0, std::sqrt(1.0 / (2.0 * nu)));
 }
 
 NumberRange StatementReader::range_of_d(double half_width) const {
@@ -605,6 +643,7 @@ bool specify(StatedQuantity& quantity, const StatedSpecification& specification,
     } else {
         quantity.distribution = {.kind = specification.kind, .location = quantity.value, .scale = width_si};
         quantity.u = gum::standard_deviation(quantity.distribution);
+        StatementReader::make_limits_inexact(quantity, specification.degrees_of_freedom);
     }
     if (!std::isfinite(quantity.value) ||
         !(quantity.u > StatementReader::k_least_u && quantity.u < StatementReader::k_largest_u)) {

@@ -80,6 +80,10 @@ public:
 
     std::optional<EvaluatedStatement> evaluate();
 
+    /// Rectangular limits whose half-width has the relative uncertainty r = 1/√(2ν) become those of a curvilinear
+    /// trapezoid, inexactly known within d = r a (JCGM 101:2008, 6.4.3); u stays a/√3, with ν.
+    static void make_limits_inexact(StatedQuantity& quantity, double nu);
+
 private:
     // ---- which statement it is --------------------------------------------------------------------------------------
 
@@ -161,6 +165,8 @@ private:
 
     /// A distribution within ± half_width about the value that is set.
     bool set_bounded(double half_width);
+    /// Refuses degrees of freedom of limits that cannot be taken into account.
+    [[nodiscard]] bool limits_may_have(gum::DistributionKind kind, double nu) const;
     void refuse_bounded_word(const std::string& word, bool is_plain) const;
     /// Of the key `d` of a curvilinear trapezoid, in the unit of the half-width.
     [[nodiscard]] NumberRange range_of_d(double half_width) const;

@@ -43,6 +43,8 @@ SampleMoments sample_moments(const std::vector<double>& values) {
     return {values.front() + (mean_deviation + rest / n), s};
 }
 
+constexpr std::size_t k_least_samples = 100;
+
 /// The keys of one kind of distribution object.
 struct DistributionForm {
     std::string_view kind;
@@ -257,12 +259,20 @@ bool StatementReader::read_samples() {
     } else {
         samples = read_sample_file(*value);
     }
-    if (!samples || !count_fits("samples", samples->size(), 2, "a distribution needs at least 2 samples")) {
+    if (!samples ||
+        !count_fits("samples", samples->size(), k_least_samples,
+                    "a distribution is not known from fewer than " + std::to_string(k_least_samples) +
+                        " samples; readings are stated as \"observations\", which widens for their number")) {
         return false;
     }
     for (double& sample : *samples) {
         sample = to_si(sample);
     }
+    if (!quantity_.sample_file.empty()) {
+        quantity_.sample_rows = std::make_shared<const std::vector<double>>(*samples);
+    }
+    // u of n samples is known as well as that of n observations              (JCGM 100:2008, G.3.3: ν = n − 1)
+    quantity_.degrees_of_freedom = static_cast<double>(samples->size()) - 1.0;
     std::sort(samples->begin(), samples->end());
     const double mean = sample_moments(*samples).mean;
     quantity_.distribution = {.kind = DistributionKind::empirical,
@@ -319,6 +329,7 @@ std::optional<std::vector<double>> StatementReader::read_sample_file(const json&
     if (!table) {
         return std::nullopt;
     }
+    quantity_.sample_file = *name;
     std::vector<double> samples;
     for (std::size_t row = 0; row < table->rows(); ++row) {
         if (const auto sample = table->number(row, 0, {.unit = unit_text_})) {
@@ -539,6 +550,9 @@ bool StatementReader::read_specification() {
                     return known.word == *word;
                 })->kind;
         }
+    }
+    if (nu && !stated.coverage_factor && problems.refusals() == problems_before && !limits_may_have(stated.kind, *nu)) {
+        return false;
     }
     quantity_.degrees_of_freedom = stated.degrees_of_freedom;
     return has_value && nu && problems.refusals() == problems_before;

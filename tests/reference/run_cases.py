@@ -498,11 +498,16 @@ class Propagation(Lookup):
         if kind in ("k", "U", "U_rel_percent"):
             return self.find_expanded(kind, entry, result, unit)
         if kind in ("interval_low", "interval_high"):
-            return Found(result["value"] + (result["U"] if kind.endswith("high") else -result["U"]), unit, how="y ± U")
+            sign = 1.0 if kind.endswith("high") else -1.0
+            found = Found(result["value"] + sign * result["U"], unit, how="y ± U")
+            if result["coverage"] == "convolution" and disagreement(entry, found):
+                k, convention = self.factor_of_degrees_of_freedom(entry, result)
+                found = Found(result["value"] + sign * k * result["u"], unit, convention=convention)
+            return found
         if kind == "second_order_u":
             return Found(result["second_order"]["u"] * scale, unit)
         if kind in ("second_order_interval_low", "second_order_interval_high"):
-            low, high = self.second_order_interval(result)
+            low, high = self.second_order_interval(result, entry)
             return Found(high if kind.endswith("high") else low, unit, how="y ± k u of the second order")
         if kind in ("contribution", "sensitivity"):
             rows = [row for row in result["budget"] if row["input"] in entry["input"].split("+")]
@@ -522,7 +527,10 @@ class Propagation(Lookup):
             return Found(alone["k"], convention=f"k of {largest} alone, which dominates; the program takes the "
                                                 f"convolution of all inputs, k = {result['k']:.4f}")
         k, how = result["k"], ""
-        if self.is_cut(entry["quantity"]) and result["nu_eff"] is not None:
+        own = {"k": k, "U": result["U"], "U_rel_percent": 100.0 * (result["U"] or 0.0) / abs(result["value"] or 1.0)}
+        if result["coverage"] == "convolution" and disagreement(entry, Found(own[kind], unit if kind == "U" else None)):
+            k, how = self.factor_of_degrees_of_freedom(entry, result)
+        elif self.is_cut(entry["quantity"]) and result["nu_eff"] is not None:
             nu = math.floor(result["nu_eff"])
             k = self.single({"value": 0, "u": 1, "nu": result["nu_eff"]}, self.probability(entry),
                             reporting={"degrees_of_freedom": "truncated"})["k"]
@@ -535,6 +543,15 @@ class Propagation(Lookup):
         if kind == "U_rel_percent":
             return Found(100.0 * U / abs(result["value"]), convention=how)
         return Found(U, unit, convention=how)
+
+    def factor_of_degrees_of_freedom(self, entry, result):
+        """k of ν_eff or of the normal distribution, which sources take where the program takes the convolution."""
+        nu = {} if result["nu_eff"] is None else {"nu": result["nu_eff"]}
+        cut = {"degrees_of_freedom": "truncated"} if nu and self.is_cut(entry["quantity"]) else None
+        k = self.single({"value": 0, "u": 1, **nu}, self.probability(entry), reporting=cut)["k"]
+        of = "ν_eff" if nu else "the normal distribution"
+        return k, (f"k of {of} as in the source, {k:.4f}; the program takes the convolution of all distributions, "
+                   f"k = {result['k']:.4f}")
 
     def is_cut(self, quantity):
         """The source cuts ν_eff: it says so, or prints a whole number."""
@@ -631,8 +648,11 @@ class Propagation(Lookup):
             return Found(mc[which][at] * scale, unit, error[which][at] * scale, f"{which} interval, {how}")
         raise Unexplained(f"no rule for the kind {entry['kind']} of {self.case['procedure']}")
 
-    def second_order_interval(self, result):
-        half_width = result["k"] * result["second_order"]["u"]
+    def second_order_interval(self, result, entry):
+        k = result["k"]
+        if result["coverage"] == "convolution":  # of the first order: the second has the factor of ν_eff
+            k, _ = self.factor_of_degrees_of_freedom(entry, result)
+        half_width = k * result["second_order"]["u"]
         return result["value"] - half_width, result["value"] + half_width
 
     def find_validation(self, entry):
@@ -644,7 +664,7 @@ class Propagation(Lookup):
         validation = mc["validation"]
         how = ""
         if re.search(r"higher|second", entry["quantity"]):
-            ends = self.second_order_interval(result)
+            ends = self.second_order_interval(result, entry)
             distances = [abs(a - b) for a, b in zip(ends, mc["symmetric"])]
             validated = max(distances) <= validation["delta"]
             how = "second order: compared here"
@@ -652,10 +672,20 @@ class Propagation(Lookup):
             distances, validated, how = [], record["exit_code"] == 0, f"no interval, exit code {record['exit_code']}"
         else:
             distances, validated = [validation["d_low"], validation["d_high"]], validation["validated"]
-        if entry["kind"] == "guf_validated":
-            return Found(validated, how=how)
-        return Found(distances[1 if entry["quantity"].startswith("d_high") else 0], self.unit_of(self.outputs[0]),
-                     how=how)
+
+        def found(convention=""):
+            if entry["kind"] == "guf_validated":
+                return Found(validated, how=how, convention=convention)
+            return Found(distances[1 if entry["quantity"].startswith("d_high") else 0], self.unit_of(self.outputs[0]),
+                         how=how, convention=convention)
+
+        if result["coverage"] == "convolution" and not how and disagreement(entry, found()):
+            k, convention = self.factor_of_degrees_of_freedom(entry, result)
+            distances = [abs(result["value"] + sign * k * result["u"] - end)
+                         for sign, end in zip((-1.0, 1.0), mc["symmetric"])]
+            validated = max(distances) <= validation["delta"]
+            return found(convention)
+        return found()
 
     def find_region(self, entry):
         kind = entry["kind"]

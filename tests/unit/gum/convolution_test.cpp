@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <random>
+#include <utility>
 #include <vector>
 
 #include "gum/coverage.h"
@@ -85,9 +88,9 @@ TEST(ConvolutionHalfWidth, SumsOfBoundedDistributions) {
 }
 
 TEST(ConvolutionHalfWidth, RefusesWhatItCannotAdd) {
-    const Distribution skewed{.kind = DistributionKind::exponential, .location = 0.0, .scale = 1.0};
+    const Distribution bad{.kind = DistributionKind::trapezoidal, .location = 0.0, .scale = 1.0, .shape = 2.0};
     EXPECT_EQ(code_of<InputError>([&] {
-                  (void)convolution_half_width(std::vector<ConvolutionTerm>{{1.0, skewed}}, 0.95);
+                  (void)convolution_half_width(std::vector<ConvolutionTerm>{{1.0, bad}}, 0.95);
               }),
               "GC-GUM-0060");
     EXPECT_EQ(code_of<InputError>([] { (void)convolution_half_width({}, 0.95); }), "GC-GUM-0060");
@@ -160,25 +163,66 @@ TEST(ConvolutionDistribution, AgreesWithTheHalfWidth) {
     }
 }
 
+TEST(ConvolutionDistribution, OfWideStudentTerms) {
+    const std::vector<ConvolutionTerm> terms{{1.0, Distribution::student_t(0.0, 2.0, 5.0)},
+                                             {1.0, Distribution::uniform(0.0, 1.0)}};
+    const ConvolutionDistribution distribution(terms);
+    for (const double p : {0.5, 0.9545, 0.99}) {
+        const double U = convolution_half_width(terms, p);
+        EXPECT_NEAR(distribution(U), 0.5 + 0.5 * p, 2e-6);
+        EXPECT_NEAR(distribution(-U), 0.5 - 0.5 * p, 2e-6);
+    }
+    EXPECT_NEAR(distribution(0.0), 0.5, 1e-9);
+    EXPECT_EQ(distribution(-1e9), 0.0);
+    EXPECT_EQ(distribution(1e9), 1.0);
+}
+
 TEST(ConvolutionDistribution, RefusesWhatItCannotAdd) {
     EXPECT_EQ(code_of<InputError>([] { (void)convolution_distribution({}, 0.0); }), "GC-GUM-0060");
-    const Distribution skewed{.kind = DistributionKind::exponential, .location = 0.0, .scale = 1.0};
+    const Distribution bad{.kind = DistributionKind::trapezoidal, .location = 0.0, .scale = 1.0, .shape = 2.0};
     EXPECT_EQ(code_of<InputError>([&] {
-                  (void)convolution_distribution(std::vector<ConvolutionTerm>{{1.0, skewed}}, 0.0);
+                  (void)convolution_distribution(std::vector<ConvolutionTerm>{{1.0, bad}}, 0.0);
               }),
               "GC-GUM-0060");
 }
 
-/// y = Σ x_i with one group an input.
+// Sums of two exponential quantities, and their difference, in closed form.
+TEST(ConvolutionInterval, HoldsForDistributionsThatAreNotSymmetric) {
+    const Distribution exponential{.kind = DistributionKind::exponential, .location = 7.0, .scale = 1.0};
+    const double p = 0.95;
+    const ConvolutionInterval sum =
+        convolution_interval(std::vector<ConvolutionTerm>{{1.0, exponential}, {1.0, exponential}}, p);
+    const auto below = [](double x) { return 1.0 - std::exp(-(x + 2.0)) * (1.0 + x + 2.0); };  // gamma, shape 2
+    EXPECT_NEAR(below(sum.low), 0.025, 1e-5);
+    EXPECT_NEAR(below(sum.high), 0.975, 1e-5);
+    const ConvolutionInterval mirrored =
+        convolution_interval(std::vector<ConvolutionTerm>{{-1.0, exponential}, {-1.0, exponential}}, p);
+    EXPECT_NEAR(mirrored.low, -sum.high, 1e-3);
+    EXPECT_NEAR(mirrored.high, -sum.low, 1e-3);
+    const ConvolutionInterval laplace =
+        convolution_interval(std::vector<ConvolutionTerm>{{1.0, exponential}, {-1.0, exponential}}, p);
+    EXPECT_NEAR(laplace.high, -std::log(0.05), 1e-3);
+    EXPECT_NEAR(laplace.low, std::log(0.05), 1e-3);
+    const ConvolutionDistribution distribution(std::vector<ConvolutionTerm>{{1.0, exponential}, {-1.0, exponential}});
+    EXPECT_NEAR(distribution(1.0), 1.0 - 0.5 * std::exp(-1.0), 1e-4);
+    EXPECT_NEAR(distribution(-1.0), 0.5 * std::exp(-1.0), 1e-4);
+}
+
+/// y = Σ x_i with one group an input. As in the law of propagation, t-distributions have their scale as u.
 class SumModel final : public MeasurementModel {
 public:
     explicit SumModel(const std::vector<Distribution>& distributions) {
         for (const Distribution& distribution : distributions) {
+            const bool is_t = distribution.kind == DistributionKind::student_t;
+            const double u = is_t ? distribution.scale : standard_deviation(distribution);
             InputGroup group;
             group.name = "x" + std::to_string(groups_.size() + 1);
             group.value = Eigen::VectorXd::Constant(1, distribution.location);
-            group.covariance = Eigen::MatrixXd::Constant(1, 1, std::pow(standard_deviation(distribution), 2));
+            group.covariance = Eigen::MatrixXd::Constant(1, 1, u * u);
             group.marginals = {distribution};
+            if (is_t) {
+                group.degrees_of_freedom = distribution.shape;
+            }
             groups_.push_back(group);
         }
     }
@@ -196,27 +240,179 @@ private:
     std::vector<OutputQuantity> outputs_{{"y", "1"}};
 };
 
-std::optional<DominatedOutput> dominated(const std::vector<Distribution>& distributions) {
-    const SumModel model(distributions);
-    return expand_dominated_output(model, propagate(model, 0.9545), 0);
+double sinc(double z) {
+    return std::abs(z) < 1e-9 ? 1.0 : std::sin(z) / z;
 }
 
-TEST(DominatedOutput, FollowsTheCriterion) {
+/// Characteristic function of a centred distribution, from the functions of the standard library.
+double characteristic(const Distribution& d, double t) {
+    const double at = d.scale * t;
+    switch (d.kind) {
+        case DistributionKind::normal:
+            return std::exp(-0.5 * at * at);
+        case DistributionKind::uniform:
+            return sinc(at);
+        case DistributionKind::triangular:
+            return std::pow(sinc(0.5 * at), 2);
+        case DistributionKind::arcsine:
+            return std::cyl_bessel_j(0.0, at);
+        case DistributionKind::trapezoidal:
+            return sinc(0.5 * (1.0 + d.shape) * at) * sinc(0.5 * (1.0 - d.shape) * at);
+        case DistributionKind::curvilinear_trapezoid: {  // the mean over half-widths, by Simpson
+            constexpr int k_steps = 64;
+            double sum = 0.0;
+            for (int i = 0; i <= k_steps; ++i) {
+                const double w = 1.0 + d.shape * (2.0 * i / k_steps - 1.0);
+                sum += (i == 0 || i == k_steps ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) * sinc(w * at);
+            }
+            return sum / (3.0 * k_steps);
+        }
+        default: {
+            const double mu = 0.5 * d.shape;
+            const double z = std::sqrt(d.shape) * at;
+            return z < 1e-9    ? 1.0
+                   : z > 700.0 ? 0.0
+                               : std::exp(std::log(std::cyl_bessel_k(mu, z)) + mu * std::log(z) -
+                                          (mu - 1.0) * std::log(2.0) - std::lgamma(mu));
+        }
+    }
+}
+
+/// P(|Y| ≤ U) = (2/π) ∫ φ(t) sin(U t)/t dt (Gil-Pelaez), by Simpson; one term at least must be normal.
+double probability_inside(const std::vector<Distribution>& distributions, double U) {
+    double normal = 0.0;
+    double all = 0.0;
+    for (const Distribution& d : distributions) {
+        normal += d.kind == DistributionKind::normal ? d.scale * d.scale : 0.0;
+        all += d.scale * d.scale;
+    }
+    const double last = 7.0 / std::sqrt(normal);
+    const int steps = 2 * static_cast<int>(last * std::max(U, std::sqrt(all)) * 20.0 + 200.0);
+    const double h = last / steps;
+    double sum = U;
+    for (int i = 1; i <= steps; ++i) {
+        double phi = 1.0;
+        for (const Distribution& d : distributions) {
+            phi *= characteristic(d, i * h);
+        }
+        sum += (i == steps ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) * phi * std::sin(U * i * h) / (i * h);
+    }
+    return 2.0 / std::acos(-1.0) * sum * h / 3.0;
+}
+
+std::vector<Distribution> random_budget(std::mt19937& random) {
+    const auto uniform = [&](double low, double high) {
+        return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
+    };
+    std::vector<Distribution> budget{Distribution::normal(0.0, uniform(0.1, 1.5))};
+    const std::size_t others = 1 + random() % 5;
+    while (budget.size() <= others) {
+        const double scale = std::exp(uniform(-2.0, 1.0));
+        switch (random() % 6) {
+            case 0:
+                budget.push_back(Distribution::uniform(0.0, scale));
+                break;
+            case 1:
+                budget.push_back({.kind = DistributionKind::triangular, .scale = scale});
+                break;
+            case 2:
+                budget.push_back({.kind = DistributionKind::arcsine, .scale = scale});
+                break;
+            case 3:
+                budget.push_back({.kind = DistributionKind::trapezoidal, .scale = scale, .shape = uniform(0.0, 1.0)});
+                break;
+            case 4:
+                budget.push_back(
+                    {.kind = DistributionKind::curvilinear_trapezoid, .scale = scale, .shape = uniform(0.05, 1.0)});
+                break;
+            default:
+                budget.push_back(Distribution::student_t(0.0, 0.7 * scale, std::exp(uniform(0.7, 5.0))));
+                break;
+        }
+    }
+    return budget;
+}
+
+// A law over generated budgets: half-widths are those of the characteristic functions, and where the bound says that
+// the convolution changes little, it does.
+TEST(ExpandByConvolution, AgreesWithCharacteristicFunctionsAndItsBound) {
+    std::mt19937 random(1);
+    std::size_t left_out = 0;
+    for (int i = 0; i < 400; ++i) {
+        const std::vector<Distribution> budget = random_budget(random);
+        const double p = std::vector<double>{0.68, 0.9, 0.95, 0.9545, 0.99}[random() % 5];
+        const SumModel model(budget);
+        const Propagation propagation = propagate(model, p);
+        const auto convolved = expand_by_convolution(model, propagation, 0);
+        ASSERT_TRUE(convolved);
+        EXPECT_EQ(convolved->asymmetry, 0.0);
+        if (i < 60) {
+            EXPECT_NEAR(probability_inside(budget, convolved->expanded_uncertainty), p, 2e-6) << i;
+        }
+        if (convolution_changes_little(model, propagation, 0)) {
+            ++left_out;
+            EXPECT_NEAR(propagation.coverage_factor(0) / convolved->coverage_factor, 1.0, 0.01) << i;
+        }
+    }
+    EXPECT_GT(left_out, 20U);
+}
+
+TEST(ExpandByConvolution, KnownFactors) {
+    const auto k = [](const std::vector<Distribution>& distributions, double p) {
+        const SumModel model(distributions);
+        return expand_by_convolution(model, propagate(model, p), 0)->coverage_factor;
+    };
     const Distribution rectangular = Distribution::uniform(0.0, k_root_3);
-    const std::optional<DominatedOutput> one = dominated({Distribution::normal(0.0, 0.3), rectangular});
-    ASSERT_TRUE(one);
-    EXPECT_TRUE(prints_as(one->coverage_factor, "1.748"));
-    EXPECT_EQ(one->dominating, std::vector<std::size_t>{1});
-    EXPECT_NEAR(convolution_distribution(one->terms, one->expanded_uncertainty), 0.5 + 0.5 * 0.9545, 1e-6);
-    EXPECT_FALSE(dominated({Distribution::normal(0.0, 0.301), rectangular}));
-    const std::optional<DominatedOutput> two = dominated({rectangular, Distribution::uniform(0.0, 1.0)});
-    ASSERT_TRUE(two);
-    EXPECT_EQ(two->dominating, (std::vector<std::size_t>{0, 1}));
-    EXPECT_FALSE(dominated(std::vector<Distribution>(4, rectangular)));
-    EXPECT_FALSE(dominated({Distribution::normal(0.0, 1.0)}));
-    EXPECT_FALSE(dominated({Distribution::constant(3.0)}));
-    const Distribution skewed{.kind = DistributionKind::exponential, .location = 0.0, .scale = 0.1};
-    EXPECT_FALSE(dominated({rectangular, skewed}));
+    EXPECT_TRUE(prints_as(k({Distribution::normal(0.0, 0.3), rectangular}, 0.9545), "1.748"));
+    EXPECT_TRUE(prints_as(k({rectangular, rectangular, rectangular}, 0.99), "2.379"));
+    EXPECT_TRUE(agrees(k({Distribution::student_t(0.0, 1.0, 4.0)}, 0.95), coverage_factor(0.95, 4.0), 1e-12));
+    // Widths of Cauchy distributions add up.
+    EXPECT_TRUE(agrees(k({Distribution::student_t(0.0, 3.0, 1.0), Distribution::student_t(0.0, 4.0, 1.0)}, 0.95),
+                       7.0 / 5.0 * coverage_factor(0.95, 1.0), 5e-3));
+    const SumModel constant({Distribution::constant(3.0)});
+    EXPECT_FALSE(expand_by_convolution(constant, propagate(constant, 0.95), 0));
+    EXPECT_TRUE(convolution_changes_little(constant, propagate(constant, 0.95), 0));
+}
+
+// Two uniform quantities with r = 1 are one; with r = 0 their sum is triangular. Samples keep their own steps.
+TEST(ExpandByConvolution, TakesGroupsThatAreDrawnTogetherAsTheyAre) {
+    class Group final : public MeasurementModel {
+    public:
+        explicit Group(InputGroup group) : groups_{std::move(group)} {}
+        [[nodiscard]] const std::vector<InputGroup>& inputs() const override { return groups_; }
+        [[nodiscard]] const std::vector<OutputQuantity>& outputs() const override { return outputs_; }
+        [[nodiscard]] Eigen::VectorXd evaluate(const Eigen::VectorXd& x) const override {
+            return Eigen::VectorXd::Constant(1, x.sum());
+        }
+        [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const override {
+            return Eigen::MatrixXd::Ones(1, x.size());
+        }
+
+    private:
+        std::vector<InputGroup> groups_;
+        std::vector<OutputQuantity> outputs_{{"y", "1"}};
+    };
+    InputGroup group;
+    group.name = "a, b";
+    group.value = Eigen::VectorXd::Zero(2);
+    group.covariance = Eigen::MatrixXd::Constant(2, 2, 1.0);
+    group.marginals = {Distribution::uniform(0.0, k_root_3), Distribution::uniform(0.0, k_root_3)};
+    group.dependence = Dependence::gaussian_copula;
+    const Group one(group);
+    EXPECT_FALSE(convolution_changes_little(one, propagate(one, 0.95), 0));
+    EXPECT_NEAR(expand_by_convolution(one, propagate(one, 0.95), 0)->coverage_factor, 0.95 * k_root_3, 0.005);
+    group.covariance << 1.0, 1e-9, 1e-9, 1.0;
+    const Group two(group);
+    EXPECT_NEAR(expand_by_convolution(two, propagate(two, 0.95), 0)->coverage_factor, 1.902, 0.01);
+    group.dependence = Dependence::joint_samples;
+    group.covariance = Eigen::MatrixXd::Constant(2, 2, 1.0);
+    Eigen::MatrixXd rows(1000, 2);
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+        rows.row(i).setConstant(k_root_3 * (2.0 * (static_cast<double>(i) + 0.5) / 1000.0 - 1.0));
+    }
+    group.samples = std::make_shared<const Eigen::MatrixXd>(rows);
+    const Group sampled(group);
+    EXPECT_NEAR(expand_by_convolution(sampled, propagate(sampled, 0.95), 0)->coverage_factor, 0.95 * k_root_3, 0.005);
 }
 
 }  // namespace

@@ -208,7 +208,7 @@ TEST(CertificateStatement, SaysWhichValuesEachSentenceHoldsFor) {
     EXPECT_THAT(text, HasSubstr("(d) The distribution of the measurand was determined by a Monte Carlo method (1000000 "
                                 "trials; JCGM 101:2008). The interval from the lower to the upper end is the shortest "
                                 "coverage interval for a probability of 95.45 %"));
-    EXPECT_THAT(text, HasSubstr("An input quantity with bounded values dominates"));
+    EXPECT_THAT(text, HasSubstr("The factor was calculated from the distribution of the result itself"));
     EXPECT_THAT(results(record), HasSubstr("P1|1.00|0.20|–|–|2.00|–|(a)|\nP2|1.00|0.20|–|–|1.65|–|(c)|\n"
                                            "P3|1.00|–|0.70|1.40|–|–|(d)|\nP4|1.00|0.20|–|–|2.13|20|(b)|\n"));
 }

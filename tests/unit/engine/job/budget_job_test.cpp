@@ -29,6 +29,14 @@ struct StatementCase {
     gum::Evaluation evaluation = gum::Evaluation::type_b;
 };
 
+std::string repeated(const std::string& text, int times) {
+    std::string all = text;
+    for (int i = 1; i < times; ++i) {
+        all += ", " + text;
+    }
+    return all;
+}
+
 // Expected numbers by hand from the formulas of JCGM 100 and JCGM 101; t quantiles from table G.2 of JCGM 100.
 TEST(BudgetJob, EvaluatesEveryStatement) {
     const double s3 = std::sqrt(3.0);
@@ -49,7 +57,11 @@ TEST(BudgetJob, EvaluatesEveryStatement) {
         {R"j({"value": 20, "unit": "degC", "half_width": 0.5})j", "half_width", 20, 0.5 / s3, k_infinity,
          DistributionKind::uniform, 0.5, 0},
         {R"j({"value": 0, "unit": "1/K", "half_width": 1e-6, "distribution": "rectangular", "nu": 50})j", "half_width",
-         0, 1e-6 / s3, 50, DistributionKind::uniform, 1e-6, 0},
+         0, 1e-6 / s3, 50, DistributionKind::curvilinear_trapezoid, 1e-6, 0.1},
+        {R"j({"limits": [-1, 1], "reliability": 0.5})j", "limits", 0, 1 / s3, 2,
+         DistributionKind::curvilinear_trapezoid, 1, 0.5},
+        {R"j({"value": 20, "specification": {"floor": 0.3}, "nu": 0.5})j", "specification", 20, 0.3 / s3, 0.5,
+         DistributionKind::curvilinear_trapezoid, 0.3, 1},
         {R"j({"value": 0, "half_width": 6, "distribution": "triangular"})j", "half_width", 0, std::sqrt(6.0),
          k_infinity, DistributionKind::triangular, 6, 0},
         {R"j({"value": 0, "half_width": 6, "distribution": "u_shaped"})j", "half_width", 0, 6 / std::sqrt(2.0),
@@ -74,8 +86,8 @@ TEST(BudgetJob, EvaluatesEveryStatement) {
          gum::Evaluation::type_a},
         {R"j({"groups": {"means": [2, 4, 6], "standard_deviations": [1, 1, 1], "sizes": [5, 5, 5]}})j", "groups", 4,
          2 / s3, 2, DistributionKind::student_t, 2 / s3, 2, gum::Evaluation::type_a},
-        {R"j({"samples": [3, 1, 2, 2], "unit": "um"})j", "samples", 2e-6, std::sqrt(0.5) * 1e-6, k_infinity,
-         DistributionKind::empirical, 1, 0},
+        {R"j({"samples": [)j" + repeated("3, 1, 2, 2", 25) + R"j(], "unit": "um"})j", "samples", 2e-6,
+         std::sqrt(0.5) * 1e-6, 99, DistributionKind::empirical, 1, 0},
         {R"j({"value": -50, "relative_u": 0.01, "unit": "mm"})j", "relative_u", -0.05, 5e-4, k_infinity,
          DistributionKind::normal, 5e-4, 0},
         {R"j({"value": 50, "relative_U": 0.01, "k": 2})j", "relative_U, k", 50, 0.25, k_infinity,
@@ -281,12 +293,58 @@ TEST(BudgetJob, ReadsFits) {
 }
 
 TEST(BudgetJob, ReadsSamplesFromAFile) {
-    const test::BudgetFiles files{{"mc.csv", "trial,X,Y\n1,2,5\n2,4,9\n"}};
+    std::string csv = "trial,X,Y\n";
+    for (int i = 0; i < 50; ++i) {
+        csv += "1,2,9\n2,4,5\n";
+    }
+    const test::BudgetFiles files{{"mc.csv", csv}};
     EXPECT_EQ(read_one_input(R"j({"samples": "mc.csv"})j", files).components[0].value, 3.0);
     const StatedQuantity q = read_one_input(R"j({"samples": {"file": "mc.csv", "column": "Y"}})j", files).components[0];
     EXPECT_EQ(q.value, 7.0);
     EXPECT_EQ(q.u, 2.0);
-    EXPECT_THAT(*q.distribution.samples, ElementsAre(5, 9));
+    EXPECT_EQ(q.degrees_of_freedom, 99.0);
+    EXPECT_EQ(q.distribution.samples->front(), 5.0);
+    EXPECT_EQ(q.sample_file, "mc.csv");
+    EXPECT_EQ((*q.sample_rows)[0], 9.0) << "in the order of the file";
+    EXPECT_EQ((*q.sample_rows)[1], 5.0);
+}
+
+// Kessel 2006: r with seven digits, whose matrix has the eigenvalue -2.2e-8.
+TEST(BudgetJob, TakesCorrelationsWithinTheirDigits) {
+    const auto read = [](const std::string& last) {
+        return read_budget(
+            R"j("inputs": {"a": {"value": 0, "u": 1}, "b": {"value": 0, "u": 1}, "c": {"value": 0, "u": 1},
+            "d": {"value": 0, "u": 1}}, "correlations": [["a", "b", 0.3099065], ["a", "c", -0.2040958],
+            ["a", "d", -0.1701139], ["b", "c", -0.6122649], ["b", "d", -0.1294786], ["c", "d", )j" +
+            last + "]]");
+    };
+    const std::vector<double> stated{0.3099065, -0.2040958, -0.1701139, -0.6122649, -0.1294786, -0.6950289};
+    const BudgetJob job = read("-0.6950289");
+    ASSERT_EQ(job.warnings.size(), 1U);
+    EXPECT_EQ(job.warnings[0].code, k_warn_correlations_repaired.code);
+    ASSERT_EQ(job.correlations.size(), 6U);
+    for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_NEAR(job.correlations[i].r, stated[i], 5.0001e-8);
+    }
+    // More digits, less room; and digits that are written as zeros are digits.
+    const auto refusals = [](const std::string& r) {
+        return test::budget_refusals(
+            R"j("inputs": {"a": {"value": 0, "u": 1}, "b": {"value": 0, "u": 1}, "c": {"value": 0, "u": 1}},
+                "correlations": [["a", "b", )j" +
+            r + R"j(], ["b", "c", )j" + r + R"j(], ["a", "c", 0.5200]])j");
+    };
+    // a and b, b and c at r need r(a, c) ≥ 2 r² − 1: 0.5206 for 0.872.
+    EXPECT_TRUE(refusals("0.872").empty());
+    EXPECT_EQ(refusals("0.87200").size(), 1U);
+    EXPECT_EQ(refusals("0.9").size(), 1U) << "one digit gives no room of 0.05";
+}
+
+TEST(BudgetJob, SaysWhichCorrelationsAreNotStated) {
+    const auto refusals = test::budget_refusals(
+        R"j("inputs": {"a": {"value": 0, "u": 1}, "b": {"value": 0, "u": 1}, "c": {"value": 0, "u": 1}},
+            "correlations": [["a", "b", 0.9], ["b", "c", 0.9]])j");
+    ASSERT_EQ(refusals.size(), 1U);
+    EXPECT_THAT(refusals[0].what, testing::HasSubstr("2 of 3 pairs are stated, and the others count as 0"));
 }
 
 TEST(BudgetJob, SolvesForUnknowns) {

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "app/evaluate_budget.h"
+
+namespace gumcert::app {
+
+/// Covariance of all results, points one after the other: (points · outputs) square, coherent SI.
+///
+/// Points are correlated through what they share: inputs that are common to them, and correlated inputs of which some
+/// are common and others are stated by the points. These others are independent between points given the common ones:
+/// with a common, b stated by the points and r(a, b), two points have cov(b, b') = r² u_b u_b'. The covariance of
+/// points follows from that of inputs alone, in whatever order the inputs stand.
+[[nodiscard]] Eigen::MatrixXd budget_covariance(const BudgetResult& result);
+
+}  // namespace gumcert::app

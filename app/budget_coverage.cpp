@@ -1,0 +1,68 @@
+#include "app/budget_coverage.h"
+
+#include <cmath>
+#include <string>
+
+#include "gum/convolution.h"
+#include "gum/coverage.h"
+#include "gum/rounding.h"
+
+namespace gumcert::app {
+
+namespace {
+
+constexpr double k_rounding_of_degrees_of_freedom = 1e-12;  // 3.999…9 is 4
+constexpr double k_noticed_change = 0.01;                   // of k
+
+}  // namespace
+
+void expand_by_propagation(const engine::BudgetJob& job, const BudgetPointResult& point, Eigen::Index output,
+                           BudgetOutputResult& result) {
+    const double u = point.propagation.standard_uncertainty(output);
+    result.standard_uncertainty = u;
+    result.degrees_of_freedom = point.propagation.effective_degrees_of_freedom(output);
+    if (std::isnan(result.degrees_of_freedom)) {
+        result.coverage = "none";
+        Eigen::Index g = 0;
+        for (const gum::InputGroup& group : point.model->inputs()) {
+            if (std::isnan(group.degrees_of_freedom) &&
+                point.propagation.budget[static_cast<std::size_t>(g)].variance(output) > 0.0) {
+                result.coverage_note = group.no_degrees_of_freedom_because;
+            }
+            ++g;
+        }
+        return;
+    }
+    if (u == 0.0 && point.second_order && point.second_order->standard_uncertainty(output) > 0.0) {
+        result.standard_uncertainty = point.second_order->standard_uncertainty(output);
+        result.coverage = "none";
+        result.coverage_note =
+            "the first-order terms of the law of propagation vanish at these estimates; u is that of the second-order "
+            "terms, and the distribution of the result is not known from them";
+        return;
+    }
+    double nu = result.degrees_of_freedom;
+    const double k = gum::coverage_factor(result.coverage_probability, nu);
+    if (!gum::convolution_changes_little(*point.model, point.propagation, output)) {
+        const auto convolved = gum::expand_by_convolution(*point.model, point.propagation, output);
+        if (convolved && std::abs(convolved->coverage_factor - k) > k_noticed_change * k) {
+            result.coverage = "convolution";
+            result.coverage_note = "k is taken from the convolution of all distributions; that of the " +
+                                   std::string(std::isinf(nu) ? "normal " : "t-") + "distribution would be " +
+                                   gum::round_to_quantum(k, 2);
+            result.coverage_factor = convolved->coverage_factor;
+            result.expanded_uncertainty = convolved->expanded_uncertainty;
+            result.asymmetry = convolved->asymmetry;
+            return;
+        }
+    }
+    result.coverage = std::isinf(result.degrees_of_freedom) ? "normal" : "student_t";
+    if (job.truncate_degrees_of_freedom && std::isfinite(nu) && nu >= 1.0) {
+        nu = std::floor(nu * (1.0 + k_rounding_of_degrees_of_freedom));
+        result.coverage_note = "k is taken for the next lower whole number of degrees of freedom";
+    }
+    result.coverage_factor = std::isfinite(nu) ? gum::coverage_factor(result.coverage_probability, nu) : k;
+    result.expanded_uncertainty = *result.coverage_factor * u;
+}
+
+}  // namespace gumcert::app
