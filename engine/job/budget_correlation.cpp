@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 #include "engine/job/csv_table.h"
+#include "gum/nearest_correlation.h"
+#include "gum/rounding.h"
 
 namespace gumcert::engine {
 
@@ -23,6 +25,27 @@ constexpr std::array<std::string_view, 1> k_file_keys{"file"};
 constexpr std::size_t k_most_in_matrix = 2000;  // dense, with its eigenvalues
 constexpr double k_same_number = 1e-9;          // of matrices that another program wrote with fewer digits
 constexpr double k_same_variance = 1e-6;
+
+constexpr double k_largest_repair = 5e-4;     // of a correlation coefficient
+constexpr std::size_t k_most_repaired = 100;  // inputs in one matrix: eigenvalues again and again
+
+/// Half a unit of the last digit of a number as it is written: 0.005 of "0.50", 5 of "1.5e2"; 0 of no number.
+double half_of_last_digit(const std::string& written) {
+    const std::size_t exponent_at = written.find_first_of("eE");
+    const std::string digits = written.substr(0, exponent_at);
+    if (digits.find_first_of("0123456789") == std::string::npos) {
+        return 0.0;
+    }
+    int power = 0;
+    if (exponent_at != std::string::npos) {
+        const std::size_t sign = written[exponent_at + 1] == '+' ? 2 : 1;
+        std::from_chars(written.data() + exponent_at + sign, written.data() + written.size(), power);
+    }
+    if (const std::size_t point = digits.find('.'); point != std::string::npos) {
+        power -= static_cast<int>(digits.size() - point - 1);
+    }
+    return 0.5 * std::pow(10.0, power);
+}
 
 std::string unknown_action(std::string_view name, const std::vector<std::string>& names) {
     const std::vector<std::string_view> known(names.begin(), names.end());
@@ -126,11 +149,17 @@ public:
                 if (second == positions_.end()) {
                     continue;
                 }
-                const double r =
-                    stated.matrix(i, j) / (std::sqrt(stated.matrix(i, i)) * std::sqrt(stated.matrix(j, j)));
+                const double scale = std::sqrt(stated.matrix(i, i)) * std::sqrt(stated.matrix(j, j));
+                const double r = stated.matrix(i, j) / scale;
+                // The digits of the variances count as well: r has their relative half units, half of each.
+                const double half_unit = half_of_last_digit(shortest(stated.matrix(i, j))) / scale +
+                                         0.5 * std::abs(r) *
+                                             (half_of_last_digit(shortest(stated.matrix(i, i))) / stated.matrix(i, i) +
+                                              half_of_last_digit(shortest(stated.matrix(j, j))) / stated.matrix(j, j));
                 add(second->second, *first, r,
                     child_pointer(child_pointer(pointer + "/matrix", static_cast<std::size_t>(i)),
-                                  static_cast<std::size_t>(j)));
+                                  static_cast<std::size_t>(j)),
+                    half_unit);
             }
         }
     }
@@ -201,11 +230,13 @@ private:
             return;
         }
         if (first && second && is_variable(*first, pointer + "/0") && is_variable(*second, pointer + "/1")) {
-            add(*first, *second, r, pointer);
+            add(*first, *second, r, pointer, std::nullopt);
         }
     }
 
-    void add(std::size_t first, std::size_t second, double r, const std::string& pointer) {
+    /// \param half_unit  of the last digit of r; nothing: as the text of the job has it, at pointer/2
+    void add(std::size_t first, std::size_t second, double r, const std::string& pointer,
+             std::optional<double> half_unit) {
         if (first == second) {
             problems_.refuse(k_correlation_with_itself, document_.where(pointer),
                              "a correlation of " + in_quotes(job_.inputs[first].name) + " with itself",
@@ -213,12 +244,13 @@ private:
             return;
         }
         const auto pair = std::minmax(first, second);
-        const auto [entry, is_new] = stated_.try_emplace({pair.first, pair.second}, document_.where(pointer));
+        const auto [entry, is_new] =
+            stated_.try_emplace({pair.first, pair.second}, Statement{document_.where(pointer), pointer, half_unit});
         if (!is_new) {
             problems_.refuse(k_repeated_correlation, document_.where(pointer),
                              "the correlation of " + in_quotes(job_.inputs[first].name) + " and " +
                                  in_quotes(job_.inputs[second].name) + " is stated a second time, first at " +
-                                 entry->second,
+                                 entry->second.where,
                              "a pair has one correlation", "keep one of them");
             return;
         }
@@ -298,7 +330,7 @@ private:
         for (std::size_t i = 0; i < together.inputs.size(); ++i) {
             for (std::size_t j = 0; j < i; ++j) {
                 add(together.inputs[j], together.inputs[i], correlation_of(together.inputs[j], together.inputs[i]),
-                    child_pointer(pointer, i));
+                    child_pointer(pointer, i), 0.0);
             }
         }
         job_.simultaneous.push_back(std::move(together));
@@ -366,17 +398,77 @@ private:
         if (const Eigen::LLT<Eigen::MatrixXd> factor(matrix); factor.info() == Eigen::Success) {
             return;
         }
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
-        const double smallest = solver.eigenvalues()(0);
-        const double largest = solver.eigenvalues()(n - 1);
-        if (smallest >= -10.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon() * largest) {
+        if (gum::is_positive_semidefinite(matrix) || repair(matrix, members, place)) {
             return;
         }
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
         const auto at = stated_.find({last->first, last->second});
-        problems_.refuse(k_correlation_not_positive, at == stated_.end() ? document_.where("") : at->second,
-                         "the correlations of " + culprits(solver.eigenvectors().col(0), members) +
-                             " cannot hold together: the smallest eigenvalue of their matrix is " + shortest(smallest),
-                         "a correlation matrix is positive semi-definite", "correct the correlations of these inputs");
+        const std::size_t pairs = members.size() * (members.size() - 1) / 2;
+        const auto stated =
+            static_cast<std::size_t>(std::count_if(stated_.begin(), stated_.end(), [&](const auto& entry) {
+                return std::binary_search(members.begin(), members.end(), entry.first.first) &&
+                       std::binary_search(members.begin(), members.end(), entry.first.second);
+            }));
+        problems_.refuse(
+            k_correlation_not_positive, at == stated_.end() ? document_.where("") : at->second.where,
+            "the correlations of " + culprits(solver.eigenvectors().col(0), members) +
+                " cannot hold together: the smallest eigenvalue of their matrix is " +
+                shortest(solver.eigenvalues()(0)) +
+                (stated < pairs ? "; " + std::to_string(stated) + " of " + std::to_string(pairs) +
+                                      " pairs are stated, and the others count as 0"
+                                : ""),
+            "a correlation matrix is positive semi-definite, within half a unit of the last digits and 0.0005 at most",
+            stated < pairs ? "state the other correlations of these inputs, or correct them"
+                           : "correct the correlations of these inputs");
+    }
+
+    /// Moves correlations by less than half a unit of their last digits where that lets them hold together.
+    template <typename Place>
+    bool repair(const Eigen::MatrixXd& matrix, const std::vector<std::size_t>& members, const Place& place) {
+        if (members.size() > k_most_repaired) {
+            return false;
+        }
+        Eigen::MatrixXd tolerance = Eigen::MatrixXd::Zero(matrix.rows(), matrix.cols());
+        for (const auto& [pair, statement] : stated_) {
+            if (!std::binary_search(members.begin(), members.end(), pair.first) ||
+                !std::binary_search(members.begin(), members.end(), pair.second)) {
+                continue;
+            }
+            const double half_unit =
+                statement.half_unit.value_or(half_of_last_digit(document_.number_as_written(statement.pointer + "/2")));
+            const Eigen::Index i = place(pair.first);
+            const Eigen::Index j = place(pair.second);
+            if (matrix(i, j) == 0.0) {  // not among the correlations
+                continue;
+            }
+            tolerance(i, j) = tolerance(j, i) = std::min(half_unit, k_largest_repair);
+        }
+        const std::optional<Eigen::MatrixXd> nearest = gum::nearest_correlation(matrix, tolerance);
+        if (!nearest) {
+            return false;
+        }
+        double most = 0.0;
+        const InputCorrelation* moved = nullptr;
+        for (InputCorrelation& pair : job_.correlations) {
+            if (std::binary_search(members.begin(), members.end(), pair.first)) {
+                const double r = std::clamp((*nearest)(place(pair.first), place(pair.second)), -1.0, 1.0);
+                if (moved == nullptr || std::abs(r - pair.r) > most) {
+                    most = std::abs(r - pair.r);
+                    moved = &pair;
+                }
+                pair.r = r;
+            }
+        }
+        const auto at = stated_.find({moved->first, moved->second});
+        problems_.warn(k_warn_correlations_repaired, at->second.where,
+                       "the correlations of " + std::to_string(members.size()) +
+                           " inputs hold together only within the digits that are written; the nearest matrix that "
+                           "does is used, where r(" +
+                           printable(job_.inputs[moved->first].name) + ", " +
+                           printable(job_.inputs[moved->second].name) + ") differs most, by " +
+                           gum::round_significant(most, 2),
+                       "a correlation matrix is positive semi-definite", "state more digits if there are some");
+        return true;
     }
 
     /// The inputs with the largest parts in the eigenvector of the smallest eigenvalue.
@@ -408,7 +500,11 @@ private:
     const std::vector<std::string>& names_;
     BudgetJob& job_;
     ProblemList& problems_;
-    std::map<std::pair<std::size_t, std::size_t>, std::string> stated_;  ///< pair → place
+    struct Statement {
+        std::string where, pointer;
+        std::optional<double> half_unit;  ///< of the last digit of r; nothing: of the text at pointer/2
+    };
+    std::map<std::pair<std::size_t, std::size_t>, Statement> stated_;  ///< of a pair
 };
 
 }  // namespace

@@ -164,6 +164,8 @@ inline constexpr InputCode k_warn_equal_observations{"GC-WARN-0011", "observatio
 inline constexpr InputCode k_warn_fixture_u_differs{"GC-WARN-0012",
                                                     "u columns of the fixture that are not used, and are far off"};
 inline constexpr InputCode k_warn_same_position{"GC-WARN-0013", "two angles that are one position of the table"};
+inline constexpr InputCode k_warn_correlations_repaired{"GC-WARN-0020",
+                                                        "correlations that hold together within their digits only"};
 
 /// The whole table, in the order of the codes.
 inline constexpr std::array k_input_codes{k_file_too_large,
@@ -288,6 +290,7 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_warn_few_trials,
                                           k_warn_equal_observations,
                                           k_warn_fixture_u_differs,
-                                          k_warn_same_position};
+                                          k_warn_same_position,
+                                          k_warn_correlations_repaired};
 
 }  // namespace gumcert::engine

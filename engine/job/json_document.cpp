@@ -459,12 +459,30 @@ private:
 }  // namespace
 
 std::string JsonDocument::where(const std::string& pointer) const {
-    std::string text = printable(file) + "#" + printable(pointer);
+    std::string shown = printable(file) + "#" + printable(pointer);
     if (const auto place = places.find(pointer); place != places.end()) {
-        text +=
+        shown +=
             " (line " + std::to_string(place->second.line) + ", column " + std::to_string(place->second.column) + ")";
     }
-    return text;
+    return shown;
+}
+
+std::string JsonDocument::number_as_written(const std::string& pointer) const {
+    const auto place = places.find(pointer);
+    if (place == places.end()) {
+        return "";
+    }
+    std::size_t line_start = 0;
+    for (std::size_t line = 1; line < place->second.line; ++line) {
+        line_start = text.find('\n', line_start) + 1;
+    }
+    std::size_t begin = line_start;
+    PlaceFinder finder(std::string_view{text}.substr(line_start));
+    while (finder.at(begin - line_start).column < place->second.column && begin < text.size()) {
+        ++begin;
+    }
+    const std::size_t end = std::min(text.find_first_not_of("+-.0123456789eE", begin), text.size());
+    return text.substr(begin, end - begin);
 }
 
 std::string child_pointer(const std::string& pointer, std::string_view key) {
@@ -483,7 +501,7 @@ std::optional<JsonDocument> read_json_document(std::string_view bytes, ProblemLi
     if (!text) {
         return std::nullopt;
     }
-    std::optional<JsonDocument> document{JsonDocument{problems.file(), {}, {}}};
+    std::optional<JsonDocument> document{JsonDocument{problems.file(), {}, {}, std::string{*text}}};
     try {
         Parser(*text, problems, limits, *document).document();
     } catch (const Unreadable&) {

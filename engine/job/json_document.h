@@ -32,6 +32,12 @@ struct JsonDocument {
 
     /// `job.json#/fixture/coordinates (line 12, column 5)`; without a place when the pointer has none.
     [[nodiscard]] std::string where(const std::string& pointer) const;
+
+    std::string text;  ///< as it was read
+
+    /// A number as the text has it, "0.50"; "" where the pointer has no place, or none stands there. One pass of the
+    /// text.
+    [[nodiscard]] std::string number_as_written(const std::string& pointer) const;
 };
 
 /// The pointer of a member or an element (RFC 6901: `~` and `/` of a key are escaped).

@@ -324,6 +324,16 @@ TEST(InputText, ShowsHiddenCharactersAndShortensTexts) {
     EXPECT_TRUE(name_objection(std::string(257, 'a')));
 }
 
+TEST(JsonDocument, GivesNumbersAsTheyAreWritten) {
+    const JsonDocument document =
+        parse_json_document("{\n  // Größe\n  \"a\": [0.50, -1e-3 , 7],\n\t\"µ\": {\"b\": \"0.1\"}}", "job.json");
+    EXPECT_EQ(document.number_as_written("/a/0"), "0.50");
+    EXPECT_EQ(document.number_as_written("/a/1"), "-1e-3");
+    EXPECT_EQ(document.number_as_written("/a/2"), "7");
+    EXPECT_EQ(document.number_as_written("/µ/b"), "") << "a text";
+    EXPECT_EQ(document.number_as_written("/a/3"), "") << "nothing there";
+}
+
 TEST(InputText, SuggestsOnlyNearWords) {
     constexpr std::array<std::string_view, 3> words{"datum", "method", "u_constant_um"};
     EXPECT_EQ(nearest_word("Datum", words), "datum");
