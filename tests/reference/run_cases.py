@@ -733,7 +733,13 @@ class WelchSatterthwaite(Propagation):
 
     def find(self, entry):
         if entry["kind"] == "k95":
-            return Found(self.evaluate(0.95)["results"]["y"]["k"])
+            result = self.evaluate(0.95)["results"]["y"]
+            found = Found(result["k"])
+            if result["coverage"] == "convolution" and disagreement(entry, found):
+                k, convention = self.factor_of_degrees_of_freedom(
+                    {**entry, "quantity": "", "coverage_probability": 0.95}, result)  # of ν_eff as it is
+                return Found(k, convention=convention)
+            return found
         return super().find(entry)
 
 
