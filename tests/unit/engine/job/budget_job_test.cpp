@@ -302,7 +302,7 @@ TEST(BudgetJob, ReadsSamplesFromAFile) {
     EXPECT_EQ(read_one_input(R"j({"samples": "mc.csv"})j", files).components[0].value, 3.0);
     const StatedQuantity q = read_one_input(R"j({"samples": {"file": "mc.csv", "column": "Y"}})j", files).components[0];
     EXPECT_EQ(q.value, 7.0);
-    EXPECT_DOUBLE_EQ(q.u, 2.0);
+    EXPECT_NEAR(q.u, 2.0, 1e-14);
     EXPECT_EQ(q.degrees_of_freedom, 99.0);
     EXPECT_EQ(q.distribution.samples->front(), 5.0);
     EXPECT_EQ(q.sample_file, "mc.csv");
