@@ -847,6 +847,22 @@ LinearSolution solve_linear(const Problem& problem, const std::vector<std::strin
     return solution;
 }
 
+/// What uncertain x make of the covariance of the parameters: Q Jᵀ V⁻¹ F V_x Fᵀ V⁻¹ J Q with Q = (JᵀV⁻¹J)⁻¹. With V_y
+/// in the middle it is the part of y; the two add up to Q, because V = V_y + F V_x Fᵀ.
+Matrix covariance_by_x(const Linearised& at, const Matrix& cofactor, const Spread& x) {
+    const Eigen::Index p = cofactor.rows();
+    Matrix weighted(at.by_parameter.rows(), p);  // V⁻¹ J Q
+    for (Eigen::Index i = 0; i < p; ++i) {
+        weighted.col(i) = at.spread.weighted(at.by_parameter * cofactor.col(i));
+    }
+    weighted = (at.slope.asDiagonal() * weighted).eval();
+    Matrix part(p, p);
+    for (Eigen::Index i = 0; i < p; ++i) {
+        part.col(i) = weighted.transpose() * x.times(weighted.col(i));
+    }
+    return 0.5L * (part + part.transpose());
+}
+
 }  // namespace
 
 CurveFit fit_curve(const Curve& curve, const CurveData& data, const Eigen::VectorXd& start,
@@ -914,10 +930,17 @@ CurveFit fit_curve(const Curve& curve, const CurveData& data, const Eigen::Vecto
     fit.sum_of_squares = static_cast<double>(at.sum);
     fit.residual_standard_deviation = static_cast<double>(exact.spread_of(at.sum));
     Matrix covariance = factorisation.cofactor();
+    Matrix by_x;
+    if (data.x_uncertainty.size() != 0) {
+        by_x = covariance_by_x(at, covariance, spread_of(data.x_uncertainty, n));
+    }
     if (fit.covariance_scaled) {
-        covariance *= at.sum / static_cast<Real>(n - p);
+        const Real factor = at.sum / static_cast<Real>(n - p);
+        covariance *= factor;
+        by_x *= factor;
     }
     fit.covariance = covariance.cast<double>();
+    fit.covariance_by_x = by_x.cast<double>();
     if (data.x_uncertainty.size() == 0) {
         const Real total = total_sum(exact, has_intercept);
         if (total > 0.0L) {

@@ -43,6 +43,7 @@ struct CurveData {
 struct CurveFit {
     Eigen::VectorXd parameters;       ///< p
     Eigen::MatrixXd covariance;       ///< p×p, of the parameters
+    Eigen::MatrixXd covariance_by_x;  ///< p×p, the part of it that uncertain x make; empty where x is exact
     double degrees_of_freedom = 0.0;  ///< n − p
     double sum_of_squares = 0.0;      ///< Σ r², weighted where weights were given: χ² then (x and y together)
     double residual_standard_deviation = 0.0;  ///< √(sum_of_squares / (n − p)); 0 when n = p
