@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "gum/expression/name.h"
+#include "gum/expression/temperature_check.h"
 #include "gum/expression/unit_check.h"
 #include "gum/quantity/diagnostic.h"
 
@@ -50,6 +51,8 @@ public:
         check_units();
         choose_outputs(compiled.outputs);
         finish();
+        warn_of_log();
+        compiled.warnings = std::move(warnings_);
         compile(compiled);
     }
 
@@ -353,6 +356,7 @@ private:
         radian.constant = 1.0;
         radian.unit = "rad";
         equation_kinds_.assign(trees_.size(), QuantityKind::unknown());
+        temperatures_.assign(trees_.size(), TemperatureContent{});
         constants_.resize(trees_.size());
         for (const std::size_t i : order_) {
             const SyntaxTree& tree = trees_[i];
@@ -382,8 +386,15 @@ private:
             }
             const std::vector<QuantityKind> kinds = gum::check_units(tree, quantities, problems_);
             equation_kinds_[i] = kinds.back();
+            std::vector<const TemperatureContent*> contents;
+            for (const Symbol* symbol : meanings_[i]) {
+                const bool has_equation = symbol != nullptr && symbol->kind == Symbol::Kind::equation;
+                contents.push_back(has_equation ? &temperatures_[symbol->index] : nullptr);
+            }
+            temperatures_[i] = check_temperatures(tree, kinds, contents, warnings_);
             if (tree.is_implicit()) {
                 check_balance(tree, kinds.back(), problems_);
+                check_result(temperatures_[i], kinds.back(), warnings_);
             }
             for (const SyntaxNode& node : tree.nodes) {
                 if (node.operation == Operation::power) {
@@ -467,9 +478,67 @@ private:
             outputs.push_back(
                 {name, output_unit(name, unknown_kinds_[symbol.index], declared ? declared : own, where, problems_)});
         } else {
-            outputs.push_back({name, output_unit(name, equation_kinds_[symbol.index], declared, where, problems_)});
+            const QuantityKind& kind = equation_kinds_[symbol.index];
+            outputs.push_back({name, output_unit(name, kind, declared, where, problems_)});
+            if (!declared && kind.known) {
+                outputs.back().unit = preferred_unit(outputs.back().unit, units_used_by(symbol.index));
+            }
+            check_result(temperatures_[symbol.index], kind, warnings_);
         }
         chosen_.push_back(symbol);
+    }
+
+    /// Units of the inputs and unknowns of an equation, in the order in which they stand in it and in those it uses.
+    [[nodiscard]] std::vector<const Unit*> units_used_by(std::size_t equation) const {
+        std::vector<const Unit*> units;
+        std::vector<bool> seen(trees_.size(), false);
+        std::vector<std::size_t> open{equation};
+        while (!open.empty()) {
+            const std::size_t i = open.back();
+            open.pop_back();
+            if (seen[i]) {
+                continue;
+            }
+            seen[i] = true;
+            std::vector<std::size_t> next;
+            for (const Symbol* symbol : meanings_[i]) {
+                if (symbol == nullptr || symbol->kind == Symbol::Kind::radian) {
+                    continue;
+                }
+                if (symbol->kind == Symbol::Kind::equation) {
+                    next.push_back(symbol->index);
+                } else {
+                    units.push_back(symbol->kind == Symbol::Kind::input ? &inputs_[symbol->index].unit
+                                                                        : &unknowns_[symbol->index].unit);
+                }
+            }
+            open.insert(open.end(), next.rbegin(), next.rend());
+        }
+        return units;
+    }
+
+    /// Spreadsheets mean the decimal logarithm with it. Once, at the first place.
+    void warn_of_log() {
+        for (const SyntaxTree& tree : trees_) {
+            for (const SyntaxNode& node : tree.nodes) {
+                if (node.operation != Operation::ln) {
+                    continue;
+                }
+                std::string_view text = std::string_view(tree.text).substr(node.begin, node.end - node.begin);
+                text.remove_prefix(std::min(text.find_first_not_of("( \t"), text.size()));
+                if (!text.starts_with("log")) {
+                    continue;
+                }
+                warnings_.push_back({.code = "GC-MODEL-0042",
+                                     .where = place(tree.where, node.column),
+                                     .what = "\"" + tree.excerpt(node) + "\" is taken as the natural logarithm",
+                                     .rule = "log is the same as ln here; spreadsheets mean the decimal logarithm with "
+                                             "it, which is log10",
+                                     .action = "Write ln or log10, whichever is meant.",
+                                     .severity = Severity::warning});
+                return;
+            }
+        }
     }
 
     void compile(CompiledEquations& compiled) {
@@ -566,6 +635,8 @@ private:
     std::vector<std::size_t> order_;
     std::vector<std::size_t> implicit_;
     std::vector<QuantityKind> input_kinds_, unknown_kinds_, equation_kinds_;
+    std::vector<TemperatureContent> temperatures_;  // of the equations
+    std::vector<Diagnostic> warnings_;
     std::vector<std::map<std::int32_t, std::optional<double>>> constants_;  // exponents of an equation, by node
     std::vector<Symbol> chosen_;                                            // what the outputs are
 };

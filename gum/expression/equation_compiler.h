@@ -26,6 +26,7 @@ struct CompiledEquations {
     std::vector<std::size_t> implicit;  ///< the equations "0 = …"
     std::vector<Output> outputs;
     std::vector<std::size_t> unused_inputs;
+    std::vector<Diagnostic> warnings;
     Tape tape;  ///< leaves: inputs, then unknowns; roots: one residual for each implicit equation, then the outputs
 
     [[nodiscard]] std::size_t inputs() const { return input_names.size(); }

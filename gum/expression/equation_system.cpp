@@ -10,6 +10,7 @@
 #include "gum/expression/equation_compiler.h"
 #include "gum/expression/syntax_tree.h"
 #include "gum/expression/tape.h"
+#include "gum/quantity/decimal_rounding.h"
 
 namespace gumcert::gum {
 
@@ -74,6 +75,10 @@ const std::string& EquationSystem::output_name(std::size_t output) const {
 
 const Unit& EquationSystem::output_unit(std::size_t output) const {
     return compiled_->outputs.at(output).unit;
+}
+
+const std::vector<Diagnostic>& EquationSystem::warnings() const {
+    return compiled_->warnings;
 }
 
 const std::vector<std::size_t>& EquationSystem::unused_inputs() const {
@@ -429,6 +434,27 @@ Eigen::VectorXd EquationSystem::evaluate(const Eigen::VectorXd& x) const {
             workspace.tape.value[static_cast<std::size_t>(tape.roots()[tape.residual_count() + i])];
     }
     return y;
+}
+
+Eigen::VectorXd EquationSystem::rounding(const Eigen::VectorXd& x) const {
+    Workspace& workspace = workspace_of_thread();
+    compiled_->run(workspace, x, true, false);
+    const Tape& tape = compiled_->tape;
+    const std::size_t base = tape.first_step_slot();
+    Eigen::VectorXd lost = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(output_count()));
+    for (std::size_t i = 0; i < output_count(); ++i) {
+        TapeWorkspace& at = workspace.tape;
+        std::fill(at.adjoint.begin(), at.adjoint.end(), 0.0);  // a sweep leaves the steps that it does not meet alone
+        tape.gradient(at, tape.residual_count() + i);
+        double sum = 0.0;
+        for (std::size_t slot = 0; slot < base + tape.step_count(); ++slot) {
+            if (slot < compiled_->inputs() || slot >= base) {
+                sum += std::fabs(at.adjoint[slot]) * decimal_rounding(at.value[slot]);
+            }
+        }
+        lost(static_cast<Eigen::Index>(i)) = sum;
+    }
+    return lost;
 }
 
 Eigen::VectorXd EquationSystem::solve(const Eigen::VectorXd& x) const {

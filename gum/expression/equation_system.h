@@ -42,7 +42,8 @@ struct UnknownSymbol {
     Unit unit;
 };
 
-/// A quantity that is asked for. Without a unit it has the coherent SI unit that its equation gives.
+/// A quantity that is asked for. Without a unit it has one that its inputs use, or else the SI unit of its dimension by
+/// its name (ohm, V, N …), or else the coherent one.
 struct OutputSymbol {
     std::string name;
     std::optional<Unit> unit;
@@ -88,6 +89,9 @@ public:
     /// every unknown that no equation with a left-hand side uses, in the order of the equations.
     [[nodiscard]] const std::string& output_name(std::size_t output) const;
     [[nodiscard]] const Unit& output_unit(std::size_t output) const;
+    /// What is accepted, and a person should look at: Celsius temperatures in quotients, roots and powers
+    /// (GC-MODEL-0040), results proportional to one (-0041), `log` (-0042).
+    [[nodiscard]] const std::vector<Diagnostic>& warnings() const;
     /// Inputs that no output depends on (a warning on the draft).
     [[nodiscard]] const std::vector<std::size_t>& unused_inputs() const;
     /// True when every output is an affine function of these inputs, the others held: no second derivative.
@@ -106,6 +110,10 @@ public:
     [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const;
     /// m symmetric matrices n×n, exact. Errors as jacobian().
     [[nodiscard]] std::vector<Eigen::MatrixXd> hessians(const Eigen::VectorXd& x) const;
+    /// How far each output may be off because inputs and intermediate values are rounded to double precision: Σ |∂y/∂v|
+    /// of every input and step v times its decimal_rounding(). Large values that cancel show here. Of an implicit
+    /// model, the steps behind its unknowns only. Errors as jacobian().
+    [[nodiscard]] Eigen::VectorXd rounding(const Eigen::VectorXd& x) const;
     /// The unknowns of an implicit model, coherent SI; nothing of an explicit one. Errors as evaluate().
     [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& x) const;
 

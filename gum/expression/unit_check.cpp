@@ -289,6 +289,15 @@ std::string weight_text(const QuantityKind& kind) {
     return expression_number_text(kind.celsius) + " times a Celsius temperature";
 }
 
+/// What to do about a sum of Celsius temperatures that is none.
+std::string cure_of_weight(const QuantityKind& kind) {
+    const std::string times = expression_number_text(kind.celsius);
+    return "Divide by " + times +
+           " where a mean of Celsius temperatures is meant, subtract Celsius temperatures until "
+           "a difference is left where one is meant, or write kelvin(t) for each Celsius temperature t and state the "
+           "result in K.";
+}
+
 }  // namespace
 
 QuantityKind QuantityKind::unknown() {
@@ -367,7 +376,12 @@ Unit output_unit(const std::string& name, const QuantityKind& kind, const std::o
                               name + " is declared in " + declared->text() +
                                   ", its equation gives a thermodynamic temperature or a difference",
                               "a Celsius temperature is a sum of one Celsius temperature and differences",
-                              "Write celsius(T) for a thermodynamic temperature T, or declare " + name + " in K.");
+                              "If it is a difference from 0 degC (a formula written for t in degC), add the input "
+                              "\"t_0\": {\"value\": 0, \"unit\": \"degC\", \"constant\": true} and \" + t_0\" to the "
+                              "right side (50 K becomes 50 degC). If it is a thermodynamic temperature, write "
+                              "celsius(…) around the right side (50 K becomes -223.15 degC). If a difference is asked "
+                              "for, declare " +
+                                  name + " in K.");
             }
             if (is_same_weight(kind.celsius, 1.0)) {
                 return refuse(
@@ -378,14 +392,14 @@ Unit output_unit(const std::string& name, const QuantityKind& kind, const std::o
             }
             return refuse("GC-MODEL-0036", name + " is " + weight_text(kind),
                           "the result is neither a Celsius temperature nor a difference of temperatures",
-                          "Write kelvin(t) for Celsius temperatures t that are added or scaled.");
+                          cure_of_weight(kind));
         }
         return *declared;
     }
     if (temperature && !is_same_weight(kind.celsius, 0.0) && !is_same_weight(kind.celsius, 1.0)) {
         return refuse("GC-MODEL-0038", name + " is " + weight_text(kind),
                       "the result is neither a Celsius temperature nor a difference of temperatures",
-                      "Write kelvin(t) for Celsius temperatures t that are added or scaled.");
+                      cure_of_weight(kind));
     }
     for (std::size_t i = 0; i < Dimension::k_base_units; ++i) {
         if (std::fabs(kind.dimension.exponent(i) - std::round(kind.dimension.exponent(i))) > 1e-9) {
@@ -394,6 +408,32 @@ Unit output_unit(const std::string& name, const QuantityKind& kind, const std::o
         }
     }
     return Unit::coherent(kind.dimension, temperature && is_same_weight(kind.celsius, 1.0));
+}
+
+Unit preferred_unit(const Unit& coherent, std::span<const Unit* const> used) {
+    if (coherent.dimension().is_one()) {
+        return coherent;
+    }
+    for (const Unit* unit : used) {
+        if (unit->dimension() == coherent.dimension() &&
+            unit->is_celsius_temperature() == coherent.is_celsius_temperature()) {
+            return *unit;
+        }
+    }
+    // Names of SI units (SI brochure, 9th edition, table 4) that are not names of several kinds of quantities.
+    static const std::vector<Unit> k_named = [] {
+        std::vector<Unit> units;
+        for (const char* name : {"N", "Pa", "J", "W", "C", "V", "F", "ohm", "S", "Wb", "T", "H"}) {
+            units.push_back(Unit::parse(name));
+        }
+        return units;
+    }();
+    for (const Unit& unit : k_named) {
+        if (unit.dimension() == coherent.dimension()) {
+            return unit;
+        }
+    }
+    return coherent;
 }
 
 }  // namespace gumcert::gum

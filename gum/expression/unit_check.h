@@ -41,4 +41,10 @@ void check_balance(const SyntaxTree& tree, const QuantityKind& kind, std::vector
 [[nodiscard]] Unit output_unit(const std::string& name, const QuantityKind& kind, const std::optional<Unit>& declared,
                                const std::string& where, std::vector<Diagnostic>& problems);
 
+/// The unit of an output for which none was declared: that of the first input of the same kind, so that a difference of
+/// readings in mV is in mV; else the SI unit with a name of its own ("ohm" for V/mA); else `coherent`. A number stays a
+/// number, whatever percentages are among its inputs.
+/// \param used  units of the inputs, in the order in which they stand in the equation
+[[nodiscard]] Unit preferred_unit(const Unit& coherent, std::span<const Unit* const> used);
+
 }  // namespace gumcert::gum

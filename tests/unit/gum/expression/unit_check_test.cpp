@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+
 #include "equations.h"
 
 namespace gumcert::gum {
@@ -154,6 +157,88 @@ TEST(TemperatureKind, IsInferredAndCured) {
     EXPECT_EQ(codes(problems_of({"0 = q - T"}, quantities(), {unknown("q", 20, "degC")})), "0036 m/0, column 1");
     EXPECT_EQ(codes(problems_of({"0 = q - celsius(T)"}, quantities(), {unknown("q", 20, "degC")})), "");
     EXPECT_EQ(system_of({"y = celsius(T)"}, {input("T", "K")}).evaluate(vector({293.15}))(0), 293.15 - 273.15);
+}
+
+/// What a message advises, followed, gives the right number. Every message of the unit check that tells a cure is here.
+TEST(UnitCheck, CuresLeadToTheRightNumber) {
+    struct Cure {
+        std::string equation, unit;       ///< refused
+        std::string code, advice;         ///< a part of what is advised
+        std::string corrected, new_unit;  ///< as advised
+        double value;                     ///< coherent SI
+    };
+    const double pi = 3.14159265358979323846;
+    const std::vector<Cure> cures{
+        {"y = x + l*phi", "", "0030", "divide the second by it (\"/rad\")", "y = x + l*phi/rad", "", 1.002},
+        {"y = l*phi + x", "", "0030", "divide the first by it (\"/rad\")", "y = l*phi/rad + x", "", 1.002},
+        {"y = exp(phi)", "", "0031", "Divide the angle by rad: exp(phi/rad)", "y = exp(phi/rad)", "", std::exp(0.5)},
+        {"y = sin(n)", "", "0032", "write sin(n*rad)", "y = sin(n*rad)", "", std::sin(3.0)},
+        {"y = n^phi", "", "0033", "Divide the angle by rad", "y = n^(phi/rad)", "", std::sqrt(3.0)},
+        {"y = x^n", "", "0034", "Divide the base by a quantity of the same unit", "y = (x/l)^n", "", 1e-9},
+        {"y = phi*l", "m", "0035", "divide the right side by it (\"/rad\")", "y = phi*l/rad", "m", 1.0},
+        {"y = (R - R)/R/A + T", "degC", "0036", "celsius(…) around the right side", "y = celsius((R - R)/R/A + T)",
+         "degC", 300.0 - 273.15},
+        {"y = (R/100 - R/200)/R/A", "degC", "0036", "\" + t_0\" to the right side", "y = (R/100 - R/200)/R/A + t_0",
+         "degC", 0.005 / 4e-3},
+        {"y = T - dT", "degC", "0036", "declare y in K", "y = T - dT", "K", 299.0},
+        {"y = t", "K", "0036", "Write kelvin(t)", "y = kelvin(t)", "K", 293.15},
+        {"y = t", "K", "0036", "or declare y in degC", "y = t", "degC", 20.0},
+        {"y = t + t2", "degC", "0036", "Divide by 2 where a mean", "y = (t + t2)/2", "degC", 25.0},
+        {"y = t + t2", "", "0038", "subtract Celsius temperatures until a difference is left", "y = t - t2", "", -10.0},
+        {"y = t + t2", "", "0038", "write kelvin(t) for each", "y = kelvin(t) + kelvin(t2)", "", 596.3},
+        {"y = abs(t)", "", "0037", "Take a difference of two temperatures", "y = abs(t - t2)", "", 10.0},
+        {"y = abs(t)", "", "0037", "or kelvin(t)", "y = abs(kelvin(t))", "", 293.15},
+        {"y = celsius(t)", "", "0037", "Leave celsius(…) out", "y = t", "", 20.0},
+        {"y = kelvin(T)", "", "0037", "Leave kelvin(…) out", "y = T", "", 300.0},
+        {"y = min(t, T)", "", "0037", "Write kelvin(t) or celsius(T) for one of them", "y = min(kelvin(t), T)", "",
+         293.15},
+        {"y = min(t, T)", "", "0037", "Write kelvin(t) or celsius(T) for one of them", "y = min(t, celsius(T))", "",
+         20.0},
+        {"y = x^n", "", "0034", "declare the exponent as \"constant\"", "y = x^two", "", 1e-6 * 4.0},
+        {"y = asin(x/l)*l", "m", "0035", "divide the right side by it", "y = asin(x/l)*l/rad", "m",
+         2.0 * std::asin(1e-3)},
+        {"y = cos(n*pi)", "", "0032", "write cos((n*pi)*rad)", "y = cos((n*pi)*rad)", "", std::cos(3.0 * pi)}};
+    std::vector<InputSymbol> inputs = quantities();
+    inputs.push_back(input("t_0", "degC", 0.0));
+    const std::map<std::string, double> values{{"x", 2e-3},  {"l", 2.0},   {"T", 300.0}, {"t", 20.0},
+                                               {"t2", 30.0}, {"phi", 0.5}, {"n", 3.0},   {"two", 2.0},
+                                               {"A", 4e-3},  {"R", 100.0}, {"dT", 1.0},  {"t_0", 0.0}};
+    for (const Cure& cure : cures) {
+        SCOPED_TRACE(cure.equation);
+        const auto outputs = [](const std::string& unit) {
+            return unit.empty() ? std::vector<OutputSymbol>{} : std::vector{output("y", unit)};
+        };
+        const std::vector<Diagnostic> problems = problems_of({cure.equation}, inputs, {}, outputs(cure.unit));
+        ASSERT_EQ(problems.size(), 1U);
+        EXPECT_EQ(problems[0].code, "GC-MODEL-" + cure.code);
+        EXPECT_THAT(problems[0].action, HasSubstr(cure.advice));
+        const EquationSystem system = system_of({cure.corrected}, inputs, {}, outputs(cure.new_unit));
+        EXPECT_TRUE(system.warnings().empty()) << system.warnings().front().what;
+        Eigen::VectorXd at = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(inputs.size()));
+        for (std::size_t i = 0; i < inputs.size(); ++i) {
+            const auto known = values.find(inputs[i].name);
+            at(static_cast<Eigen::Index>(i)) = known == values.end() ? 1.0 : known->second;
+        }
+        EXPECT_NEAR(system.evaluate(at)(0), cure.value, 1e-12 + 1e-12 * std::fabs(cure.value));
+    }
+}
+
+TEST(UnitCheck, ResultsWithoutAUnitHaveOneThatTheInputsUse) {
+    const auto unit = [](const std::string& equation, const std::vector<InputSymbol>& inputs) {
+        return system_of({equation}, inputs).output_unit(0).text();
+    };
+    EXPECT_EQ(unit("y = a - b", {input("a", "V"), input("b", "V")}), "V");
+    EXPECT_EQ(unit("y = a - b", {input("a", "mV"), input("b", "V")}), "mV");
+    EXPECT_EQ(unit("y = a/b", {input("a", "V"), input("b", "mA")}), "ohm");
+    EXPECT_EQ(unit("y = a/b", {input("a", "mV"), input("b", "mV")}), "1");
+    EXPECT_EQ(unit("y = a*(1 + b)", {input("a", "um"), input("b", "percent")}), "um");
+    EXPECT_EQ(unit("y = a*b", {input("a", "percent"), input("b", "percent")}), "1");
+    EXPECT_EQ(unit("y = a*b", {input("a", "V"), input("b", "A")}), "W");
+    EXPECT_EQ(unit("y = a/b", {input("a", "N"), input("b", "mm2")}), "Pa");
+    EXPECT_EQ(unit("y = a*b", {input("a", "mm"), input("b", "mm")}), "m2");
+    EXPECT_EQ(unit("y = a + b", {input("a", "degC"), input("b", "mK")}), "degC");
+    EXPECT_EQ(unit("y = a - b", {input("a", "degC"), input("b", "degC")}), "K");
+    EXPECT_EQ(unit("y = atan(a/b)", {input("a", "m"), input("b", "m")}), "rad");
 }
 
 }  // namespace

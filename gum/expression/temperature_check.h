@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gum/expression/syntax_tree.h"
+#include "gum/expression/unit_check.h"
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::gum {
+
+/// In which powers a sub-expression holds Celsius temperatures t (their values, not differences of two).
+///
+/// A number in °C is a difference from 0 °C. A polynomial 1 + A t + B t² is written for that difference and is right
+/// with t in °C (Callendar-Van Dusen, density of water, …); so is b/(c + t) with a constant shift c of the scale
+/// (Magnus). What is proportional to t alone, or to t⁴, what is divided by t, and √t, is nearly always meant for the
+/// thermodynamic temperature: p M/(R t), σ t⁴. Both have the same units, so the unit check cannot tell; the shape can.
+struct TemperatureContent {
+    /// Bit n: a term with tⁿ; bit 0: a term without.
+    std::uint32_t powers = 1;
+    bool shifted = false;     ///< a Celsius temperature plus a constant: the zero of the scale was moved on purpose
+    std::string where;        ///< of the product
+    std::string product;      ///< "Rg*t"
+    std::string temperature;  ///< "t"
+
+    /// The highest power that stands without lower ones beside it, which would make it a polynomial; 0: none.
+    [[nodiscard]] int lone_power() const;
+};
+
+/// The content of an equation, from those of its names (read where a name has its own equation).
+///
+/// Adds GC-MODEL-0040 to `warnings` for a quotient by, a root, a logarithm or a power of something proportional to a
+/// Celsius temperature, with the two cures.
+/// \param kinds     of every node, from check_units()
+/// \param contents  of each of tree.names; null for inputs and unknowns
+[[nodiscard]] TemperatureContent check_temperatures(const SyntaxTree& tree, std::span<const QuantityKind> kinds,
+                                                    std::span<const TemperatureContent* const> contents,
+                                                    std::vector<Diagnostic>& warnings);
+
+/// GC-MODEL-0041 where a result is proportional to a power of a Celsius temperature.
+void check_result(const TemperatureContent& content, const QuantityKind& kind, std::vector<Diagnostic>& warnings);
+
+}  // namespace gumcert::gum

@@ -1,0 +1,173 @@
+#include "gum/expression/temperature_check.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "equations.h"
+
+namespace gumcert::gum {
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<InputSymbol> quantities() {
+    return {input("p", "Pa"),
+            input("M", "kg/mol", 0.028964),
+            input("R", "J/(mol K)", 8.314462618),
+            input("t", "degC"),
+            input("t2", "degC"),
+            input("t_F", "degF"),
+            input("T", "K"),
+            input("dt", "K"),
+            input("t_0", "degC", 0.0),
+            input("T_0", "K", 273.15),
+            input("b_m", "K", 243.12),
+            input("s", "W/(m2 K4)", 5.67e-8),
+            input("A", "1/K", 3.9083e-3),
+            input("B", "1/K2", -5.775e-7),
+            input("C", "1/K4", -4.183e-12),
+            input("R_0", "ohm"),
+            input("S", "uV/K"),
+            input("n", "mol"),
+            input("w", "1"),
+            input("w2", "1"),
+            input("c", "J/(kg K)"),
+            input("m", "kg"),
+            input("E_a", "J/mol")};
+}
+
+std::string warned(const std::vector<std::string>& equations, const std::vector<OutputSymbol>& outputs = {}) {
+    std::string list;
+    for (const Diagnostic& warning : system_of(equations, quantities(), {}, outputs).warnings()) {
+        EXPECT_EQ(warning.severity, Severity::warning);
+        list += (list.empty() ? "" : "; ") + warning.code.substr(9) + " " + warning.where;
+    }
+    return list;
+}
+
+TEST(TemperatureCheck, WarnsOfQuotientsRootsAndPowers) {
+    EXPECT_EQ(warned({"rho = p*M/(R*t)"}), "0040 m/0, column 10");
+    EXPECT_EQ(warned({"y = p/t"}), "0040 m/0, column 6");
+    EXPECT_EQ(warned({"y = t/t2"}), "0040 m/0, column 6");
+    EXPECT_EQ(warned({"y = p*M/R/t_F"}), "0040 m/0, column 10");
+    EXPECT_EQ(warned({"rho = p*M/(R*(t + dt))"}), "0040 m/0, column 10");
+    EXPECT_EQ(warned({"q = s*t^4"}), "0041 m/0, column 6");
+    EXPECT_EQ(warned({"q = s*(t^4 - t2^4)"}), "0041 m/0, column 6");
+    EXPECT_EQ(warned({"q = p*m/m*0 + s*t*t*t*t"}, {}), "0041 m/0, column 15") << "a + s t⁴ is no polynomial";
+    EXPECT_EQ(warned({"v = sqrt(R*t/M)"}), "0040 m/0, column 5");
+    EXPECT_EQ(warned({"v = (R*t/M)^0.5"}), "0040 m/0, column 12");
+    EXPECT_EQ(warned({"v = (R*t)^-1*n"}), "0040 m/0, column 10");
+    EXPECT_EQ(warned({"y = ln(t/T)"}), "0040 m/0, column 5");
+    EXPECT_EQ(warned({"y = exp(-E_a/(R*t))"}), "0040 m/0, column 13");
+    EXPECT_EQ(warned({"V = n*R*t/p"}), "0041 m/0, column 10");
+    EXPECT_EQ(warned({"y = w*t"}, {output("y", "K")}), "0041 m/0, column 6");
+}
+
+TEST(TemperatureCheck, FollowsIntermediateQuantities) {
+    EXPECT_EQ(warned({"rho = p*M/x", "x = R*y", "y = t"}), "0040 m/0, column 10");
+    EXPECT_EQ(warned({"rho = p*M/(R*t_c)", "t_c = t + dt"}), "0040 m/0, column 10");
+    EXPECT_EQ(warned({"W = 1 + x", "x = A*t"}), "");
+    EXPECT_EQ(warned({"rho = p*M/(R*T_c)", "T_c = kelvin(t + dt)"}), "");
+}
+
+TEST(TemperatureCheck, IsSilentWhereADifferenceFromZeroIsMeant) {
+    for (const char* equation : {
+             "y = R_0*(1 + A*t + B*t^2)",                       // Callendar-Van Dusen above 0 °C
+             "y = R_0*(1 + A*t + B*t^2 + C*(t - 100*dt)*t^3)",  // below it
+             "y = R_0*(1 + t*(A + B*t))",                       // Horner's form
+             "y = A*t + B*t^2",                                 //
+             "y = m*c*(t - t2)",                                //
+             "y = m*c*t - m*c*t2",                              //
+             "y = p*M/(R*kelvin(t))",                           //
+             "y = p*M/(R*(t + T_0))",                           // the conversion by hand
+             "y = p*M/(R*(t - t_0))",                           // on purpose
+             "y = p*exp(17.62*t/(b_m + t))",                    // Magnus
+             "y = p*exp(w*A*t)",                                //
+             "y = p/(1 + A*t)",                                 //
+             "y = s*(kelvin(t)^4 - kelvin(t2)^4)",              //
+             "y = (t + t2)/2",                                  //
+             "y = t + dt",                                      //
+             "y = 0.5*t + 0.5*t2",                              //
+             "y = (w*t + w2*t2)/(w + w2)",                      // a mean with weights
+             "y = 1/(t - t2)*dt",                               //
+             "y = sqrt(T)",
+             "y = s*T^4",
+             "y = n*R*T/p",  // kelvin
+         }) {
+        std::string list;
+        try {
+            list = warned({equation});
+        } catch (const InputError& error) {
+            list = message(error.diagnostics().front());
+        }
+        EXPECT_EQ(list, "") << equation;
+    }
+}
+
+TEST(TemperatureCheck, WarnsOfLogOnce) {
+    EXPECT_EQ(warned({"y = log(w) + log(w2)", "z = log(w)"}), "0042 m/0, column 5");
+    EXPECT_EQ(warned({"y = ln(w) + log10(w2)"}), "");
+    EXPECT_EQ(warned({"y = (log(w))"}), "0042 m/0, column 6");
+}
+
+/// Replaces every quoted expression after a word of a message by what the message tells to write.
+std::string between(const std::string& text, const std::string& before, const std::string& after) {
+    const std::size_t from = text.find(before);
+    EXPECT_NE(from, std::string::npos) << text;
+    const std::size_t begin = from + before.size();
+    return text.substr(begin, text.find(after, begin) - begin);
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+    const std::size_t at = text.rfind(what);
+    EXPECT_NE(at, std::string::npos) << what << " in " << text;
+    return text.replace(at, what.size(), by);
+}
+
+/// Both cures of every message, followed to the letter, give what they promise.
+TEST(TemperatureCheck, CuresLeadToTheRightNumber) {
+    struct Case {
+        std::string equation;
+        double with_kelvin, with_difference;  // at t = 25 °C, dt = 1 K, p = 101325, n = 2, T = 300 K
+    };
+    const double R = 8.314462618;
+    const std::vector<Case> cases{
+        {"y = p*M/(R*t)", 101325 * 0.028964 / (R * 298.15), 101325 * 0.028964 / (R * 25.0)},
+        {"y = p*M/(R*(t + dt))", 101325 * 0.028964 / (R * 299.15), 101325 * 0.028964 / (R * 26.0)},
+        {"y = s*t^4", 5.67e-8 * std::pow(298.15, 4), 5.67e-8 * std::pow(25.0, 4)},
+        {"y = n*R*t/p", 2.0 * R * 298.15 / 101325, 2.0 * R * 25.0 / 101325},
+        {"y = sqrt(R*t/M)", std::sqrt(R * 298.15 / 0.028964), std::sqrt(R * 25.0 / 0.028964)},
+        {"y = ln(t/T)", std::log(298.15 / 300.0), std::log(25.0 / 300.0)},
+    };
+    const std::map<std::string, double> values{{"p", 101325}, {"t", 25.0}, {"dt", 1.0}, {"n", 2.0}, {"T", 300.0}};
+    const std::vector<InputSymbol> symbols = quantities();
+    const auto value = [&](const std::string& equation) {
+        const EquationSystem system = system_of({equation}, symbols);
+        EXPECT_TRUE(system.warnings().empty()) << equation;
+        Eigen::VectorXd x(static_cast<Eigen::Index>(symbols.size()));
+        for (std::size_t i = 0; i < symbols.size(); ++i) {
+            const auto known = values.find(symbols[i].name);
+            x(static_cast<Eigen::Index>(i)) = known != values.end() ? known->second : symbols[i].constant.value_or(1.0);
+        }
+        return system.evaluate(x)(0);
+    };
+    for (const Case& one : cases) {
+        SCOPED_TRACE(one.equation);
+        const std::vector<Diagnostic> warnings = system_of({one.equation}, symbols).warnings();
+        ASSERT_FALSE(warnings.empty());
+        const std::string& action = warnings.front().action;
+        const std::string meant = between(action, " for \"", "\"");
+        const std::string kelvin = between(action, "Write ", " for ");
+        const std::string difference = between(action, "is meant, write ", " with the input");
+        EXPECT_NEAR(value(replaced(one.equation, meant, kelvin)), one.with_kelvin, 1e-12 * one.with_kelvin + 1e-15);
+        EXPECT_NEAR(value(replaced(one.equation, meant, difference)), one.with_difference,
+                    1e-12 * std::fabs(one.with_difference));
+        EXPECT_THAT(action, HasSubstr(R"("t_0": {"value": 0, "unit": "degC", "constant": true})"));
+    }
+}
+
+}  // namespace
+}  // namespace gumcert::gum
