@@ -269,6 +269,9 @@ private:
 
     void check_variance(std::size_t index, double variance, const std::string& pointer) {
         const BudgetInput& input = job_.inputs[index];
+        if (!input.stated) {
+            return;  // the points of the table state it, with this variance
+        }
         double u2 = 0.0;
         for (const StatedQuantity& component : input.components) {
             const double u = input.unit.difference_from_si(component.u);

@@ -515,6 +515,13 @@ private:
         const std::array<gum::EquationText, 1> equation{fit_.equation};
         try {
             const gum::EquationSystem system = gum::EquationSystem::compile(equation, symbols, {}, output);
+            for (const gum::Diagnostic& warning : system.warnings()) {
+                // A curve through the origin of the Celsius scale is what the data were taken for.
+                if (warning.code != "GC-MODEL-0041") {
+                    problems_.warn(InputCode{warning.code, {}}, warning.where, warning.what, warning.rule,
+                                   warning.action);
+                }
+            }
             for (const std::size_t unused : system.unused_inputs()) {
                 if (unused < parameters.size()) {
                     object_.refuse(k_fit_name, "parameters",

@@ -8,6 +8,7 @@
 
 #include "engine/job/budget_fit_statement.h"
 #include "engine/job/csv_table.h"
+#include "gum/quantity/decimal_rounding.h"
 
 namespace gumcert::engine {
 
@@ -20,6 +21,7 @@ constexpr std::size_t k_most_components = 1000;
 constexpr std::size_t k_most_points = 100'000;
 constexpr std::array<std::string_view, 1> k_file_keys{"file"};
 constexpr std::string_view k_point = "point";
+constexpr std::size_t k_most_named = 5;
 
 std::string small_letters(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -69,7 +71,7 @@ void BudgetInputs::read(const JsonObject& root) {
     names_ = keys_in_order(document_, pointer);
     stated_.reserve(names_.size());
     for (const std::string& name : names_) {
-        read_input(name, child_pointer(pointer, name));
+        read_input(name, child_pointer(pointer, name), root.has("points"));
     }
     const Reading reading = [&](const std::string& name) -> const BudgetInput* {
         const auto found = of_name_.find(name);
@@ -77,11 +79,23 @@ void BudgetInputs::read(const JsonObject& root) {
     };
     readers_.resize(stated_.size());
     for (std::size_t i = 0; i < stated_.size(); ++i) {
-        if (stated_[i].base && !complete(*stated_[i].base, reading)) {
-            stated_[i].base.reset();
+        Stated& stated = stated_[i];
+        if (!stated.base) {
+            continue;
         }
-        for (std::size_t c = 0; stated_[i].base && c < stated_[i].base->specifications.size(); ++c) {
-            const auto& specification = stated_[i].base->specifications[c];
+        const std::size_t problems_before = stated.pending ? stated.pending->refusals() : problems_.refusals();
+        if (!complete(*stated.base, reading)) {
+            // Without a message of its own it waits for an input that the points state.
+            stated.is_complete = false;
+            if (!stated.pending || stated.pending->refusals() > problems_before) {
+                stated.base.reset();
+                continue;
+            }
+        } else if (!check_digits(*stated.base)) {
+            stated.base.reset();
+            continue;
+        }
+        for (const std::optional<StatedSpecification>& specification : stated.base->specifications) {
             if (specification && specification->of) {
                 readers_[of_name_.at(*specification->of)].push_back(i);
             }
@@ -90,7 +104,7 @@ void BudgetInputs::read(const JsonObject& root) {
     warn_of_similar_names();
 }
 
-void BudgetInputs::read_input(const std::string& name, const std::string& pointer) {
+void BudgetInputs::read_input(const std::string& name, const std::string& pointer, bool has_points) {
     const std::string where = document_.where(pointer);
     const bool is_name = is_quantity_name(name, where, problems_);
     const json& value = document_.value.at(json::json_pointer(pointer));
@@ -107,10 +121,20 @@ void BudgetInputs::read_input(const std::string& name, const std::string& pointe
     const JsonObject object(document_, pointer, budget_input_keys(), problems_);
     const auto unit = read_unit(object, "unit", problems_);
     symbols_are_whole_ = symbols_are_whole_ && unit && is_name;
-    Stated stated{
-        name, unit.value_or(gum::Unit()), StatementKeys(document_, pointer, budget_input_keys(), problems_), {}};
-    stated.base = evaluate(stated, *stated.keys);
+    Stated stated;
+    stated.name = name;
+    stated.unit = unit.value_or(gum::Unit());
+    stated.keys.emplace(document_, pointer, budget_input_keys(), problems_);
+    if (has_points) {
+        stated.pending = std::make_unique<ProblemList>(problems_.file());
+        stated.base = evaluate(stated, StatementKeys(document_, pointer, budget_input_keys(), *stated.pending));
+    } else {
+        stated.base = evaluate(stated, *stated.keys);
+    }
     if (!unit || !is_name) {
+        if (stated.pending) {
+            problems_.take(*stated.pending);
+        }
         return;
     }
     of_name_.emplace(name, stated_.size());
@@ -287,6 +311,57 @@ bool BudgetInputs::complete(Evaluated& evaluated, const Reading& reading) const 
     return is_complete;
 }
 
+bool BudgetInputs::check_digits(const Evaluated& evaluated) {
+    const BudgetInput& input = evaluated.input;
+    double u2 = 0.0;
+    for (const StatedQuantity& component : input.components) {
+        const double u = input.unit.difference_from_si(component.u);
+        u2 += u * u;
+    }
+    const double u = std::sqrt(u2);
+    if (u == 0.0) {
+        return true;
+    }
+    bool all_held = true;
+    for (std::size_t i = 0; i < input.components.size(); ++i) {
+        const StatedQuantity& component = input.components[i];
+        // A mean has digits of its own; what was written are the readings.
+        const bool is_list = !component.observations.empty() || component.groups.has_value() ||
+                             component.distribution.samples != nullptr;
+        std::string_view key = "value";
+        double worst = is_list ? 0.0 : component.stated_value;
+        const auto see = [&](std::string_view of, const std::vector<double>& si) {
+            key = si.empty() ? key : of;
+            for (const double value : si) {
+                const double stated = input.unit.from_si(value);
+                worst = gum::decimal_rounding(stated) > gum::decimal_rounding(worst) ? stated : worst;
+            }
+        };
+        see("observations", component.observations);
+        if (component.groups) {
+            see("groups", component.groups->means);
+            for (const std::vector<double>& group : component.groups->readings) {
+                see("groups", group);
+            }
+        }
+        if (component.distribution.samples) {
+            see("samples", *component.distribution.samples);
+        }
+        const double lost = gum::decimal_rounding(worst);
+        if (lost > gum::k_accepted_rounding * u) {
+            evaluated.keys[i].refuse(
+                k_digits_lost, key,
+                "the digits of " + shortest(worst) + " are held to ±" + shortest(lost) +
+                    " only, and the standard uncertainty is " + shortest(u),
+                "a number has about 16 digits; what is lost of it must be small beside its uncertainty",
+                "state it as a whole number, a constant, and the difference from it, an input; in the model, subtract "
+                "the whole numbers from each other before the differences are added");
+            all_held = false;
+        }
+    }
+    return all_held;
+}
+
 void BudgetInputs::warn_of_similar_names() {
     std::map<std::string, std::string> seen;
     for (const std::string& name : names_) {
@@ -304,10 +379,20 @@ std::vector<BudgetInput> BudgetInputs::inputs(std::map<std::string, std::size_t>
     std::vector<BudgetInput> list;
     positions_.assign(stated_.size(), 0);
     for (std::size_t i = 0; i < stated_.size(); ++i) {
-        if (stated_[i].base) {
+        const Stated& stated = stated_[i];
+        if (stated.base || stated.pending) {
             positions_[i] = list.size();
-            positions.emplace(stated_[i].name, list.size());
-            list.push_back(stated_[i].base->input);
+            positions.emplace(stated.name, list.size());
+            if (stated.base) {
+                list.push_back(stated.base->input);
+                continue;
+            }
+            BudgetInput& open = list.emplace_back();  // until a point states it
+            open.name = stated.name;
+            open.unit = stated.unit;
+            open.stated = false;
+            open.where = stated.keys->where();
+            open.components.emplace_back();
         }
     }
     return list;
@@ -349,7 +434,70 @@ void BudgetInputs::read_points(const JsonObject& root, BudgetJob& job) {
     } else {
         root.refuse(k_wrong_type, "points", described(*points), "must be an array or an object",
                     "give an array of points, or {\"file\": \"points.csv\"}");
+    }
+    finish_points(job);
+}
+
+void BudgetInputs::refuse_unstated(const Stated& stated, std::size_t points) {
+    const std::vector<gum::Diagnostic> refused = stated.pending->refused();
+    const bool nothing_stated = !refused.empty() && refused.front().code == k_no_statement.code;
+    if (!nothing_stated || (stated.points == 0 && points > 0)) {
+        problems_.take(*stated.pending);
         return;
+    }
+    if (points == 0) {
+        return;  // the table was refused
+    }
+    std::string names;
+    for (const std::string& name : stated.silent) {
+        names += (names.empty() ? "" : ", ") + in_quotes(name);
+    }
+    const std::size_t silent = points - stated.points;
+    if (silent > stated.silent.size()) {
+        names += " and " + std::to_string(silent - stated.silent.size()) + " more";
+    }
+    stated.keys->refuse(k_no_statement, "nothing is stated of it, and the points " + names + " do not state it either",
+                        "an input has a statement of its own, or every point of the table has one",
+                        "state it at these points, or in the inputs");
+}
+
+void BudgetInputs::finish_points(BudgetJob& job) {
+    std::vector<std::string> unused;
+    for (std::size_t i = 0; i < stated_.size(); ++i) {
+        Stated& stated = stated_[i];
+        const bool everywhere = !job.points.empty() && stated.points == job.points.size();
+        if (!everywhere) {
+            refuse_unstated(stated, job.points.size());
+        }
+        if (!job.points.empty() && (!stated.base || !stated.is_complete)) {
+            for (const auto& [position, input] : job.points.front().inputs) {
+                if (position == positions_[i]) {
+                    job.inputs[position] = input;
+                    job.inputs[position].stated = false;
+                }
+            }
+        }
+        if (!everywhere) {
+            continue;
+        }
+        for (const auto& [key, points] : stated.overridden) {
+            if (points == job.points.size() && stated.keys->has(key) &&
+                (key == "value" || key == "observations" || key == "groups" || key == "samples" || key == "limits")) {
+                unused.push_back(in_quotes(stated.name + "." + std::string{key}));
+            }
+        }
+    }
+    if (!unused.empty()) {
+        std::string names;
+        for (std::size_t n = 0; n < std::min(unused.size(), k_most_named); ++n) {
+            names += (n == 0 ? "" : ", ") + unused[n];
+        }
+        if (unused.size() > k_most_named) {
+            names += " and " + std::to_string(unused.size() - k_most_named) + " more";
+        }
+        problems_.note(k_warn_unused_value, document_.where("/inputs"),
+                       names + " of the inputs: every point of the table states another one",
+                       "an input may be left to the points: nothing needs to stand in its place", "remove them");
     }
 }
 
@@ -405,6 +553,7 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
         BudgetPoint point;
         std::optional<std::string> name;
         std::map<std::size_t, StatementKeys> overrides;
+        std::set<std::size_t> told;
         for (const auto& [key, value] : points[i].items()) {
             const std::string at = child_pointer(here, key);
             if (value.is_discarded()) {
@@ -422,22 +571,28 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
                 continue;
             }
             const auto index = point_input(key, document_.where(at), job, problems_);
-            if (!index || !stated_[*index].base) {
+            if (!index) {
                 continue;
             }
             const StatementKeys& base = *stated_[*index].keys;
             if (value.is_number()) {
                 overrides.emplace(*index, base.with("value", value.get<double>(), document_, at, problems_));
+                ++stated_[*index].overridden["value"];
             } else if (value.is_object()) {
                 const JsonObject object(document_, at, budget_override_keys(), problems_);
-                overrides.emplace(*index, base.with(StatementKeys(document_, at, budget_override_keys(), problems_)));
+                const StatementKeys own(document_, at, budget_override_keys(), problems_);
+                overrides.emplace(*index, base.with(own));
+                for (const std::string_view own_key : own.present()) {
+                    ++stated_[*index].overridden[own_key];
+                }
             } else {
+                told.insert(*index);
                 problems_.refuse(k_wrong_type, document_.where(at), described(value), "must be a number or an object",
                                  "state the value, or the keys that differ at this point");
             }
         }
         name_point(point, name, document_.where(here), job, problems_);
-        read_point(point, overrides, job);
+        read_point(point, overrides, told, job);
         job.points.push_back(std::move(point));
     }
 }
@@ -498,6 +653,7 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
         BudgetPoint point;
         std::optional<std::string> point_name;
         std::map<std::size_t, StatementKeys> overrides;
+        std::set<std::size_t> told;
         for (std::size_t c = 0; c < columns.size(); ++c) {
             const Column& column = columns[c];
             if (!column.input) {
@@ -506,30 +662,52 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
                 continue;
             }
             const CsvCell& cell = table->cell(row, c);
-            if (cell.text.empty() || !stated_[*column.input].base) {
+            if (cell.text.empty()) {
+                file->problems->refuse(
+                    k_empty_cell, table->where(cell),
+                    "row " + std::to_string(row + 1) + " has no value in the column " + in_quotes(column.name),
+                    "a missing value is neither 0 nor that of another row",
+                    "state it; leave the column out where all points take what the job states", "empty " + column.name);
+                told.insert(*column.input);
                 continue;
             }
             if (const auto number = table->number(row, c, {})) {
                 const auto found = overrides.find(*column.input);
                 const StatementKeys& before = found == overrides.end() ? *stated_[*column.input].keys : found->second;
-                overrides.insert_or_assign(*column.input,
-                                           before.with(column.key, *number, *table, cell, *file->problems));
+                overrides.insert_or_assign(
+                    *column.input, before.with(column.key, *number, *table, cell, *file->problems, column.name));
+                ++stated_[*column.input].overridden[column.key];
+            } else {
+                told.insert(*column.input);
             }
         }
         if (!columns.empty()) {
             const std::string where = table->where(table->cell(row, name_column.value_or(0)));
             name_point(point, point_name, where, job, *file->problems);
         }
-        read_point(point, overrides, job);
+        read_point(point, overrides, told, job);
         job.points.push_back(std::move(point));
     }
 }
 
 void BudgetInputs::read_point(BudgetPoint& point, const std::map<std::size_t, StatementKeys>& overrides,
-                              BudgetJob& job) {
+                              const std::set<std::size_t>& told, BudgetJob& job) {
     std::map<std::size_t, Evaluated> here;
     std::set<std::size_t> read_again;
+    for (std::size_t i = 0; i < stated_.size(); ++i) {
+        if (overrides.contains(i) || told.contains(i)) {
+            ++stated_[i].points;
+        } else if (stated_[i].silent.size() < k_most_named) {
+            stated_[i].silent.push_back(point.name);
+        }
+        if (!stated_[i].is_complete) {
+            read_again.insert(i);
+        }
+    }
     for (const auto& [index, keys] : overrides) {
+        if (told.contains(index)) {
+            continue;
+        }
         const Stated& stated = stated_[index];
         const std::size_t position = positions_[index];
         // The correlation from simultaneous observations belongs to the observations of the job.
@@ -578,7 +756,7 @@ void BudgetInputs::read_point(BudgetPoint& point, const std::map<std::size_t, St
         return stated_[found->second].base ? &stated_[found->second].base->input : nullptr;
     };
     for (auto& [index, evaluated] : here) {
-        if (complete(evaluated, reading)) {
+        if (complete(evaluated, reading) && check_digits(evaluated)) {
             point.inputs.emplace_back(positions_[index], evaluated.input);
         }
     }

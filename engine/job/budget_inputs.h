@@ -2,7 +2,9 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,9 @@
 namespace gumcert::engine {
 
 /// The inputs of a budget job while it is read, and the points of its table, which state some of them anew.
+///
+/// Where there is a table, an input may be left to the points: what is wrong with its statement, or missing in it, is
+/// told only where a point takes it over.
 class BudgetInputs {
 public:
     /// \param covariance  of the job, for the inputs that take their variance from it; must outlive this
@@ -48,11 +53,16 @@ private:
         std::string name;
         gum::Unit unit;
         std::optional<StatementKeys> keys;
-        std::optional<Evaluated> base;  ///< nothing when it was refused
+        std::optional<Evaluated> base;         ///< nothing when it was refused
+        bool is_complete = true;               ///< false: its specification waits for the value of another input
+        std::unique_ptr<ProblemList> pending;  ///< what is wrong with the base, in a job with points
+        std::size_t points = 0;                ///< that state the input, or were refused for it
+        std::vector<std::string> silent;       ///< names of the first points that leave it to the job
+        std::map<std::string_view, std::size_t> overridden;  ///< keys of the base: points that replace them
     };
     using Reading = std::function<const BudgetInput*(const std::string&)>;  ///< the input of a name, or null
 
-    void read_input(const std::string& name, const std::string& pointer);
+    void read_input(const std::string& name, const std::string& pointer, bool has_points);
     [[nodiscard]] std::optional<Evaluated> evaluate(const Stated& stated, const StatementKeys& keys);
     [[nodiscard]] bool evaluate_components(const Stated& stated, const StatementKeys& keys, Evaluated& out);
     [[nodiscard]] bool add_component(const Stated& stated, const StatementKeys& keys, bool is_component,
@@ -60,10 +70,18 @@ private:
     /// Uncertainties from specifications, once the values of all inputs are known.
     [[nodiscard]] bool complete(Evaluated& evaluated, const Reading& reading) const;
     void warn_of_similar_names();
+    /// Refuses numbers whose digits are lost beside the uncertainty of the input.
+    static bool check_digits(const Evaluated& evaluated);
+    /// An input that neither the job nor all of its points state.
+    void refuse_unstated(const Stated& stated, std::size_t points);
+    /// What the points leave open, and what of the job they leave unused.
+    void finish_points(BudgetJob& job);
 
     void read_point_array(const nlohmann::json& points, const std::string& pointer, BudgetJob& job);
     void read_point_file(const std::string& name, BudgetJob& job);
-    void read_point(BudgetPoint& point, const std::map<std::size_t, StatementKeys>& overrides, BudgetJob& job);
+    /// \param told  inputs that were refused at this point already
+    void read_point(BudgetPoint& point, const std::map<std::size_t, StatementKeys>& overrides,
+                    const std::set<std::size_t>& told, BudgetJob& job);
     [[nodiscard]] std::optional<std::size_t> point_input(const std::string& name, const std::string& where,
                                                          const BudgetJob& job, ProblemList& problems) const;
     void name_point(BudgetPoint& point, const std::optional<std::string>& name, const std::string& where,

@@ -259,6 +259,9 @@ private:
         try {
             const gum::EquationSystem system =
                 gum::EquationSystem::compile(job_.model, symbols, job_.unknowns, model_outputs(job_));
+            for (const gum::Diagnostic& warning : system.warnings()) {
+                problems_->warn(InputCode{warning.code, {}}, warning.where, warning.what, warning.rule, warning.action);
+            }
             for (const std::size_t unused : system.unused_inputs()) {
                 if (is_accepted && unused < job_.inputs.size() &&
                     !inputs.is_read_by_specification(job_.inputs[unused].name)) {

@@ -65,6 +65,8 @@ struct BudgetInput {
     /// Where the job has a table of points: true when all points share the quantity, so that their results are
     /// correlated through it; false when each point has one of its own.
     bool common = true;
+    /// False where only the points of the table state the quantity: what stands here is what the first of them says.
+    bool stated = true;
     std::string where;
 };
 

@@ -144,6 +144,9 @@ inline constexpr InputCode k_covariance_not_definite{"GC-INPUT-0330",
                                                      "a covariance of data that is not positive definite"};
 inline constexpr InputCode k_output_unknown{"GC-INPUT-0331", "an output that neither the model nor the inputs have"};
 inline constexpr InputCode k_equation_text{"GC-INPUT-0332", "an equation that is not one line of text"};
+inline constexpr InputCode k_empty_cell{"GC-INPUT-0340", "an empty cell in a table of points"};
+inline constexpr InputCode k_digits_lost{"GC-INPUT-0341",
+                                         "a number with more digits than can be held beside its uncertainty"};
 
 // Files, disks and stores.
 inline constexpr InputCode k_file_not_readable{"GC-STORAGE-0001", "a file cannot be opened or read"};
@@ -277,6 +280,8 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_covariance_not_definite,
                                           k_output_unknown,
                                           k_equation_text,
+                                          k_empty_cell,
+                                          k_digits_lost,
                                           k_file_not_readable,
                                           k_warn_extra_column,
                                           k_warn_unused_station,

@@ -29,11 +29,12 @@ StatementKeys::StatementKeys(const JsonDocument& document, const std::string& po
 }
 
 void StatementKeys::stands_at(const JsonDocument& document, const std::string& pointer, ProblemList& problems) {
-    origin_ = std::make_shared<const Origin>(Origin{&document, pointer, nullptr, {}, &problems});
+    origin_ = std::make_shared<const Origin>(Origin{&document, pointer, nullptr, {}, &problems, {}});
 }
 
-void StatementKeys::stands_at(const CsvTable& table, const CsvCell& cell, ProblemList& problems) {
-    origin_ = std::make_shared<const Origin>(Origin{nullptr, {}, &table, cell, &problems});
+void StatementKeys::stands_at(const CsvTable& table, const CsvCell& cell, ProblemList& problems,
+                              const std::string& column) {
+    origin_ = std::make_shared<const Origin>(Origin{nullptr, {}, &table, cell, &problems, column});
 }
 
 StatementKeys StatementKeys::with(const StatementKeys& other) const {
@@ -54,9 +55,9 @@ StatementKeys StatementKeys::with(std::string_view key, double number, const Jso
 }
 
 StatementKeys StatementKeys::with(std::string_view key, double number, const CsvTable& table, const CsvCell& cell,
-                                  ProblemList& problems) const {
+                                  ProblemList& problems, const std::string& column) const {
     StatementKeys both = *this;
-    both.stands_at(table, cell, problems);
+    both.stands_at(table, cell, problems, column);
     both.put({key, std::make_shared<const json>(number), both.origin_, false});
     return both;
 }
@@ -98,6 +99,19 @@ std::string StatementKeys::where_of(const Entry& entry) {
     return origin.document->where(entry.is_member ? child_pointer(origin.pointer, entry.key) : origin.pointer);
 }
 
+std::string StatementKeys::group_of(const Origin& origin, std::string_view key) {
+    if (origin.table != nullptr) {
+        return "column " + origin.column;
+    }
+    constexpr std::string_view k_points = "/points/";
+    if (!origin.pointer.starts_with(k_points)) {
+        return {};
+    }
+    const std::size_t input = origin.pointer.find('/', k_points.size());
+    return "points" + (input == std::string::npos ? std::string{} : origin.pointer.substr(input)) + "/" +
+           std::string{key};
+}
+
 std::string StatementKeys::where() const {
     return origin_->table != nullptr ? origin_->table->where(origin_->cell)
                                      : origin_->document->where(origin_->pointer);
@@ -120,16 +134,21 @@ ProblemList& StatementKeys::problems(std::string_view key) const {
 
 void StatementKeys::refuse(const InputCode& code, std::string_view key, std::string what, std::string rule,
                            std::string action) const {
-    problems(key).refuse(code, where(key), std::move(what), std::move(rule), std::move(action));
+    const Entry* entry = find(key);
+    problems(key).refuse(code, where(key), std::move(what), std::move(rule), std::move(action),
+                         group_of(entry == nullptr ? *origin_ : *entry->origin, key));
 }
 
 void StatementKeys::refuse(const InputCode& code, std::string what, std::string rule, std::string action) const {
-    origin_->problems->refuse(code, where(), std::move(what), std::move(rule), std::move(action));
+    origin_->problems->refuse(code, where(), std::move(what), std::move(rule), std::move(action),
+                              group_of(*origin_, {}));
 }
 
 void StatementKeys::warn(const InputCode& code, std::string_view key, std::string what, std::string rule,
                          std::string action) const {
-    problems(key).warn(code, where(key), std::move(what), std::move(rule), std::move(action));
+    const Entry* entry = find(key);
+    problems(key).warn(code, where(key), std::move(what), std::move(rule), std::move(action),
+                       group_of(entry == nullptr ? *origin_ : *entry->origin, key));
 }
 
 void StatementKeys::refuse_type(const Entry& entry, std::string_view expected) const {
@@ -137,7 +156,8 @@ void StatementKeys::refuse_type(const Entry& entry, std::string_view expected) c
                                    "must be " + std::string{expected},
                                    entry.value->is_string() && expected.find("number") != std::string_view::npos
                                        ? "write the number without quotes"
-                                       : "correct the value");
+                                       : "correct the value",
+                                   group_of(*entry.origin, entry.key));
 }
 
 std::optional<double> StatementKeys::number(std::string_view key, const NumberRange& range) const {

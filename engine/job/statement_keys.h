@@ -27,8 +27,9 @@ public:
     /// The same with one number, which stands in the document or in a cell of a table.
     [[nodiscard]] StatementKeys with(std::string_view key, double number, const JsonDocument& document,
                                      const std::string& pointer, ProblemList& problems) const;
+    /// \param column  its name
     [[nodiscard]] StatementKeys with(std::string_view key, double number, const CsvTable& table, const CsvCell& cell,
-                                     ProblemList& problems) const;
+                                     ProblemList& problems, const std::string& column) const;
 
     [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
     /// Null pointer when the key is absent, or its number was refused while the text was read.
@@ -38,7 +39,7 @@ public:
     [[nodiscard]] std::string where(std::string_view key) const;
     /// Where messages go that concern the whole, from now on.
     void stands_at(const JsonDocument& document, const std::string& pointer, ProblemList& problems);
-    void stands_at(const CsvTable& table, const CsvCell& cell, ProblemList& problems);
+    void stands_at(const CsvTable& table, const CsvCell& cell, ProblemList& problems, const std::string& column = {});
 
     [[nodiscard]] std::optional<double> number(std::string_view key, const NumberRange& range) const;
     [[nodiscard]] std::optional<std::string> text(std::string_view key) const;
@@ -69,6 +70,7 @@ private:
         const CsvTable* table = nullptr;
         CsvCell cell;
         ProblemList* problems = nullptr;
+        std::string column;  ///< of the table, for problems that many rows share
     };
     struct Entry {
         std::string_view key;
@@ -78,6 +80,8 @@ private:
     };
     [[nodiscard]] const Entry* find(std::string_view key) const;
     [[nodiscard]] static std::string where_of(const Entry& entry);
+    /// What many rows or points may have in common: the column, or the key of a point.
+    [[nodiscard]] static std::string group_of(const Origin& origin, std::string_view key);
     void put(Entry entry);
     void refuse_type(const Entry& entry, std::string_view expected) const;
 

@@ -17,6 +17,7 @@ using gum::DistributionKind;
 using test::read_budget;
 using test::read_one_input;
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
@@ -253,10 +254,10 @@ TEST(BudgetJob, ReadsPointsFromTheJob) {
 TEST(BudgetJob, ReadsPointsFromATable) {
     const BudgetJob job = read_budget(R"j("inputs": {"x": {"value": 1, "unit": "mm", "u": 0.1},
         "k": {"value": 2, "constant": true}}, "points": {"file": "points.csv"})j",
-                                      {{"points.csv", "point,x,x.u,k\nA,5,0.2,\nB,6,,3\n"}});
+                                      {{"points.csv", "point,x,x.u,k\nA,5,0.2,2\nB,6,0.1,3\n"}});
     ASSERT_EQ(job.points.size(), 2U);
     EXPECT_EQ(job.points[1].name, "B");
-    ASSERT_EQ(job.points[0].inputs.size(), 1U);
+    ASSERT_EQ(job.points[0].inputs.size(), 2U);
     EXPECT_DOUBLE_EQ(job.points[0].inputs[0].second.components[0].value, 0.005);
     EXPECT_DOUBLE_EQ(job.points[0].inputs[0].second.components[0].u, 2e-4);
     EXPECT_DOUBLE_EQ(job.points[1].inputs[0].second.components[0].u, 1e-4);
@@ -264,6 +265,37 @@ TEST(BudgetJob, ReadsPointsFromATable) {
     EXPECT_THAT(job.files, ElementsAre("job.json", "points.csv"));
     // A constant that a point changes cannot be an exponent of the model.
     EXPECT_FALSE(model_inputs(job)[1].constant);
+}
+
+TEST(BudgetJob, LeavesInputsToThePoints) {
+    // No statement, half of one, readings, and a specification that waits for a value.
+    const BudgetJob job = read_budget(R"j("model": "e = x - r + s + m", "inputs": {
+        "x": {"unit": "mm"}, "r": {"unit": "mm", "resolution": 0.1}, "m": {"unit": "mm", "description": "readings"},
+        "s": {"unit": "mm", "specification": {"percent_of_reading": 0.1, "floor": 0.001, "of": "r"}}},
+        "points": [{"x": {"value": 1, "u": 0.1}, "r": 10, "m": {"observations": [1, 2, 3]}},
+                   {"x": {"value": 2, "half_width": 3}, "r": 100, "m": {"groups": [[1, 2], [3, 5]]}}])j");
+    ASSERT_EQ(job.points.size(), 2U);
+    ASSERT_EQ(job.points[0].inputs.size(), 4U);
+    EXPECT_DOUBLE_EQ(job.points[1].inputs[0].second.components[0].u, 3e-3 / std::sqrt(3.0));
+    EXPECT_DOUBLE_EQ(job.points[0].inputs[1].second.components[0].value, 0.01);
+    EXPECT_DOUBLE_EQ(job.points[1].inputs[3].second.components[0].distribution.scale, 0.101e-3);
+    EXPECT_EQ(job.points[0].inputs[2].second.components[0].observations.size(), 3U);
+    for (const BudgetInput& input : job.inputs) {
+        EXPECT_FALSE(input.stated) << input.name;
+    }
+    EXPECT_TRUE(job.warnings.empty()) << job.warnings.front().what;
+    // A column of values beside a statement without one.
+    const BudgetJob table = read_budget(R"j("inputs": {"x": {"unit": "mm", "u": 0.1}}, "points": {"file": "p.csv"})j",
+                                        {{"p.csv", "x\n1\n2\n"}});
+    EXPECT_DOUBLE_EQ(table.points[1].inputs[0].second.components[0].value, 0.002);
+}
+
+TEST(BudgetJob, TellsWhatOfTheInputsThePointsLeaveUnused) {
+    const BudgetJob job = read_budget(R"j("inputs": {"x": {"observations": [100, 200]}, "y": {"value": 3, "u": 1}},
+        "points": [{"x": {"observations": [1, 2, 3]}, "y": 4}, {"x": {"observations": [1, 2, 4]}}])j");
+    ASSERT_EQ(job.warnings.size(), 1U);
+    EXPECT_EQ(job.warnings[0].severity, gum::Severity::note);
+    EXPECT_THAT(job.warnings[0].what, HasSubstr("\"x.observations\" of the inputs"));
 }
 
 TEST(BudgetJob, ReadsFits) {
