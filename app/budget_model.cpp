@@ -11,6 +11,7 @@
 #include "gum/nearest_correlation.h"
 #include "gum/propagation.h"
 #include "gum/rounding.h"
+#include "gum/quantity/decimal_rounding.h"
 
 namespace gumcert::app {
 
@@ -502,6 +503,11 @@ Eigen::VectorXd BudgetModel::symbols(const Eigen::VectorXd& x) const {
 
 Eigen::VectorXd BudgetModel::evaluate(const Eigen::VectorXd& x) const {
     return system_ ? system_->evaluate(symbols(x)) : symbols(x);
+}
+
+Eigen::VectorXd BudgetModel::rounding(const Eigen::VectorXd& x) const {
+    const Eigen::VectorXd z = symbols(x);
+    return system_ ? system_->rounding(z) : z.unaryExpr([](double value) { return gum::decimal_rounding(value); });
 }
 
 Eigen::MatrixXd BudgetModel::jacobian(const Eigen::VectorXd& x) const {

@@ -44,6 +44,8 @@ public:
     [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const override;
     [[nodiscard]] std::vector<Eigen::MatrixXd> hessians(const Eigen::VectorXd& x) const override;
     void evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::Ref<Eigen::MatrixXd> y) const override;
+    /// How far each output may be off because numbers are rounded to double precision (EquationSystem::rounding).
+    [[nodiscard]] Eigen::VectorXd rounding(const Eigen::VectorXd& x) const;
 
 private:
     [[nodiscard]] Eigen::VectorXd symbols(const Eigen::VectorXd& x) const;

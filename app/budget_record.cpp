@@ -10,11 +10,14 @@
 #include <optional>
 #include <utility>
 
+#include "app/budget_findings.h"
+#include "app/budget_fit_record.h"
+#include "app/budget_readings.h"
+#include "app/budget_texts.h"
 #include "app/record_parts.h"
-#include "gum/analysis_of_variance.h"
 #include "gum/coverage.h"
+#include "gum/quantity/decimal_rounding.h"
 #include "gum/rounding.h"
-#include "gum/type_a.h"
 
 namespace gumcert::app {
 
@@ -28,23 +31,6 @@ using reports::BudgetRow;
 using reports::Printed;
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
-constexpr int k_digits_of_u = 2;
-constexpr double k_test_level = 0.05;  // of F tests and of the chi-square test of a fit
-constexpr std::size_t k_longest_lag_list = 100;
-
-/// All digits, and no negative zero.
-std::string all_digits(double value) {
-    return shortest(value == 0.0 ? 0.0 : value);
-}
-
-std::string rounded(double value, int digits) {
-    return gum::round_significant(value, digits);
-}
-
-/// A value beside a standard uncertainty: digits down to those of u; all of them where u is 0.
-std::string printed_estimate(double value, double u) {
-    return u > 0.0 ? gum::round_to_uncertainty(value, u, k_digits_of_u).value : all_digits(value);
-}
 
 Printed printed_result(double value, std::optional<double> U, double u, const std::string& unit,
                        gum::RoundingMode rounding) {
@@ -54,13 +40,6 @@ Printed printed_result(double value, std::optional<double> U, double u, const st
         return {pair.value, pair.U, shown};
     }
     return {printed_estimate(value, u), U ? "0" : "", shown};
-}
-
-std::string printed_degrees_of_freedom(double nu) {
-    if (std::isnan(nu)) {
-        return "–";
-    }
-    return std::isinf(nu) ? "∞" : rounded(nu, nu < 1000.0 ? 3 : 4);
 }
 
 /// Numbers of a budget row in the units of its input and of the result.
@@ -134,37 +113,44 @@ std::vector<BudgetRow> budget_rows(const BudgetJob& job, const BudgetResult& res
         }
         rows.push_back(std::move(row));
     }
+    const auto own = static_cast<std::size_t>(output);
     std::size_t symbol = job.inputs.size();
     for (std::size_t f = 0; f < job.fits.size(); ++f) {
-        const engine::CurveFit& fit = result.fits[f];
-        for (Eigen::Index p = 0; p < fit.parameters.size(); ++p, ++symbol) {
-            const RowNumbers numbers{.value = fit.parameters(p),
-                                     .u = std::sqrt(fit.covariance(p, p)),
-                                     .nu = fit.covariance_scaled ? fit.degrees_of_freedom : k_infinity,
-                                     .sensitivity = sensitivity[symbol]};
-            BudgetRow row = budget_row(result.symbols[symbol].name, result.symbols[symbol].unit, numbers, unit, u);
-            row.type = fit.covariance_scaled ? "A" : "B";
-            row.distribution = fit.covariance_scaled ? "student_t" : "normal";
-            row.source = job.fits[f].name;
-            rows.push_back(std::move(row));
+        const auto p = static_cast<Eigen::Index>(job.fits[f].parameters.size());
+        const Eigen::VectorXd c = Eigen::Map<const Eigen::VectorXd>(sensitivity.data() + symbol, p);
+        const bool holds_output = own >= symbol && own < symbol + static_cast<std::size_t>(p);
+        symbol += static_cast<std::size_t>(p);
+        if (!job.model.empty() || holds_output) {
+            rows.push_back(fit_row(job.fits[f], result.fits[f], c, unit, u));
         }
     }
     if (!job.model.empty()) {
         return rows;
     }
-    // Without equations a result is one of the inputs: its budget has no other rows.
-    std::erase_if(
-        rows, [&](const BudgetRow& row) { return row.input != result.symbols[static_cast<std::size_t>(output)].name; });
+    // Without equations a result is one of the inputs, or a parameter: its budget has no other rows.
+    std::erase_if(rows, [&](const BudgetRow& row) {
+        return row.role.empty() && (own >= job.inputs.size() || row.input != result.symbols[own].name);
+    });
+    for (BudgetRow& row : rows) {
+        std::erase_if(row.components, [&](const BudgetRow& part) {
+            return part.role == "fit_parameter" && part.input != result.symbols[own].name;
+        });
+    }
     return rows;
 }
 
-/// The part of the variance that the rows do not show, where inputs are correlated.
+/// The part of the variance that the rows do not show, where inputs are correlated. \param inputs  of the job
 std::optional<reports::CorrelationRow> correlation_row(const BudgetPointResult& point,
-                                                       const std::vector<BudgetRow>& rows, Eigen::Index output,
-                                                       const Unit& unit) {
-    const bool correlated =
-        std::any_of(point.model->inputs().begin(), point.model->inputs().end(),
-                    [](const gum::InputGroup& group) { return group.size() > 1 && !group.is_diagonal(); });
+                                                       const std::vector<BudgetRow>& rows, std::size_t inputs,
+                                                       Eigen::Index output, const Unit& unit) {
+    // The row of a fit holds the covariances of its parameters; those of inputs need a row of their own.
+    bool correlated = false;
+    std::size_t first = 0;
+    for (const gum::InputGroup& group : point.model->inputs()) {
+        const bool is_fit = point.model->quantities()[first].symbol >= inputs;
+        correlated = correlated || (!is_fit && group.size() > 1 && !group.is_diagonal());
+        first += static_cast<std::size_t>(group.size());
+    }
     if (!correlated) {
         return std::nullopt;
     }
@@ -312,184 +298,44 @@ reports::CoverageRegion region_of(const BudgetJob& job, const BudgetPointResult&
     return region;
 }
 
-std::string fit_method(const engine::BudgetFit& fit) {
-    if (fit.x_uncertainty.size() > 0) {
-        return "errors in both variables";
-    }
-    if (fit.y_uncertainty.size() == 0) {
-        return "ordinary";
-    }
-    return fit.y_uncertainty.cols() == 1 ? "weighted" : "generalised";
-}
-
-reports::FitSummary fit_summary(const engine::BudgetFit& fit, const engine::CurveFit& solved) {
-    reports::FitSummary summary;
-    summary.name = fit.name;
-    summary.equation = fit.equation.text;
-    summary.method = fit_method(fit);
-    std::vector<Unit> units;
-    for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
-        const auto index = static_cast<Eigen::Index>(i);
-        const Unit& unit = fit.parameters[i].unit;
-        units.push_back(unit);
-        reports::FitSummary::Parameter parameter;
-        parameter.name = fit.parameters[i].name;
-        parameter.unit = unit.text();
-        parameter.value = unit.from_si(solved.parameters(index));
-        parameter.u = unit.difference_from_si(std::sqrt(solved.covariance(index, index)));
-        parameter.printed.value = printed_estimate(parameter.value, parameter.u);
-        parameter.printed.u = rounded(parameter.u, k_digits_of_u);
-        parameter.printed.unit = gum::unit_for_people(unit.text());
-        summary.parameters.push_back(std::move(parameter));
-    }
-    summary.covariance = rows_of(in_units(solved.covariance, units));
-    summary.correlation = rows_of(gum::correlation_matrix(solved.covariance));
-    const bool weighted = fit.y_uncertainty.size() > 0 || fit.x_uncertainty.size() > 0;
-    const auto in_y = [&](double si) { return weighted ? si : fit.ordinate_unit.difference_from_si(si); };
-    summary.degrees_of_freedom = solved.degrees_of_freedom;
-    summary.sum_of_squares = in_y(in_y(solved.sum_of_squares));
-    summary.residual_standard_deviation = in_y(solved.residual_standard_deviation);
-    summary.r_squared = solved.r_squared.value_or(0.0);
-    summary.condition_number = solved.condition_number;
-    summary.iterations = solved.iterations;
-    summary.covariance_scaled = solved.covariance_scaled;
-    if (weighted && !solved.covariance_scaled && solved.degrees_of_freedom > 0.0) {
-        summary.p_value = gum::chi_square_upper_tail(solved.sum_of_squares, solved.degrees_of_freedom);
-        summary.printed.p_value = rounded(*summary.p_value, 2);
-    }
-    summary.printed.residual_standard_deviation = rounded(summary.residual_standard_deviation, 3);
-    summary.printed.sum_of_squares = rounded(summary.sum_of_squares, 3);
-    summary.printed.r_squared = gum::round_to_quantum(summary.r_squared, 6);
-    summary.y_name = fit.ordinate;
-    summary.y_unit = fit.ordinate_unit.text();
-    if (fit.regressors.size() == 1) {
-        summary.x_name = fit.regressors.front();
-        summary.x_unit = fit.regressor_units.front().text();
-    }
-    for (Eigen::Index i = 0; i < fit.y.size(); ++i) {
-        if (fit.regressors.size() == 1) {
-            summary.x.push_back(fit.regressor_units.front().from_si(fit.x(i, 0)));
-        }
-        summary.y.push_back(fit.ordinate_unit.from_si(fit.y(i)));
-        summary.fitted.push_back(fit.ordinate_unit.from_si(fit.y(i) - solved.residuals(i)));
-        summary.residual.push_back(fit.ordinate_unit.difference_from_si(solved.residuals(i)));
-    }
-    return summary;
-}
-
-reports::ReadingsSummary readings_summary(const BudgetInput& input, const StatedQuantity& quantity) {
-    // In the unit of the input, so that what is printed can be checked by hand.
-    std::vector<double> readings;
-    for (const double reading : quantity.observations) {
-        readings.push_back(input.unit.from_si(reading));
-    }
-    reports::ReadingsSummary summary;
-    summary.input = input.name;
-    summary.component = quantity.name;
-    summary.unit = input.unit.text();
-    summary.n = static_cast<std::int64_t>(readings.size());
-    summary.mean = readings.front();
-    if (readings.size() >= 2) {
-        const gum::ObservationSummary of = gum::evaluate_type_a(readings);
-        summary.mean = of.mean;
-        summary.standard_deviation = of.standard_deviation;
-        summary.standard_deviation_of_mean = of.standard_deviation_of_mean;
-        if (of.standard_deviation > 0.0) {
-            const std::size_t lags = std::min(k_longest_lag_list, readings.size() / 4 + 1);
-            summary.autocorrelation = gum::autocorrelation(readings, std::min(lags, readings.size() - 1));
-            const gum::AutocorrelationCheck check = gum::autocorrelation_check(readings);
-            summary.autocorrelation_limit = check.limit;
-            summary.dependent = !check.independent;
-            summary.printed.r1 = gum::round_to_quantum(check.lag_one, 2);
-            summary.printed.limit = gum::round_to_quantum(check.limit, 2);
-        }
-    }
-    if (quantity.pooled_standard_deviation) {
-        summary.pooled_standard_deviation = input.unit.difference_from_si(*quantity.pooled_standard_deviation);
-    }
-    summary.printed.mean = printed_estimate(summary.mean, summary.standard_deviation_of_mean);
-    summary.printed.standard_deviation = rounded(summary.standard_deviation, k_digits_of_u);
-    summary.printed.standard_deviation_of_mean = rounded(summary.standard_deviation_of_mean, k_digits_of_u);
-    return summary;
-}
-
-gum::OneWayAnalysis analysis_of(const BudgetInput& input, const engine::GroupedReadings& from, double alpha) {
-    if (!from.readings.empty()) {
-        std::vector<std::vector<double>> groups = from.readings;
-        for (std::vector<double>& group : groups) {
-            for (double& reading : group) {
-                reading = input.unit.from_si(reading);
+/// Results whose digits are lost because double precision cannot hold the numbers that they come from: large values
+/// that cancel, among them constants, which have no uncertainty of their own to be held against.
+void warn_of_lost_digits(const BudgetResult& result, reports::EvaluationRecord& record) {
+    std::vector<std::string> names;
+    std::string worst;
+    double most = 0.0;
+    for (std::size_t p = 0; p < result.points.size(); ++p) {
+        const BudgetPointResult& point = result.points[p];
+        const Eigen::VectorXd roundings = point.model->rounding(gum::input_estimates(*point.model));
+        for (std::size_t i = 0; i < result.output_names.size(); ++i) {
+            const auto index = static_cast<Eigen::Index>(i);
+            const double lost = roundings(index);
+            const double u = point.propagation.standard_uncertainty(index);
+            if (!(u > 0.0) || !(lost > 2.0 * gum::k_accepted_rounding * u)) {
+                continue;
+            }
+            const std::string& name = record.results[p * result.output_names.size() + i].name;
+            names.push_back(name);
+            if (lost / u > most) {
+                most = lost / u;
+                const Unit& unit = result.output_units[i];
+                worst = rounded(unit.difference_from_si(lost), 2) + " of " + name +
+                        " beside u = " + rounded(unit.difference_from_si(u), 2) + " " +
+                        gum::unit_for_people(unit.text());
             }
         }
-        return gum::one_way_analysis(groups, alpha);
     }
-    std::vector<gum::ObservationGroup> groups;
-    for (std::size_t i = 0; i < from.means.size(); ++i) {
-        groups.push_back({.observations = from.sizes[i],
-                          .mean = input.unit.from_si(from.means[i]),
-                          .standard_deviation = input.unit.difference_from_si(from.standard_deviations[i])});
-    }
-    return gum::one_way_analysis(groups, alpha);
-}
-
-reports::VarianceAnalysis variance_analysis(const BudgetInput& input, const StatedQuantity& quantity) {
-    const gum::OneWayAnalysis from = analysis_of(input, *quantity.groups, k_test_level);
-    reports::VarianceAnalysis out;
-    out.input = input.name;
-    out.component = quantity.name;
-    out.unit = input.unit.text();
-    out.groups = static_cast<std::int64_t>(from.groups.size());
-    out.readings = static_cast<std::int64_t>(from.observations);
-    out.mean = from.mean_of_group_means;
-    out.sum_of_squares_between = from.between.sum_of_squares;
-    out.sum_of_squares_within = from.within.sum_of_squares;
-    out.degrees_of_freedom_between = from.between.degrees_of_freedom;
-    out.degrees_of_freedom_within = from.within.degrees_of_freedom;
-    out.mean_square_between = from.between.mean_square;
-    out.mean_square_within = from.within.mean_square;
-    // A ratio to nothing is not a number that a record may hold; the largest one says the same.
-    out.F = std::isfinite(from.ratio.f) ? from.ratio.f : std::numeric_limits<double>::max();
-    out.p_value = from.ratio.p_value;
-    out.F_critical = from.ratio.critical_value;
-    out.r_squared = from.r_squared;
-    out.standard_deviation_within = from.within_standard_deviation;
-    out.standard_deviation_of_group_means = from.standard_deviation_of_group_means;
-    out.standard_deviation_between = from.between_standard_deviation;
-    out.u_with_between_effect = from.u_with_between_effect;
-    out.u_without_between_effect = from.u_without_between_effect;
-    out.conclusion = from.ratio.significant ? "significant" : "not significant";
-    out.printed.mean = printed_estimate(out.mean, out.u_with_between_effect);
-    out.printed.F = rounded(out.F, 3);
-    out.printed.F_critical = rounded(out.F_critical, 3);
-    out.printed.p_value = rounded(out.p_value, 2);
-    out.printed.within = rounded(out.standard_deviation_within, k_digits_of_u);
-    out.printed.between = rounded(out.standard_deviation_between, k_digits_of_u);
-    out.printed.group_means = rounded(out.standard_deviation_of_group_means, k_digits_of_u);
-    out.printed.mean_square = {rounded(out.mean_square_between, 3), rounded(out.mean_square_within, 3)};
-    return out;
-}
-
-void add_type_a(const BudgetJob& job, reports::EvaluationRecord& record) {
-    for (const BudgetInput& input : job.inputs) {
-        for (const StatedQuantity& quantity : input.components) {
-            if (!quantity.observations.empty()) {
-                record.readings.push_back(readings_summary(input, quantity));
-                const reports::ReadingsSummary& readings = record.readings.back();
-                if (readings.dependent) {
-                    record.diagnostics.push_back(
-                        {.code = "GC-BUDGET-0030",
-                         .where = "readings of " + input.name,
-                         .what = "autocorrelation coefficient of lag 1 is " + readings.printed.r1,
-                         .rule = "readings that are independent of each other stay within ±" + readings.printed.limit +
-                                 " in 95 % of all cases",
-                         .action = "Look for drift; s/√n is not the uncertainty of the mean of dependent readings.",
-                         .severity = gum::Severity::warning});
-                }
-            }
-            if (quantity.groups) {
-                record.variance_analyses.push_back(variance_analysis(input, quantity));
-            }
-        }
+    if (!names.empty()) {
+        record.diagnostics.push_back(
+            {.code = "GC-BUDGET-0034",
+             .where = (names.size() == 1 ? "result " : "results ") + listed(names, 5),
+             .what = "the rounding of the numbers that it is computed from may be " + worst,
+             .rule = "a number has about 16 digits; what is lost of the inputs and constants must be small beside the "
+                     "uncertainty",
+             .action =
+                 "State a large value as a whole number, a constant, and the difference from it, an input; in the "
+                 "model, subtract the whole numbers from each other before the differences are added.",
+             .severity = gum::Severity::warning});
     }
 }
 
@@ -567,7 +413,7 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
             out.printed = printed_result(out.value, out.U, out.u, out.unit, job.rounding);
             out.budget = budget_rows(job, result, at, point, index, unit);
             if (!job.model.empty()) {
-                out.correlation = correlation_row(point, out.budget, index, unit);
+                out.correlation = correlation_row(point, out.budget, job.inputs.size(), index, unit);
             }
             if (from.second_order_matters) {
                 reports::SecondOrder second;
@@ -598,7 +444,10 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
     for (std::size_t f = 0; f < job.fits.size(); ++f) {
         record.fits.push_back(fit_summary(job.fits[f], result.fits[f]));
     }
-    add_type_a(job, record);
+    add_readings(job, record);
+    warn_of_lost_digits(result, record);
+    const std::vector<gum::Diagnostic> remarks = budget_remarks(record);
+    record.diagnostics.insert(record.diagnostics.end(), remarks.begin(), remarks.end());
     return record;
 }
 

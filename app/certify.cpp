@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/budget_findings.h"
 #include "app/certified_conformity.h"
 #include "app/certified_scope.h"
 #include "app/certified_texts.h"
@@ -332,6 +333,8 @@ void certify(EvaluationRecord& record, CertificateData data, Profile profile, co
     std::vector<Finding> audit = certifier.findings();
     const std::vector<Finding> validation = validation_findings(record);
     audit.insert(audit.end(), validation.begin(), validation.end());
+    const std::vector<Finding> budget = budget_findings(record);
+    audit.insert(audit.end(), budget.begin(), budget.end());
     certificate::pass_gates(*record.certificate, audit);
 }
 

@@ -22,6 +22,8 @@ namespace {
 constexpr std::size_t k_most_budgets = 12;
 constexpr std::size_t k_most_plots = 4;
 constexpr std::size_t k_most_names = 6;
+constexpr std::size_t k_most_data = 200;      // rows of the data of a fit
+constexpr std::size_t k_most_readings = 500;  // that are listed one by one
 constexpr std::size_t k_most_correlated = 8;  // more columns of a matrix do not fit on a page
 
 using Rows = std::vector<std::vector<Text>>;
@@ -334,7 +336,9 @@ std::string type_of(const BudgetRow& row) {
 
 std::vector<Text> budget_line(const BudgetRow& row, const Result& result, bool part, const Wording& words) {
     const auto bracketed = [&](const std::string& text) { return part && !text.empty() ? "(" + text + ")" : text; };
-    return {row.input,
+    const bool is_joint = row.role == "fit" || row.role == "fit_data";
+    return {is_joint ? words.filled("label", row.role == "fit" ? "fit_of" : "data_of", {{"name", row.input}})
+                     : Text(row.input),
             with_unit(row.printed.value, gum::unit_for_people(row.unit)),
             with_unit(row.printed.u, gum::unit_for_people(difference_unit(row.unit))),
             distribution_name(row.distribution, words),
@@ -405,6 +409,7 @@ void sources(CertificateBuilder& builder, const Wording& words, const std::vecto
 void budgets(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     std::vector<const Result*> with_budget;
     bool parts = false;
+    bool fitted = false;
     bool correlated = false;
     for (const Result& r : record.results) {
         if (!r.budget.empty()) {
@@ -412,6 +417,7 @@ void budgets(CertificateBuilder& builder, const Wording& words, const Evaluation
             correlated = correlated || r.correlation.has_value();
             for (const BudgetRow& row : r.budget) {
                 parts = parts || !row.components.empty();
+                fitted = fitted || row.role == "fit";
             }
         }
     }
@@ -422,6 +428,9 @@ void budgets(CertificateBuilder& builder, const Wording& words, const Evaluation
     builder.paragraph(words("sentence", "budget"));
     if (parts) {
         builder.paragraph(words("sentence", "budget_parts"));
+    }
+    if (fitted) {
+        builder.paragraph(words("sentence", "budget_fit"));
     }
     if (correlated) {
         builder.paragraph(words("sentence", "budget_correlation"));
@@ -606,6 +615,46 @@ void joint(CertificateBuilder& builder, const Wording& words, const EvaluationRe
     }
 }
 
+/// The data that a fit rests on, one observation a row.
+void fit_data(CertificateBuilder& builder, const Wording& words, const FitSummary& f, const std::string& id) {
+    const std::size_t n = f.printed.y.size();
+    if (n == 0) {
+        return;
+    }
+    std::vector<Column> columns = {{"i", "", true}};
+    std::vector<const std::vector<std::string>*> cells;
+    const auto add = [&](const Text& head, const std::string& unit, const std::vector<std::string>& printed) {
+        if (!printed.empty()) {
+            columns.push_back({head, gum::unit_for_people(unit), true});
+            cells.push_back(&printed);
+        }
+    };
+    const auto add_with_u = [&](const std::string& name, const std::string& unit,
+                                const std::vector<std::string>& values, const std::vector<std::string>& u) {
+        add(name, unit, values);
+        add(words.filled("label", "u_of", {{"name", name}}), difference_unit(unit), u);
+    };
+    add_with_u(f.x_name, f.x_unit, f.printed.x, f.printed.u_x);
+    for (const FitSummary::Regressor& regressor : f.regressors) {
+        add(regressor.name, regressor.unit, regressor.printed);
+    }
+    add_with_u(f.y_name, f.y_unit, f.printed.y, f.printed.u_y);
+    add(words("label", "residual_short"), difference_unit(f.y_unit), f.printed.residual);
+    Rows rows;
+    for (std::size_t i = 0; i < std::min(n, k_most_data); ++i) {
+        std::vector<Text> row = {std::to_string(i + 1)};
+        for (const std::vector<std::string>* column : cells) {
+            row.emplace_back((*column)[i]);
+        }
+        rows.push_back(std::move(row));
+    }
+    builder.table("fit-data-" + id, words.fill("fit_data", {{"name", f.name}}), columns, rows);
+    if (n > k_most_data) {
+        builder.paragraph(
+            words.fill("fit_data_first", {{"shown", std::to_string(k_most_data)}, {"count", std::to_string(n)}}));
+    }
+}
+
 void fit(CertificateBuilder& builder, const Wording& words, const FitSummary& f, std::size_t number) {
     const bool weighted = f.method != "ordinary";
     builder.paragraph(words.fill("fit", {{"name", f.name}, {"method", words("value", "fit_method", f.method)}}));
@@ -638,10 +687,25 @@ void fit(CertificateBuilder& builder, const Wording& words, const FitSummary& f,
     if (f.p_value) {
         facts.emplace_back(words("label", "p_value"), words.number(f.printed.p_value));
     }
-    facts.emplace_back(words("label", "r_squared"), words.number(f.printed.r_squared));
+    if (!f.consistency.empty()) {
+        facts.emplace_back(words("label", "test_of_fit"), words("value", "consistency", f.consistency));
+    }
+    if (!f.printed.r_squared.empty()) {
+        facts.emplace_back(words("label", "r_squared"), words.number(f.printed.r_squared));
+    }
     facts.emplace_back(words("label", "fit_uncertainty"),
                        words("value", f.covariance_scaled ? "scaled_by_residuals" : "as_stated_uncertainties"));
     builder.definitions(facts);
+    if (f.consistency == "refuted") {
+        Text scaled;
+        for (const FitSummary::Parameter& parameter : f.parameters) {
+            scaled += (scaled.empty() ? Text() : words("document", "enumeration")) + "u(" + parameter.name +
+                      ") = " + words.number(with_unit(parameter.printed.scaled_u, parameter.printed.unit));
+        }
+        builder.paragraph(words.fill(
+            "fit_refuted", {{"factor", words.number(f.printed.residual_standard_deviation)}, {"scaled", scaled}}));
+    }
+    fit_data(builder, words, f, id);
     if (!f.residual.empty()) {
         const Plot plot = residual_plot(f, words, "plot-residuals-" + id);
         builder.figure(plot.id, words.fill("figure_residuals", {{"name", f.name}}), plot.description, svg(plot));
@@ -662,9 +726,68 @@ std::string part_name(const std::string& input, const std::string& component) {
     return component.empty() ? input : input + ": " + component;
 }
 
+/// True where some points of a table state the readings themselves: each line names its point then.
+template <typename Summary>
+bool at_points(const std::vector<Summary>& all) {
+    return std::any_of(all.begin(), all.end(), [](const Summary& r) { return !r.point.empty(); });
+}
+
+/// Readings of the job itself hold at all points that state none of their own.
+Text point_name(const std::string& point, const Wording& words) {
+    return point.empty() ? words("label", "other_points") : Text(point);
+}
+
+/// "x", "x: drift", "x, A" with the point where points state readings
+Text set_name(const std::string& input, const std::string& component, const std::string& point, bool points,
+              const Wording& words) {
+    const Text name = part_name(input, component);
+    return points ? name + words("document", "enumeration") + point_name(point, words) : name;
+}
+
+/// The readings one by one, unless there are too many for a document.
+void readings_list(CertificateBuilder& builder, const Wording& words, const std::vector<ReadingsSummary>& all) {
+    std::size_t count = 0;
+    Facts facts;
+    const bool points = at_points(all);
+    for (const ReadingsSummary& r : all) {
+        count += r.observations.size();
+        std::string text;
+        for (const std::string& reading : r.observations) {
+            text += (text.empty() ? "" : "; ") + reading;
+        }
+        facts.emplace_back(set_name(r.input, r.component, r.point, points, words),
+                           words.number(with_unit(text, gum::unit_for_people(r.unit))));
+    }
+    if (count > 0 && count <= k_most_readings) {
+        builder.paragraph(words("sentence", "readings_list"));
+        builder.definitions(facts);
+    }
+}
+
+void outliers(CertificateBuilder& builder, const Wording& words, const std::vector<OutlyingReading>& all) {
+    if (all.empty()) {
+        return;
+    }
+    Rows rows;
+    const bool points = at_points(all);
+    for (const OutlyingReading& r : all) {
+        const std::string number = (r.group > 0 ? std::to_string(r.group) + "." : "") + std::to_string(r.position);
+        rows.push_back({set_name(r.input, r.component, r.point, points, words), number,
+                        with_unit(r.printed.value, gum::unit_for_people(r.unit)), r.printed.G, r.printed.p_value});
+    }
+    builder.table("outliers", words("sentence", "outliers"),
+                  {{words("label", "input"), ""},
+                   {"i", "", true},
+                   {words("label", "value"), "", true},
+                   {"G", "", true},
+                   {words("label", "p_value_short"), "", true}},
+                  rows);
+}
+
 void readings(CertificateBuilder& builder, const Wording& words, const std::vector<ReadingsSummary>& all) {
     const bool pooled =
         std::any_of(all.begin(), all.end(), [](const auto& r) { return r.pooled_standard_deviation.has_value(); });
+    const bool points = at_points(all);
     Rows rows;
     for (const ReadingsSummary& r : all) {
         std::vector<Text> row = {part_name(r.input, r.component),
@@ -679,6 +802,9 @@ void readings(CertificateBuilder& builder, const Wording& words, const std::vect
         if (pooled) {
             row.insert(row.begin() + 5, r.pooled_standard_deviation ? rounded(*r.pooled_standard_deviation) : "");
         }
+        if (points) {
+            row.insert(row.begin() + 1, point_name(r.point, words));
+        }
         rows.push_back(std::move(row));
     }
     std::vector<Column> columns = {
@@ -688,17 +814,21 @@ void readings(CertificateBuilder& builder, const Wording& words, const std::vect
     if (pooled) {
         columns.insert(columns.begin() + 5, {words("label", "s_pooled"), "", true});
     }
+    if (points) {
+        columns.insert(columns.begin() + 1, {words("label", "point"), ""});
+    }
     builder.table("readings", words("sentence", "readings"), columns, rows);
+    readings_list(builder, words, all);
 }
 
-void variance_analysis(CertificateBuilder& builder, const Wording& words, const VarianceAnalysis& v,
-                       std::size_t number) {
+void variance_analysis(CertificateBuilder& builder, const Wording& words, const VarianceAnalysis& v, std::size_t number,
+                       bool points) {
     const std::string unit = gum::unit_for_people(v.unit);
     builder.table(
         "anova-" + std::to_string(number),
-        words.fill(
-            "anova",
-            {{"name", part_name(v.input, v.component)}, {"groups", plain(v.groups)}, {"readings", plain(v.readings)}}),
+        words.fill("anova", {{"name", set_name(v.input, v.component, v.point, points, words)},
+                             {"groups", plain(v.groups)},
+                             {"readings", plain(v.readings)}}),
         {{words("label", "variation"), ""},
          {words("label", "sum_of_squares_short"), squared(unit), true},
          {words("label", "nu"), "", true},
@@ -728,9 +858,15 @@ void type_a(CertificateBuilder& builder, const Wording& words, const EvaluationR
     if (!record.readings.empty()) {
         readings(builder, words, record.readings);
     }
-    for (std::size_t i = 0; i < record.variance_analyses.size(); ++i) {
-        variance_analysis(builder, words, record.variance_analyses[i], i);
+    const std::size_t analyses = record.variance_analyses.size();
+    for (std::size_t i = 0; i < std::min(analyses, k_most_budgets); ++i) {
+        variance_analysis(builder, words, record.variance_analyses[i], i, at_points(record.variance_analyses));
     }
+    if (analyses > k_most_budgets) {
+        builder.paragraph(words.fill("anova_first",
+                                     {{"shown", std::to_string(k_most_budgets)}, {"count", std::to_string(analyses)}}));
+    }
+    outliers(builder, words, record.outliers);
 }
 
 }  // namespace

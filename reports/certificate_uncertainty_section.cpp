@@ -152,7 +152,17 @@ std::vector<Text> contributions(const EvaluationRecord& record, const Wording& w
     }
     for (const Result& r : record.results) {
         for (const BudgetRow& row : r.budget) {
-            see(row.input);
+            if (row.role != "fit") {
+                see(row.input);
+                continue;
+            }
+            Text data;
+            for (const BudgetRow& part : row.components) {
+                if (part.role == "fit_data") {
+                    data += (data.empty() ? Text() : words("document", "enumeration")) + part.input;
+                }
+            }
+            see(words.filled("statement", "contribution_of_fit", {{"data", data}, {"name", row.input}}));
         }
     }
     if (names.size() > k_most_contributions) {

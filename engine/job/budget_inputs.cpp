@@ -9,6 +9,7 @@
 #include "engine/job/budget_fit_statement.h"
 #include "engine/job/csv_table.h"
 #include "gum/quantity/decimal_rounding.h"
+#include "gum/rounding.h"
 
 namespace gumcert::engine {
 
@@ -351,7 +352,7 @@ bool BudgetInputs::check_digits(const Evaluated& evaluated) {
         if (lost > gum::k_accepted_rounding * u) {
             evaluated.keys[i].refuse(
                 k_digits_lost, key,
-                "the digits of " + shortest(worst) + " are held to ±" + shortest(lost) +
+                "the digits of " + shortest(worst) + " are held to ±" + gum::round_significant(lost, 2) +
                     " only, and the standard uncertainty is " + shortest(u),
                 "a number has about 16 digits; what is lost of it must be small beside its uncertainty",
                 "state it as a whole number, a constant, and the difference from it, an input; in the model, subtract "

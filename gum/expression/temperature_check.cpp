@@ -1,6 +1,7 @@
 #include "gum/expression/temperature_check.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -212,9 +213,12 @@ int TemperatureContent::lone_power() const {
         return 0;
     }
     const auto has = [&](int power) { return (powers >> static_cast<unsigned>(power) & 1U) != 0; };
+    const int terms = std::popcount(powers);
     for (int power = k_highest_power; power > 0; --power) {
-        // a + b t², but no a + s t⁴
-        const bool in_polynomial = has(power - 1) || (power == 2 && has(0));
+        // a + b t² and a t + b t², but no a + s t⁴; a gap of one where there are three terms or more
+        const bool in_polynomial = power == 1   ? terms > 1
+                                   : power == 2 ? has(1) || has(0)
+                                                : has(power - 1) || (has(power - 2) && terms > 2);
         if (has(power) && !in_polynomial) {
             return power;
         }

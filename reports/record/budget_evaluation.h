@@ -95,29 +95,63 @@ struct FitSummary {
     struct Parameter {
         std::string name, unit;
         double value = 0.0, u = 0.0;
+        /// u that `scale_by_residuals` would give, where the test of chi-square refutes the stated uncertainties
+        std::optional<double> scaled_u = {};
         struct {
-            std::string value, u, unit;
-        } printed;
+            std::string value, u, unit, scaled_u;
+        } printed = {};
     };
     std::vector<Parameter> parameters;
     std::vector<std::vector<double>> covariance, correlation;  ///< in the units of the parameters
     double degrees_of_freedom = 0.0;
     double sum_of_squares = 0.0;               ///< of the residuals in the unit of y, or chi-square where weighted
     double residual_standard_deviation = 0.0;  ///< in `y_unit`; [1] where weighted
-    double r_squared = 0.0, condition_number = 0.0;
-    std::optional<double> p_value;  ///< of chi-square, where the uncertainties were stated
+    double condition_number = 0.0;
+    std::optional<double> r_squared;  ///< none where it has no agreed meaning (errors in both variables, equal y)
+    std::optional<double> p_value;    ///< of chi-square, where the uncertainties were stated
+    /// What the test of chi-square says of the stated uncertainties: "consistent", "refuted" (the residuals are too
+    /// large), "overstated" (far too small); "" where there is nothing to test
+    std::string consistency;
     std::int64_t iterations = 0;
     bool covariance_scaled = false;              ///< by the residuals
     std::string x_name, x_unit, y_name, y_unit;  ///< x_name is "" where there are several regressors
     std::vector<double> x, y, fitted, residual;  ///< in x_unit and y_unit
+    std::vector<double> u_x, u_y;                ///< stated standard uncertainties, one a point; empty where none
+    struct Regressor {
+        std::string name, unit;
+        std::vector<double> values;
+        std::vector<std::string> printed;
+    };
+    std::vector<Regressor> regressors;  ///< where there are several
     struct {
         std::string residual_standard_deviation, sum_of_squares, p_value, r_squared;
+        std::vector<std::string> x, y, u_x, u_y, residual;  ///< the data, one a point
+    } printed;
+};
+
+/// A reading that Grubbs' test takes for an outlier among the others of its set, in the unit of the input.
+struct OutlyingReading {
+    std::string input, component, unit;
+    std::string point;          ///< as ReadingsSummary::point
+    std::string of;             ///< the set it stands in: "observations", "group" or "group_means"
+    std::int64_t group = 0;     ///< number of the group, from 1; 0 where there are none
+    std::int64_t position = 0;  ///< in its set, from 1
+    std::int64_t n = 0;         ///< readings of the set that were tested
+    double value = 0.0;
+    double G = 0.0;        ///< |x - mean| / s of the set
+    double p_value = 0.0;  ///< upper bound (Bonferroni) for any of the readings
+    struct {
+        std::string value, G, p_value;
     } printed;
 };
 
 /// Readings of one input, what they say of its uncertainty (JCGM 100:2008, 4.2), in the unit of the input.
 struct ReadingsSummary {
     std::string input, component, unit;
+    /// Name of the point of a table that states these readings; "" for those of the job, which hold wherever no point
+    /// states its own
+    std::string point;
+    std::vector<std::string> observations;  ///< as printed, in the order read
     std::int64_t n = 0;
     double mean = 0.0, standard_deviation = 0.0, standard_deviation_of_mean = 0.0;
     std::optional<double> pooled_standard_deviation;
@@ -132,6 +166,7 @@ struct ReadingsSummary {
 /// One-way analysis of variance of grouped readings (JCGM 100:2008, H.5), in the unit of the input.
 struct VarianceAnalysis {
     std::string input, component, unit;
+    std::string point;  ///< as ReadingsSummary::point
     std::int64_t groups = 0, readings = 0;
     double mean = 0.0;
     double sum_of_squares_between = 0.0, sum_of_squares_within = 0.0;

@@ -101,6 +101,7 @@ void describe(Archive& a, Struct& r) {
     a("share", r.share, Range::not_negative);
     a("source", r.source);
     a.added("components", r.components);
+    a.added("role", r.role, {"", "fit", "fit_data", "fit_parameter"});
     a.group("printed", [&](auto& b) {
         b.added("value", r.printed.value);
         b("u", r.printed.u);
@@ -261,11 +262,21 @@ void describe(Archive& a, Struct& r) {
     a("unit", r.unit);
     a("value", r.value);
     a("u", r.u, Range::not_negative);
+    a.added("scaled_u", r.scaled_u, Range::not_negative);
     a.group("printed", [&](auto& b) {
         b("value", r.printed.value);
         b("u", r.printed.u);
         b("unit", r.printed.unit);
+        b.added("scaled_u", r.printed.scaled_u);
     });
+}
+
+template <class Archive, Is<FitSummary::Regressor> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("unit", r.unit);
+    a("values", r.values);
+    a("printed", r.printed);
 }
 
 template <class Archive, Is<FitSummary> Struct>
@@ -282,6 +293,7 @@ void describe(Archive& a, Struct& r) {
     a("r_squared", r.r_squared);
     a("condition_number", r.condition_number, Range::not_negative);
     a("p_value", r.p_value, Range::probability);
+    a.added("consistency", r.consistency, {"", "consistent", "refuted", "overstated"});
     a("iterations", r.iterations, Range::not_negative);
     a("covariance_scaled", r.covariance_scaled);
     a.group("data", [&](auto& b) {
@@ -293,12 +305,40 @@ void describe(Archive& a, Struct& r) {
         b("y", r.y);
         b("fitted", r.fitted);
         b("residual", r.residual);
+        b.added("u_x", r.u_x);
+        b.added("u_y", r.u_y);
+        b.added("regressors", r.regressors);
     });
     a.group("printed", [&](auto& b) {
         b("residual_standard_deviation", r.printed.residual_standard_deviation);
         b("sum_of_squares", r.printed.sum_of_squares);
         b("p_value", r.printed.p_value);
         b("r_squared", r.printed.r_squared);
+        b.added("x", r.printed.x);
+        b.added("y", r.printed.y);
+        b.added("u_x", r.printed.u_x);
+        b.added("u_y", r.printed.u_y);
+        b.added("residual", r.printed.residual);
+    });
+}
+
+template <class Archive, Is<OutlyingReading> Struct>
+void describe(Archive& a, Struct& r) {
+    a("input", r.input);
+    a("component", r.component);
+    a("point", r.point);
+    a("unit", r.unit);
+    a("of", r.of, {"observations", "group", "group_means"});
+    a("group", r.group, Range::not_negative);
+    a("position", r.position, Range::positive);
+    a("n", r.n, Range::positive);
+    a("value", r.value);
+    a("G", r.G, Range::not_negative);
+    a("p_value", r.p_value, Range::probability);
+    a.group("printed", [&](auto& b) {
+        b("value", r.printed.value);
+        b("G", r.printed.G);
+        b("p_value", r.printed.p_value);
     });
 }
 
@@ -307,6 +347,8 @@ void describe(Archive& a, Struct& r) {
     a("input", r.input);
     a("component", r.component);
     a("unit", r.unit);
+    a.added("point", r.point);
+    a.added("observations", r.observations);
     a("n", r.n, Range::positive);
     a("mean", r.mean);
     a("standard_deviation", r.standard_deviation, Range::not_negative);
@@ -329,6 +371,7 @@ void describe(Archive& a, Struct& r) {
     a("input", r.input);
     a("component", r.component);
     a("unit", r.unit);
+    a.added("point", r.point);
     a("groups", r.groups, Range::positive);
     a("readings", r.readings, Range::positive);
     a("mean", r.mean);
@@ -714,6 +757,7 @@ void describe(Archive& a, Struct& r) {
     a.added("fits", r.fits);
     a.added("readings", r.readings);
     a.added("variance_analyses", r.variance_analyses);
+    a.added("outliers", r.outliers);
     a("rotary", r.rotary);
     a("comparison", r.comparison);
     a.added("certificate", r.certificate);
@@ -936,6 +980,22 @@ void check_results(const EvaluationRecord& r, const Report& report) {
         }
         length(at + "/data/fitted", f.fitted.size(), f.y.size(), "one a value of y");
         length(at + "/data/residual", f.residual.size(), f.y.size(), "one a value of y");
+        const auto length_if_any = [&](const std::string& key, std::size_t found) {
+            if (found != 0) {
+                length(at + key, found, f.y.size(), "one a value of y");
+            }
+        };
+        length_if_any("/data/u_x", f.u_x.size());
+        length_if_any("/data/u_y", f.u_y.size());
+        length_if_any("/printed/x", f.printed.x.size());
+        length_if_any("/printed/y", f.printed.y.size());
+        length_if_any("/printed/u_x", f.printed.u_x.size());
+        length_if_any("/printed/u_y", f.printed.u_y.size());
+        length_if_any("/printed/residual", f.printed.residual.size());
+        for (std::size_t q = 0; q < f.regressors.size(); ++q) {
+            length_if_any("/data/regressors/" + std::to_string(q) + "/values", f.regressors[q].values.size());
+            length_if_any("/data/regressors/" + std::to_string(q) + "/printed", f.regressors[q].printed.size());
+        }
     }
 }
 

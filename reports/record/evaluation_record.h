@@ -36,6 +36,10 @@ struct BudgetRow {
     double share = 0.0;                 ///< contribution² / u²
     std::string source;
     std::vector<BudgetRow> components;  ///< the parts of an input that is a sum, as table H.1 of the GUM shows them
+    /// "" for an input. "fit" for all parameters of a fit together, their covariances included; its components are
+    /// "fit_data", what comes from each column of the data (their squares add up to that of the row), and
+    /// "fit_parameter", each parameter alone, which do not add up
+    std::string role = {};
     struct {
         std::string value, u, nu, sensitivity, contribution, share;  ///< share in percent; value without its unit
     } printed;
@@ -433,6 +437,7 @@ struct EvaluationRecord {
     std::vector<FitSummary> fits;
     std::vector<ReadingsSummary> readings;
     std::vector<VarianceAnalysis> variance_analyses;
+    std::vector<OutlyingReading> outliers;
     std::optional<RotaryTable> rotary;
     std::optional<Comparison> comparison;
     std::optional<certificate::Certificate> certificate;  ///< where the job states certificate data

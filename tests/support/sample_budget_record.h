@@ -249,12 +249,12 @@ inline reports::EvaluationRecord sample_two_results_record() {
                        .unit = "degC",
                        .value = -0.1712,
                        .u = 0.0029,
-                       .printed = {.value = "-0.1712", .u = "0.0029", .unit = "°C"}},
+                       .printed = {.value = "-0.1712", .u = "0.0029", .unit = "°C", .scaled_u = ""}},
                       {.name = "y2",
                        .unit = "1",
                        .value = 0.00218,
                        .u = 0.00067,
-                       .printed = {.value = "0.00218", .u = "0.00067", .unit = ""}}};
+                       .printed = {.value = "0.00218", .u = "0.00067", .unit = "", .scaled_u = ""}}};
     fit.covariance = {{8.41e-6, -1.81e-6}, {-1.81e-6, 4.489e-7}};
     fit.correlation = {{1.0, -0.930}, {-0.930, 1.0}};
     fit.degrees_of_freedom = 9.0;
@@ -279,13 +279,27 @@ inline reports::EvaluationRecord sample_two_results_record() {
         fit.fitted.push_back(fitted);
         fit.residual.push_back(b[i] - fitted);
     }
-    fit.printed = {
-        .residual_standard_deviation = "0.0035", .sum_of_squares = "0.00011", .p_value = "", .r_squared = "0.54"};
+    fit.printed = {.residual_standard_deviation = "0.0035",
+                   .sum_of_squares = "0.00011",
+                   .p_value = "",
+                   .r_squared = "0.54",
+                   .x = {},
+                   .y = {},
+                   .u_x = {},
+                   .u_y = {},
+                   .residual = {}};
+    for (std::size_t i = 0; i < t.size(); ++i) {
+        fit.printed.x.push_back(std::to_string(t[i]).substr(0, 6));
+        fit.printed.y.push_back(std::to_string(b[i]).substr(0, 6));
+        fit.printed.residual.push_back(std::to_string(fit.residual[i]).substr(0, 7));
+    }
     r.fits = {fit};
 
     r.readings = {{.input = "V",
                    .component = "",
                    .unit = "V",
+                   .point = "",
+                   .observations = {"5.007", "4.994", "5.005", "4.990", "4.999"},
                    .n = 5,
                    .mean = 4.999,
                    .standard_deviation = 0.0072,
@@ -302,6 +316,8 @@ inline reports::EvaluationRecord sample_two_results_record() {
                   {.input = "I",
                    .component = "repeatability",
                    .unit = "A",
+                   .point = "",
+                   .observations = {},
                    .n = 5,
                    .mean = 0.019661,
                    .standard_deviation = 2.1e-5,
@@ -315,6 +331,18 @@ inline reports::EvaluationRecord sample_two_results_record() {
                                .standard_deviation_of_mean = "0.0000095",
                                .r1 = "",
                                .limit = "0.88"}}};
+    r.outliers = {{.input = "V",
+                   .component = "",
+                   .unit = "V",
+                   .point = "",
+                   .of = "observations",
+                   .group = 0,
+                   .position = 4,
+                   .n = 5,
+                   .value = 4.990,
+                   .G = 1.25,
+                   .p_value = 0.004,
+                   .printed = {.value = "4.990", .G = "1.25", .p_value = "0.0040"}}};
     VarianceAnalysis v;
     v.input = "V_S";
     v.unit = "V";

@@ -377,6 +377,7 @@ inline reports::EvaluationRecord sample_record() {
                                      0.92,
                                      "certificate of the CMM",
                                      {},
+                                     "",
                                      {"0", "0.24", "", "1", "0.240", "92.0"}},
                                     {"repeatability of the CMM",
                                      {},
@@ -390,6 +391,7 @@ inline reports::EvaluationRecord sample_record() {
                                      0.08,
                                      "ten measurements",
                                      {},
+                                     "",
                                      {"0", "0.071", "", "1", "0.071", "8.0"}}},
                         .largest_coordinate = "x of R6",
                         .remarks = {"The maximum permissible error is taken as a uniform bound."}};
@@ -413,6 +415,7 @@ inline reports::EvaluationRecord sample_record() {
                            0.83,
                            "dial indicator",
                            {},
+                           "",
                            {"0", "0.577", "", "1", "0.577", "83"}},
                           {"repeatability",
                            {},
@@ -426,6 +429,7 @@ inline reports::EvaluationRecord sample_record() {
                            0.157,
                            "dial indicator",
                            {},
+                           "",
                            {"0", "0.250", "", "1", "0.250", "16"}},
                           {"resolution",
                            {},
@@ -439,6 +443,7 @@ inline reports::EvaluationRecord sample_record() {
                            0.002,
                            "dial indicator",
                            {},
+                           "",
                            {"0", "0.029", "", "1", "0.029", "0.2"}}};
     for (const char* direction : {"x", "y", "z"}) {
         for (int i = 0; i < 36; ++i) {

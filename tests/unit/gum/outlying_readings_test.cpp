@@ -24,13 +24,13 @@ std::vector<std::size_t> positions(const std::vector<double>& readings, double r
 using Positions = std::vector<std::size_t>;
 
 TEST(OutlyingReadings, UraniumIsotopesOfTheHandbook) {
-    // NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.5.17.1: G = 2.4687.
+    // NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.5.17.1: G = 2.4687 (2.46876, cut).
     const std::vector<double> readings{199.31, 199.53, 200.19, 200.82, 201.92, 201.95, 202.18, 245.57};
     const auto found = outlying_readings(readings);
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0].position, 7U);
     EXPECT_EQ(found[0].tested, 8U);
-    EXPECT_NEAR(found[0].G, 2.4687, 5e-5);
+    EXPECT_NEAR(found[0].G, 2.4687, 1e-4);
     EXPECT_LT(found[0].p_value, 1e-6);
 }
 

@@ -173,9 +173,16 @@ EvaluationRecord budget_with_text(const std::string& text, EvaluationRecord r) {
     for (ReadingsSummary& readings : r.readings) {
         readings.input = text;
         readings.component = text;
+        readings.point = text;
     }
     for (VarianceAnalysis& v : r.variance_analyses) {
         v.input = text;
+        v.point = text;
+    }
+    for (OutlyingReading& reading : r.outliers) {
+        reading.input = text;
+        reading.component = text;
+        reading.point = text;
     }
     return r;
 }

@@ -36,12 +36,14 @@ std::vector<InputSymbol> quantities() {
             input("w2", "1"),
             input("c", "J/(kg K)"),
             input("m", "kg"),
-            input("E_a", "J/mol")};
+            input("E_a", "J/mol"),
+            input("q_0", "W/m2")};
 }
 
 std::string warned(const std::vector<std::string>& equations, const std::vector<OutputSymbol>& outputs = {}) {
     std::string list;
-    for (const Diagnostic& warning : system_of(equations, quantities(), {}, outputs).warnings()) {
+    const EquationSystem system = system_of(equations, quantities(), {}, outputs);
+    for (const Diagnostic& warning : system.warnings()) {
         EXPECT_EQ(warning.severity, Severity::warning);
         list += (list.empty() ? "" : "; ") + warning.code.substr(9) + " " + warning.where;
     }
@@ -56,7 +58,7 @@ TEST(TemperatureCheck, WarnsOfQuotientsRootsAndPowers) {
     EXPECT_EQ(warned({"rho = p*M/(R*(t + dt))"}), "0040 m/0, column 10");
     EXPECT_EQ(warned({"q = s*t^4"}), "0041 m/0, column 6");
     EXPECT_EQ(warned({"q = s*(t^4 - t2^4)"}), "0041 m/0, column 6");
-    EXPECT_EQ(warned({"q = p*m/m*0 + s*t*t*t*t"}, {}), "0041 m/0, column 15") << "a + s t⁴ is no polynomial";
+    EXPECT_EQ(warned({"q = q_0 + s*t*t*t*t"}), "0041 m/0, column 18") << "a + s t⁴ is no polynomial";
     EXPECT_EQ(warned({"v = sqrt(R*t/M)"}), "0040 m/0, column 5");
     EXPECT_EQ(warned({"v = (R*t/M)^0.5"}), "0040 m/0, column 12");
     EXPECT_EQ(warned({"v = (R*t)^-1*n"}), "0040 m/0, column 10");
@@ -93,7 +95,7 @@ TEST(TemperatureCheck, IsSilentWhereADifferenceFromZeroIsMeant) {
              "y = 0.5*t + 0.5*t2",                              //
              "y = (w*t + w2*t2)/(w + w2)",                      // a mean with weights
              "y = 1/(t - t2)*dt",                               //
-             "y = sqrt(T)",
+             "y = sqrt(T/dt)",
              "y = s*T^4",
              "y = n*R*T/p",  // kelvin
          }) {
@@ -156,13 +158,13 @@ TEST(TemperatureCheck, CuresLeadToTheRightNumber) {
     };
     for (const Case& one : cases) {
         SCOPED_TRACE(one.equation);
-        const std::vector<Diagnostic> warnings = system_of({one.equation}, symbols).warnings();
+        const std::vector<Diagnostic> warnings{system_of({one.equation}, symbols).warnings()};
         ASSERT_FALSE(warnings.empty());
         const std::string& action = warnings.front().action;
         const std::string meant = between(action, " for \"", "\"");
         const std::string kelvin = between(action, "Write ", " for ");
         const std::string difference = between(action, "is meant, write ", " with the input");
-        EXPECT_NEAR(value(replaced(one.equation, meant, kelvin)), one.with_kelvin, 1e-12 * one.with_kelvin + 1e-15);
+        EXPECT_NEAR(value(replaced(one.equation, meant, kelvin)), one.with_kelvin, 1e-12 * std::fabs(one.with_kelvin));
         EXPECT_NEAR(value(replaced(one.equation, meant, difference)), one.with_difference,
                     1e-12 * std::fabs(one.with_difference));
         EXPECT_THAT(action, HasSubstr(R"("t_0": {"value": 0, "unit": "degC", "constant": true})"));

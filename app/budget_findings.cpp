@@ -1,0 +1,244 @@
+#include "app/budget_findings.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "app/budget_fit_record.h"
+#include "app/budget_texts.h"
+#include "app/record_parts.h"
+#include "gum/outlying_readings.h"
+#include "gum/quantity/unit.h"
+
+namespace gumcert::app {
+
+namespace {
+
+using certificate::FindingSeverity;
+using reports::EvaluationRecord;
+using reports::FitSummary;
+using reports::OutlyingReading;
+using reports::ReadingsSummary;
+
+constexpr double k_gross_outlier = 0.001;  // p-value below which nobody takes a reading for chance
+constexpr std::size_t k_most_points = 5;
+
+/// One thing to say, in both forms. All sentences stand here.
+struct Remark {
+    gum::Diagnostic message;
+    std::string id, clause;
+    FindingSeverity severity = FindingSeverity::major;
+    FindingSeverity accredited = FindingSeverity::major;  ///< where the certificate is accredited
+};
+
+std::string with_unit(const std::string& number, const std::string& unit) {
+    const std::string people = gum::unit_for_people(unit);
+    return people.empty() ? number : number + " " + people;
+}
+
+/// "readings of x: drift at points A, B and 3 more"
+std::string place_of(const std::string& input, const std::string& component, const std::vector<std::string>& points) {
+    std::string text = "readings of " + input + (component.empty() ? "" : ": " + component);
+    std::vector<std::string> named;
+    for (const std::string& point : points) {
+        if (!point.empty() && std::find(named.begin(), named.end(), point) == named.end()) {
+            named.push_back(point);
+        }
+    }
+    if (!named.empty()) {
+        text += (named.size() == 1 ? " at point " : " at points ") + listed(named, k_most_points);
+    }
+    return text;
+}
+
+Remark refuted_fit(const FitSummary& fit) {
+    std::vector<std::string> scaled;
+    for (const FitSummary::Parameter& parameter : fit.parameters) {
+        scaled.push_back("u(" + parameter.name + ") = " + with_unit(parameter.printed.scaled_u, parameter.unit) +
+                         " in place of " + parameter.printed.u);
+    }
+    return {
+        .message = {.code = "GC-BUDGET-0032",
+                    .where = "fit " + fit.name,
+                    .what = "chi-square is " + fit.printed.sum_of_squares + " with " +
+                            shortest(fit.degrees_of_freedom) + " degrees of freedom (p-value " + fit.printed.p_value +
+                            "): the residuals are " + fit.printed.residual_standard_deviation +
+                            " times as large as the stated uncertainties of the data explain",
+                    .rule = "a fit is used when its residuals do not refute the stated uncertainties and the curve: "
+                            "chi-square is tested at 5 % (ISO/TS 28037:2010)",
+                    .action = "Correct the uncertainties of the data, or the equation; or add "
+                              "\"scale_by_residuals\": true to the fit, which takes the uncertainty from the "
+                              "residuals: " +
+                              listed(scaled) + ".",
+                    .severity = gum::Severity::warning},
+        .id = "F01",
+        .clause = "ISO/TS 28037:2010",
+        .severity = FindingSeverity::major,
+        .accredited = FindingSeverity::critical};
+}
+
+Remark overstated_fit(const FitSummary& fit) {
+    return {
+        .message = {.code = "GC-BUDGET-0033",
+                    .where = "fit " + fit.name,
+                    .what = "chi-square is " + fit.printed.sum_of_squares + " with " +
+                            shortest(fit.degrees_of_freedom) +
+                            " degrees of freedom: the residuals are far smaller than the stated uncertainties of "
+                            "the data",
+                    .rule = "by chance alone this happens less than once in a hundred fits",
+                    .action = "See whether the uncertainties hold what all points have in common (a standard, a "
+                              "scale); such a part is no scatter, and belongs into the model as an input of its own.",
+                    .severity = gum::Severity::note},
+        .id = "F02",
+        .clause = "ISO/TS 28037:2010",
+        .severity = FindingSeverity::information,
+        .accredited = FindingSeverity::information};
+}
+
+std::string place_in_set(const OutlyingReading& r) {
+    const std::string number = std::to_string(r.position);
+    return r.of == "group_means" ? "the mean of group " + number
+           : r.of == "group"     ? "reading " + number + " of group " + std::to_string(r.group)
+                                 : "reading " + number;
+}
+
+/// \param all  of one input
+Remark outliers(const std::vector<const OutlyingReading*>& all) {
+    const OutlyingReading& first = **std::min_element(
+        all.begin(), all.end(), [](const auto* a, const auto* b) { return a->p_value < b->p_value; });
+    std::vector<std::string> points;
+    for (const OutlyingReading* r : all) {
+        points.push_back(r->point);
+    }
+    std::string what = place_in_set(first) +
+                       (all.size() > 1 && !first.point.empty() ? " at point " + first.point : "") + ", " +
+                       with_unit(first.printed.value, first.unit) + ", is an outlier among " + std::to_string(first.n) +
+                       (first.of == "group_means" ? " means" : " readings") + ": G = " + first.printed.G +
+                       ", p-value " + first.printed.p_value;
+    if (all.size() > 1) {
+        what += "; and " + std::to_string(all.size() - 1) + " more";
+    }
+    const FindingSeverity severity = first.p_value < k_gross_outlier ? FindingSeverity::major : FindingSeverity::minor;
+    return {
+        .message = {.code = "GC-BUDGET-0031",
+                    .where = place_of(first.input, first.component, points),
+                    .what = std::move(what),
+                    .rule = "Grubbs' test at 1 % (NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.5.17.1)",
+                    .action = "Look for the cause: a slip of the pen, a disturbance. Leave a reading out only for a "
+                              "cause that is on record; else it stays, and s with it.",
+                    .severity = gum::Severity::warning},
+        .id = "A01",
+        .clause = "JCGM 100:2008, 4.2",
+        .severity = severity,
+        .accredited = severity};
+}
+
+/// \param all  of one input
+Remark dependent(const std::vector<const ReadingsSummary*>& all) {
+    const ReadingsSummary& first = *all.front();
+    std::vector<std::string> points;
+    for (const ReadingsSummary* r : all) {
+        points.push_back(r->point);
+    }
+    return {.message = {.code = "GC-BUDGET-0030",
+                        .where = place_of(first.input, first.component, points),
+                        .what = "autocorrelation coefficient of lag 1 is " + first.printed.r1 +
+                                (all.size() > 1 && !first.point.empty() ? " at point " + first.point : ""),
+                        .rule = "readings that are independent of each other stay within ±" + first.printed.limit +
+                                " in 95 % of all cases",
+                        .action = "Look for drift; s/√n is not the uncertainty of the mean of dependent readings.",
+                        .severity = gum::Severity::warning},
+            .id = "A02",
+            .clause = "JCGM 100:2008, 4.2.7",
+            .severity = FindingSeverity::minor,
+            .accredited = FindingSeverity::minor};
+}
+
+/// Those of one input and component together, in the order of the record.
+template <typename Summary, typename Wanted>
+std::vector<std::vector<const Summary*>> by_input(const std::vector<Summary>& all, const Wanted& wanted) {
+    std::vector<std::vector<const Summary*>> groups;
+    for (const Summary& one : all) {
+        if (!wanted(one)) {
+            continue;
+        }
+        const auto found = std::find_if(groups.begin(), groups.end(), [&](const auto& group) {
+            return std::tie(group.front()->input, group.front()->component) == std::tie(one.input, one.component);
+        });
+        (found == groups.end() ? groups.emplace_back() : *found).push_back(&one);
+    }
+    return groups;
+}
+
+std::vector<Remark> remarks_of(const EvaluationRecord& record) {
+    std::vector<Remark> remarks;
+    for (const FitSummary& fit : record.fits) {
+        if (fit.consistency == "refuted") {
+            remarks.push_back(refuted_fit(fit));
+        } else if (fit.consistency == "overstated") {
+            remarks.push_back(overstated_fit(fit));
+        }
+    }
+    for (const auto& group : by_input(record.readings, [](const ReadingsSummary& r) { return r.dependent; })) {
+        remarks.push_back(dependent(group));
+    }
+    for (const auto& group : by_input(record.outliers, [](const OutlyingReading&) { return true; })) {
+        remarks.push_back(outliers(group));
+    }
+    return remarks;
+}
+
+}  // namespace
+
+std::vector<gum::Diagnostic> budget_remarks(const EvaluationRecord& record) {
+    std::vector<gum::Diagnostic> messages;
+    for (Remark& remark : remarks_of(record)) {
+        messages.push_back(std::move(remark.message));
+    }
+    return messages;
+}
+
+namespace {
+
+/// Messages of the evaluation that an assessor would repeat.
+struct MessageFinding {
+    std::string_view code, id, clause;
+    FindingSeverity severity;
+};
+constexpr std::array<MessageFinding, 3> k_message_findings{
+    {{"GC-MODEL-0040", "M01", "JCGM 100:2008, 4.1", FindingSeverity::major},
+     {"GC-MODEL-0041", "M01", "JCGM 100:2008, 4.1", FindingSeverity::major},
+     {"GC-BUDGET-0034", "M02", "JCGM 100:2008, 7.2.6", FindingSeverity::critical}}};
+
+}  // namespace
+
+std::vector<certificate::Finding> budget_findings(const EvaluationRecord& record) {
+    const bool accredited = record.certificate && record.certificate->data.status == "accredited";
+    std::vector<certificate::Finding> findings;
+    for (const gum::Diagnostic& message : record.diagnostics) {
+        for (const MessageFinding& known : k_message_findings) {
+            if (message.code == known.code) {
+                findings.push_back({.id = std::string{known.id},
+                                    .clause = std::string{known.clause},
+                                    .severity = known.severity,
+                                    .where = message.where,
+                                    .what = message.what,
+                                    .action = message.action});
+            }
+        }
+    }
+    for (Remark& remark : remarks_of(record)) {
+        findings.push_back({.id = std::move(remark.id),
+                            .clause = std::move(remark.clause),
+                            .severity = accredited ? remark.accredited : remark.severity,
+                            .where = std::move(remark.message.where),
+                            .what = std::move(remark.message.what),
+                            .action = std::move(remark.message.action)});
+    }
+    return findings;
+}
+
+}  // namespace gumcert::app

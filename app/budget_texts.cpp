@@ -1,0 +1,40 @@
+#include "app/budget_texts.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "app/record_parts.h"
+#include "gum/rounding.h"
+
+namespace gumcert::app {
+
+std::string all_digits(double value) {
+    return shortest(value == 0.0 ? 0.0 : value);
+}
+
+std::string rounded(double value, int digits) {
+    return gum::round_significant(value, digits);
+}
+
+std::string printed_estimate(double value, double u) {
+    return u > 0.0 ? gum::round_to_uncertainty(value, u, k_digits_of_u).value : all_digits(value);
+}
+
+std::string as_stated(double value) {
+    std::array<char, 32> text{};
+    const auto written = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 15);
+    double back = value;
+    std::from_chars(text.data(), written.ptr, back);
+    // The 15 digits are what was written, unless conversion moved the number by more than its own rounding.
+    return all_digits(std::fabs(back - value) <= 4e-16 * std::fabs(value) ? back : value);
+}
+
+std::string printed_degrees_of_freedom(double nu) {
+    if (std::isnan(nu)) {
+        return "–";
+    }
+    return std::isinf(nu) ? "∞" : rounded(nu, nu < 1000.0 ? 3 : 4);
+}
+
+}  // namespace gumcert::app

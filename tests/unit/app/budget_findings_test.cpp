@@ -1,0 +1,115 @@
+#include "app/budget_findings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "app/budget_record.h"
+#include "app/evaluate_budget.h"
+#include "tests/support/sample_certificate.h"
+#include "tests/unit/engine/job/budget_campaign.h"
+
+namespace gumcert::app {
+namespace {
+
+using certificate::FindingSeverity;
+using testing::HasSubstr;
+
+reports::EvaluationRecord record_of(const std::string& keys) {
+    const engine::BudgetJob job = engine::test::read_budget(keys);
+    const BudgetResult result = evaluate_budget(job, 1);
+    return budget_record(job, result, {}, budget_covariance(result), "");
+}
+
+std::string line(const std::string& more) {
+    return R"("fits": {"f": {"equation": "y = a + b*x", "parameters": {"a": {"unit": "mV"}, "b": {"unit": "mV"}},
+        "units": {"y": "mV"}, "data": {"x": [0, 1, 2, 3, 4], "y": [0, 1.1, 1.9, 3.2, 3.9], )" +
+           more + "}}";
+}
+
+/// Findings of a record whose certificate has a status, "id severity; …".
+std::string findings(reports::EvaluationRecord record, const std::string& status) {
+    record.certificate.emplace();
+    record.certificate->data.status = status;
+    std::string list;
+    for (const certificate::Finding& finding : budget_findings(record)) {
+        const char* severity = finding.severity == FindingSeverity::critical ? "critical"
+                               : finding.severity == FindingSeverity::major  ? "major"
+                               : finding.severity == FindingSeverity::minor  ? "minor"
+                                                                             : "information";
+        list += (list.empty() ? "" : "; ") + finding.id + " " + severity;
+        EXPECT_FALSE(finding.where.empty() || finding.what.empty() || finding.action.empty() || finding.clause.empty());
+    }
+    return list;
+}
+
+TEST(BudgetFindings, ARefutedFitBlocksAnAccreditedCertificate) {
+    const reports::EvaluationRecord record = record_of(line(R"("u_y": 0.001})"));
+    EXPECT_EQ(findings(record, "accredited"), "F01 critical");
+    EXPECT_EQ(findings(record, "not_accredited"), "F01 major");
+    EXPECT_EQ(findings(record, "specimen"), "F01 major");
+    const gum::Diagnostic message = budget_remarks(record).at(0);
+    EXPECT_EQ(message.code, "GC-BUDGET-0032");
+    EXPECT_EQ(message.severity, gum::Severity::warning);
+    EXPECT_EQ(message.where, "fit f");
+    EXPECT_THAT(message.action, HasSubstr("\"scale_by_residuals\": true"));
+    EXPECT_THAT(message.action, HasSubstr("u(a) = 0.12 mV in place of 0.00077"));
+}
+
+/// What the message promises is what the keyword gives.
+TEST(BudgetFindings, TheRemedyOfARefutedFitIsTrue) {
+    const reports::EvaluationRecord scaled = record_of(line(R"("u_y": 0.001}, "scale_by_residuals": true)"));
+    EXPECT_EQ(findings(scaled, "accredited"), "");
+    EXPECT_EQ(scaled.fits.at(0).parameters.at(0).printed.u, "0.12");
+}
+
+TEST(BudgetFindings, UncertaintiesThatAreFarTooLargeAreANote) {
+    const reports::EvaluationRecord record = record_of(line(R"("u_y": 100})"));
+    EXPECT_EQ(findings(record, "accredited"), "F02 information");
+    EXPECT_EQ(budget_remarks(record).at(0).severity, gum::Severity::note);
+    EXPECT_EQ(findings(record_of(line(R"("u_y": 0.15})")), "accredited"), "");
+}
+
+TEST(BudgetFindings, OutliersAndDriftAreOneMessageAnInput) {
+    const std::string drift = R"({"observations": [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]})";
+    const std::string slip = R"({"observations": [5.00, 5.01, 4.99, 5.00, 49.99, 5.01, 4.99]})";
+    const reports::EvaluationRecord record =
+        record_of(R"("model": ["z = x + y"], "inputs": {"x": {"unit": "mV"}, "y": {"unit": "mV"}}, "points": [
+            {"point": "A", "x": )" +
+                  drift + R"(, "y": )" + slip + R"(}, {"point": "B", "x": )" + drift + R"(, "y": )" + slip + "}]");
+    EXPECT_EQ(findings(record, "accredited"), "A02 minor; A01 major");
+    const auto messages = budget_remarks(record);
+    ASSERT_EQ(messages.size(), 2U);
+    EXPECT_EQ(messages[0].where, "readings of x at points A, B");
+    EXPECT_EQ(messages[1].where, "readings of y at points A, B");
+    EXPECT_THAT(messages[1].what, HasSubstr("reading 5 at point A, 49.99 mV, is an outlier among 7 readings"));
+}
+
+TEST(BudgetFindings, TemperaturesAndLostDigitsOfTheRecordAreFindings) {
+    const reports::EvaluationRecord hot = record_of(R"("model": ["y = p/t"], "inputs": {
+        "p": {"value": 1, "u": 0.1}, "t": {"value": 20, "u": 0.1, "unit": "degC"}})");
+    EXPECT_EQ(findings(hot, "accredited"), "M01 major");
+    const reports::EvaluationRecord lost = record_of(R"("model": ["y = x - f"], "inputs": {
+        "x": {"value": 1000000000, "u": 1e-9}, "f": {"value": 999999999.9, "constant": true}})");
+    EXPECT_EQ(findings(lost, "accredited"), "M02 critical");
+    // As the message advises.
+    const reports::EvaluationRecord held = record_of(R"("model": ["y = (x - f_0) - f"], "inputs": {
+        "x": {"value": 1000000000, "u": 1e-9}, "f_0": {"value": 1000000000, "constant": true},
+        "f": {"value": -0.1, "constant": true}})");
+    EXPECT_EQ(findings(held, "accredited"), "");
+    EXPECT_EQ(held.results.at(0).value, 0.1);
+    // The parts added up before: the digits are lost on the way.
+    const reports::EvaluationRecord added = record_of(R"j("model": ["y = x - (f_0 + f)"], "inputs": {
+        "x": {"value": 1000000000, "u": 1e-9}, "f_0": {"value": 1000000000, "constant": true},
+        "f": {"value": -0.1, "constant": true}})j");
+    EXPECT_EQ(findings(added, "accredited"), "M02 critical");
+    // Whole numbers of 15 digits, as of optical frequencies, are held.
+    const reports::EvaluationRecord optical = record_of(R"("model": ["y = x - f"], "inputs": {
+        "x": {"value": 429228004229873, "u": 0.1}, "f": {"value": 429228004229000, "constant": true}})");
+    EXPECT_EQ(findings(optical, "accredited"), "");
+    EXPECT_EQ(optical.results.at(0).value, 873.0);
+}
+
+}  // namespace
+}  // namespace gumcert::app
