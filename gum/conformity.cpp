@@ -14,7 +14,8 @@ namespace gumcert::gum {
 namespace {
 
 constexpr double k_rounding = 16.0 * std::numeric_limits<double>::epsilon();
-constexpr double k_z540_3_risk = 0.02;  // ANSI/NCSL Z540.3, 5.3
+constexpr double k_noise_of_a_risk = 1e-12;  // relative
+constexpr double k_z540_3_risk = 0.02;       // ANSI/NCSL Z540.3, 5.3
 constexpr double k_iso_14253_1_probability = 0.95;
 
 /// How the zones of a rule become verdicts.
@@ -40,7 +41,9 @@ public:
     }
 
     [[nodiscard]] ConformityDecision decide();
-    [[nodiscard]] bool not_applicable() const { return decision_.verdict == ConformityVerdict::not_applicable; }
+    [[nodiscard]] const std::string& reason() const { return reason_; }
+    /// Whether the rule can be applied, and some value passes.
+    [[nodiscard]] bool applies() const { return reason_.empty(); }
 
 private:
     void set_zones();
@@ -55,7 +58,12 @@ private:
     void probabilities();
     void verdict();
     void global_risks();
+    void explain();
 
+    [[nodiscard]] bool nonconformity_is_proven();
+    [[nodiscard]] bool proven_on_one_side(const MeasuredValue& y, double probability) const;
+    [[nodiscard]] double weight_of_measurement() const;
+    [[nodiscard]] MeasuredValue posterior_at(double value) const;
     [[nodiscard]] bool at_most(double a, double b) const;
     [[nodiscard]] bool inside(const ToleranceLimits& zone) const;
     [[nodiscard]] bool beyond(const ToleranceLimits& zone) const;
@@ -72,7 +80,7 @@ private:
     Zones zones_ = Zones::two;
     double largest_risk_ = 0.0;  // of by_risk and by_proof
     bool with_prior_ = false;
-    std::string reason_;  // why not applicable
+    std::string reason_;  // why the rule cannot be applied, or no value can pass
     ConformityDecision decision_;
 };
 
@@ -172,18 +180,29 @@ void Application::prove(double probability) {
                         " ≤ 1 − p; else undetermined; p = " + number_text(probability);
 }
 
+/// DR-09, method 4: of the measured value against the centre of the population.
+double Application::weight_of_measurement() const {
+    const double u = y_.standard_uncertainty;
+    const double s0 = population_->deviation;
+    return s0 * s0 / (s0 * s0 + u * u);
+}
+
+/// DR-09, method 4: what is known after a measurement that gave some value.
+MeasuredValue Application::posterior_at(double value) const {
+    const double weight = weight_of_measurement();
+    return {.value = population_->centre + weight * (value - population_->centre),
+            .standard_uncertainty = y_.standard_uncertainty * std::sqrt(weight),
+            .expanded_uncertainty = y_.expanded_uncertainty * std::sqrt(weight)};
+}
+
 /// DR-09, method 4: the specific risk of this value, with the population as prior. Prior and measurement are normal,
 /// and so is what is known after both: its value is a weighted mean.
 void Application::posterior() {
-    const double u = y_.standard_uncertainty;
-    const double s0 = population_->deviation;
-    const double weight = s0 * s0 / (s0 * s0 + u * u);  // of the measured value
+    const double weight = weight_of_measurement();
     with_prior_ = true;
     zones_ = Zones::by_risk;
     largest_risk_ = p_.probability.value_or(k_z540_3_risk);
-    MeasuredValue after{.value = 0.0,
-                        .standard_uncertainty = u * std::sqrt(weight),
-                        .expanded_uncertainty = y_.expanded_uncertainty * std::sqrt(weight)};
+    const MeasuredValue after = posterior_at(y_.value);
     if (auto solved = acceptance_limits_for_risk(after, limits_, largest_risk_)) {
         const auto measured = [&](std::optional<double>& limit) {
             if (limit) {
@@ -321,22 +340,14 @@ void Application::set_zones() {
 }
 
 double Application::risk_of(double value) const {
-    if (!with_prior_) {
-        return nonconformance_probability_at(value, y_, limits_);
-    }
-    const double u = y_.standard_uncertainty;
-    const double s0 = population_->deviation;
-    const double weight = s0 * s0 / (s0 * s0 + u * u);
-    const MeasuredValue after{.value = population_->centre + weight * (value - population_->centre),
-                              .standard_uncertainty = u * std::sqrt(weight),
-                              .expanded_uncertainty = y_.expanded_uncertainty * std::sqrt(weight)};
-    return nonconformance_probability(after, limits_);
+    return with_prior_ ? nonconformance_probability(posterior_at(value), limits_)
+                       : nonconformance_probability_at(value, y_, limits_);
 }
 
 void Application::probabilities() {
     decision_.conformance_probability =
         with_prior_ ? 1.0 - risk_of(y_.value) : gum::conformance_probability(y_, limits_);
-    if (not_applicable()) {
+    if (!applies()) {
         return;
     }
     double largest = 0.0;
@@ -348,22 +359,50 @@ void Application::probabilities() {
     decision_.largest_specific_risk = largest;
 }
 
+/// Whether the item lies beyond one of the limits with a probability. Both tails together say nothing where the
+/// tolerance is narrow: each value has a small probability of conformity then, also the best one.
+bool Application::proven_on_one_side(const MeasuredValue& y, double probability) const {
+    const double least = probability * (1.0 - k_noise_of_a_risk);
+    return (limits_.lower && distribution_function(y, *limits_.lower) >= least) ||
+           (limits_.upper && 1.0 - distribution_function(y, *limits_.upper) >= least);
+}
+
+/// Whether a value fails although none can pass, or the rule cannot be applied: nonconformity needs no zone of
+/// conformity (ISO 14253-1). Rules with zones of rejection or a probability to prove have their own; with any other one
+/// y ± U lies outside of the tolerance.
+bool Application::nonconformity_is_proven() {
+    if (zones_ == Zones::by_proof) {
+        return proven_on_one_side(y_, 1.0 - largest_risk_);
+    }
+    if (with_prior_) {
+        return proven_on_one_side(posterior_at(y_.value), 1.0 - largest_risk_);
+    }
+    if (!decision_.rejection.lower && !decision_.rejection.upper) {
+        decision_.rejection = guarded_limits(limits_, -y_.expanded_uncertainty);
+    }
+    return beyond(decision_.rejection);
+}
+
 void Application::verdict() {
     using enum ConformityVerdict;
+    const bool by_risk = zones_ == Zones::by_risk || zones_ == Zones::by_proof;
     const double risk = risk_of(y_.value);
-    const bool passes = zones_ == Zones::by_risk || zones_ == Zones::by_proof ? risk <= largest_risk_ * (1.0 + 1e-12)
-                                                                              : inside(decision_.acceptance);
+    const bool passes = by_risk ? risk <= largest_risk_ * (1.0 + k_noise_of_a_risk) : inside(decision_.acceptance);
     if (!reason_.empty()) {
-        decision_.verdict = not_applicable;
+        decision_.acceptance = {};
+        decision_.guard_band = 0.0;
     } else if (!some_value_passes()) {
-        cannot("no value can pass, because U is too large against the tolerance");
-        decision_.verdict = not_applicable;
+        cannot(p_.guard_band ? "no value can pass, because the guard band is larger than half of the tolerance"
+                             : "no value can pass, because U is too large against the tolerance");
+    }
+    if (!applies()) {
+        decision_.verdict = nonconformity_is_proven() ? fail : not_applicable;
     } else if (passes) {
         decision_.verdict = pass;
     } else if (zones_ == Zones::two || zones_ == Zones::by_risk) {
         decision_.verdict = fail;
     } else if (zones_ == Zones::by_proof) {
-        decision_.verdict = risk >= (1.0 - largest_risk_) * (1.0 - 1e-12) ? fail : undetermined;
+        decision_.verdict = risk >= (1.0 - largest_risk_) * (1.0 - k_noise_of_a_risk) ? fail : undetermined;
     } else if (beyond(decision_.rejection)) {
         decision_.verdict = fail;
     } else if (zones_ == Zones::three) {
@@ -378,7 +417,7 @@ void add_sentence(std::string& text, std::string_view sentence) {
 }
 
 void Application::global_risks() {
-    if (!some_value_passes() || not_applicable()) {
+    if (!applies()) {
         return;
     }
     if (population_) {
@@ -398,6 +437,22 @@ void Application::global_risks() {
     }
 }
 
+/// Why nothing can pass, and why a value fails all the same.
+void Application::explain() {
+    if (applies()) {
+        return;
+    }
+    const bool fails = decision_.verdict == ConformityVerdict::fail;
+    add_sentence(decision_.note, decision_rule_id(rule_) +
+                                     (fails ? " accepts no value here: " : " cannot be applied: ") + reason_ + ".");
+    if (fails) {
+        const bool by_U = zones_ == Zones::two || (zones_ == Zones::by_risk && !with_prior_);
+        add_sentence(decision_.note, by_U ? "Nonconformity is proven all the same: y ± U lies outside of the limits."
+                                          : "Nonconformity is proven all the same: the value lies where the rule "
+                                            "rejects.");
+    }
+}
+
 ConformityDecision Application::decide() {
     set_zones();
     verdict();
@@ -406,9 +461,7 @@ ConformityDecision Application::decide() {
         decision_.verdict == ConformityVerdict::fail || decision_.verdict == ConformityVerdict::conditional_fail;
     decision_.specific_risk = rejected ? decision_.conformance_probability : risk_of(y_.value);
     global_risks();
-    if (!reason_.empty()) {
-        add_sentence(decision_.note, decision_rule_id(rule_) + " cannot be applied: " + reason_ + ".");
-    }
+    explain();
     return decision_;
 }
 
@@ -447,18 +500,34 @@ ConformityDecision decide_conformity(DecisionRule rule, const DecisionRuleParame
     if (!faults.empty()) {
         throw InputError(std::move(faults));
     }
-    ConformityDecision decision = Application(rule, parameters, limits, y).decide();
-    if (decision.verdict != ConformityVerdict::not_applicable || !parameters.alternative) {
+    Application application(rule, parameters, limits, y);
+    ConformityDecision decision = application.decide();
+    if (application.applies() || !parameters.alternative) {
         return decision;
     }
     const DecisionRuleParameters others = parameters_of_alternative(parameters);
     ConformityDecision other = Application(*parameters.alternative, others, limits, y).decide();
-    std::string note = decision.note + " The agreed alternative " + decision_rule_id(other.rule) + " takes its place.";
+    // What was agreed for this case decides, also where nonconformity is proven without it.
+    std::string note = decision_rule_id(rule) + " cannot be applied: " + application.reason() +
+                       ". The agreed alternative " + decision_rule_id(other.rule) + " takes its place.";
     if (!other.note.empty()) {
         note += " " + other.note;
     }
     other.note = std::move(note);
     return other;
+}
+
+std::string decision_formula(DecisionRule rule, const DecisionRuleParameters& parameters,
+                             const ToleranceLimits& limits) {
+    if (!check_decision_rule(rule, parameters, limits).empty()) {
+        return {};
+    }
+    // Any value has the same formula.
+    const double U = limits.two_sided() ? 0.25 * (*limits.upper - *limits.lower) : 1.0;
+    const MeasuredValue any{.value = limits.lower ? *limits.lower : *limits.upper,
+                            .standard_uncertainty = 0.5 * U,
+                            .expanded_uncertainty = U};
+    return Application(rule, parameters, limits, any).decide().formula;
 }
 
 }  // namespace gumcert::gum

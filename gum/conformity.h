@@ -24,8 +24,9 @@ struct ConformityDecision {
     DecisionRule rule = DecisionRule::simple_acceptance;
     std::string formula = {};  ///< "AL = TL + r·U, AU = TU − r·U, r = 0.5"
     double guard_band = 0.0;   ///< w, below 0 outwards; the larger one where the two sides differ; 0 without limits
-    ToleranceLimits acceptance = {};       ///< AL, AU; AL > AU, or neither: no value can pass
-    ToleranceLimits rejection = {};        ///< DR-05, DR-06, DR-08: beyond them, nonconformity is stated; else empty
+    ToleranceLimits acceptance = {};  ///< AL, AU; AL > AU, or neither: no value can pass
+    /// DR-05, DR-06, DR-08: beyond them, nonconformity is stated; also where no value can pass. Else empty
+    ToleranceLimits rejection = {};
     double conformance_probability = 0.0;  ///< p_c; DR-09 method 4: with the population as prior
     /// p_c where rejected, also conditionally; else 1 − p_c, which is what an acceptance would risk
     double specific_risk = 0.0;
@@ -41,11 +42,18 @@ struct ConformityDecision {
 /// Applies a decision rule to one measured value.
 ///
 /// A value on an acceptance limit passes, and one within the rounding of the arithmetic of double precision counts as
-/// on it: with T_U = 0.3 and U = 0.1, y = 0.2 passes DR-03. Where A_L > A_U no value can pass, and the verdict is
-/// not_applicable: an item does not fail because its measurement was too poor.
-/// \throws InputError  GC-GUM-0080 limits, GC-GUM-0081 measured value, GC-GUM-0082 every fault that
+/// on it: with T_U = 0.3 and U = 0.1, y = 0.2 passes DR-03. Where A_L > A_U, or the rule cannot be applied, no value
+/// can pass; the verdict is not_applicable then, because an item does not fail for a poor measurement, and fail where
+/// nonconformity is proven: y beyond the limits by more than U, or where the rule itself begins to reject (DR-05,
+/// DR-06, DR-08, DR-09 by method 4). So far out every rule says fail. \throws InputError  GC-GUM-0080 limits,
+/// GC-GUM-0081 measured value, GC-GUM-0082 every fault that
 ///                     `check_decision_rule` finds with the rule
 [[nodiscard]] ConformityDecision decide_conformity(DecisionRule rule, const DecisionRuleParameters& parameters,
                                                    const ToleranceLimits& limits, const MeasuredValue& y);
+
+/// How a rule decides, as ConformityDecision::formula, where there is no value to decide on. "" where the limits or the
+/// parameters cannot be used.
+[[nodiscard]] std::string decision_formula(DecisionRule rule, const DecisionRuleParameters& parameters,
+                                           const ToleranceLimits& limits);
 
 }  // namespace gumcert::gum

@@ -304,7 +304,7 @@ TEST(DecideConformity, Dr08Iso14253) {
     EXPECT_TRUE(agrees(*narrow.acceptance.upper, 0.247379946360962, 1e-11));
     EXPECT_EQ(decide_conformity(rule, {}, k_unit_tolerance, normal(0.24, 0.45)).verdict, pass);
     EXPECT_EQ(decide_conformity(rule, {}, k_unit_tolerance, normal(0.0, 0.52)).verdict, not_applicable);
-    EXPECT_EQ(decide_conformity(rule, {}, k_unit_tolerance, normal(5.0, 0.52)).verdict, not_applicable);
+    EXPECT_EQ(decide_conformity(rule, {}, k_unit_tolerance, normal(5.0, 0.52)).verdict, fail);
 }
 
 /// Half of the tolerance is 1; y = 0.9 unless said otherwise.
@@ -476,8 +476,8 @@ TEST(DecideConformity, Dr13AsAgreed) {
     EXPECT_EQ(decide(DecisionRule::agreed, 9.5, {.guard_band = 0.02}).formula, "AL = TL + w, AU = TU − w, w as agreed");
 }
 
-TEST(DecideConformity, NothingFailsWhereNothingCanPass) {
-    // U = 0.6 against a tolerance of ±0.5.
+TEST(DecideConformity, OnlyWhatIsProvenFailsWhereNothingCanPass) {
+    // U = 0.6 against a tolerance of ±0.5 about 9.5.
     for (const auto& [rule, parameters] :
          std::vector<std::pair<DecisionRule, Parameters>>{{DecisionRule::guard_band_u, {}},
                                                           {DecisionRule::guard_band_factor, {.guard_factor = 1.0}},
@@ -489,7 +489,7 @@ TEST(DecideConformity, NothingFailsWhereNothingCanPass) {
                                                           {DecisionRule::z540_3, {.method = "5"}},
                                                           {DecisionRule::b89_7_3_1, {.guard_factor = 1.0}},
                                                           {DecisionRule::agreed, {.guard_band = 0.6}}}) {
-        for (const double y : {-100.0, 8.0, 9.5, 10.2, 100.0}) {
+        for (const double y : {8.6, 9.0, 9.5, 10.2, 10.4}) {
             const ConformityDecision decision = decide_conformity(rule, parameters, k_limits, normal(y, 0.3));
             EXPECT_EQ(decision.verdict, not_applicable) << decision_rule_id(rule) << ' ' << y;
             EXPECT_NE(decision.note.find("no value can pass"), std::string::npos) << decision.note;
@@ -498,9 +498,57 @@ TEST(DecideConformity, NothingFailsWhereNothingCanPass) {
                 EXPECT_GT(*decision.acceptance.lower, *decision.acceptance.upper);
             }
         }
+        for (const double y : {-100.0, 8.39, 10.61, 50.0, 100.0}) {  // beyond the limits by more than U
+            const ConformityDecision decision = decide_conformity(rule, parameters, k_limits, normal(y, 0.3));
+            EXPECT_EQ(decision.verdict, fail) << decision_rule_id(rule) << ' ' << y;
+            EXPECT_EQ(decision.specific_risk, decision.conformance_probability);
+            EXPECT_NE(decision.note.find("Nonconformity is proven all the same"), std::string::npos) << decision.note;
+            EXPECT_NE(decision.note.find("accepts no value here: no value can pass"), std::string::npos);
+            EXPECT_FALSE(decision.largest_specific_risk);
+        }
         // With one limit there is always a value that passes.
         EXPECT_EQ(decide_conformity(rule, parameters, k_upper, normal(-100.0, 0.3)).verdict, pass);
     }
+    // The proof of ISO 14253-1 begins 1.645 u beyond the limit. A tolerance that is narrow against u proves nothing,
+    // although every value has a small probability of conformity.
+    const auto iso = [](double y, double u) {
+        return decide_conformity(DecisionRule::iso_14253_1, {}, k_limits, normal(y, u)).verdict;
+    };
+    EXPECT_EQ(iso(10.0 + 1.644 * 0.3, 0.3), not_applicable);
+    EXPECT_EQ(iso(10.0 + 1.646 * 0.3, 0.3), fail);
+    EXPECT_EQ(iso(9.5, 100.0), not_applicable);
+    EXPECT_EQ(iso(10.1, 100.0), not_applicable);
+    EXPECT_EQ(iso(180.0, 100.0), fail);
+}
+
+TEST(DecideConformity, WhereTheRatioIsNotReachedTheFarFailAndNothingIsPrinted) {
+    const ConformityDecision far =
+        decide(DecisionRule::simple_acceptance_with_ratio, 10.11, {.test_uncertainty_ratio = 6.0});
+    EXPECT_EQ(far.verdict, fail);
+    EXPECT_FALSE(far.acceptance.upper);
+    EXPECT_EQ(
+        far.note,
+        "DR-02 accepts no value here: the test uncertainty ratio is below the least one of the rule. Nonconformity "
+        "is proven all the same: y ± U lies outside of the limits.");
+    EXPECT_EQ(decide(DecisionRule::simple_acceptance_with_ratio, 10.09, {.test_uncertainty_ratio = 6.0}).verdict,
+              not_applicable);
+    // The agreed alternative decides first: this one accepts far outside.
+    EXPECT_EQ(verdict(DecisionRule::simple_acceptance_with_ratio, 10.11,
+                      {.guard_band = -0.5, .test_uncertainty_ratio = 6.0, .alternative = DecisionRule::agreed}),
+              pass);
+}
+
+TEST(DecisionFormula, IsThatOfADecision) {
+    for (const auto& [rule, parameters] : every_two_sided_rule()) {
+        EXPECT_EQ(decision_formula(rule, parameters, k_limits), decide(rule, 9.7, parameters).formula)
+            << decision_rule_id(rule) << ' ' << parameters.method;
+        EXPECT_NE(decision_formula(rule, parameters, k_limits), "");
+    }
+    for (const auto& [rule, parameters] : every_rule()) {
+        EXPECT_EQ(decision_formula(rule, parameters, k_upper), decide(rule, 9.7, parameters, k_upper).formula);
+    }
+    EXPECT_EQ(decision_formula(DecisionRule::guard_band_factor, {}, k_limits), "");
+    EXPECT_EQ(decision_formula(DecisionRule::guard_band_u, {}, {}), "");
 }
 
 TEST(DecideConformity, SmallRatiosUseBothTails) {
