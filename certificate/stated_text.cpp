@@ -1,80 +1,152 @@
 #include "certificate/stated_text.h"
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
-#include <string>
-#include <string_view>
+#include <set>
+
+#include "certificate/placeholder_text.h"
+#include "certificate/text_words.h"
 
 namespace gumcert::certificate {
 
 namespace {
 
-struct Range {
-    std::uint32_t first, last;
-};
-
-/// Code points that are no letter and no digit, of those that stand for one another or for nothing: punctuation,
-/// symbols, spaces and letters without an image. What is not listed counts as a letter.
-constexpr std::array<Range, 18> k_no_letters{{{0x00, 0x2F},
-                                              {0x3A, 0x40},
-                                              {0x5B, 0x60},
-                                              {0x7B, 0xA9},
-                                              {0xAB, 0xB1},
-                                              {0xB4, 0xB4},
-                                              {0xB6, 0xB8},
-                                              {0xBB, 0xBF},
-                                              {0x34F, 0x34F},
-                                              {0x115F, 0x1160},
-                                              {0x1680, 0x1680},
-                                              {0x180E, 0x180E},
-                                              {0x2000, 0x206F},
-                                              {0x2190, 0x2BFF},
-                                              {0x3000, 0x3004},
-                                              {0x3008, 0x3020},
-                                              {0x3164, 0x3164},
-                                              {0xFF00, 0xFF0F}}};
-constexpr std::array<std::uint32_t, 3> k_more{0x3030, 0xFFA0, 0xFFFD};
-
-bool is_letter(std::uint32_t point) {
-    return std::none_of(k_no_letters.begin(), k_no_letters.end(),
-                        [&](const Range& r) { return r.first <= point && point <= r.last; }) &&
-           std::find(k_more.begin(), k_more.end(), point) == k_more.end();
+bool is_digit(char32_t c) {
+    return c >= U'0' && c <= U'9';
 }
 
-/// The code point that begins at a byte of UTF-8; moves behind it.
-std::uint32_t next_point(std::string_view text, std::size_t& at) {
-    const auto byte = static_cast<unsigned char>(text[at++]);
-    const int more = byte < 0xC0 ? 0 : byte < 0xE0 ? 1 : byte < 0xF0 ? 2 : 3;
-    std::uint32_t point = more == 0 ? byte : byte & (0x3FU >> static_cast<unsigned>(more));
-    for (int i = 0; i < more && at < text.size(); ++i) {
-        point = (point << 6U) | (static_cast<unsigned char>(text[at++]) & 0x3FU);
+/// Letters of a text, an ideograph counted as often as a word of it would need letters.
+std::size_t weight(const std::u32string& letters) {
+    constexpr std::size_t k_letters_of_an_ideograph = 3;
+    std::size_t sum = 0;
+    for (const char32_t c : letters) {
+        sum += is_digit(c) ? 0 : is_ideograph(c) ? k_letters_of_an_ideograph : 1;
     }
-    return point;
+    return sum;
+}
+
+bool is_web_address(const std::string& text) {
+    return text.find("://") != std::string::npos || text.starts_with("www.");
+}
+
+/// "123456", "987654": one digit after the other, six or more.
+bool is_run_of_digits(const std::u32string& letters) {
+    constexpr std::size_t k_least = 6;
+    bool rising = letters.size() >= k_least;
+    bool falling = rising;
+    for (std::size_t i = 0; i < letters.size(); ++i) {
+        const bool digit = is_digit(letters[i]);
+        const bool first = i == 0;
+        rising = rising && digit && (first || (letters[i] - U'0') == (letters[i - 1] - U'0' + 1U) % 10U);
+        falling = falling && digit && (first || (letters[i] - U'0' + 1U) % 10U == (letters[i - 1] - U'0'));
+    }
+    return rising || falling;
+}
+
+/// Countries whose name has several words; of one word none needs a list.
+bool is_country_of_several_words(const std::u32string& letters) {
+    static const std::set<std::u32string> k_countries = {U"unitedstatesofamerica",
+                                                         U"unitedstates",
+                                                         U"unitedkingdom",
+                                                         U"greatbritain",
+                                                         U"czechrepublic",
+                                                         U"southkorea",
+                                                         U"northkorea",
+                                                         U"newzealand",
+                                                         U"saudiarabia",
+                                                         U"southafrica",
+                                                         U"costarica",
+                                                         U"elsalvador",
+                                                         U"srilanka",
+                                                         U"puertorico",
+                                                         U"sanmarino",
+                                                         U"dominicanrepublic",
+                                                         U"unitedarabemirates",
+                                                         U"europeanunion",
+                                                         U"peoplesrepublicofchina",
+                                                         U"republicofchina",
+                                                         U"republicofkorea",
+                                                         U"federalrepublicofgermany",
+                                                         U"vereinigtestaaten",
+                                                         U"vereinigteskonigreich",
+                                                         U"bundesrepublikdeutschland",
+                                                         U"estadosunidos",
+                                                         U"reinounido",
+                                                         U"hongkong",
+                                                         U"thenetherlands"};
+    return k_countries.contains(letters);
+}
+
+template <bool (*Is)(const std::string&)>
+bool in_every_language(const LocalisedText& text) {
+    return !text.empty() && (text.plain.empty() || Is(text.plain)) &&
+           std::all_of(text.by_language.begin(), text.by_language.end(),
+                       [](const auto& entry) { return Is(entry.second); });
 }
 
 }  // namespace
 
 bool is_stated(const std::string& text) {
-    std::string letters;
-    for (const char c : text) {
-        letters += static_cast<char>(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
-    }
-    if (letters == "n/a" || letters == "tbd" || letters == "tba") {
-        return false;
-    }
-    for (std::size_t at = 0; at < text.size();) {
-        if (is_letter(next_point(text, at))) {
-            return true;
-        }
-    }
-    return false;
+    return !is_placeholder(text);
 }
 
 bool is_stated(const LocalisedText& text) {
-    return !text.empty() && (text.plain.empty() || is_stated(text.plain)) &&
-           std::all_of(text.by_language.begin(), text.by_language.end(),
-                       [](const auto& entry) { return is_stated(entry.second); });
+    return in_every_language<is_stated>(text);
+}
+
+bool is_name(const std::string& text) {
+    const std::u32string letters = letters_of(text);
+    const bool long_enough = letters.size() > 1 || (!letters.empty() && is_ideograph(letters.front()));
+    return !names_only_a_field(text) && !is_email(text) && !is_web_address(text) && long_enough && weight(letters) > 0;
+}
+
+bool is_name(const LocalisedText& text) {
+    return in_every_language<is_name>(text);
+}
+
+bool is_identification(const std::string& text) {
+    constexpr std::size_t k_least_repeated = 4;
+    const std::u32string letters = letters_of(text);
+    const bool zeros = letters.find_first_not_of(U'0') == std::u32string::npos;
+    const bool repeated =
+        letters.size() >= k_least_repeated && letters.find_first_not_of(letters.front()) == std::u32string::npos;
+    return !names_only_a_field(text) && !zeros && !repeated && !is_run_of_digits(letters) && !is_email(text);
+}
+
+bool is_statement(const std::string& text) {
+    constexpr std::size_t k_least_weight = 12;
+    constexpr std::size_t k_least_different = 4;
+    const std::u32string letters = letters_of(text);
+    const std::set<char32_t> different(letters.begin(), letters.end());
+    const bool several_words = words_of(text).size() > 1 || std::all_of(letters.begin(), letters.end(), is_ideograph);
+    return is_stated(text) && several_words && weight(letters) >= k_least_weight &&
+           different.size() >= k_least_different;
+}
+
+bool is_statement(const LocalisedText& text) {
+    return in_every_language<is_statement>(text);
+}
+
+bool is_email(const std::string& text) {
+    const std::size_t at = text.find('@');
+    return at != std::string::npos && at > 0 && text.find('@', at + 1) == std::string::npos &&
+           text.find(' ') == std::string::npos && text.find('.', at + 2) != std::string::npos && text.back() != '.';
+}
+
+bool is_postal_address(const std::vector<std::string>& lines) {
+    constexpr std::size_t k_least_weight = 6;
+    constexpr std::size_t k_least_weight_of_ideographs = 15;  // five of them: more than the name of a country
+    std::size_t words = 0;
+    std::u32string letters;
+    for (const std::string& line : lines) {
+        if (!names_only_a_field(line) && !is_email(line) && !is_web_address(line)) {
+            words += words_of(line).size();
+            letters += letters_of(line);
+        }
+    }
+    const bool without_spaces = std::any_of(letters.begin(), letters.end(), is_ideograph);
+    return (words > 1 || without_spaces) &&
+           weight(letters) >= (without_spaces ? k_least_weight_of_ideographs : k_least_weight) &&
+           !is_country_of_several_words(letters);
 }
 
 }  // namespace gumcert::certificate

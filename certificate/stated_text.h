@@ -8,8 +8,10 @@
 
 namespace gumcert::certificate {
 
-/// Whether a text states something: it has a letter or a digit, and is not one of the texts by which forms say that
-/// there is nothing to state ("n/a", "tbd"). A dash or a blank in a field is an empty field.
+// Whether a field is filled in. Only what can be seen of the text itself: a wrong name is a name.
+
+/// Whether a text states something: it is no placeholder (certificate/placeholder_text.h). A dash or a blank in a field
+/// is an empty field.
 [[nodiscard]] bool is_stated(const std::string& text);
 /// In every language in which it was given.
 [[nodiscard]] bool is_stated(const LocalisedText& text);
@@ -18,5 +20,28 @@ template <class Text>
 [[nodiscard]] bool any_stated(const std::vector<Text>& texts) {
     return std::any_of(texts.begin(), texts.end(), [](const Text& text) { return is_stated(text); });
 }
+
+/// A name of a person, an organisation or a thing: stated, of two letters or digits or one ideograph at least, no
+/// number, no e-mail address and no address of a site.
+[[nodiscard]] bool is_name(const std::string& text);
+[[nodiscard]] bool is_name(const LocalisedText& text);
+
+/// A number or a mark by which something is told from others: stated, and not "0", "0000", "9999" or "123456".
+[[nodiscard]] bool is_identification(const std::string& text);
+
+/// A sentence that says something, as a reason has to: stated, of several words and of twelve letters or four
+/// ideographs at least. "x", "n/a" and "see above" are none.
+[[nodiscard]] bool is_statement(const std::string& text);
+[[nodiscard]] bool is_statement(const LocalisedText& text);
+template <class Text>
+[[nodiscard]] bool any_statement(const std::vector<Text>& texts) {
+    return std::any_of(texts.begin(), texts.end(), [](const Text& text) { return is_statement(text); });
+}
+
+/// name@domain.country
+[[nodiscard]] bool is_email(const std::string& text);
+
+/// Lines of an address to which a letter could be sent: more than a country or one word.
+[[nodiscard]] bool is_postal_address(const std::vector<std::string>& lines);
 
 }  // namespace gumcert::certificate

@@ -3,21 +3,23 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 namespace gumcert::certificate {
 namespace {
 
 TEST(StatedText, HasALetterOrADigit) {
-    for (const char* text :
-         {"A", "7", "SN-1001", "№ 7", "Ω", "µ", "é", "範例", "مختبر", "々", "none", "- 1", "２", "😀 a"}) {
+    for (const char* text : {"A", "7", "SN-1001", "№ 7", "Ω", "µ", "é", "範例", "مختبر", "々", "- 1", "AA", "III",
+                             "serial number", "２", "😀 a"}) {
         EXPECT_TRUE(is_stated(std::string(text))) << text;
     }
 }
 
 TEST(StatedText, IsNotADashOrABlank) {
-    for (const char* text : {"",       "-",      "—",  "–",      ".",      "…",      "?",      "---",    "/",
-                             "()",     "* * *",  " ",  "\u00a0", "\u3000", "\u200b", "\u200d", "\u2800", "\u3164",
-                             "\u034f", "\uffa0", "、", "→",      "n/a",    "N/A",    "TBD"}) {
+    for (const char* text :
+         {"",    "-",      "—",      "–",      ".",      "…",       "?",          "---",     "/",      "()", "* * *",
+          " ",   "\u00a0", "\u3000", "\u200b", "\u200d", "\u2800",  "\u3164",     "\u034f",  "\uffa0", "、", "→",
+          "n/a", "N/A",    "TBD",    "none",   "xxx",    "unknown", "siehe oben", "ninguno", "未知"}) {
         EXPECT_FALSE(is_stated(std::string(text))) << text;
     }
 }
@@ -30,6 +32,54 @@ TEST(StatedText, IsStatedInEveryLanguageOfIt) {
     text.by_language = {{"en", "Table"}, {"de", "–"}};
     EXPECT_FALSE(is_stated(text));
     EXPECT_TRUE(is_stated(LocalisedText("Table")));
+}
+
+TEST(StatedText, TellsNamesFromOtherTexts) {
+    for (const char* name : {"Li", "李", "Example Works", "A. B.", "Head of laboratory", "Operator 3", "3M",
+                             "Other Example Laboratory", "実験室第一"}) {
+        EXPECT_TRUE(is_name(std::string(name))) << name;
+    }
+    for (const char* text : {"L", "7", "4711", "customer", "The customer", "der Kunde", "Unknown customer",
+                             "serial number", "a@example.org", "https://example.org", "www.example.org", "nobody"}) {
+        EXPECT_FALSE(is_name(std::string(text))) << text;
+    }
+    EXPECT_FALSE(is_name(LocalisedText()));
+}
+
+TEST(StatedText, TellsIdentificationsFromOtherTexts) {
+    for (const char* text : {"7", "SN-1001", "EX-0000", "2026-11", "1200", "A", "00017", "12345"}) {
+        EXPECT_TRUE(is_identification(std::string(text))) << text;
+    }
+    for (const char* text : {"", "0", "000", "9999", "AAAA", "123456", "0123456789", "987654", "none", "serial number",
+                             "a@example.org", "xxx", "S/N"}) {
+        EXPECT_FALSE(is_identification(std::string(text))) << text;
+    }
+}
+
+TEST(StatedText, TellsStatementsFromSingleWords) {
+    for (const char* text :
+         {"The item stays installed.", "Der Raum war zu warm.", "顧客不願具名於文件", "El cliente no desea figurar."}) {
+        EXPECT_TRUE(is_statement(std::string(text))) << text;
+    }
+    for (const char* text : {"x", "because", "see above", "not needed here", "warm", "aaa bbb ccc ddd", "略",
+                             "12 34 56 78 90 12 34", "a b c d e"}) {
+        EXPECT_FALSE(is_statement(std::string(text))) << text;
+    }
+}
+
+TEST(StatedText, TellsAddressesFromCountries) {
+    using Lines = std::vector<std::string>;
+    EXPECT_TRUE(is_postal_address(Lines{"Example Street 1", "12345 Example Town"}));
+    EXPECT_TRUE(is_postal_address(Lines{"台北市信義路五段7號"}));
+    EXPECT_TRUE(is_postal_address(Lines{"-", "PO Box 7, Example"}));
+    for (const Lines& lines : {Lines{}, Lines{"Germany"}, Lines{"United States of America"}, Lines{"台灣"},
+                               Lines{"lab@example.org"}, Lines{"see above"}, Lines{"Street", "Town"}, Lines{"1 2"}}) {
+        EXPECT_FALSE(is_postal_address(lines)) << (lines.empty() ? "" : lines[0]);
+    }
+    EXPECT_TRUE(is_email("a@example.org"));
+    for (const char* text : {"", "@", "a@", "@b.org", "a@b", "a b@c.org", "a@b@c.org", "a@b.org."}) {
+        EXPECT_FALSE(is_email(text)) << text;
+    }
 }
 
 // Bytes that are no UTF-8 do not lead past the end.
