@@ -146,7 +146,8 @@ void print(Verdict& verdict, const ConformityDecision& shown, int decimals) {
     const gum::ToleranceLimits& accepted = shown.acceptance;
     verdict.printed.acceptance_lower = accepted.lower ? certificate::printed_at_least(*accepted.lower, finest) : "";
     verdict.printed.acceptance_upper = accepted.upper ? certificate::printed_at_most(*accepted.upper, finest) : "";
-    verdict.printed.guard_band = certificate::printed_at_least(shown.guard_band, finest);
+    const bool guarded = accepted.lower || accepted.upper;  // else no value is accepted, and there is no band
+    verdict.printed.guard_band = guarded ? certificate::printed_at_least(shown.guard_band, finest) : "";
     verdict.printed.test_uncertainty_ratio =
         shown.test_uncertainty_ratio ? printed_ratio(*shown.test_uncertainty_ratio) : "";
     const auto percent = [](const std::optional<double>& p) {
@@ -205,9 +206,16 @@ Verdict verdict_of(const AgreedSpecification& specification, const certificate::
     if (!rule.problem.empty()) {
         return not_applicable(verdict, rule.problem);
     }
+    verdict.formula = gum::decision_formula(rule.rule, rule.parameters, rule.limits);
+    if (value.external) {
+        return not_applicable(verdict,
+                              "another laboratory provided the result, and its conformity is not decided here");
+    }
     const std::optional<DecisionNumbers> numbers = numbers_of(value, known);
     if (!numbers) {
-        return not_applicable(verdict, "no expanded uncertainty is stated for the value");
+        return not_applicable(verdict, !value.U && value.u == 0.0
+                                           ? "the value is defined, not measured: it has no uncertainty"
+                                           : "no expanded uncertainty is stated for the value");
     }
     ConformityDecision shown;
     try {

@@ -18,8 +18,9 @@ struct KnownDistribution {
 /// Decides on conformity of one value, twice: with the unrounded numbers, and with those that are printed.
 ///
 /// Where the printed U is a capability in place of a smaller U, the decision rests on that larger U: it is what the
-/// certificate states. Then the value counts as normally or t-distributed. A value that no U can be stated for, a rule
-/// that cannot be applied and a specification in a unit of another kind give "not_applicable" with a note.
+/// certificate states. Then the value counts as normally or t-distributed. A value that no U can be stated for, a value
+/// of another laboratory, a rule that cannot be applied and a specification in a unit of another kind give
+/// "not_applicable" with a note: a specification that was agreed on is never dropped without a word.
 [[nodiscard]] certificate::Verdict verdict_of(const certificate::AgreedSpecification& specification,
                                               const certificate::CertifiedColumn& column,
                                               const certificate::CertifiedValue& value, const KnownDistribution& known);

@@ -10,6 +10,7 @@
 #include "app/certified_conformity.h"
 #include "app/certified_scope.h"
 #include "app/certified_texts.h"
+#include "app/certified_traceability.h"
 #include "app/record_parts.h"
 #include "certificate/gates.h"
 #include "certificate/result_names.h"
@@ -198,11 +199,11 @@ private:
         }
         add({.id = "K03",
              .clause = "ILAC-P14:09/2020",
-             .severity = p < 0.95 ? certificate::FindingSeverity::critical : certificate::FindingSeverity::major,
+             .severity = certificate::FindingSeverity::critical,
              .where = column.result,
              .what = "the expanded uncertainty has a coverage probability of " + gum::percent(p) + " %",
              .action = "State accredited results with a coverage probability of about 95 % (coverage_probability in "
-                       "the job), or give the customer's agreement in the remarks."});
+                       "the job)."});
     }
 
     /// Once a result, however many rows it has.
@@ -230,9 +231,8 @@ private:
                      .action = "Name a result in one specification; decide the other on a certificate of its own."});
                 continue;
             }
-            if (!value.external && (value.U || value.u > 0.0)) {
-                value.verdict = verdict_of(specification, column, value, known_distribution(result));
-            }
+            value.verdict = verdict_of(specification, column, value,
+                                       value.external ? KnownDistribution() : known_distribution(result));
         }
     }
 
@@ -335,6 +335,8 @@ void certify(EvaluationRecord& record, CertificateData data, Profile profile, co
     audit.insert(audit.end(), validation.begin(), validation.end());
     const std::vector<Finding> budget = budget_findings(record);
     audit.insert(audit.end(), budget.begin(), budget.end());
+    const std::vector<Finding> traceability = traceability_findings(record);
+    audit.insert(audit.end(), traceability.begin(), traceability.end());
     certificate::pass_gates(*record.certificate, audit);
 }
 

@@ -17,6 +17,9 @@ namespace {
 
 using gum::number_text;
 
+constexpr double k_about_95_percent = 0.95;
+constexpr double k_tolerance_of_95_percent = 0.01;  // 95.45 % is the same statement
+
 bool is_open_interval(const std::string& text) {
     for (const char* sign : {"<", ">", "≤", "≥"}) {
         if (text.find(sign) != std::string::npos) {
@@ -218,9 +221,10 @@ std::vector<CapabilityProblem> Check::run() {
         return std::move(problems_);
     }
     unit("/unit", c_.unit);
-    if (!(c_.coverage_probability > 0.0 && c_.coverage_probability < 1.0)) {
-        say("/coverage_probability", number_text(c_.coverage_probability), "must be greater than 0 and less than 1",
-            "State the coverage probability of the scope, as a rule 0.95.");
+    if (!(std::abs(c_.coverage_probability - k_about_95_percent) <= k_tolerance_of_95_percent)) {
+        say("/coverage_probability", "a coverage probability of " + number_text(c_.coverage_probability),
+            "a capability is stated with a coverage probability of about 95 % (ILAC-P14:09/2020)",
+            "State the capability as the scope does, with 0.95, 0.9545 or without this key.");
     }
     lookup();
     of_other_forms();

@@ -26,10 +26,12 @@ public:
     }
 
     /// An item of ISO/IEC 17025:2017, 7.8.2.1. Where it may be left out for a valid reason and a reason is stored, the
-    /// finding is an information that gives it.
+    /// finding gives it, and has the severity that is left: `severity_of_omission`.
     /// \param letter  "a" … "p"
     void item(FindingSeverity severity, char letter, const std::string& where, const std::string& what,
               const std::string& action);
+
+    void append(std::vector<Finding> findings);
 
     [[nodiscard]] std::vector<Finding> take() { return std::exchange(findings_, {}); }
 
@@ -39,9 +41,19 @@ private:
 };
 
 /// Whether a stored reason is enough for an item of ISO/IEC 17025:2017, 7.8.2.1 ("7.8.2.1 h"). Laboratory, number,
-/// dates of performance and issue, results and the person who authorises are what makes a certificate one, and what
-/// scope and authorisation are held against: no reason replaces them.
+/// method, item, dates of performance and issue, results and the person who authorises are what makes a certificate
+/// one, and what scope and authorisation are held against: no reason replaces them.
 [[nodiscard]] bool may_be_left_out(const std::string& clause);
+
+/// What an omission with a reason still is: major where customer or provider are not named (e, p), minor for place and
+/// deviations (c, n), else an information.
+[[nodiscard]] FindingSeverity severity_of_omission(const std::string& clause);
+
+/// The last day of the performance.
+[[nodiscard]] const std::string& last_day(const Dates& dates);
+
+/// Whether a result of the certificate has one of the names of a scope, a specification …
+[[nodiscard]] bool names_a_result(const Certificate& certificate, const std::vector<std::string>& names);
 
 /// "ISO/IEC 17025:2017, 7.8.2.1 e" from "7.8.2.1 e".
 [[nodiscard]] std::string iso_17025(const std::string& clause);

@@ -16,7 +16,8 @@ namespace {
 constexpr std::u32string_view k_nothing =
     // English
     U" unknown unkown unknow unnamed unidentified unspecified undefined undetermined undisclosed unstated unrecorded "
-    U"unassigned unavailable none nothing nil null nan void empty blank missing nn absent na nd ns tbd tba tbc tbs tbn "
+    U"unassigned unavailable none nothing nil null so sa nan void empty blank missing nn absent na nd ns tbd tba tbc "
+    U"tbs tbn "
     U"todo "
     U"fixme pending later soon open applicable available specified stated given provided known recorded reported "
     U"supplied disclosed identified defined determined assigned decided announced confirmed added filled required "
@@ -59,7 +60,8 @@ constexpr std::u32string_view k_fields =
     U"zustand abweichung bemerkung dokument vertrag "
     U"cliente nombre direccion calle ciudad pais numero serie objeto cosa equipo instrumento laboratorio metodo "
     U"procedimiento patron certificado emisor texto valor campo motivo descripcion estado desviacion observacion "
-    U"informacion documento contrato ";
+    U"informacion documento contrato site premises plant factory office facility house home werk halle planta "
+    U"instalaciones ";
 /// Chinese, traditional and simplified; longer ones first, because they are taken out of a text one after the other.
 constexpr auto k_ideographs = std::to_array<std::u32string_view>(
     {U"沒有資料", U"没有资料", U"無此資料", U"无此资料", U"尚未提供", U"未提供", U"未填寫", U"未填写", U"未指定",

@@ -57,9 +57,15 @@ struct Tally {
 
 void accreditation(FindingList& found, const CertificateData& data) {
     const Accreditation& a = *data.accreditation;
-    if (!is_stated(a.number) || !is_stated(a.body)) {
-        found.critical("X08", k_p8, is_stated(a.number) ? "/accreditation/body" : "/accreditation/number",
+    if (!is_identification(a.number) || !is_name(a.body)) {
+        found.critical("X08", k_p8, is_identification(a.number) ? "/accreditation/body" : "/accreditation/number",
                        "the accreditation has no number or no body", "State both.");
+    }
+    if (a.standard.find("17025") == std::string::npos) {
+        found.critical(
+            "X08", k_p8, "/accreditation/standard",
+            "the accreditation is one by \"" + a.standard + "\", which is not one of a calibration laboratory",
+            "State the accreditation by ISO/IEC 17025, or \"status\": \"not_accredited\".");
     }
     const auto valid_on = [&](const std::string& day, const char* what) {
         if (!day.empty() && !is_within(day, a.valid_from, a.valid_to)) {
@@ -99,11 +105,11 @@ void routes(FindingList& found, const CertificateData& data) {
             found.critical("T03", k_p10, place_in("/standards", i, "route"),
                            "it is not said by which route " + name + " is traceable",
                            "State 1 (national institute), 2 (accredited laboratory), 3a, 3b, in_house or crm.");
-        } else if (by_evidence && !is_stated(s.evidence)) {
+        } else if (by_evidence && !is_name(s.evidence)) {
             found.critical("T03", k_p10, place_in("/standards", i, "evidence"),
                            name + " is traceable by route " + s.route + ", and no evidence of competence is named",
                            "Name the documents that show the competence of who calibrated it.");
-        } else if (s.route == "2" && !is_stated(s.issuer_accreditation)) {
+        } else if (s.route == "2" && !is_identification(s.issuer_accreditation)) {
             found.critical("T03", k_p10, place_in("/standards", i, "issuer_accreditation"),
                            "the accreditation of the laboratory that calibrated " + name + " is missing",
                            "State its number.");
@@ -194,6 +200,7 @@ std::vector<Finding> symbol_findings(const Certificate& certificate) {
     accreditation(found, data);
     routes(found, data);
     scope(found, certificate);
+    found.append(scope_findings(certificate));
     if (!data.opinions.empty() && !certificate.profile.opinions_with_symbol) {
         found.critical("X07", k_p8, "/opinions",
                        "opinions stand on a certificate with the symbol, which the profile " + certificate.profile.id +

@@ -47,12 +47,34 @@ void digits(FindingList& found, const std::string& where, const CertifiedValue& 
     }
 }
 
-void verdict(FindingList& found, const std::string& where, const Verdict& v) {
-    if (v.verdict == "not_applicable") {
-        found.major("D05", iso_17025("7.8.6.1"), where,
-                    "conformity with \"" + v.specification + "\" by " + v.rule + " cannot be decided: " + v.note,
-                    "Agree with the customer on another rule, or leave the statement out.");
+/// Rules without a guard band accept whatever lies inside of the limits, however poor the measurement.
+void poor_measurement(FindingList& found, const std::string& where, const Verdict& v) {
+    constexpr double k_even = 0.5 - 1e-9;
+    const bool passes = v.verdict == "pass" || v.verdict == "conditional_pass";
+    const bool unguarded = v.rule == "DR-01" || v.rule == "DR-12";
+    if (passes && v.conformance_probability < k_even) {
+        found.major("D08", iso_17025("7.8.6.1"), where,
+                    "the value passes \"" + v.specification + "\" by " + v.rule +
+                        " with a probability of conformity of " + v.printed.conformance_probability +
+                        " %: it is more probable that the item does not conform",
+                    "Tell the customer; agree on a rule with a guard band, or measure with a smaller uncertainty.");
+    } else if (unguarded && v.test_uncertainty_ratio && *v.test_uncertainty_ratio < 1.0) {
+        found.major("D08", iso_17025("7.8.6.1"), where,
+                    "U is larger than half of the tolerance of \"" + v.specification + "\" (test uncertainty ratio " +
+                        v.printed.test_uncertainty_ratio + "), and " + v.rule + " takes no account of it",
+                    "Tell the customer; agree on a rule with a guard band, or measure with a smaller uncertainty.");
     }
+}
+
+void verdict(FindingList& found, const std::string& where, const CertifiedValue& value) {
+    const Verdict& v = *value.verdict;
+    if (v.verdict == "not_applicable") {
+        const bool defined = !value.external && !value.U && !value.interval && value.u == 0.0;
+        found.add(defined ? FindingSeverity::information : FindingSeverity::major, "D05", iso_17025("7.8.6.1"), where,
+                  "conformity with \"" + v.specification + "\" by " + v.rule + " cannot be decided: " + v.note,
+                  "Agree with the customer on another rule, or leave the statement out.");
+    }
+    poor_measurement(found, where, v);
     if (v.verdict != v.verdict_from_printed) {
         found.critical("D04", iso_17025("7.8.6.1"), where,
                        "the verdict is \"" + v.verdict + "\" with the unrounded numbers and \"" +
@@ -74,7 +96,7 @@ std::vector<Finding> uncertainty_findings(const Certificate& certificate) {
                 // A capability that replaces U keeps the two digits of the scope.
                 digits(found, where, value, value.raised ? 2 : std::min(2, certificate.profile.digits));
                 if (value.verdict) {
-                    verdict(found, where, *value.verdict);
+                    verdict(found, where, value);
                 }
             }
         }

@@ -4,6 +4,7 @@
 # As a script (cmake -P) this file writes the header, included it makes the target gumcert::build_info.
 if(CMAKE_SCRIPT_MODE_FILE)
     set(commit unknown)
+    set(day_of_commit "")
     find_program(git_program git)
     if(git_program)
         execute_process(COMMAND ${git_program} -C ${SOURCE_DIR} rev-parse --show-prefix --short=12 HEAD
@@ -11,6 +12,9 @@ if(CMAKE_SCRIPT_MODE_FILE)
         # The prefix, first, is empty when the tree is the top of its repository and not a folder in somebody else's.
         if(result EQUAL 0 AND output MATCHES "^\n?([0-9a-f]+)$")
             set(commit ${CMAKE_MATCH_1})
+            execute_process(COMMAND ${CMAKE_COMMAND} -E env TZ=UTC ${git_program} -C ${SOURCE_DIR} show -s
+                                    --date=format-local:%Y-%m-%d --format=%cd HEAD
+                            OUTPUT_VARIABLE day_of_commit ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
             execute_process(COMMAND ${git_program} -C ${SOURCE_DIR} status --porcelain --untracked-files=no
                             OUTPUT_VARIABLE changes ERROR_QUIET)
             if(changes)
@@ -28,6 +32,8 @@ namespace gumcert {
 inline constexpr std::string_view k_version = "@VERSION@";
 /// Twelve digits of the commit, "-modified" behind it when files differed; "unknown" outside a repository.
 inline constexpr std::string_view k_commit = "@commit@";
+/// "2026-11-22" by UTC; "" outside a repository.
+inline constexpr std::string_view k_day_of_commit = "@day_of_commit@";
 
 }  // namespace gumcert
 ]])

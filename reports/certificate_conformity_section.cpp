@@ -128,7 +128,8 @@ void decision_sentences(CertificateBuilder& builder, const Wording& words, const
     std::vector<std::pair<std::string, std::string>> formulas;
     for (const Decided& d : decided) {
         const std::pair<std::string, std::string> one = {d.value->verdict->rule, d.value->verdict->formula};
-        if (std::find(formulas.begin(), formulas.end(), one) == formulas.end()) {
+        const bool decided_by_it = !one.second.empty();  // else the note says why nothing is decided
+        if (decided_by_it && std::find(formulas.begin(), formulas.end(), one) == formulas.end()) {
             formulas.push_back(one);
         }
     }

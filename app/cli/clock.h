@@ -1,7 +1,12 @@
 #pragma once
 
+#include <fmt/core.h>
+#include <gumcert_build_info.h>
+
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <string>
 
 namespace gumcert::cli {
 
@@ -9,6 +14,16 @@ namespace gumcert::cli {
 [[nodiscard]] inline std::int64_t seconds_now() {
     const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
     return std::chrono::duration_cast<std::chrono::seconds>(since_1970).count();
+}
+
+/// The day by UTC, "2026-11-22": whether a certificate is issued ahead of time. Nothing that is evaluated depends on
+/// it. A clock that stands before the program was made is wrong: the day of its commit then.
+[[nodiscard]] inline std::string today() {
+    const std::chrono::year_month_day day{
+        std::chrono::floor<std::chrono::days>(std::chrono::sys_seconds(std::chrono::seconds(seconds_now())))};
+    const std::string by_clock = fmt::format("{:04}-{:02}-{:02}", static_cast<int>(day.year()),
+                                             static_cast<unsigned>(day.month()), static_cast<unsigned>(day.day()));
+    return std::max(by_clock, std::string(k_day_of_commit));
 }
 
 }  // namespace gumcert::cli

@@ -16,6 +16,7 @@
 #include "app/issue_documents.h"
 #include "app/output_files.h"
 #include "app/read_file.h"
+#include "certificate/day_of_issue.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::cli {
@@ -55,6 +56,14 @@ void print_written(const std::vector<app::OutputFile>& files) {
     fmt::print("\nWritten:\n");
     for (const app::OutputFile& file : files) {
         fmt::print("  {}\n", file.path.string());
+    }
+}
+
+/// A certificate that is dated later than today is not issued: told here, and not in the record, which is the same on
+/// every day.
+void look_at_the_day(reports::EvaluationRecord& record) {
+    if (record.certificate) {
+        (void)certificate::block_issue_ahead_of_time(*record.certificate, today());
     }
 }
 
@@ -133,6 +142,7 @@ bool run_job(const fs::path& job, const fs::path& folder, Issuer& issuer, const 
     const reports::EvaluationRecord& record = evaluation.record;
     const std::vector<fs::path> documents = document_files(record, folder);
     std::vector<app::OutputFile> files{{folder / "record.json", reports::to_canonical_json(record)}};
+    look_at_the_day(evaluation.record);  // the record is written as it is on every day
     if (!evaluation.covariance_csv.empty()) {
         files.push_back({folder / "covariance.csv", evaluation.covariance_csv});
     }
@@ -161,7 +171,7 @@ bool run_job(const fs::path& job, const fs::path& folder, Issuer& issuer, const 
         print_summary(record);
         print_written(files);
     }
-    return evaluation.negative || evaluation.blocked;
+    return evaluation.negative || evaluation.blocked || (record.certificate && record.certificate->blocked);
 }
 
 fs::path folder_of(const fs::path& job, const std::string& output, bool several) {
@@ -198,7 +208,8 @@ app::DocumentForm form_of(const std::string& format) {
 /// \param file  empty: to standard output
 ExitCode render_record(const std::string& name, const std::string& format, const fs::path& file, Issuer& issuer,
                        const DocumentOptions& options, const CommonOptions& common) {
-    const reports::EvaluationRecord record = reports::record_from_json(app::read_file(name), name);
+    reports::EvaluationRecord record = reports::record_from_json(app::read_file(name), name);
+    look_at_the_day(record);
     if (withheld(record, options.draft)) {
         report_findings(record, common);
         report_withheld(name, {file}, common);
@@ -253,12 +264,15 @@ ExitCode evaluate_to_record(const fs::path& job, const std::string& output, cons
         app::require_writable(record_file);
     }
     ProgressLine progress(!common.quiet);
-    const app::Evaluation evaluation =
+    app::Evaluation evaluation =
         app::evaluate_job(job, covariance_name, static_cast<unsigned>(common.threads), templates_if_any(share),
                           [&](const std::string& text) { progress(text); });
     const std::string text = reports::to_canonical_json(evaluation.record);
+    look_at_the_day(evaluation.record);
     progress.clear();
-    const ExitCode code = evaluation.negative || evaluation.blocked ? negative_answer : done;
+    const bool blocked =
+        evaluation.blocked || (evaluation.record.certificate && evaluation.record.certificate->blocked);
+    const ExitCode code = evaluation.negative || blocked ? negative_answer : done;
     if (to_stdout) {
         report_diagnostics(evaluation.record, common);
         report_findings(evaluation.record, common);
@@ -278,8 +292,7 @@ ExitCode evaluate_to_record(const fs::path& job, const std::string& output, cons
     if (!common.quiet) {
         print_summary(evaluation.record);
         print_written(files);
-        fmt::print("Next: gumcert render {} --format pdf{}\n", record_file.string(),
-                   evaluation.blocked ? " --draft" : "");
+        fmt::print("Next: gumcert render {} --format pdf{}\n", record_file.string(), blocked ? " --draft" : "");
     }
     return code;
 }

@@ -112,6 +112,34 @@ TEST_F(Certificate, IsNotIssuedWithACriticalFinding) {
     EXPECT_FALSE(fs::exists(folder() / "issued.html"));
 }
 
+TEST_F(Certificate, IsNotIssuedBeforeItsDateAndItsRecordDoesNotKnowTheDay) {
+    change_json(data(), [](json& certificate) {
+        certificate["dates"]["issued"] = "2199-01-01";
+        certificate["dates"]["authorised"] = "2199-01-01";
+        certificate["dates"]["performed_to"] = "2199-01-01";
+        certificate["dates"]["performed_from"] = "2199-01-01";
+        certificate["dates"]["received"] = "2199-01-01";
+        certificate["accreditation"]["valid_from"] = "2190-01-01";
+        certificate["accreditation"]["valid_to"] = "2199-12-31";
+        for (json& standard : certificate["standards"]) {
+            standard["calibrated"] = "2198-01-01";
+            standard["valid_to"] = "2199-12-31";
+        }
+    });
+    const Ended ended = run(job(), output());
+    EXPECT_EQ(ended.code, 1);
+    EXPECT_NE(ended.err.find("finding P12, /dates/issued"), std::string::npos) << ended.err;
+    EXPECT_FALSE(fs::exists(output() / "certificate.html"));
+    const json record = json::parse(bytes_of(output() / "record.json"));
+    EXPECT_FALSE(record["certificate"]["blocked"]);
+    EXPECT_TRUE(record["certificate"]["findings"].empty());
+    // From the record neither, but as a draft.
+    EXPECT_EQ(render("html", folder() / "issued.html").code, 1);
+    EXPECT_FALSE(fs::exists(folder() / "issued.html"));
+    ASSERT_EQ(render("html", folder() / "draft.html", {"--draft"}).code, 0);
+    EXPECT_NE(bytes_of(folder() / "draft.html").find("DRAFT"), std::string::npos);
+}
+
 TEST_F(Certificate, IsPrintedAsADraftWithItsFindings) {
     change_json(data(), [](json& certificate) { certificate["customer"].erase("name"); });
     const Ended ended = run(job(), output(), {"--draft"});

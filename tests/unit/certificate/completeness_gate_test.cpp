@@ -93,7 +93,7 @@ std::vector<Spoilt> missing_items() {
         {"standards", [](Certificate& c) { c.data.standards.clear(); }, "R07-4c", iso("7.8.4.1 c"), k_critical,
          "/standards"},
         {"certificate of a standard", [](Certificate& c) { c.data.standards[0].certificate.clear(); }, "R07-4c",
-         iso("7.8.4.1 c"), k_major, "/standards/0"},
+         iso("7.8.4.1 c"), k_critical, "/standards/0"},
         {"adjustment", [](Certificate& c) { c.data.adjustment.reset(); }, "R07-4d", iso("7.8.4.1 d"), k_critical,
          "/adjustment"},
         {"as found", [](Certificate& c) { c.data.adjustment->adjusted = true; }, "R07-4d", iso("7.8.4.1 d"), k_critical,
@@ -153,11 +153,11 @@ TEST(CompletenessGate, FindsDatesThatCannotStandInThisOrder) {
         {"standard too young", [](Certificate& c) { c.data.standards[0].calibrated = "2026-11-19"; }, "T02", iso("6.5"),
          k_critical, "/standards/0/calibrated"},
         {"rule agreed late", [](Certificate& c) { c.data.specifications[0].agreed_on = "2026-11-19"; }, "D02",
-         iso("7.1.3"), k_major, "/specifications/0/agreed_on"},
+         iso("7.1.3"), k_critical, "/specifications/0/agreed_on"},
         {"method not yet valid", [](Certificate& c) { c.data.method.valid_from = "2026-11-19"; }, "P08", iso("7.2.1"),
-         k_major, "/method/valid_from"},
+         k_critical, "/method/valid_from"},
         {"method no longer valid", [](Certificate& c) { c.data.method.valid_to = "2026-11-18"; }, "P08", iso("7.2.1"),
-         k_major, "/method/valid_from"},
+         k_critical, "/method/valid_from"},
         {"operator", [](Certificate& c) { c.data.persons.performed_by->authorised_to = "2026-11-17"; }, "P03",
          iso("6.2.6"), k_critical, "/persons/performed_by"},
         {"signatory", [](Certificate& c) { c.data.persons.authorised_by->authorised_from = "2026-11-21"; }, "P03",
@@ -188,11 +188,28 @@ TEST(CompletenessGate, AcceptsTheLimitsOfEveryPeriod) {
 
 TEST(CompletenessGate, TakesAStoredReasonForAnItemOf7_8_2_1) {
     Certificate c = passed_certificate();
-    c.data.item.condition = {};
-    c.data.omissions = {{.clause = "7.8.2.1 g", .reason = "The item stays installed."}};
+    c.profile.receipt_date_mandatory = true;
+    c.data.dates.received.clear();
+    c.data.omissions = {{.clause = "7.8.2.1 h", .reason = "The item stays installed."}};
     const Finding found = only(completeness_findings(c));
-    expect_finding(found, "R07-g", iso("7.8.2.1 g"), FindingSeverity::information, "/item/condition");
+    expect_finding(found, "R07-h", iso("7.8.2.1 h"), FindingSeverity::information, "/dates/received");
     EXPECT_THAT(found.what, testing::HasSubstr("The item stays installed."));
+    // A reason that says nothing is none.
+    for (const char* reason : {"x", "none", "see above", "Not needed.", "because", "無"}) {
+        c.data.omissions[0].reason = reason;
+        EXPECT_THAT(ids(completeness_findings(c)), testing::ElementsAre("R07-h", "R16")) << reason;
+    }
+}
+
+TEST(CompletenessGate, LeavesAFindingWhereCustomerOrDeviationsAreLeftOutForAReason) {
+    Certificate c = passed_certificate();
+    c.data.customer.name = {};
+    c.data.omissions = {{.clause = "7.8.2.1 e", .reason = "The owner wishes not to be named on paper."}};
+    expect_finding(only(completeness_findings(c)), "R07-e", iso("7.8.2.1 e"), k_major, "/customer/name");
+    c = passed_certificate();
+    c.data.method.no_deviations = false;
+    c.data.omissions = {{.clause = "7.8.2.1 n", .reason = "The notes of that day were lost."}};
+    expect_finding(only(completeness_findings(c)), "R07-n", iso("7.8.2.1 n"), k_minor, "/method/deviations");
 }
 
 TEST(CompletenessGate, TakesNoReasonForAnotherItem) {
@@ -210,7 +227,7 @@ TEST(CompletenessGate, TakesNoReasonForWhatMakesACertificate) {
     const auto found = [](const std::string& letter, auto remove) {
         Certificate c = passed_certificate();
         remove(c);
-        c.data.omissions = {{.clause = "7.8.2.1 " + letter, .reason = "It is known to the customer."}};
+        c.data.omissions = {{.clause = "7.8.2.1 " + letter, .reason = "The customer asked for it in writing."}};
         return ids(completeness_findings(c));
     };
     using testing::ElementsAre;
@@ -221,6 +238,8 @@ TEST(CompletenessGate, TakesNoReasonForWhatMakesACertificate) {
     EXPECT_THAT(found("j", [](Certificate& c) { c.data.dates.issued.clear(); }), ElementsAre("R07-j", "R16"));
     EXPECT_THAT(found("m", [](Certificate& c) { c.tables.clear(); }), testing::IsSupersetOf({"R07-m", "R16"}));
     EXPECT_THAT(found("o", [](Certificate& c) { c.data.persons.authorised_by.reset(); }), ElementsAre("R07-o", "R16"));
+    EXPECT_THAT(found("f", [](Certificate& c) { c.data.method.identification.clear(); }), ElementsAre("R07-f", "R16"));
+    EXPECT_THAT(found("g", [](Certificate& c) { c.data.item.condition = {}; }), ElementsAre("R07-g", "R16"));
     EXPECT_THAT(found("z", [](Certificate&) {}), ElementsAre("R16"));
     EXPECT_THAT(found("k", [](Certificate&) {}), testing::IsEmpty());
 }
@@ -257,7 +276,7 @@ TEST(CompletenessGate, TakesADashForNothing) {
 TEST(CompletenessGate, WantsTheDateOfTheCalibrationOfAStandard) {
     Certificate c = passed_certificate();
     c.data.standards[0].calibrated.clear();
-    expect_finding(only(completeness_findings(c)), "R07-4c", iso("7.8.4.1 c"), FindingSeverity::major,
+    expect_finding(only(completeness_findings(c)), "R07-4c", iso("7.8.4.1 c"), FindingSeverity::critical,
                    "/standards/0/calibrated");
 }
 

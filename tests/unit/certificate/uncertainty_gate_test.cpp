@@ -67,6 +67,34 @@ TEST(UncertaintyGate, FindsARuleThatCannotBeApplied) {
     EXPECT_THAT(found.what, testing::HasSubstr("the ratio is 1.2"));
 }
 
+TEST(UncertaintyGate, SaysThatADefinedValueIsNotDecided) {
+    Certificate c = passed_certificate();
+    CertifiedValue& v = length(c);
+    v.verdict->verdict = v.verdict->verdict_from_printed = "not_applicable";
+    v.verdict->note = "the value is defined";
+    v.U.reset();
+    v.u = 0.0;
+    EXPECT_EQ(only(uncertainty_findings(c)).severity, FindingSeverity::information);
+    v.external = true;
+    EXPECT_EQ(only(uncertainty_findings(c)).severity, FindingSeverity::major);
+}
+
+TEST(UncertaintyGate, TellsOfAPassThatIsMoreProbablyNone) {
+    Certificate c = passed_certificate();
+    length(c).verdict->rule = "DR-01";
+    length(c).verdict->conformance_probability = 0.158;
+    length(c).verdict->printed.conformance_probability = "15.8";
+    const Finding found = only(uncertainty_findings(c));
+    expect_finding(found, "D08", "ISO/IEC 17025:2017, 7.8.6.1", FindingSeverity::major, "l");
+    EXPECT_THAT(found.what, testing::HasSubstr("15.8 %"));
+    length(c).verdict->conformance_probability = 0.5;  // on the limit itself
+    EXPECT_THAT(ids(uncertainty_findings(c)), testing::IsEmpty());
+    length(c).verdict->test_uncertainty_ratio = 0.9;
+    expect_finding(only(uncertainty_findings(c)), "D08", "ISO/IEC 17025:2017, 7.8.6.1", FindingSeverity::major, "l");
+    length(c).verdict->rule = "DR-03";
+    EXPECT_THAT(ids(uncertainty_findings(c)), testing::IsEmpty());
+}
+
 TEST(UncertaintyGate, NamesTheRow) {
     Certificate c = passed_certificate();
     CertifiedTable& table = c.tables[0];

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "certificate/certified_results.h"
+#include "reports/record/evaluation_record.h"
+
+namespace gumcert::app {
+
+/// Whether the standards of a certificate and its budgets speak of the same things: a standard is named by the `source`
+/// of an input, with its identification, the number of its certificate or its name. Findings T06: major where none of
+/// them is, minor for each one that is not. Nothing without standards, or where the record has no budget with inputs of
+/// its own (rotary tables state standards as files).
+[[nodiscard]] std::vector<certificate::Finding> traceability_findings(const reports::EvaluationRecord& record);
+
+}  // namespace gumcert::app
