@@ -122,7 +122,25 @@ Signal signal_of_z(double score) {
     if (std::abs(score) >= k_action_limit_of_z) {
         return Signal::action;
     }
-    return std::abs(score) >= k_warning_limit_of_z ? Signal::warning : Signal::none;
+    return std::abs(score) > k_warning_limit_of_z ? Signal::warning : Signal::none;
+}
+
+EnUncertainty en_uncertainty(double u, double U, double k, double degrees_of_freedom, double coverage_probability) {
+    require_not_negative(u, "standard uncertainty");
+    require_not_negative(U, "expanded uncertainty");
+    const double wanted = coverage_factor(en_coverage_probability(coverage_probability), degrees_of_freedom);
+    if (std::abs(k / wanted - 1.0) <= k_same_coverage_factor) {
+        return {.U = U, .k = k, .converted = false};
+    }
+    return {.U = wanted * u, .k = wanted, .converted = true};
+}
+
+double en_coverage_probability(double coverage_probability) {
+    constexpr double k_least = 0.94;
+    constexpr double k_most = 0.96;
+    constexpr double k_usual = 0.9545;
+    require_probability(coverage_probability, "coverage probability");
+    return coverage_probability >= k_least && coverage_probability <= k_most ? coverage_probability : k_usual;
 }
 
 Signal signal_of_en(double score) {

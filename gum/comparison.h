@@ -68,7 +68,24 @@ struct ComparisonScore {
 /// \throws InputError  GC-GUM-0001, GC-GUM-0003 for δ_E
 [[nodiscard]] double percent_of_allowed(double value, double assigned_value, double largest_allowed);
 
-/// What a score calls for: |z|, |z'| and |ζ| warn from 2 and act from 3; |E_n| acts above 1 and |D| above δ_E.
+/// An expanded uncertainty as E_n takes it. E_n is defined for about 95 % on both sides, and two factors that mean
+/// different probabilities must not meet in it.
+struct EnUncertainty {
+    double U = 0.0;
+    double k = 2.0;
+    bool converted = false;  ///< U = t_p(ν) u in place of the one that was stated
+};
+/// U as stated where its factor is t_p(ν) within k_same_coverage_factor, so that k = 2 stands for 95 % as for 95.45 %.
+/// \param coverage_probability  of the comparison; see en_coverage_probability()
+/// \throws InputError  GC-GUM-0001, -0002; those of coverage_factor()
+[[nodiscard]] EnUncertainty en_uncertainty(double u, double U, double k, double degrees_of_freedom,
+                                           double coverage_probability);
+inline constexpr double k_same_coverage_factor = 0.025;
+/// The probability p of E_n: that of the comparison where it is about 95 % (0.94 to 0.96), else 0.9545.
+[[nodiscard]] double en_coverage_probability(double coverage_probability);
+
+/// What a score calls for: |z|, |z'| and |ζ| warn above 2 and act from 3 (2.0 is acceptable, 3.0 is not); |E_n| acts
+/// above 1 and |D| above δ_E.
 enum class Signal { none, warning, action };
 [[nodiscard]] Signal signal_of_z(double score);
 [[nodiscard]] Signal signal_of_en(double score);

@@ -233,11 +233,13 @@ TEST(Scores, ZPrimeAtTheLimitOfTheCriterion) {
 
 TEST(Signals, BeginAtTheirLimits) {
     EXPECT_EQ(signal_of_z(1.999), Signal::none);
-    EXPECT_EQ(signal_of_z(-2.0), Signal::warning);
+    EXPECT_EQ(signal_of_z(-2.0), Signal::none);  // ISO 13528: up to 2.0 acceptable, from 3.0 on action
+    EXPECT_EQ(signal_of_z(2.001), Signal::warning);
     EXPECT_EQ(signal_of_z(2.999), Signal::warning);
     EXPECT_EQ(signal_of_z(-3.0), Signal::action);
     EXPECT_EQ(signal_of_en(-1.0), Signal::none);
     EXPECT_EQ(signal_of_en(1.0000001), Signal::action);
+    EXPECT_EQ(signal_of_z(3.0), Signal::action);
     EXPECT_EQ(code_of<InputError>([] { (void)signal_of_z(std::nan("")); }), "GC-GUM-0001");
     EXPECT_EQ(code_of<InputError>([] { (void)signal_of_en(std::nan("")); }), "GC-GUM-0001");
 }
@@ -295,6 +297,32 @@ TEST(Summary, RefusesNoPoints) {
     ComparisonScore broken;
     broken.en = std::nan("");
     EXPECT_EQ(code_of<InputError>([&] { (void)summarise(std::vector{broken}); }), "GC-GUM-0001");
+}
+
+TEST(EnUncertainty, BringsCoverageFactorsToOne) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    for (const double k : {1.0, 3.0, 200.0}) {
+        const EnUncertainty taken = en_uncertainty(0.1, 0.1 * k, k, infinite, 0.9545);
+        EXPECT_TRUE(taken.converted);
+        EXPECT_NEAR(taken.U, 0.2, 1e-5);
+        EXPECT_NEAR(taken.k, 2.0, 1e-4);
+    }
+    for (const double k : {1.96, 2.0, 2.04}) {
+        const EnUncertainty as_stated = en_uncertainty(0.1, 0.1 * k, k, infinite, 0.9545);
+        EXPECT_FALSE(as_stated.converted);
+        EXPECT_EQ(as_stated.U, 0.1 * k);
+    }
+    EXPECT_FALSE(en_uncertainty(0.1, 0.2, 2.0, infinite, 0.95).converted);
+    EXPECT_FALSE(en_uncertainty(0.1, 0.287, 2.87, 4.0, 0.9545).converted);  // t for 4 degrees of freedom
+    EXPECT_NEAR(en_uncertainty(0.1, 0.2, 2.0, 4.0, 0.9545).U, 0.2869, 1e-4);
+}
+
+TEST(EnUncertainty, IsForAbout95Percent) {
+    EXPECT_EQ(en_coverage_probability(0.95), 0.95);
+    EXPECT_EQ(en_coverage_probability(0.9545), 0.9545);
+    EXPECT_EQ(en_coverage_probability(0.5), 0.9545);
+    EXPECT_EQ(en_coverage_probability(0.99), 0.9545);
+    EXPECT_EQ(code_of<InputError>([] { (void)en_coverage_probability(1.0); }), "GC-GUM-0004");
 }
 
 }  // namespace
