@@ -28,10 +28,18 @@ constexpr double k_third_normal_quartile = 0.674489750196081743202227014541;  //
 constexpr double k_location_factor = 1.25;  // u(x*) = 1.25 s* / √p; √(π/2) ≈ 1.2533 for a median
 constexpr double k_stand_still = 1e-16;  // of the scale; steps may be a hundred times shorter than what is left to go
 constexpr int k_most_steps = 10'000;
+constexpr double k_vanished = 1e-12;  // of the scale that algorithm A began with
 
 [[noreturn]] void refuse_scale(const std::string& method, const std::string& what, const std::string& other = "") {
     refuse("GC-GUM-0102", method, what, "a robust standard deviation greater than 0 is needed",
            "Report the median, " + other + "or give the results with more digits.");
+}
+
+[[noreturn]] void refuse_no_scale_of_algorithm_a(std::size_t results) {
+    refuse_scale("algorithm A",
+                 "more than half of " + std::to_string(results) +
+                     " results are equal, and the others too few or too far away to make a scale",
+                 "use the Q method with Hampel's estimator, ");
 }
 
 /// In ascending order, so that no sum depends on the order of the results.
@@ -63,6 +71,19 @@ std::vector<Real> centred(const std::vector<double>& ascending, Real centre, Rea
         differences.push_back((static_cast<Real>(value) - centre) / unit);
     }
     return differences;
+}
+
+Real standard_deviation(const std::vector<Real>& differences) {
+    const auto n = static_cast<Real>(differences.size());
+    Real sum = 0.0L;
+    for (const Real value : differences) {
+        sum += value;
+    }
+    Real squares = 0.0L;
+    for (const Real value : differences) {
+        squares += (value - sum / n) * (value - sum / n);
+    }
+    return std::sqrt(squares / (n - 1));
 }
 
 Real median_of_absolute(const std::vector<Real>& differences) {
@@ -489,14 +510,18 @@ RobustEstimate algorithm_a(std::span<const double> results, AlgorithmAConstants 
     const Real centre = median_of_sorted(ascending);
     const std::vector<Real> values = centred(ascending, centre);
     const bool published = constants == AlgorithmAConstants::published;
-    const Real start = median_of_absolute(values) * (published ? static_cast<Real>(k_made_factor)
-                                                               : 1.0L / static_cast<Real>(k_third_normal_quartile));
+    Real start = median_of_absolute(values) *
+                 (published ? static_cast<Real>(k_made_factor) : 1.0L / static_cast<Real>(k_third_normal_quartile));
     const Real factor = published ? static_cast<Real>(k_algorithm_a_factor) : exact_algorithm_a_factor();
-    if (!(start > 0.0L)) {
-        refuse_scale("algorithm A",
-                     "the median absolute deviation of " + std::to_string(ascending.size()) +
-                         " results is 0: more than half of them are equal",
-                     "use the Q method with Hampel's estimator, ");
+    const bool half_are_equal = !(start > 0.0L);
+    if (half_are_equal) {
+        start = standard_deviation(values);
+    }
+    constexpr Real k_roundings = 8.0L;  // numbers that differ by no more are equal
+    const Real largest =
+        std::max(std::abs(static_cast<Real>(ascending.front())), std::abs(static_cast<Real>(ascending.back())));
+    if (!(start > (half_are_equal ? k_roundings * std::numeric_limits<double>::epsilon() * largest : 0.0L))) {
+        refuse_no_scale_of_algorithm_a(ascending.size());
     }
     const DrawnIn drawn(values);
     Real x = 0.0L;  // x* − median
@@ -510,6 +535,9 @@ RobustEstimate algorithm_a(std::span<const double> results, AlgorithmAConstants 
         s = scale;
         if (stands_still) {
             return estimate(centre + x, s, ascending.size());
+        }
+        if (half_are_equal && s < k_vanished * start) {  // it would go on shrinking for ever
+            refuse_no_scale_of_algorithm_a(ascending.size());
         }
     }
     throw NoResultError(Diagnostic{.code = "GC-GUM-0103",

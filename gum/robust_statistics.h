@@ -35,9 +35,10 @@ enum class AlgorithmAConstants { published, exact };
 
 /// Algorithm A: results are drawn in to x* ± 1.5 s*, x* is their mean and s* = 1.134 times their standard deviation,
 /// from x* = median, s* = MADe on until both stand still (1e-16 of s*).              (ISO 13528:2022, annex C)
+/// Where MADe is 0, because more than half of the results are equal, it begins with their standard deviation.
 /// u = 1.25 s* / √p
-/// \throws InputError  GC-GUM-0001; GC-GUM-0101 fewer than 2 results; GC-GUM-0102 MADe is 0 (more than half of the
-///                     results are equal): the algorithm has no scale to begin with. Report the median, or use
+/// \throws InputError  GC-GUM-0001; GC-GUM-0101 fewer than 2 results; GC-GUM-0102 s* comes out as 0: all results are
+///                     equal, or so many of them that the others are drawn in to them. Report the median, or use
 ///                     Q/Hampel, or more digits
 /// \throws NoResultError  GC-GUM-0103 not converged after 10 000 steps
 [[nodiscard]] RobustEstimate algorithm_a(std::span<const double> results,

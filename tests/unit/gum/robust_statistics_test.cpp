@@ -487,11 +487,18 @@ TEST(RobustStatistics, TooFewResults) {
 TEST(RobustStatistics, EqualResultsHaveNoScale) {
     const Results most_equal{5.0, 5.0, 5.0, 5.0, 6.0, 4.9, 7.0};
     EXPECT_EQ(median_with_made(most_equal).scale, 0.0);
-    EXPECT_EQ(code_of<InputError>([&] { return algorithm_a(most_equal); }), "GC-GUM-0102");
-    EXPECT_EQ(message_of<InputError>([&] { return algorithm_a(most_equal); }),
-              "algorithm A — the median absolute deviation of 7 results is 0: more than half of them are equal — a "
-              "robust standard deviation greater than 0 is needed — Report the median, use the Q method with Hampel's "
-              "estimator, or give the results with more digits.");
+    // Algorithm A begins with the standard deviation then; by the steps of the algorithm in double precision.
+    EXPECT_TRUE(agrees(algorithm_a(most_equal).location, 5.313698586654404, 1e-12));
+    EXPECT_TRUE(agrees(algorithm_a(most_equal).scale, 0.6547943466176148, 1e-12));
+    EXPECT_TRUE(agrees(algorithm_a(Results{10.0, 10.0, 10.0, 10.1, 9.9}).scale, 0.0801859089865542, 1e-12));
+    // One of ten that is off is drawn in to the others, and no scale is left.
+    const Results all_but_one{5.0, 5.0, 5.0, 5.0, 5.0, 5.0, 5.0, 5.0, 5.0, 6.0};
+    EXPECT_EQ(message_of<InputError>([&] { return algorithm_a(all_but_one); }),
+              "algorithm A — more than half of 10 results are equal, and the others too few or too far away to make a "
+              "scale — a robust standard deviation greater than 0 is needed — Report the median, use the Q method with "
+              "Hampel's estimator, or give the results with more digits.");
+    EXPECT_EQ(code_of<InputError>([] { return algorithm_a(Results{5.0, 5.0, 5.0}); }), "GC-GUM-0102");
+    EXPECT_EQ(code_of<InputError>([] { return algorithm_a(Results{0.3, 0.1 + 0.2, 0.3}); }), "GC-GUM-0102");
     // The Q method has a scale as long as not all results are equal.
     const RobustEstimate q = q_hampel(most_equal);
     EXPECT_GT(q.scale, 0.0);
