@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -30,8 +31,8 @@ constexpr Index k_most_points_of_eigenvectors = 500;  // their cost grows with t
 constexpr double k_equal_factors = 1e-12;             // of coverage, relative
 constexpr double k_tail_of_band = 0.025;              // 95 % between both
 constexpr double k_significant = 0.025;               // of p_low and p_high
-constexpr double k_rounding_of_points = 1e-9;         // 5 independent points are 5 after rounding, too
 constexpr double k_negligible_reference = 1.0 / 3.0;
+constexpr double k_rounding_of_probability = 1e-12;
 
 std::string point_name(Index i) {
     return "difference at point " + std::to_string(i + 1);
@@ -215,6 +216,59 @@ void add_scores(const MethodDifferences& differences, const VectorXd& zeta, Agre
         of_method > 0.0 ? differences.U_reference.norm() / of_method : std::numeric_limits<double>::infinity();
 }
 
+/// Covariance of the differences where the uncertainty of the method is `factor` times the stated one, in units of the
+/// stated u of each difference. What both sides share scales with the method.
+MatrixXd scaled_correlations(const MethodDifferences& differences, const VectorXd& u, const MatrixXd& R,
+                             double factor) {
+    const MatrixXd& method = differences.method_covariance;
+    const MatrixXd& reference = differences.reference_covariance;
+    if (method.size() == 0) {
+        return factor * factor * R;
+    }
+    const MatrixXd shared = method + reference - differences.covariance;
+    const VectorXd inverse_u = u.cwiseInverse();
+    const MatrixXd V = factor * factor * method + reference - factor * shared;
+    return inverse_u.asDiagonal() * V * inverse_u.asDiagonal();
+}
+
+/// Eigenvalues of the same; of many points those of R, by the ratio of the traces.
+std::vector<double> scaled_spectrum(const MethodDifferences& differences, const VectorXd& u, const MatrixXd& R,
+                                    const std::vector<double>& of_zeta, double factor) {
+    const MatrixXd scaled = scaled_correlations(differences, u, R, factor);
+    if (differences.method_covariance.size() > 0 && R.rows() <= k_most_points_of_eigenvectors) {
+        return spectrum(0.5 * (scaled + scaled.transpose()));
+    }
+    std::vector<double> weights = of_zeta;
+    const double ratio = scaled.trace() / R.trace();
+    for (double& weight : weights) {
+        weight *= ratio;
+    }
+    return weights;
+}
+
+/// Whether the sum of squares tells a right uncertainty from one that is wrong by a factor of 2.
+void add_test_of_uncertainty(const MethodDifferences& differences, const VectorXd& u, const MatrixXd& R,
+                             const std::vector<double>& of_zeta, Agreement& result) {
+    constexpr double k_factor = 2.0;
+    const std::vector<double> if_too_small = scaled_spectrum(differences, u, R, of_zeta, k_factor);
+    const std::vector<double> if_too_large = scaled_spectrum(differences, u, R, of_zeta, 1.0 / k_factor);
+    result.p_if_too_small = weighted_chi_square_lower_tail(if_too_small, result.sum_of_squared_zeta);
+    result.p_if_too_large = weighted_chi_square_upper_tail(if_too_large, result.sum_of_squared_zeta);
+    const double high = std::min(weighted_chi_square_quantile(if_too_small, k_error_of_confirmation),
+                                 weighted_chi_square_quantile(of_zeta, 1.0 - k_significant));
+    const double low = std::max(weighted_chi_square_quantile(if_too_large, 1.0 - k_error_of_confirmation),
+                                weighted_chi_square_quantile(of_zeta, k_significant));
+    result.power_to_confirm =
+        high > low ? weighted_chi_square_lower_tail(of_zeta, high) - weighted_chi_square_lower_tail(of_zeta, low) : 0.0;
+}
+
+void add_deviations_that_are_found(const MethodDifferences& differences, const VectorXd& u, Agreement& result) {
+    const double z_80 = standard_normal_quantile(0.80);
+    const double z_95 = standard_normal_quantile(0.95);
+    result.found_with_80_percent = (differences.U + z_80 * u).maxCoeff();
+    result.found_with_95_percent = (differences.U + z_95 * u).maxCoeff();
+}
+
 void add_distributions(const MethodDifferences& differences, const VectorXd& u, const MatrixXd& R,
                        double coverage_probability, Agreement& result) {
     const auto m = static_cast<double>(u.size());
@@ -223,6 +277,10 @@ void add_distributions(const MethodDifferences& differences, const VectorXd& u, 
     result.p_high = weighted_chi_square_upper_tail(of_zeta, result.sum_of_squared_zeta);
     result.effective_points = m * m / R.squaredNorm();
     result.largest_en_by_chance = largest_en_by_chance(result.points, coverage_probability);
+    result.count_by_chance =
+        count_above_1_by_chance(result.points, std::clamp(result.effective_points, 1.0, m), coverage_probability);
+    add_test_of_uncertainty(differences, u, R, of_zeta, result);
+    add_deviations_that_are_found(differences, u, result);
     // E_n = ζ u/U: another spectrum only where the coverage factors of the points differ.
     const VectorXd inverse_k = u.cwiseQuotient(differences.U);
     const bool equal = inverse_k.maxCoeff() - inverse_k.minCoeff() <= k_equal_factors * inverse_k.maxCoeff();
@@ -267,6 +325,20 @@ double largest_en_by_chance(std::size_t points, double coverage_probability) {
     constexpr double k_normal = std::numeric_limits<double>::infinity();
     const double of_each = std::pow(coverage_probability, 1.0 / static_cast<double>(points));
     return coverage_factor(of_each, k_normal) / coverage_factor(coverage_probability, k_normal);
+}
+
+std::size_t count_above_1_by_chance(std::size_t points, double effective_points, double coverage_probability) {
+    require_probability(coverage_probability, "coverage probability");
+    if (points == 0) {
+        refuse("GC-GUM-0032", "comparison", "no points", "a number of scores needs at least 1 point",
+               "Give the points that both methods measured.");
+    }
+    const double independent = std::clamp(std::round(effective_points), 1.0, static_cast<double>(points));
+    using Up = boost::math::policies::policy<
+        boost::math::policies::discrete_quantile<boost::math::policies::integer_round_up>>;
+    const boost::math::binomial_distribution<double, Up> above(independent, 1.0 - coverage_probability);
+    const double limit = boost::math::quantile(above, coverage_probability * (1.0 - k_rounding_of_probability));
+    return static_cast<std::size_t>(std::floor(limit * static_cast<double>(points) / independent));
 }
 
 std::optional<BiasLine> bias_line(const MethodDifferences& differences, const VectorXd& t) {
@@ -344,7 +416,7 @@ AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<dou
     if (!(agreement.p_high >= k_significant) || !(agreement.largest_absolute_en <= agreement.largest_en_by_chance)) {
         return AgreementVerdict::disagreement;
     }
-    if (agreement.count_above_1 > 0) {
+    if (agreement.count_above_1 > agreement.count_by_chance) {
         return AgreementVerdict::points_above_1;
     }
     if (worst_plausible_en && !(std::abs(*worst_plausible_en) <= 1.0)) {
@@ -356,8 +428,11 @@ AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<dou
     if (!(agreement.p_low >= k_significant)) {
         return AgreementVerdict::uncertainty_too_large;
     }
-    if (!(agreement.effective_points >= k_fewest_points_to_validate * (1.0 - k_rounding_of_points))) {
+    if (!(agreement.power_to_confirm >= k_least_power_to_confirm)) {
         return AgreementVerdict::agreement_few_points;
+    }
+    if (!(agreement.p_if_too_small <= k_error_of_confirmation && agreement.p_if_too_large <= k_error_of_confirmation)) {
+        return AgreementVerdict::uncertainty_not_confirmed;
     }
     return agreement.ratio_reference > k_negligible_reference ? AgreementVerdict::agreement_reference_limited
                                                               : AgreementVerdict::validated;

@@ -14,6 +14,8 @@ struct MethodDifferences {
     Eigen::MatrixXd covariance;             ///< m×m, of D (standard uncertainties), in the square of the unit of D
     Eigen::VectorXd U;                      ///< m, expanded uncertainty of D: also D_fail of the point
     Eigen::VectorXd U_method, U_reference;  ///< m, expanded uncertainties of both sides
+    /// m×m, of the values of each side; empty: U of the method is held against half and twice of all of `covariance`.
+    Eigen::MatrixXd method_covariance = {}, reference_covariance = {};
 };
 
 /// What m correlated points say together.
@@ -36,6 +38,15 @@ struct Agreement {
     double p_mahalanobis = 0.0;      ///< P(χ²_rank ≥ mahalanobis_square)
     double vector_en = 0.0;          ///< √mahalanobis_square / k_p, k_p the factor of the joint 95.45 % region (or p)
     double ratio_reference = 0.0;    ///< rms U of the reference / rms U of the method; infinite where that is 0
+    double p_if_too_small = 0.0;     ///< P(a Σζ² as small or smaller) if U of the method should be twice as large
+    double p_if_too_large = 0.0;     ///< P(a Σζ² as large or larger) if U of the method should be half as large
+    /// Probability that Σζ² refutes both, and neither p_low nor p_high is below 0.025, where all uncertainties are
+    /// right.
+    double power_to_confirm = 0.0;
+    std::size_t count_by_chance = 0;  ///< limit of count_above_1 (count_above_1_by_chance())
+    /// Constant deviation that |E_n| > 1 finds at every single point with a probability of 80 % and 95 %:
+    /// the largest of U + z u with z = 0.842 and 1.645.
+    double found_with_80_percent = 0.0, found_with_95_percent = 0.0;
 };
 
 /// \param coverage_probability  of the joint region of vector_en
@@ -53,6 +64,12 @@ struct Agreement {
 /// \param points  n ≥ 1
 /// \throws InputError  GC-GUM-0032 no points; -0004 p not between 0 and 1
 [[nodiscard]] double largest_en_by_chance(std::size_t points, double coverage_probability);
+/// The number of |E_n| > 1 among n points that is exceeded with probability 1 − p at most where all uncertainties are
+/// right: quantile of the binomial distribution of effective_points points, in proportion. 0 for one point.
+/// \param effective_points  1 … points
+/// \throws InputError  as largest_en_by_chance()
+[[nodiscard]] std::size_t count_above_1_by_chance(std::size_t points, double effective_points,
+                                                  double coverage_probability);
 /// More points are refused: an approximation by the first two moments is wrong by many powers of ten in the lower tail.
 inline constexpr std::size_t k_most_points_of_agreement = 3000;
 
@@ -83,17 +100,21 @@ struct BiasLine {
 /// What a comparison of methods may be said to show, strongest objection first: the first that holds is the verdict.
 enum class AgreementVerdict {
     disagreement,                 ///< p_high < 0.025, or the largest |E_n| is above what chance makes of so many points
-    points_above_1,               ///< points with |E_n| > 1 that chance explains, whatever the correlation of methods
+    points_above_1,               ///< more points with |E_n| > 1 than chance explains
     correlation_unknown,          ///< agreement only if both methods share nothing: |E_n| > 1 for the worst plausible r
     reference_not_better,         ///< U of the reference ≥ U of the method: it cannot validate it
     uncertainty_too_large,        ///< p_low < 0.025
-    agreement_few_points,         ///< fewer than k_fewest_points_to_validate independent points would tell as much
+    agreement_few_points,         ///< power_to_confirm < k_least_power_to_confirm: the verdict would be one of chance
+    uncertainty_not_confirmed,    ///< a U that is wrong by a factor of 2 is not refuted with 95 %: it cannot be told
     agreement_reference_limited,  ///< U_reference > U_method / 3: agreement, but much of it is the reference's
     validated,
 };
-/// With fewer, p_low has next to no power: an uncertainty three times too large gives p_low < 0.025 with a probability
-/// of 0.20, 0.42, 0.64 and 0.81 for 2, 3, 4 and 5 independent points (P(χ²_n ≤ 9 χ²_n;0.025)).
-inline constexpr double k_fewest_points_to_validate = 5.0;
+/// "Validated" is a test of equivalence: both a U of the method that should be twice as large and one that should be
+/// half as large must be refuted, each with an error of 5 % (the largest share of such methods that are validated).
+/// It is asked for only where a right U passes it nine times in ten: with a negligible reference that takes 13
+/// independent points, because the sum of squares of fewer scatters too much.
+inline constexpr double k_error_of_confirmation = 0.05;
+inline constexpr double k_least_power_to_confirm = 0.9;
 /// \param worst_plausible_en  largest |E_n| for the worst plausible correlation; nothing where r is known
 [[nodiscard]] AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<double> worst_plausible_en);
 

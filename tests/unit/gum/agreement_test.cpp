@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gum/comparison.h"
+#include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/unit/gum/printed.h"
 
@@ -391,7 +392,9 @@ Agreement sound() {
     Agreement of;
     of.p_low = 0.5;
     of.p_high = 0.5;
-    of.effective_points = 10.0;
+    of.effective_points = 20.0;
+    of.power_to_confirm = 0.95;
+    of.p_if_too_small = of.p_if_too_large = 0.01;
     of.largest_en_by_chance = 1.4;
     of.ratio_reference = 0.2;
     return of;
@@ -403,7 +406,9 @@ TEST(Verdict, NothingObjectsToIt) {
     Agreement at_the_limits = sound();
     at_the_limits.p_low = at_the_limits.p_high = 0.025;
     at_the_limits.ratio_reference = 1.0 / 3.0;
-    at_the_limits.effective_points = 5.0 * (1.0 - 1e-15);  // as rounding leaves them
+    at_the_limits.power_to_confirm = 0.9;
+    at_the_limits.p_if_too_small = at_the_limits.p_if_too_large = 0.05;
+    at_the_limits.count_above_1 = at_the_limits.count_by_chance = 3;
     EXPECT_EQ(agreement_verdict(at_the_limits, std::nullopt), AgreementVerdict::validated);
 }
 
@@ -430,12 +435,74 @@ TEST(Verdict, ASinglePointAbove1IsDisagreement) {
 
 TEST(Verdict, FewPointsConfirmNoUncertainty) {
     Agreement of = sound();
-    of.effective_points = 4.99;
+    of.power_to_confirm = 0.899;
     EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::agreement_few_points);
     of.ratio_reference = 0.5;
     EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::agreement_few_points);
     of.p_low = 0.01;
     EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::uncertainty_too_large);
+}
+
+TEST(Verdict, AnUncertaintyThatIsWrongByAFactorOfTwoMustBeRefuted) {
+    Agreement of = sound();
+    of.p_if_too_small = 0.0501;
+    EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::uncertainty_not_confirmed);
+    of = sound();
+    of.p_if_too_large = 0.0501;
+    EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::uncertainty_not_confirmed);
+    of.ratio_reference = 0.5;
+    EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::uncertainty_not_confirmed);
+}
+
+TEST(Verdict, PowerOfIndependentPoints) {
+    // P(max(q_.025, q_.95/4) <= chi-square <= min(q_.975, 4 q_.05)) from tables of chi-square, a negligible reference
+    const auto power = [](Index m) {
+        MethodDifferences of{.d = VectorXd::Ones(m),
+                             .covariance = MatrixXd::Identity(m, m),
+                             .U = VectorXd::Constant(m, 2.0),
+                             .U_method = VectorXd::Constant(m, 2.0),
+                             .U_reference = VectorXd::Zero(m)};
+        return agreement(of, k_p).power_to_confirm;
+    };
+    EXPECT_NEAR(power(5), 0.266, 0.002);  // 2.768 to 4.582
+    EXPECT_LT(power(12), 0.9);
+    EXPECT_GT(power(14), 0.9);
+    EXPECT_NEAR(power(100), 0.95, 1e-6);
+}
+
+TEST(Verdict, WhatTheReferenceContributesIsNotScaled) {
+    const Index m = 10;
+    MethodDifferences of{.d = VectorXd::Ones(m),
+                         .covariance = 2.0 * MatrixXd::Identity(m, m),
+                         .U = VectorXd::Constant(m, 2.0 * std::numbers::sqrt2),
+                         .U_method = VectorXd::Constant(m, 2.0),
+                         .U_reference = VectorXd::Constant(m, 2.0)};
+    const double all = agreement(of, k_p).p_if_too_small;
+    of.method_covariance = MatrixXd::Identity(m, m);
+    of.reference_covariance = MatrixXd::Identity(m, m);
+    // true variance 4 + 1 in place of 2: sum of zeta^2 is 5 = 2.5 times a chi-square of 2
+    const Agreement found = agreement(of, k_p);
+    EXPECT_NEAR(found.p_if_too_small, chi_square_lower_tail(2.0, 10.0), 1e-9);
+    EXPECT_NEAR(found.p_if_too_large, chi_square_upper_tail(8.0, 10.0), 1e-9);  // 0.25 + 1 in place of 2
+    EXPECT_GT(found.p_if_too_small, all);
+}
+
+TEST(Verdict, WhatIsFoundWithAProbability) {
+    const MethodDifferences one{.d = VectorXd{{0.1}},
+                                .covariance = MatrixXd{{1.0}},
+                                .U = VectorXd{{2.0}},
+                                .U_method = VectorXd{{2.0}},
+                                .U_reference = VectorXd{{0.0}}};
+    const Agreement found = agreement(one, k_p);
+    EXPECT_NEAR(found.found_with_80_percent, 2.0 + 0.8416212, 1e-6);
+    EXPECT_NEAR(found.found_with_95_percent, 2.0 + 1.6448536, 1e-6);
+}
+
+TEST(CountByChance, QuantileOfTheBinomialDistribution) {
+    EXPECT_EQ(count_above_1_by_chance(1, 1.0, k_p), 0U);
+    EXPECT_EQ(count_above_1_by_chance(36, 36.0, k_p), 4U);  // P(5 or more of 36) = 0.025
+    EXPECT_EQ(count_above_1_by_chance(36, 1.0, k_p), 0U);   // one proof in 36 pieces
+    EXPECT_EQ(code_of<InputError>([] { (void)count_above_1_by_chance(0, 1.0, k_p); }), "GC-GUM-0032");
 }
 
 TEST(LargestByChance, SidakLimitOfIndependentPoints) {
@@ -510,7 +577,9 @@ TEST(Verdict, TheStrongestObjectionIsStated) {
 
 TEST(Verdict, NumbersThatAreNoneNeverPass) {
     Agreement of = sound();
-    of.effective_points = std::nan("");
+    of.p_if_too_large = std::nan("");
+    EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::uncertainty_not_confirmed);
+    of.power_to_confirm = std::nan("");
     EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::agreement_few_points);
     of.p_low = std::nan("");
     EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::uncertainty_too_large);
