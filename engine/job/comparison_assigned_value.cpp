@@ -105,6 +105,7 @@ AssignedValueRequest read_object(const ComparisonReading& reading, const JsonObj
     constexpr NumberRange k_alpha_of_subset{.low = 0.0, .high = 0.3, .low_open = true, .hint = k_alpha.hint};
     AssignedValueRequest request;
     request.method = method;
+    request.by_default = false;
     request.where = object.where();
     request.traceability = object.optional_string("traceability").value_or("");
     const bool searches_subset = method == Method::largest_consistent_subset;
@@ -173,6 +174,7 @@ std::optional<AssignedValueRequest> read_assigned_value(const ComparisonReading&
     }
     AssignedValueRequest request;
     request.method = *method;
+    request.by_default = false;
     request.where = object.where("assigned_value");
     return request;
 }

@@ -3,6 +3,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "engine/job/comparison_participants.h"
 
@@ -59,10 +60,32 @@ public:
                 check_item(item);
             }
         }
+        refuse_where_nothing_is_left();
         warn_of_absent();
     }
 
 private:
+    /// What keeps one of several items from being evaluated is told in the place of the item, and the others go on.
+    void refuse_item(std::size_t item, ProblemList& problems, const InputCode& code, const std::string& where,
+                     const std::string& what, const std::string& rule, const std::string& action) {
+        if (job_.items.size() == 1) {
+            problems.refuse(code, where, what, rule, action);
+            return;
+        }
+        refusals_.push_back({&problems, &code, {std::string(code.code), where, what, rule, action}});
+        reading_.job.refused_items.emplace(item, refusals_.back().diagnostic);
+    }
+
+    void refuse_where_nothing_is_left() {
+        if (refusals_.empty() || job_.refused_items.size() < job_.items.size()) {
+            return;
+        }
+        for (const Refusal& refusal : refusals_) {
+            const gum::Diagnostic& told = refusal.diagnostic;
+            refusal.problems->refuse(*refusal.code, told.where, told.what, told.rule, told.action);
+        }
+    }
+
     [[nodiscard]] std::string where(const std::string& pointer) const { return reading_.document.where(pointer); }
 
     /// "of the item …" where the job has several.
@@ -78,8 +101,8 @@ private:
     }
 
     void refuse_too_few(std::size_t item) {
-        reading_.problems.refuse(
-            k_too_few_results, where_of(item),
+        refuse_item(
+            item, reading_.problems, k_too_few_results, where_of(item),
             std::to_string(of_item_[item].size()) + " result" + (of_item_[item].size() == 1 ? "" : "s") + of_item(item),
             "an item is compared between at least 2 results", "add the results that are missing, or remove the item");
     }
@@ -160,11 +183,11 @@ private:
         }
         for (const auto& [round, is_there] : rounds) {
             if (!is_there) {
-                reading_.problems.refuse(k_reference_without_result, request.where,
-                                         "the reference " + in_quotes(request.participant) +
-                                             " has no result with an uncertainty" + of_item(item) + in_round(round),
-                                         "the assigned value and its uncertainty are those of the reference",
-                                         "add the result and its uncertainty, or choose another assigned value");
+                refuse_item(item, reading_.problems, k_reference_without_result, request.where,
+                            "the reference " + in_quotes(request.participant) + " has no result with an uncertainty" +
+                                of_item(item) + in_round(round),
+                            "the assigned value and its uncertainty are those of the reference",
+                            "add the result and its uncertainty, or choose another assigned value");
             }
         }
     }
@@ -176,11 +199,11 @@ private:
         }
         for (const auto& [round, count] : rounds) {
             if (count < 2) {
-                reading_.problems.refuse(
-                    k_too_few_results, where_of(item),
-                    std::to_string(count) + " result" + (count == 1 ? " contributes" : "s contribute") +
-                        " to the assigned value" + of_item(item) + in_round(round),
-                    "a consensus has at least 2 results", "let more results contribute, or give the assigned value");
+                refuse_item(item, reading_.problems, k_too_few_results, where_of(item),
+                            std::to_string(count) + " result" + (count == 1 ? " contributes" : "s contribute") +
+                                " to the assigned value" + of_item(item) + in_round(round),
+                            "a consensus has at least 2 results",
+                            "let more results contribute, or give the assigned value");
             }
         }
     }
@@ -198,8 +221,8 @@ private:
             }
         }
         if (!without.empty()) {
-            participants_.problems_of(first).refuse(
-                code, job_.results[first].where,
+            refuse_item(
+                item, participants_.problems_of(first), code, job_.results[first].where,
                 list_of(without) + (without.size() == 1 ? " states " : " state ") + what + of_item(item) +
                     ", and the assigned value is " +
                     in_quotes(assigned_value_words()[static_cast<std::size_t>(job_.items[item].assigned_value.method)]),
@@ -234,6 +257,12 @@ private:
     const ComparisonJob& job_;
     std::vector<std::vector<std::size_t>> of_item_;  ///< positions of its results
     std::set<std::string> told_;
+    struct Refusal {
+        ProblemList* problems;
+        const InputCode* code;
+        gum::Diagnostic diagnostic;
+    };
+    std::vector<Refusal> refusals_;
 };
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "engine/job/comparison_job.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 
 #include "engine/job/certificate_statement.h"
@@ -85,6 +87,7 @@ private:
         (void)root.optional_string("notes");
         job_.organiser = root.optional_name("organiser", 1000).value_or("");
         job_.independent_sources = read_texts(reading, root, "independent_sources");
+        job_.different_sources = read_texts(reading, root, "different_sources");
     }
 
     enum class Form { neither, laboratories, methods };
@@ -116,12 +119,35 @@ private:
         return has_methods ? Form::methods : Form::laboratories;
     }
 
+    /// Whether the job says anything that makes results of different participants correlate.
+    static bool states_correlation(const ComparisonJob& job) {
+        return !job.correlations.empty() || !job.group_correlation.empty() ||
+               std::any_of(job.results.begin(), job.results.end(), [](const ComparisonResult& result) {
+                   return !result.sources.empty() || result.budget != nullptr;
+               });
+    }
+
+    /// A way to the assigned value where the job states none: one whose uncertainty holds also where laboratories
+    /// differ by more than they state, as far as the results allow it.
+    static void choose_assigned_value(ComparisonJob& job) {
+        for (ComparisonItem& item : job.items) {
+            if (item.assigned_value.by_default) {
+                item.assigned_value.method =
+                    states_correlation(job) ? AssignedValueMethod::weighted_mean : AssignedValueMethod::mandel_paule;
+            }
+        }
+    }
+
     static void read_laboratories(const ComparisonReading& reading, const JsonObject& root) {
+        constexpr std::array<std::pair<std::string_view, bool>, 2> k_names{
+            {{"confidential", false}, {"released", true}}};
+        reading.job.names_released = root.optional_choice("names", k_names).value_or(false);
         ParticipantsReader participants(reading, root);
         participants.read();
         read_participant_correlations(reading, root, participants);
         read_vectors(reading, root, participants);
         read_youden(reading, root, participants);
+        choose_assigned_value(reading.job);
         check_results(reading, participants);
     }
 

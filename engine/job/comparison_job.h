@@ -109,6 +109,7 @@ struct AssignedValueRequest {
     double alpha = 0.05;          ///< of the consistency test
     std::optional<double> power;  ///< power-moderated mean
     std::string where = {};       ///< place in the job; "" where the job has none
+    bool by_default = true;       ///< the job says nothing: mandel_paule, of results that correlate weighted_mean
 };
 
 enum class SigmaPtMethod { given, percent_of_assigned, mass_fraction, precision, robust, standard_deviation };
@@ -198,12 +199,17 @@ struct ComparisonJob {
     std::vector<MissingResult> missing = {};
     std::vector<ParticipantCorrelation> correlations;
     std::map<std::string, double> group_correlation;  ///< r inside a group; a group without is "unknown"
-    std::vector<std::string> independent_sources;     ///< named by several budgets, and yet not shared
+    /// Names of sources that look alike and are different ones, for sure.
+    std::vector<std::string> different_sources = {};
+    std::vector<std::string> independent_sources;  ///< named by several budgets, and yet not shared
     std::vector<ComparisonVector> vectors;
     std::vector<std::pair<std::size_t, std::size_t>> youden;  ///< pairs of items to plot
 
     std::optional<MethodComparisonRequest> methods;
 
+    bool names_released = false;  ///< names of participants may stand on documents, beside their ids
+    /// Items of several for which nothing can be computed, by position, and why.
+    std::map<std::size_t, gum::Diagnostic> refused_items = {};
     std::string organiser;  ///< of the comparison, for the report; "" without
     nlohmann::json document;
     std::optional<certificate::CertificateData> certificate;

@@ -23,17 +23,24 @@ template <std::size_t n, std::size_t m>
 }
 
 /// Keys of both forms.
-inline constexpr std::array<std::string_view, 9> k_common_comparison_keys{
-    "schema",      "kind", "title", "notes", "coverage_probability", "organiser", "independent_sources",
-    "certificate", "unit"};
+inline constexpr std::array<std::string_view, 10> k_common_comparison_keys{"schema",
+                                                                           "kind",
+                                                                           "title",
+                                                                           "notes",
+                                                                           "coverage_probability",
+                                                                           "organiser",
+                                                                           "independent_sources",
+                                                                           "different_sources",
+                                                                           "certificate",
+                                                                           "unit"};
 
 inline constexpr std::array<std::string_view, 7> k_item_value_keys{
     "assigned_value", "sigma_pt", "delta_E", "homogeneity", "stability", "kernel_bandwidth", "reference_value"};
 inline constexpr std::array<std::string_view, 3> k_item_name_keys{"id", "name", "unit"};
 inline constexpr auto k_listed_item_keys = joined(k_item_name_keys, k_item_value_keys);
 
-inline constexpr std::array<std::string_view, 8> k_laboratories_only_keys{
-    "participants", "results", "items", "rounds", "correlations", "groups", "vectors", "youden"};
+inline constexpr std::array<std::string_view, 9> k_laboratories_only_keys{
+    "participants", "results", "items", "rounds", "correlations", "groups", "vectors", "youden", "names"};
 inline constexpr auto k_laboratories_keys = joined(k_laboratories_only_keys, k_item_value_keys);
 
 inline constexpr std::array<std::string_view, 6> k_methods_keys{"lab",         "reference", "position",
