@@ -110,13 +110,96 @@ double degrees_of_freedom_of(const LaboratoryData& data, const AssignedValue& me
     return gum::effective_degrees_of_freedom(parts);
 }
 
-AssignedValue robust_value(const LaboratoryData& data, const gum::RobustEstimate& estimate) {
+/// Mean covariance of the contributing results with each other: the part of their uncertainty that no scatter shows.
+double common_variance(const LaboratoryData& data) {
+    const std::size_t n = data.contributing.size();
+    if (data.covariance.size() == 0 || n < 2) {
+        return 0.0;
+    }
+    const Eigen::MatrixXd inside = data.covariance(data.contributing, data.contributing);
+    return std::max(0.0, (inside.sum() - inside.trace()) / static_cast<double>(n * (n - 1)));
+}
+
+/// \param of_inside  spread of the others for each contributing result; empty where there are only two
+void add_scatter(const LaboratoryData& data, gum::SpreadUncertainty of_value,
+                 const std::vector<gum::SpreadUncertainty>& of_inside, const Eigen::VectorXd& shares,
+                 AssignedValue& assigned) {
+    const double common = std::sqrt(common_variance(data));
+    ConsensusScatter scatter;
+    scatter.of_value = of_value;
+    scatter.of_value.u = std::hypot(of_value.u, common);
+    scatter.others.assign(data.size(), scatter.of_value);
+    scatter.share = Eigen::VectorXd::Zero(size_of(data));
+    scatter.covariance = Eigen::VectorXd::Zero(size_of(data));
+    for (std::size_t i = 0; i < data.contributing.size(); ++i) {
+        const std::size_t at = data.contributing[i];
+        scatter.share[static_cast<Eigen::Index>(at)] = shares[static_cast<Eigen::Index>(i)];
+        if (!of_inside.empty()) {
+            scatter.others[at] = of_inside[i];
+            scatter.others[at].u = std::hypot(of_inside[i].u, common);
+        } else {  // of two results one is all the others
+            const std::size_t other = data.contributing[data.contributing.size() - 1 - i];
+            scatter.others[at] = {.u = data.u[static_cast<Eigen::Index>(other)]};
+        }
+    }
+    for (Eigen::Index i = 0; data.covariance.size() > 0 && i < size_of(data); ++i) {
+        double rest = 0.0;
+        double covariance = 0.0;
+        for (std::size_t j = 0; j < data.contributing.size(); ++j) {
+            const auto at = static_cast<Eigen::Index>(data.contributing[j]);
+            const double share = at == i ? 0.0 : shares[static_cast<Eigen::Index>(j)];
+            rest += share;
+            covariance += share * data.covariance(i, at);
+        }
+        scatter.covariance[i] = rest > 0.0 ? covariance / rest : 0.0;
+    }
+    assigned.scatter = std::move(scatter);
+}
+
+/// A mean whose weights allow for a scatter between laboratories.
+AssignedValue scattered_value(const LaboratoryData& data, const gum::ReferenceValue& reference) {
+    AssignedValue assigned = linear_value(data, data.contributing, reference);
+    const Eigen::VectorXd x = data.values(data.contributing);
+    add_scatter(data, gum::weighted_spread(x, reference), gum::spread_of_others(x, reference.weights),
+                reference.weights / reference.weights.sum(), assigned);
+    return assigned;
+}
+
+/// The covariance of each result with a mean of the contributing ones.
+Eigen::VectorXd covariance_with_mean(const LaboratoryData& data) {
+    Eigen::VectorXd covariance = Eigen::VectorXd::Zero(size_of(data));
+    const auto n = static_cast<double>(data.contributing.size());
+    for (const std::size_t i : data.contributing) {
+        const auto at = static_cast<Eigen::Index>(i);
+        covariance[at] = data.u[at] * data.u[at] / n;
+    }
+    if (data.covariance.size() > 0) {
+        for (Eigen::Index i = 0; i < size_of(data); ++i) {
+            covariance[i] = data.covariance(i, data.contributing).sum() / n;
+        }
+    }
+    return covariance;
+}
+
+AssignedValue robust_value(const LaboratoryData& data, gum::RobustMean kind, const gum::RobustEstimate& estimate) {
     AssignedValue assigned;
     assigned.value = estimate.location;
     // A scale of 0 says that more than half of the results are equal, not that the value is exactly known.
     assigned.u = estimate.scale > 0.0 ? std::optional(estimate.u) : std::nullopt;
     assigned.correlation_known = false;
-    assigned.covariance = Eigen::VectorXd::Zero(size_of(data));
+    // Exact for normal results of equal uncertainty and any location that moves with them: such a location less their
+    // mean does not depend on the mean (theorem of Basu).
+    assigned.covariance = covariance_with_mean(data);
+    const Eigen::VectorXd x = data.values(data.contributing);
+    const std::vector<double> values(x.data(), x.data() + x.size());
+    const gum::SpreadUncertainty spread = gum::robust_spread(kind, values);
+    if (assigned.u && spread.u > 0.0) {
+        add_scatter(data, spread, gum::robust_spread_of_others(kind, values),
+                    Eigen::VectorXd::Constant(x.size(), 1.0 / static_cast<double>(x.size())), assigned);
+        assigned.scatter->factor = kind == gum::RobustMean::median ? gum::median_difference_factor(values.size()) : 1.0;
+    } else {
+        assigned.u = std::nullopt;
+    }
     return assigned;
 }
 
@@ -153,6 +236,14 @@ AssignedValue median_by_trials(const engine::ComparisonJob& job, const Laborator
         assigned.covariance[at] = 0.5 * (data.u[at] * data.u[at] + trials.u * trials.u - u_d * u_d);
     }
     add_results_outside(data, assigned);
+    TrialIntervals intervals{.low = trials.low, .high = trials.high, .d_low = {}, .d_high = {}};
+    intervals.d_low = Eigen::VectorXd::Constant(size_of(data), std::numeric_limits<double>::quiet_NaN());
+    intervals.d_high = intervals.d_low;
+    for (std::size_t i = 0; i < data.contributing.size(); ++i) {
+        intervals.d_low[static_cast<Eigen::Index>(data.contributing[i])] = trials.d_low[static_cast<Eigen::Index>(i)];
+        intervals.d_high[static_cast<Eigen::Index>(data.contributing[i])] = trials.d_high[static_cast<Eigen::Index>(i)];
+    }
+    assigned.intervals = std::move(intervals);
     return assigned;
 }
 
@@ -217,7 +308,7 @@ AssignedValue mean_of_replicates(const LaboratoryData& data) {
                     "not every result states the standard deviation s and the number n of its observations",
                     "vangel_rukhin is computed from them", "State s and n ≥ 2 of every result, or take mandel_paule.");
     }
-    return linear_value(data, data.contributing, gum::vangel_rukhin({stated->x, stated->s, stated->observations}));
+    return scattered_value(data, gum::vangel_rukhin({stated->x, stated->s, stated->observations}));
 }
 
 AssignedValue consensus(const engine::ComparisonJob& job, const LaboratoryData& data) {
@@ -227,35 +318,41 @@ AssignedValue consensus(const engine::ComparisonJob& job, const LaboratoryData& 
     const std::span<const double> values(x.data(), static_cast<std::size_t>(x.size()));
     switch (request.method) {
         case AssignedValueMethod::arithmetic_mean: {
-            AssignedValue mean = linear_value(data, chosen, gum::arithmetic_mean(x));
+            AssignedValue mean = scattered_value(data, gum::arithmetic_mean(x));
             mean.degrees_of_freedom = static_cast<double>(chosen.size() - 1);
             if (!(*mean.u > 0.0)) {
                 // Equal results say that digits are missing, not that the value is exactly known.
                 mean.u = std::nullopt;
+                mean.scatter = std::nullopt;
             }
             return mean;
         }
         case AssignedValueMethod::median:
-            return request.median_by_trials ? median_by_trials(job, data)
-                                            : robust_value(data, gum::median_with_made(values));
+            return request.median_by_trials
+                       ? median_by_trials(job, data)
+                       : robust_value(data, gum::RobustMean::median, gum::median_with_made(values));
         case AssignedValueMethod::algorithm_a:
             return robust_value(
-                data, gum::algorithm_a(values, request.exact_constants ? gum::AlgorithmAConstants::exact
-                                                                       : gum::AlgorithmAConstants::published));
+                data, gum::RobustMean::algorithm_a,
+                gum::algorithm_a(values, request.exact_constants ? gum::AlgorithmAConstants::exact
+                                                                 : gum::AlgorithmAConstants::published));
         case AssignedValueMethod::q_hampel:
-            return robust_value(data, gum::q_hampel(values));
+            return robust_value(data, gum::RobustMean::q_hampel, gum::q_hampel(values));
         case AssignedValueMethod::largest_consistent_subset:
             return largest_subset(data, request.alpha);
         case AssignedValueMethod::dersimonian_laird:
-            return linear_value(data, chosen, gum::dersimonian_laird(data.at(chosen)));
+            return scattered_value(data, gum::dersimonian_laird(data.at(chosen)));
         case AssignedValueMethod::mandel_paule:
-            return linear_value(data, chosen, gum::mandel_paule(data.at(chosen)));
+            return scattered_value(data, gum::mandel_paule(data.at(chosen)));
         case AssignedValueMethod::vangel_rukhin:
             return mean_of_replicates(data);
-        case AssignedValueMethod::power_moderated_mean:
-            return linear_value(data, chosen,
-                                request.power ? gum::power_moderated_mean(data.at(chosen), *request.power)
-                                              : gum::power_moderated_mean(data.at(chosen)));
+        case AssignedValueMethod::power_moderated_mean: {
+            AssignedValue mean =
+                scattered_value(data, request.power ? gum::power_moderated_mean(data.at(chosen), *request.power)
+                                                    : gum::power_moderated_mean(data.at(chosen)));
+            mean.scatter->others.clear();  // degrees of equivalence as in the comparisons that this mean is made for
+            return mean;
+        }
         default: {
             AssignedValue mean = linear_value(data, chosen, gum::weighted_mean(data.at(chosen)));
             mean.degrees_of_freedom = degrees_of_freedom_of(data, mean);

@@ -9,9 +9,26 @@
 #include <vector>
 
 #include "app/laboratory_data.h"
+#include "gum/consensus_spread.h"
 #include "gum/reference_value.h"
 
 namespace gumcert::app {
+
+/// What the scatter of the results says of an assigned value that is made of them. Positions are those of
+/// LaboratoryData.
+struct ConsensusScatter {
+    gum::SpreadUncertainty of_value;             ///< U(X) = t_p(ν) u
+    std::vector<gum::SpreadUncertainty> others;  ///< n, for each result that of all others
+    Eigen::VectorXd share;                       ///< n, of each result in the value; 0 outside
+    Eigen::VectorXd covariance;                  ///< n, of each result with the value of the others
+    double factor = 1.0;                         ///< of U_D, for results that are part of the value
+};
+
+/// What trials say beside the standard uncertainties; intervals for the coverage probability of the job.
+struct TrialIntervals {
+    double low = 0.0, high = 0.0;   ///< of the value
+    Eigen::VectorXd d_low, d_high;  ///< n, of x − X; NaN for results outside
+};
 
 /// Assigned value of an item as its results, a laboratory or the job characterise it; what homogeneity and stability of
 /// the item add is not in it. Positions are those of LaboratoryData.
@@ -22,8 +39,13 @@ struct AssignedValue {
     std::optional<engine::ResultUncertainty> stated;  ///< where one result, or the job, states it
     /// n, where the value is linear in the results, y = Σ w_i x_i; empty else
     Eigen::VectorXd weights;
-    /// False for a consensus that is not linear in the results: how it correlates with them is not computed.
+    /// False for a consensus that is not linear in the results: its covariance with them is taken as that of their
+    /// mean.
     bool correlation_known = true;
+    /// Where U(X) comes from the scatter of the results. With `others` empty only U(X) does, and the degrees of
+    /// equivalence are those of the stated uncertainties.
+    std::optional<ConsensusScatter> scatter;
+    std::optional<TrialIntervals> intervals;
     Eigen::VectorXd covariance;                  ///< n, cov(x_i, X)
     std::vector<std::size_t> not_consistent;     ///< contributing results outside the largest consistent subset
     std::optional<gum::ConsistencyTest> subset;  ///< test of the largest consistent subset

@@ -1,6 +1,7 @@
 #include "app/evaluate_comparison.h"
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "app/laboratory_covariance.h"
 #include "app/laboratory_estimates.h"
@@ -27,10 +28,11 @@ nlohmann::json options_of(const engine::ComparisonJob& job) {
 }
 
 /// A job of this kind may carry certificate data by mistake.
-std::vector<gum::Diagnostic> notes_on(const engine::ComparisonJob& job, const reports::Comparison& comparison) {
-    std::vector<gum::Diagnostic> notes;
+std::vector<gum::Diagnostic> notes_on(const engine::ComparisonJob& job, const reports::Comparison& comparison,
+                                      std::vector<gum::Diagnostic> notes) {
     if (!job.methods) {
-        notes = laboratory_diagnostics(comparison);
+        const std::vector<gum::Diagnostic> of_items = laboratory_diagnostics(comparison);
+        notes.insert(notes.end(), of_items.begin(), of_items.end());
     }
     if (job.certificate) {
         notes.push_back({.code = "GC-COMPARE-0125",
@@ -48,8 +50,13 @@ std::vector<gum::Diagnostic> notes_on(const engine::ComparisonJob& job, const re
 reports::EvaluationRecord evaluate_comparison(const engine::ComparisonJob& job,
                                               const std::vector<reports::InputFile>& files,
                                               const std::function<void(const std::string&)>& progress) {
-    reports::Comparison comparison = job.methods ? evaluate_methods(job) : evaluate_laboratories(job, progress);
-    const std::vector<gum::Diagnostic> notes = notes_on(job, comparison);
+    std::vector<gum::Diagnostic> found;
+    reports::Comparison comparison =
+        job.methods ? evaluate_methods(job, &found) : evaluate_laboratories(job, progress, &found);
+    if (job.certificate) {
+        comparison.languages = job.certificate->languages;
+    }
+    const std::vector<gum::Diagnostic> notes = notes_on(job, comparison, std::move(found));
     reports::EvaluationRecord record = record_head(
         "comparison", {job.title, job.coverage_probability, job.document, job.warnings, notes}, options_of(job), files);
     record.comparison = std::move(comparison);

@@ -17,10 +17,15 @@ namespace gumcert::app {
 
 /// `Comparison` of a job with `lab` and `reference`: reads their budgets, covariances and shared sources, and calls
 /// compare_methods().
-[[nodiscard]] reports::Comparison evaluate_methods(const engine::ComparisonJob& job);
+/// \param notes  receives what a person has to know beside the record
+[[nodiscard]] reports::Comparison evaluate_methods(const engine::ComparisonJob& job,
+                                                   std::vector<gum::Diagnostic>* notes = nullptr);
 
-/// `Comparison` of a job with participants.
+/// `Comparison` of a job with participants. Items for which nothing can be computed are listed in it.
+/// \param notes  as above
+/// \throws InputError, NoResultError  where no item has a result
 [[nodiscard]] reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job,
-                                                        const std::function<void(const std::string&)>& progress);
+                                                        const std::function<void(const std::string&)>& progress,
+                                                        std::vector<gum::Diagnostic>* notes = nullptr);
 
 }  // namespace gumcert::app

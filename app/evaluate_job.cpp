@@ -93,6 +93,7 @@ Evaluation evaluate_comparison_job(const std::filesystem::path& job_file, const 
     const engine::ComparisonJob job = engine::read_comparison_job(job_file);
     Evaluation evaluation;
     evaluation.record = evaluate_comparison(job, digests(job_file, job.files), progress);
+    evaluation.negative = !evaluation.record.comparison->items_without_result.empty();
     return evaluation;
 }
 

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "app/evaluate_comparison.h"
 #include "app/laboratory_estimates.h"
@@ -6,6 +8,8 @@
 #include "app/laboratory_notes.h"
 #include "app/laboratory_scores.h"
 #include "app/laboratory_summary.h"
+#include "app/shared_sources.h"
+#include "gum/comparison.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::app {
@@ -28,7 +32,7 @@ std::string reference_name(const engine::ComparisonJob& job) {
     const engine::AssignedValueRequest& request = job.items.front().assigned_value;
     for (const engine::ComparisonParticipant& participant : job.participants) {
         if (request.method == engine::AssignedValueMethod::reference && participant.id == request.participant) {
-            return participant.name.empty() ? participant.id : participant.name;
+            return participant.name.empty() || !job.names_released ? participant.id : participant.name;
         }
     }
     return "";
@@ -51,10 +55,71 @@ std::string audit_findings(const engine::ComparisonJob& job) {
     return text;
 }
 
+reports::ItemWithoutResult without_result(const engine::ComparisonItem& item, const std::string& round,
+                                          const gum::Diagnostic& because) {
+    return {.id = item.id,
+            .name = item.name,
+            .round = round,
+            .code = because.code,
+            .what = because.what,
+            .rule = because.rule,
+            .action = because.action};
+}
+
+/// Items for which reading the job has found that nothing can be computed.
+void add_refused_items(const engine::ComparisonJob& job, reports::Comparison& comparison,
+                       std::vector<gum::Diagnostic>& problems) {
+    for (const auto& [item, because] : job.refused_items) {
+        comparison.items_without_result.push_back(without_result(job.items[item], "", because));
+        problems.push_back(because);
+    }
+}
+
+/// The names of all sources that results and assigned values state.
+std::set<std::string> source_names(const engine::ComparisonJob& job,
+                                   const std::vector<engine::ComparisonResult>& results) {
+    std::set<std::string> names;
+    const auto add = [&](const std::vector<engine::UncertaintySource>& sources) {
+        for (const engine::UncertaintySource& source : sources) {
+            names.insert(source.source);
+        }
+    };
+    for (const engine::ComparisonResult& result : results) {
+        add(result.sources);
+    }
+    for (const engine::ComparisonItem& item : job.items) {
+        add(item.assigned_value.sources);
+    }
+    return names;
+}
+
+/// Where at least one item has a result the others are told beside it; else the job is refused.
+void tell_problems(const std::vector<gum::Diagnostic>& problems, const reports::Comparison& comparison, bool is_input,
+                   std::vector<gum::Diagnostic>* notes) {
+    if (problems.empty()) {
+        return;
+    }
+    if (comparison.items.empty()) {
+        if (is_input) {
+            throw gum::InputError(problems);
+        }
+        throw gum::NoResultError(problems);
+    }
+    for (gum::Diagnostic problem : problems) {
+        problem.severity = gum::Severity::warning;
+        if (notes != nullptr) {
+            notes->push_back(std::move(problem));
+        }
+    }
+}
+
 }  // namespace
 
-reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, const Progress& progress) {
+reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, const Progress& progress,
+                                          std::vector<gum::Diagnostic>* notes) {
     reports::Comparison comparison;
+    comparison.names_released = job.names_released;
+    comparison.score_probability = gum::en_coverage_probability(job.coverage_probability);
     comparison.form = "laboratories";
     comparison.organiser = job.organiser;
     comparison.unit = unit_of_items(job);
@@ -76,29 +141,45 @@ reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, cons
     LeftOut left_out{.vectors = 0, .pairs = pairs > k_most_pairs_in_record};
     std::vector<EvaluatedItem> items;
     std::vector<gum::Diagnostic> problems;
+    bool is_input = false;
+    add_refused_items(job, comparison, problems);
     for (const LaboratoryData& of_item : data) {
+        if (job.refused_items.contains(static_cast<std::size_t>(of_item.item - job.items.data()))) {
+            continue;
+        }
         if (progress && items.size() % k_items_between_messages == 0 && data.size() > 1) {
             progress("item " + std::to_string(items.size() + 1) + " of " + std::to_string(data.size()));
         }
         EvaluatedItem item;
         item.data = &of_item;
         item.first_point = comparison.points.size();
+        const auto refused = [&](const gum::DiagnosedError& error) {
+            problems.insert(problems.end(), error.diagnostics().begin(), error.diagnostics().end());
+            comparison.items_without_result.push_back(
+                without_result(*of_item.item, of_item.round, error.diagnostics().front()));
+        };
         try {
             item.assigned = assigned_value(job, of_item);
-            comparison.items.push_back(item_evaluation(job, of_item, item.assigned));
+            reports::ComparisonItemEvaluation evaluation = item_evaluation(job, of_item, item.assigned);
+            std::vector<reports::ComparisonPoint> points = laboratory_scores(job, of_item, item.assigned, evaluation);
             if (!left_out.pairs) {
-                comparison.items.back().pairs = pair_equivalences(job, of_item);
+                evaluation.pairs = pair_equivalences(job, of_item);
             }
-            std::vector<reports::ComparisonPoint> points =
-                laboratory_scores(job, of_item, item.assigned, comparison.items.back());
+            comparison.items.push_back(std::move(evaluation));
             std::move(points.begin(), points.end(), std::back_inserter(comparison.points));
             items.push_back(std::move(item));
-        } catch (const gum::InputError& refused) {  // of every item, not only of the first one
-            problems.insert(problems.end(), refused.diagnostics().begin(), refused.diagnostics().end());
+        } catch (const gum::InputError& error) {  // one item does not lose the others
+            is_input = true;
+            refused(error);
+        } catch (const gum::NoResultError& error) {
+            refused(error);
         }
     }
-    if (!problems.empty()) {
-        throw gum::InputError(problems);
+    tell_problems(problems, comparison, is_input, notes);
+    if (notes != nullptr) {
+        const std::vector<gum::Diagnostic> alike =
+            similar_source_names(source_names(job, results), job.different_sources);
+        notes->insert(notes->end(), alike.begin(), alike.end());
     }
     if (std::optional<reports::ComparisonSummary> all =
             summary_of_scores(comparison, items, job.coverage_probability)) {

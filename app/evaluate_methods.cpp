@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "app/method_correlation.h"
 #include "app/method_side.h"
 #include "app/record_parts.h"
+#include "app/shared_sources.h"
 #include "gum/rounding.h"
 
 namespace gumcert::app {
@@ -57,7 +59,8 @@ MethodComparison method_comparison(const ComparisonJob& job, const MethodSide& m
                                      .reference_value = reference.value[i],
                                      .reference_u = of_reference.u,
                                      .reference_U = of_reference.U,
-                                     .reference_k = of_reference.k});
+                                     .reference_k = of_reference.k,
+                                     .reference_nu = finite_or_none(of_reference.degrees_of_freedom)});
     }
     comparison.covariance = method.covariance;
     comparison.reference_covariance = reference.covariance;
@@ -67,6 +70,18 @@ MethodComparison method_comparison(const ComparisonJob& job, const MethodSide& m
     comparison.reference_audited_factor = request.reference.audited_factor;
     comparison.printed_unit = request.unit.text();
     return comparison;
+}
+
+std::set<std::string> source_names(const std::vector<const MethodSide*>& sides) {
+    std::set<std::string> names;
+    for (const MethodSide* side : sides) {
+        for (const std::vector<engine::UncertaintySource>& of_point : side->sources.all) {
+            for (const engine::UncertaintySource& source : of_point) {
+                names.insert(source.source);
+            }
+        }
+    }
+    return names;
 }
 
 std::string audit_finding(const MethodComparisonRequest& request) {
@@ -104,7 +119,7 @@ void add_capability(const ComparisonSide& side, reports::Comparison& record) {
 
 }  // namespace
 
-reports::Comparison evaluate_methods(const ComparisonJob& job) {
+reports::Comparison evaluate_methods(const ComparisonJob& job, std::vector<gum::Diagnostic>* notes) {
     const MethodComparisonRequest& request = *job.methods;
     MethodSide method = side_of(job, request, request.laboratory);
     MethodSide reference = side_of(job, request, request.reference);
@@ -125,6 +140,9 @@ reports::Comparison evaluate_methods(const ComparisonJob& job) {
     record.reference_budget = std::move(reference.budget);
     record.remarks = method.remarks;
     record.remarks.insert(record.remarks.end(), reference.remarks.begin(), reference.remarks.end());
+    if (notes != nullptr) {
+        *notes = similar_source_names(source_names({&method, &reference}), job.different_sources);
+    }
     add_correlation(job, method, reference, comparison, record);
     compare_methods(record, comparison);
     add_capability(request.laboratory, record);

@@ -8,6 +8,8 @@
 #include "app/comparison_print.h"
 #include "app/record_parts.h"
 #include "gum/comparison.h"
+#include "gum/consensus_spread.h"
+#include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/random_effects.h"
 #include "gum/robust_statistics.h"
@@ -23,7 +25,16 @@ using reports::ReferenceEstimate;
 /// Collects estimates; one that the data do not allow is left out.
 class Estimates {
 public:
-    Estimates(const LaboratoryData& data, const AssignedValue& assigned) : data_(data), assigned_(assigned) {}
+    Estimates(const LaboratoryData& data, const AssignedValue& assigned, double coverage_probability)
+        : data_(data), assigned_(assigned), coverage_probability_(coverage_probability) {}
+
+    /// U of an estimate by the scatter of the results.
+    void expand(ReferenceEstimate& estimate, const gum::SpreadUncertainty& spread) const {
+        if (estimate.u && spread.u > 0.0) {
+            estimate.U = gum::coverage_factor(coverage_probability_, spread.degrees_of_freedom) * spread.u;
+            estimate.nu = spread.degrees_of_freedom;
+        }
+    }
 
     void add(const std::string& method, const std::function<void(ReferenceEstimate&)>& evaluate) {
         ReferenceEstimate estimate;
@@ -36,6 +47,7 @@ public:
         }
         estimate.printed.value = printed_value(estimate.value, estimate.u ? estimate.u : estimate.scale);
         estimate.printed.u = printed_uncertainty(estimate.u);
+        estimate.printed.U = printed_uncertainty(estimate.U);
         estimate.printed.scale = printed_uncertainty(estimate.scale);
         estimate.printed.between = printed_uncertainty(estimate.between);
         all_.push_back(std::move(estimate));
@@ -50,6 +62,10 @@ public:
                     estimate.u = assigned_.u;
                     estimate.used = true;
                 }
+                if (data_.item->assigned_value.method == AssignedValueMethod::median &&
+                    data_.item->assigned_value.median_by_trials && method == AssignedValueMethod::median) {
+                    estimate.U = estimate.nu = std::nullopt;
+                }
             });
     }
 
@@ -58,6 +74,7 @@ public:
 private:
     const LaboratoryData& data_;
     const AssignedValue& assigned_;
+    double coverage_probability_;
     std::vector<ReferenceEstimate> all_;
 };
 
@@ -93,11 +110,17 @@ void add_by_uncertainty(Estimates& estimates, const LaboratoryData& data, const 
         });
     }
     if (independent) {
-        estimates.add(AssignedValueMethod::dersimonian_laird, [&](ReferenceEstimate& estimate) {
-            take_random_effects(estimate, gum::dersimonian_laird(results));
-        });
-        estimates.add(AssignedValueMethod::mandel_paule,
-                      [&](ReferenceEstimate& estimate) { take_random_effects(estimate, gum::mandel_paule(results)); });
+        const auto add = [&](AssignedValueMethod method,
+                             gum::ReferenceValue (*evaluate)(const gum::LaboratoryResults&)) {
+            estimates.add(method, [&](ReferenceEstimate& estimate) {
+                const gum::ReferenceValue mean = evaluate(results);
+                take_random_effects(estimate, mean);
+                estimates.expand(estimate, gum::weighted_spread(results.x, mean));
+                estimate.u_hartung_knapp = gum::hartung_knapp_u(results, mean);
+            });
+        };
+        add(AssignedValueMethod::dersimonian_laird, gum::dersimonian_laird);
+        add(AssignedValueMethod::mandel_paule, gum::mandel_paule);
     }
 }
 
@@ -125,9 +148,10 @@ reports::ConsistencySummary summary_of(const gum::ConsistencyTest& test, double 
 
 }  // namespace
 
-std::vector<ReferenceEstimate> reference_estimates(const LaboratoryData& data, const AssignedValue& assigned) {
+std::vector<ReferenceEstimate> reference_estimates(const LaboratoryData& data, const AssignedValue& assigned,
+                                                   double coverage_probability) {
     const engine::AssignedValueRequest& request = data.item->assigned_value;
-    Estimates estimates(data, assigned);
+    Estimates estimates(data, assigned, coverage_probability);
     if (data.contributing.size() < 2) {
         return {};
     }
@@ -141,32 +165,41 @@ std::vector<ReferenceEstimate> reference_estimates(const LaboratoryData& data, c
         estimate.scale = mean.u * std::sqrt(static_cast<double>(x.size()));  // exactly 0 for equal results
         if (mean.u > 0.0) {
             estimate.u = mean.u;
+            estimates.expand(estimate, gum::weighted_spread(x, mean));
         }
     });
-    estimates.add(AssignedValueMethod::median,
-                  [&](ReferenceEstimate& estimate) { take_robust(estimate, gum::median_with_made(values)); });
+    const auto add_robust = [&](AssignedValueMethod method, gum::RobustMean kind, const auto& evaluate) {
+        estimates.add(method, [&](ReferenceEstimate& estimate) {
+            take_robust(estimate, evaluate());
+            estimates.expand(estimate, gum::robust_spread(kind, values));
+        });
+    };
+    add_robust(AssignedValueMethod::median, gum::RobustMean::median, [&] { return gum::median_with_made(values); });
     estimates.add("niqr", [&](ReferenceEstimate& estimate) {
         estimate.value = gum::median(values);
         estimate.scale = gum::normalised_interquartile_range(values);
     });
-    estimates.add(AssignedValueMethod::algorithm_a, [&](ReferenceEstimate& estimate) {
-        take_robust(estimate, gum::algorithm_a(values, request.exact_constants ? gum::AlgorithmAConstants::exact
-                                                                               : gum::AlgorithmAConstants::published));
+    add_robust(AssignedValueMethod::algorithm_a, gum::RobustMean::algorithm_a, [&] {
+        return gum::algorithm_a(
+            values, request.exact_constants ? gum::AlgorithmAConstants::exact : gum::AlgorithmAConstants::published);
     });
-    estimates.add(AssignedValueMethod::q_hampel,
-                  [&](ReferenceEstimate& estimate) { take_robust(estimate, gum::q_hampel(values)); });
+    add_robust(AssignedValueMethod::q_hampel, gum::RobustMean::q_hampel, [&] { return gum::q_hampel(values); });
     if (weighed) {
         add_by_uncertainty(estimates, data, results);
     }
     if (const std::optional<Replicates> stated = replicates(data); stated && results.covariance.size() == 0) {
         estimates.add(AssignedValueMethod::vangel_rukhin, [&](ReferenceEstimate& estimate) {
-            take_random_effects(estimate, gum::vangel_rukhin({stated->x, stated->s, stated->observations}));
+            const gum::ReferenceValue mean = gum::vangel_rukhin({stated->x, stated->s, stated->observations});
+            take_random_effects(estimate, mean);
+            estimates.expand(estimate, gum::weighted_spread(stated->x, mean));
         });
     }
     if (weighed && results.covariance.size() == 0) {
         estimates.add(AssignedValueMethod::power_moderated_mean, [&](ReferenceEstimate& estimate) {
-            take_random_effects(estimate, request.power ? gum::power_moderated_mean(results, *request.power)
-                                                        : gum::power_moderated_mean(results));
+            const gum::ReferenceValue mean =
+                request.power ? gum::power_moderated_mean(results, *request.power) : gum::power_moderated_mean(results);
+            take_random_effects(estimate, mean);
+            estimates.expand(estimate, gum::weighted_spread(results.x, mean));
         });
     }
     if (data.item->kernel_bandwidth) {
@@ -256,8 +289,13 @@ std::vector<reports::PairEquivalence> pair_equivalences(const engine::Comparison
             pair.second = job.participants[second.participant].id;
             pair.d = difference.d;
             pair.u = difference.u;
-            pair.U =
-                gum::uncertainty_of_difference(first.uncertainty->U, second.uncertainty->U, std::clamp(r, -1.0, 1.0));
+            const auto U_of = [&](const engine::ResultUncertainty& stated) {
+                return gum::en_uncertainty(stated.u, stated.U, stated.k, stated.degrees_of_freedom,
+                                           job.coverage_probability)
+                    .U;
+            };
+            pair.U = gum::uncertainty_of_difference(U_of(*first.uncertainty), U_of(*second.uncertainty),
+                                                    std::clamp(r, -1.0, 1.0));
             if (pair.U > 0.0) {
                 pair.En = pair.d / pair.U;
             }

@@ -20,7 +20,8 @@ inline constexpr std::size_t k_most_results_of_pair_count = 2000;
 /// The reference values that the contributing results allow, side by side, in the order of the words of the job; then
 /// the normalised interquartile range about the median, and the mode of the kernel density where a bandwidth is stated.
 [[nodiscard]] std::vector<reports::ReferenceEstimate> reference_estimates(const LaboratoryData& data,
-                                                                          const AssignedValue& assigned);
+                                                                          const AssignedValue& assigned,
+                                                                          double coverage_probability);
 
 /// Test whether the contributing results agree within their uncertainties: of those that the assigned value rests on
 /// where it is the largest consistent subset. Nothing where they do not all state one, or are fewer than two.

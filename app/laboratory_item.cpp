@@ -1,11 +1,14 @@
 #include "app/laboratory_item.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "app/comparison_print.h"
 #include "app/laboratory_estimates.h"
 #include "app/record_parts.h"
+#include "gum/comparison.h"
+#include "gum/consensus_spread.h"
 #include "gum/coverage.h"
 #include "gum/proficiency_scheme.h"
 #include "gum/quantity/diagnostic.h"
@@ -202,24 +205,90 @@ void add_checks(const LaboratoryData& data, ComparisonItemEvaluation& evaluation
     evaluation.u_stability = later.stable_expanded ? 0.0 : later.difference / std::numbers::sqrt3;
 }
 
-void add_uncertainty(const engine::ComparisonJob& job, const AssignedValue& assigned,
+/// U = t_p(ν) u of the scatter, with what the item adds; k = U/u(X) says how far it is from the usual 2.
+void expand_by_scatter(double coverage_probability, const ConsensusScatter& scatter, double of_items,
+                       ComparisonItemEvaluation& evaluation) {
+    const gum::SpreadUncertainty nothing;
+    const gum::SpreadDifference whole =
+        gum::spread_difference(nothing, scatter.of_value, of_items, 0.0, 0.0, 1.0, coverage_probability);
+    evaluation.U = whole.U;
+    evaluation.k = whole.U / *evaluation.u;
+    evaluation.nu = finite_or_none(whole.degrees_of_freedom);
+    evaluation.U_rests_on = "scatter";
+}
+
+/// How much of all assigned values y ± U would cover if the laboratories differed by a further τ as large as the median
+/// of their u: what the stated uncertainties alone do not know.
+std::optional<double> coverage_with_scatter(const LaboratoryData& data, const AssignedValue& assigned, double U) {
+    std::vector<double> u;
+    double variance = 0.0;
+    for (const std::size_t i : data.contributing) {
+        if (!data.has_u(i)) {
+            return std::nullopt;
+        }
+        u.push_back(data.u[static_cast<Eigen::Index>(i)]);
+    }
+    if (u.size() < 2 || !(U > 0.0)) {
+        return std::nullopt;
+    }
+    const double tau = gum::median(u);
+    if (assigned.weights.size() > 0) {
+        variance = assigned.weights.squaredNorm();
+    } else {
+        variance = (*assigned.u / tau) * (*assigned.u / tau);  // of a median: as its uncertainty grows with u
+    }
+    const double u_with = std::hypot(*assigned.u, tau * std::sqrt(variance));
+    return gum::chi_square_lower_tail((U / u_with) * (U / u_with), 1.0);
+}
+
+void add_uncertainty(const engine::ComparisonJob& job, const LaboratoryData& data, const AssignedValue& assigned,
                      ComparisonItemEvaluation& evaluation) {
     evaluation.u_characterisation = assigned.u;
     const double of_items = std::hypot(evaluation.u_homogeneity.value_or(0.0), evaluation.u_stability.value_or(0.0));
+    const double p_of_scores = gum::en_coverage_probability(job.coverage_probability);
     if (assigned.u) {
         evaluation.u = std::hypot(*assigned.u, of_items);
-        if (of_items == 0.0 && assigned.stated) {
+        const std::vector<gum::UncertaintyContribution> parts = {{*assigned.u, assigned.degrees_of_freedom},
+                                                                 {of_items}};
+        const double nu =
+            *evaluation.u > 0.0 ? gum::effective_degrees_of_freedom(parts) : std::numeric_limits<double>::infinity();
+        if (assigned.scatter && *evaluation.u > 0.0) {
+            expand_by_scatter(job.coverage_probability, *assigned.scatter, of_items, evaluation);
+            if (assigned.scatter->others.empty()) {
+                evaluation.U_of_scores = gum::coverage_factor(p_of_scores, nu) * *evaluation.u;
+            }
+        } else if (of_items == 0.0 && assigned.stated) {
             evaluation.U = assigned.stated->U;
             evaluation.k = assigned.stated->k;
+            evaluation.nu = finite_or_none(nu);
+            evaluation.U_rests_on = "statement";
         } else if (*evaluation.u > 0.0) {
-            const std::vector<gum::UncertaintyContribution> parts = {{*assigned.u, assigned.degrees_of_freedom},
-                                                                     {of_items}};
-            evaluation.k = gum::coverage_factor(job.coverage_probability, gum::effective_degrees_of_freedom(parts));
+            evaluation.k = gum::coverage_factor(job.coverage_probability, nu);
             evaluation.U = *evaluation.k * *evaluation.u;
+            evaluation.nu = finite_or_none(nu);
+            evaluation.U_rests_on = assigned.stated ? "statement" : "uncertainties";
         } else {
             evaluation.U = 0.0;
         }
+        if (evaluation.U_rests_on == "uncertainties") {
+            evaluation.coverage_with_scatter = coverage_with_scatter(data, assigned, *evaluation.U);
+        }
+        if (!assigned.scatter && evaluation.k) {
+            const gum::EnUncertainty of_scores =
+                gum::en_uncertainty(*evaluation.u, *evaluation.U, *evaluation.k, nu, job.coverage_probability);
+            evaluation.U_of_scores = of_scores.converted ? std::optional(of_scores.U) : std::nullopt;
+        }
     }
+    if (assigned.intervals && of_items == 0.0) {
+        evaluation.low = assigned.intervals->low;
+        evaluation.high = assigned.intervals->high;
+        evaluation.printed.low = printed_value(*evaluation.low, evaluation.U);
+        evaluation.printed.high = printed_value(*evaluation.high, evaluation.U);
+    }
+    evaluation.printed.nu = printed_degrees_of_freedom(evaluation.nu);
+    evaluation.printed.U_of_scores = printed_uncertainty(evaluation.U_of_scores);
+    evaluation.printed.coverage_with_scatter =
+        evaluation.coverage_with_scatter ? gum::percent(*evaluation.coverage_with_scatter) : "";
     evaluation.printed.value = printed_value(evaluation.value, evaluation.U);
     evaluation.printed.u = printed_uncertainty(evaluation.u);
     evaluation.printed.U = printed_uncertainty(evaluation.U);
@@ -303,14 +372,14 @@ ComparisonItemEvaluation item_evaluation(const engine::ComparisonJob& job, const
         add_sigma_pt(data, evaluation);
         add_checks(data, evaluation);
     });
-    add_uncertainty(job, assigned, evaluation);
+    add_uncertainty(job, data, assigned, evaluation);
     if (evaluation.sigma_pt && evaluation.u) {
         evaluation.criterion = *evaluation.u / *evaluation.sigma_pt;
         evaluation.criterion_met = *evaluation.criterion <= gum::k_assigned_value_criterion * k_rounding;
         evaluation.printed.criterion = printed_criterion(*evaluation.criterion, *evaluation.criterion_met);
     }
     evaluation.consistency = consistency_of(data, assigned);
-    evaluation.estimates = reference_estimates(data, assigned);
+    evaluation.estimates = reference_estimates(data, assigned, job.coverage_probability);
     evaluation.s_star = robust_standard_deviation(data);
     evaluation.printed.s_star = printed_uncertainty(evaluation.s_star);
     evaluation.pooled_standard_deviation = pooled_standard_deviation(data);

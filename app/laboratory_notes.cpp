@@ -21,6 +21,8 @@ std::string place_of(const ComparisonItemEvaluation& item) {
     return item.round.empty() ? place : place + ", round \"" + item.round + "\"";
 }
 
+constexpr std::size_t k_most_names_in_remark = 12;
+
 /// A message about those items that something holds for; nothing where it holds for none.
 class ItemMessages {
 public:
@@ -50,6 +52,7 @@ public:
     }
 
     [[nodiscard]] std::vector<gum::Diagnostic> take() { return std::move(messages_); }
+    [[nodiscard]] const reports::Comparison& comparison() const { return comparison_; }
 
 private:
     const reports::Comparison& comparison_;
@@ -89,8 +92,9 @@ void add_consistency(ItemMessages& messages) {
         test_text);
     gum::Diagnostic note = warning;
     note.rule = "the assigned value does not rest on this consistency";
-    note.action = "Look at the results with large scores.";
-    note.severity = gum::Severity::note;
+    note.action =
+        "At least one value or one uncertainty is wrong, and small scores clear nobody: look for the cause, beginning "
+        "with the results of large scores.";
     messages.add(
         note, [](const ComparisonItemEvaluation& item) { return item.method != "weighted_mean" && inconsistent(item); },
         test_text);
@@ -125,7 +129,28 @@ void add_checks_of_items(ItemMessages& messages) {
         });
 }
 
+bool comparison_has_inconclusive(const reports::Comparison& comparison, const ComparisonItemEvaluation& item) {
+    return std::any_of(comparison.points.begin(), comparison.points.end(), [&](const ComparisonPoint& point) {
+        return point.item == item.id && point.round == item.round && point.signal == "inconclusive";
+    });
+}
+
 void add_assigned_value(ItemMessages& messages) {
+    messages.add(
+        {.code = "GC-COMPARE-0128",
+         .where = "",
+         .what = "",
+         .rule = "a score can clear a result only against a value that is more certain",
+         .action =
+             "Take an assigned value with a smaller uncertainty: a reference laboratory, a reference material, or "
+             "more results.",
+         .severity = gum::Severity::warning},
+        [&](const ComparisonItemEvaluation& item) { return comparison_has_inconclusive(messages.comparison(), item); },
+        [](const ComparisonItemEvaluation& item) {
+            return "the assigned value, " + item.printed.value +
+                   (item.printed.U.empty() ? "" : " with U = " + with_unit(item.printed.U, item)) +
+                   ", is too uncertain to clear some of the results";
+        });
     messages.add(
         {.code = "GC-COMPARE-0121",
          .where = "",
@@ -213,21 +238,75 @@ std::string subset_remark(const EvaluatedItem& item, const ComparisonItemEvaluat
     return remark;
 }
 
-void add_remarks_on_value(const reports::Comparison& comparison, const std::vector<EvaluatedItem>& items,
-                          std::vector<std::string>& remarks) {
+/// What U(X) covers, and what U of the results mean in E_n.
+void add_remarks_on_coverage(const engine::ComparisonJob& job, const reports::Comparison& comparison,
+                             std::vector<std::string>& remarks) {
+    if (any_item(comparison, [](const ComparisonItemEvaluation& item) { return item.U_rests_on == "scatter"; })) {
+        remarks.emplace_back(
+            "U(X) comes from the scatter of the results, with the t-distribution for their number: it covers also "
+            "where "
+            "laboratories differ by more than they state.");
+    }
+    if (count_points(comparison, [](const ComparisonPoint& point) { return point.u_others.has_value(); }) > 0) {
+        remarks.emplace_back(
+            "In En of a laboratory the uncertainty of the assigned value is what the scatter of all other results "
+            "says: "
+            "a result that lies far away does not widen the limit that it is held against.");
+    }
+    for (const ComparisonItemEvaluation& item : comparison.items) {
+        if (item.coverage_with_scatter) {
+            remarks.emplace_back(
+                "A U(X) that comes from the stated uncertainties alone covers what it claims only where these explain "
+                "the whole scatter of the results. If the laboratories differed by a further standard deviation as "
+                "large "
+                "as the median of their u, U(X) would cover " +
+                item.printed.coverage_with_scatter + " of all cases in place of " +
+                gum::percent(job.coverage_probability) +
+                (comparison.items.size() > 1 ? " (" + place_of(item) + ")." : "."));
+            break;
+        }
+    }
+    const bool by_default = std::any_of(job.items.begin(), job.items.end(), [](const engine::ComparisonItem& item) {
+        return item.assigned_value.by_default;
+    });
+    if (by_default) {
+        remarks.emplace_back("The job names no way to the assigned value; the default was taken.");
+    }
+    std::vector<std::string> converted;
+    for (const ComparisonPoint& point : comparison.points) {
+        if (point.U_of_scores && std::find(converted.begin(), converted.end(), point.participant) == converted.end()) {
+            converted.push_back(point.participant);
+        }
+    }
+    if (!converted.empty()) {
+        remarks.push_back("The coverage factors of " + listed(converted, k_most_names_in_remark) +
+                          " are not those of about 95 %: En takes U = k u with the factor for " +
+                          gum::percent(comparison.score_probability) +
+                          " and the stated degrees of freedom in place of the stated U.");
+    }
+    if (comparison.score_probability != job.coverage_probability) {
+        remarks.push_back("En is defined for about 95 %: it takes expanded uncertainties for " +
+                          gum::percent(comparison.score_probability) + ", whatever the comparison states.");
+    }
+}
+
+void add_remarks_on_value(const engine::ComparisonJob& job, const reports::Comparison& comparison,
+                          const std::vector<EvaluatedItem>& items, std::vector<std::string>& remarks) {
     constexpr std::int64_t k_few_for_robust = 12;
     constexpr std::size_t k_most_subset_remarks = 10;
     if (std::any_of(items.begin(), items.end(),
                     [](const EvaluatedItem& item) { return !item.assigned.correlation_known; })) {
         remarks.emplace_back(
-            "A robust assigned value is not linear in the results: its correlation with the results that it is made of "
-            "is not taken into account, and |En| of these laboratories is somewhat too small.");
+            "A robust assigned value is not linear in the results: its covariance with a result that it is made of is "
+            "taken as that of their mean, which is exact for normal results of equal uncertainty.");
     }
+    add_remarks_on_coverage(job, comparison, remarks);
     if (any_item(comparison, [](const ComparisonItemEvaluation& item) {
             return is_robust(item) && item.contributing < k_few_for_robust;
         })) {
         remarks.emplace_back(
-            "Fewer than 12 results: the uncertainty of a robust assigned value, and its scale, are rough themselves.");
+            "Fewer than 12 results: the scale of a robust assigned value is rough, and its coverage factor large for "
+            "it.");
     }
     std::size_t subsets = 0;
     for (std::size_t i = 0; i < items.size(); ++i) {
@@ -307,6 +386,13 @@ void add_remarks_on_uncertainties(const reports::Comparison& comparison, std::ve
         remarks.push_back(std::to_string(small) + (small > 1 ? " results state" : " result states") +
                           " a standard uncertainty below that of the assigned value.");
     }
+    const std::size_t inconclusive =
+        count_points(comparison, [](const ComparisonPoint& point) { return point.signal == "inconclusive"; });
+    if (inconclusive > 0) {
+        remarks.push_back("The assigned value is less certain than " + std::to_string(inconclusive) +
+                          (inconclusive > 1 ? " results claim to be: small scores clear none of them."
+                                            : " result claims to be: a small score does not clear it."));
+    }
     if (count_points(comparison, [](const ComparisonPoint& point) { return point.En_audited.has_value(); }) > 0) {
         remarks.emplace_back(
             "En with findings corrected takes the corrected uncertainty of the laboratory, and of the reference "
@@ -342,7 +428,7 @@ void add_remarks_on_what_is_left_out(const reports::Comparison& comparison, cons
 std::vector<std::string> laboratory_remarks(const engine::ComparisonJob& job, const reports::Comparison& comparison,
                                             const std::vector<EvaluatedItem>& items, const LeftOut& left_out) {
     std::vector<std::string> remarks;
-    add_remarks_on_value(comparison, items, remarks);
+    add_remarks_on_value(job, comparison, items, remarks);
     add_remarks_on_correlation(job, comparison, remarks);
     add_remarks_on_sources(items, remarks);
     add_remarks_on_uncertainties(comparison, remarks);

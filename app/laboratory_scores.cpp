@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/comparison_print.h"
 #include "app/laboratory_covariance.h"
@@ -23,6 +24,8 @@ struct Scene {
     const LaboratoryData& data;
     const AssignedValue& assigned;
     const ComparisonItemEvaluation& item;
+
+    [[nodiscard]] double score_probability() const { return gum::en_coverage_probability(job.coverage_probability); }
 };
 
 const char* word_of(gum::Signal signal) {
@@ -34,19 +37,61 @@ double score_of(const ComparisonPoint& point, double scale) {
     return gum::settled_score(point.value, point.reference_value, scale);
 }
 
+/// U of a result as E_n takes it.
+gum::EnUncertainty of_scores(const Scene& scene, const engine::ResultUncertainty& uncertainty) {
+    return gum::en_uncertainty(uncertainty.u, uncertainty.U, uncertainty.k, uncertainty.degrees_of_freedom,
+                               scene.job.coverage_probability);
+}
+
+/// Scores against what the scatter of all other results says.
+gum::SpreadDifference difference_by_scatter(const Scene& scene, std::size_t position,
+                                            const engine::ResultUncertainty& laboratory) {
+    const ConsensusScatter& scatter = *scene.assigned.scatter;
+    const auto at = static_cast<Eigen::Index>(position);
+    const double of_item = std::hypot(scene.item.u_homogeneity.value_or(0.0), scene.item.u_stability.value_or(0.0));
+    return gum::spread_difference({laboratory.u, laboratory.degrees_of_freedom}, scatter.others[position], of_item,
+                                  scatter.covariance[at], scatter.share[at],
+                                  scatter.share[at] > 0.0 ? scatter.factor : 1.0, scene.score_probability());
+}
+
+bool is_scored_by_scatter(const Scene& scene) {
+    return scene.assigned.scatter && !scene.assigned.scatter->others.empty();
+}
+
 /// u_D, U_D and with them E_n and ζ.
 void score_with_uncertainty(const Scene& scene, std::size_t position, ComparisonPoint& point) {
     const double u_X = *scene.item.u;
     const double covariance = scene.assigned.covariance[static_cast<Eigen::Index>(position)];
     const double r = u_X > 0.0 ? std::clamp(covariance / (*point.u * u_X), -1.0, 1.0) : 0.0;
     point.u_D = gum::uncertainty_of_difference(*point.u, u_X, r);
-    point.U_D = gum::uncertainty_of_difference(*point.U, *scene.item.U, r);
-    if (scene.assigned.correlation_known) {
-        point.correlation = r;
+    point.correlation = r;
+    if (is_scored_by_scatter(scene)) {
+        const ConsensusScatter& scatter = *scene.assigned.scatter;
+        const auto at = static_cast<Eigen::Index>(position);
+        const gum::SpreadDifference difference =
+            difference_by_scatter(scene, position, *scene.data.results[position]->uncertainty);
+        point.U_D = difference.U;
+        point.nu_D = finite_or_none(difference.degrees_of_freedom);
+        point.u_others = scatter.others[position].u;
+        point.nu_others = finite_or_none(scatter.others[position].degrees_of_freedom);
+        point.covariance_others = scatter.covariance[at];
+        point.share = scatter.share[at];
+        point.factor_D = scatter.share[at] > 0.0 ? scatter.factor : 1.0;
+    } else {
+        point.U_D = gum::uncertainty_of_difference(point.U_of_scores.value_or(*point.U),
+                                                   scene.item.U_of_scores.value_or(*scene.item.U), r);
     }
     if (*point.u_D > 0.0 && *point.U_D > 0.0) {
         point.En = score_of(point, *point.U_D);
         point.zeta = score_of(point, *point.u_D);
+    }
+    if (scene.assigned.intervals && !scene.item.u_homogeneity) {
+        const auto at = static_cast<Eigen::Index>(position);
+        const double low = scene.assigned.intervals->d_low[at];
+        if (std::isfinite(low)) {
+            point.D_low = low;
+            point.D_high = scene.assigned.intervals->d_high[at];
+        }
     }
 }
 
@@ -55,13 +100,21 @@ void score_with_unknown_group(const Scene& scene, double variance_change, Compar
     const double u_X = *scene.item.u;
     if (scene.data.reference && scene.item.U == scene.assigned.stated->U) {
         point.En_worst =
-            gum::worst_plausible_en({point.value, *point.u, *point.U}, {point.reference_value, u_X, *scene.item.U});
+            gum::worst_plausible_en({point.value, *point.u, point.U_of_scores.value_or(*point.U)},
+                                    {point.reference_value, u_X, scene.item.U_of_scores.value_or(*scene.item.U)});
         return;
     }
     const double least = *point.u_D * *point.u_D + variance_change;
+    if (is_scored_by_scatter(scene)) {
+        if (least > 0.0) {
+            point.En_worst = score_of(point, *point.U_D * std::sqrt(least) / *point.u_D);
+        }
+        return;
+    }
     const double r = u_X > 0.0 ? (*point.u * *point.u + u_X * u_X - least) / (2.0 * *point.u * u_X) : 0.0;
     if (least > 0.0 && std::abs(r) <= 1.0) {
-        const double U = gum::uncertainty_of_difference(*point.U, *scene.item.U, r);
+        const double U = gum::uncertainty_of_difference(point.U_of_scores.value_or(*point.U),
+                                                        scene.item.U_of_scores.value_or(*scene.item.U), r);
         if (U > 0.0) {
             point.En_worst = score_of(point, U);
         }
@@ -69,8 +122,9 @@ void score_with_unknown_group(const Scene& scene, double variance_change, Compar
 }
 
 /// What an audit changes of the square of an expanded uncertainty; 0 without a finding.
-double audited_change(const ComparisonResult& result, double stated_U) {
-    const double audited_U = result.audited ? result.audited->uncertainty.U : stated_U;
+double audited_change(const Scene& scene, const ComparisonResult& result) {
+    const double stated_U = of_scores(scene, *result.uncertainty).U;
+    const double audited_U = result.audited ? of_scores(scene, result.audited->uncertainty).U : stated_U;
     return audited_U * audited_U - stated_U * stated_U;
 }
 
@@ -81,11 +135,18 @@ void score_audited(const Scene& scene, std::size_t position, ComparisonPoint& po
     if (!point.U_D || !(result.audited || (reference != nullptr && reference->audited))) {
         return;
     }
+    if (is_scored_by_scatter(scene)) {
+        const double U = difference_by_scatter(scene, position, result.audited->uncertainty).U;
+        if (U > 0.0) {
+            point.En_audited = score_of(point, U);
+        }
+        return;
+    }
     const double weight =
         scene.assigned.weights.size() > 0 ? scene.assigned.weights[static_cast<Eigen::Index>(position)] : 0.0;
-    double square = *point.U_D * *point.U_D + (1.0 - weight) * (1.0 - weight) * audited_change(result, *point.U);
+    double square = *point.U_D * *point.U_D + (1.0 - weight) * (1.0 - weight) * audited_change(scene, result);
     if (reference != nullptr) {
-        square += audited_change(*reference, reference->uncertainty->U);
+        square += audited_change(scene, *reference);
     }
     if (square > 0.0) {
         point.En_audited = score_of(point, std::sqrt(square));
@@ -108,22 +169,63 @@ void score_without_uncertainty(const Scene& scene, ComparisonPoint& point) {
     }
 }
 
-std::string signal_of(const Scene& scene, const ComparisonPoint& point) {
-    const std::string& score = scene.item.score;
-    if (score == "z" && point.z) {
-        return word_of(gum::signal_of_z(*point.z));
+/// The signals of all scores that a result has, by the name of the score. Of z and z' the one that holds.
+std::vector<std::pair<std::string, gum::Signal>> signals_of(const Scene& scene, const ComparisonPoint& point) {
+    std::vector<std::pair<std::string, gum::Signal>> signals;
+    const auto add = [&](const char* name, const std::optional<double>& score, gum::Signal (*signal)(double)) {
+        if (score) {
+            signals.emplace_back(name, signal(*score));
+        }
+    };
+    if (scene.item.criterion_met.value_or(true)) {
+        add("z", point.z, gum::signal_of_z);
+    } else {
+        add("z_prime", point.z_prime, gum::signal_of_z);
     }
-    if (score == "z_prime" && point.z_prime) {
-        return word_of(gum::signal_of_z(*point.z_prime));
-    }
-    if (score == "En" && point.En) {
-        return word_of(gum::signal_of_en(*point.En));
-    }
-    if (score == "D" && point.P_A) {
+    add("En", point.En, gum::signal_of_en);
+    add("zeta", point.zeta, gum::signal_of_z);
+    add("En_audited", point.En_audited, gum::signal_of_en);
+    if (point.P_A) {
         constexpr double k_all_that_is_allowed = 100.0;  // %
-        return std::abs(*point.P_A) > k_all_that_is_allowed ? "action" : "none";
+        signals.emplace_back("D",
+                             std::abs(*point.P_A) > k_all_that_is_allowed ? gum::Signal::action : gum::Signal::none);
     }
-    return "";
+    return signals;
+}
+
+/// Whether the score that decides could not have found a fault of the size that it is to find: a small score clears
+/// nobody then.
+bool is_too_uncertain_to_clear(const Scene& scene, const ComparisonPoint& point) {
+    constexpr double k_rounding = 1.0 + 1e-9;
+    const std::string& score = scene.item.score;
+    if (score == "En") {
+        return point.u && point.u_others.value_or(*scene.item.u) > *point.u * k_rounding;
+    }
+    if (score == "z_prime") {
+        return *scene.item.u > *scene.item.sigma_pt * k_rounding;
+    }
+    return score == "D" && scene.item.U && *scene.item.U > *scene.item.delta_E * k_rounding;
+}
+
+/// The strongest signal of all scores, and who gives it.
+void add_signal(const Scene& scene, ComparisonPoint& point) {
+    const std::vector<std::pair<std::string, gum::Signal>> signals = signals_of(scene, point);
+    if (scene.item.score.empty() || signals.empty()) {
+        return;
+    }
+    gum::Signal strongest = gum::Signal::none;
+    for (const auto& [name, signal] : signals) {
+        strongest = std::max(strongest, signal);
+    }
+    point.signal = word_of(strongest);
+    for (const auto& [name, signal] : signals) {
+        if (signal == strongest && signal != gum::Signal::none) {
+            point.signal_by.push_back(name);
+        }
+    }
+    if (strongest == gum::Signal::none && is_too_uncertain_to_clear(scene, point)) {
+        point.signal = "inconclusive";
+    }
 }
 
 /// A stated u outside u(X) … 1.5 s* is not what a laboratory of this kind reaches.      (after ISO 13528:2022, clause
@@ -145,6 +247,12 @@ void print(const Scene& scene, ComparisonPoint& point) {
     point.printed.value = printed_value(point.value, point.U);
     point.printed.U = printed_uncertainty(point.U);
     point.printed.k = printed_score(point.k);
+    point.printed.U_of_scores = printed_uncertainty(point.U_of_scores);
+    point.printed.k_of_scores = printed_score(point.k_of_scores);
+    if (point.D_low) {
+        point.printed.D_low = printed_difference(*point.D_low, point.U_D, scale);
+        point.printed.D_high = printed_difference(*point.D_high, point.U_D, scale);
+    }
     point.printed.reference_value = scene.item.printed.value;
     point.printed.reference_U = scene.item.printed.U;
     point.printed.D = printed_difference(point.D, point.U_D, scale);
@@ -185,6 +293,10 @@ ComparisonPoint point_of(const Scene& scene, std::size_t position) {
         point.U = result.uncertainty->U;
         point.k = result.uncertainty->k;
         point.nu = finite_or_none(result.uncertainty->degrees_of_freedom);
+        if (const gum::EnUncertainty taken = of_scores(scene, *result.uncertainty); taken.converted) {
+            point.U_of_scores = taken.U;
+            point.k_of_scores = taken.k;
+        }
         if (const std::optional<double>& cmc = scene.job.participants[result.participant].cmc_U; cmc && *cmc > 0.0) {
             point.U_over_CMC = *point.U / *cmc;
         }
@@ -197,7 +309,7 @@ ComparisonPoint point_of(const Scene& scene, std::size_t position) {
         score_with_uncertainty(scene, position, point);
         score_audited(scene, position, point);
     }
-    point.signal = signal_of(scene, point);
+    add_signal(scene, point);
     point.realism = realism_of(scene, point);
     return point;
 }

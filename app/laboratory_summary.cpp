@@ -56,7 +56,7 @@ gum::MethodDifferences differences_of(const std::vector<const ComparisonPoint*>&
         const auto a = static_cast<Eigen::Index>(positions[static_cast<std::size_t>(i)]);
         differences.d[i] = point.D;
         differences.U[i] = *point.U_D;
-        differences.U_method[i] = *point.U;
+        differences.U_method[i] = point.U_of_scores.value_or(*point.U);
         differences.U_reference[i] = *point.reference_U;
         for (Eigen::Index j = 0; j < m; ++j) {
             const auto b = static_cast<Eigen::Index>(positions[static_cast<std::size_t>(j)]);
@@ -186,6 +186,17 @@ double rank_correlation(const std::vector<double>& first, const std::vector<doub
         ab += (a[i] - mean) * (b[i] - mean);
     }
     return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0;
+}
+
+/// What D is divided by for z, or for z' where that decides.
+std::optional<double> scale_of_z(const reports::Comparison& comparison, const std::string& id,
+                                 const std::string& round) {
+    for (const reports::ComparisonItemEvaluation& item : comparison.items) {
+        if (item.id == id && item.round == round && item.sigma_pt) {
+            return item.score == "z_prime" ? std::hypot(*item.sigma_pt, item.u.value_or(0.0)) : *item.sigma_pt;
+        }
+    }
+    return std::nullopt;
 }
 
 /// With MADe as scale, which one value has not.
@@ -354,6 +365,7 @@ std::vector<reports::ParticipantSummary> participant_summaries(const engine::Com
         summaries[p].scored += point.signal.empty() ? 0 : 1;
         summaries[p].warnings += point.signal == "warning" ? 1 : 0;
         summaries[p].actions += point.signal == "action" ? 1 : 0;
+        summaries[p].inconclusive += point.signal == "inconclusive" ? 1 : 0;
         if (point.En) {
             scored[p].push_back(&point);
         }
@@ -438,6 +450,11 @@ std::vector<reports::YoudenDiagram> youden_diagrams(const engine::ComparisonJob&
             diagram.round = round;
             diagram.first_unit = gum::unit_of_difference(job.items[first].unit.text());
             diagram.second_unit = gum::unit_of_difference(job.items[second].unit.text());
+            diagram.sigma_first = scale_of_z(comparison, diagram.first_item, round);
+            diagram.sigma_second = scale_of_z(comparison, diagram.second_item, round);
+            if (!diagram.sigma_first || !diagram.sigma_second) {
+                diagram.sigma_first = diagram.sigma_second = std::nullopt;
+            }
             for (const engine::ComparisonParticipant& participant : job.participants) {
                 const auto a = of_first->second.find(participant.id);
                 const auto b = of_second->second.find(participant.id);

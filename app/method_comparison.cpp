@@ -34,7 +34,8 @@ constexpr double k_resolution_of_centre = 0.01;  // of the span of the positions
 struct Differences {
     gum::MethodDifferences all;
     std::vector<gum::ComparedValue> method, reference;
-    std::vector<double> correlation;  ///< of both values at a point
+    std::vector<double> correlation;                          ///< of both values at a point
+    std::vector<gum::EnUncertainty> of_method, of_reference;  ///< expanded uncertainties as E_n takes them
 };
 
 std::string place_of(const ComparedPoint& point, std::size_t i) {
@@ -91,8 +92,15 @@ Differences differences_of(const MethodComparison& comparison) {
     for (std::size_t i = 0; i < comparison.points.size(); ++i) {
         const ComparedPoint& point = comparison.points[i];
         const auto at = static_cast<Index>(i);
-        differences.method.push_back({point.value, point.u, point.U});
-        differences.reference.push_back({point.reference_value, point.reference_u, point.reference_U});
+        const double p = comparison.coverage_probability;
+        const gum::EnUncertainty of_method =
+            gum::en_uncertainty(point.u, point.U, point.k, point.nu.value_or(k_infinity), p);
+        const gum::EnUncertainty of_reference = gum::en_uncertainty(
+            point.reference_u, point.reference_U, point.reference_k, point.reference_nu.value_or(k_infinity), p);
+        differences.of_method.push_back(of_method);
+        differences.of_reference.push_back(of_reference);
+        differences.method.push_back({point.value, point.u, of_method.U});
+        differences.reference.push_back({point.reference_value, point.reference_u, of_reference.U});
         differences.correlation.push_back(correlation_of(comparison, i));
         gum::ComparisonScore score;
         at_place(place_of(point, i), [&] {
@@ -102,10 +110,12 @@ Differences differences_of(const MethodComparison& comparison) {
         const bool at_limit = std::abs(score.en) == 1.0;
         all.d(at) = at_limit ? std::copysign(score.U_difference, score.en) : score.difference;
         all.U(at) = score.U_difference;
-        all.U_method(at) = point.U;
-        all.U_reference(at) = point.reference_U;
+        all.U_method(at) = of_method.U;
+        all.U_reference(at) = of_reference.U;
         all.covariance(at, at) = score.u_difference * score.u_difference;
     }
+    all.method_covariance = comparison.covariance;
+    all.reference_covariance = comparison.reference_covariance;
     return differences;
 }
 
@@ -157,6 +167,13 @@ ComparisonPoint point_of(const MethodComparison& comparison, const Differences& 
     point.reference_u = from.reference_u;
     point.reference_U = from.reference_U;
     point.reference_k = from.reference_k;
+    if (differences.of_method[i].converted) {
+        point.U_of_scores = differences.of_method[i].U;
+        point.k_of_scores = differences.of_method[i].k;
+    }
+    if (differences.of_reference[i].converted) {
+        point.reference_U_of_scores = differences.of_reference[i].U;
+    }
     point.correlation = differences.correlation[i];
     point.D = differences.all.d(at);
     point.u_D = std::sqrt(differences.all.covariance(at, at));
@@ -172,6 +189,17 @@ ComparisonPoint point_of(const MethodComparison& comparison, const Differences& 
         point.En_audited = audited_en(comparison, differences, i);
     }
 
+    const auto audited_above = [](const std::optional<double>& en) {
+        return en && gum::signal_of_en(*en) == gum::Signal::action;
+    };
+    if (point.signal == "action") {
+        point.signal_by.emplace_back("En");
+    }
+    if (audited_above(point.En_audited)) {
+        point.signal = "action";
+        point.signal_by.emplace_back("En_audited");
+    }
+
     const gum::RoundedPair value = printed_pair(point.value, from.U);
     const gum::RoundedPair reference = printed_pair(point.reference_value, from.reference_U);
     const gum::RoundedPair difference = printed_pair(point.D, *point.U_D);
@@ -183,6 +211,8 @@ ComparisonPoint point_of(const MethodComparison& comparison, const Differences& 
     point.printed.D = difference.value;
     point.printed.U_D = difference.U;
     point.printed.k = printed_score(point.k);
+    point.printed.U_of_scores = printed_uncertainty(point.U_of_scores);
+    point.printed.k_of_scores = printed_score(point.k_of_scores);
     point.printed.En = printed_score(point.En);
     point.printed.zeta = printed_score(point.zeta);
     point.printed.En_worst = printed_score(point.En_worst);
@@ -233,6 +263,8 @@ gum::MethodDifferences selected(const gum::MethodDifferences& all, const std::ve
     chosen.U = all.U(points);
     chosen.U_method = all.U_method(points);
     chosen.U_reference = all.U_reference(points);
+    chosen.method_covariance = all.method_covariance(points, points);
+    chosen.reference_covariance = all.reference_covariance(points, points);
     return chosen;
 }
 
@@ -250,6 +282,8 @@ const char* word_of(gum::AgreementVerdict verdict) {
             return "uncertainty_too_large";
         case gum::AgreementVerdict::agreement_few_points:
             return "agreement_few_points";
+        case gum::AgreementVerdict::uncertainty_not_confirmed:
+            return "uncertainty_not_confirmed";
         case gum::AgreementVerdict::agreement_reference_limited:
             return "agreement_reference_limited";
         case gum::AgreementVerdict::validated:
@@ -271,6 +305,12 @@ void add_agreement(const gum::Agreement& agreement, ComparisonSummary& row) {
     row.D_fail = agreement.d_fail_smallest;
     row.D_fail_largest = agreement.d_fail_largest;
     row.effective_points = agreement.effective_points;
+    row.p_if_too_small = agreement.p_if_too_small;
+    row.p_if_too_large = agreement.p_if_too_large;
+    row.power_to_confirm = agreement.power_to_confirm;
+    row.count_by_chance = static_cast<std::int64_t>(agreement.count_by_chance);
+    row.found_with_80_percent = agreement.found_with_80_percent;
+    row.found_with_95_percent = agreement.found_with_95_percent;
     row.mahalanobis_square = agreement.mahalanobis_square;
     row.p_mahalanobis = agreement.p_mahalanobis;
     row.vector_En = agreement.vector_en;
@@ -383,6 +423,9 @@ void print(ComparisonSummary& row) {
     row.printed.p_high = printed_probability(row.p_high);
     row.printed.D_fail = printed_uncertainty(row.D_fail);
     row.printed.D_fail_largest = printed_uncertainty(row.D_fail_largest);
+    row.printed.found_with_80_percent = printed_uncertainty(row.found_with_80_percent);
+    row.printed.found_with_95_percent = printed_uncertainty(row.found_with_95_percent);
+    row.printed.power_to_confirm = row.power_to_confirm ? gum::percent(*row.power_to_confirm) : "";
     row.printed.effective_points = gum::round_to_quantum(*row.effective_points, k_decimals_of_points);
     row.printed.p_mahalanobis = printed_probability(row.p_mahalanobis);
     row.printed.vector_En = printed_score(row.vector_En);
@@ -400,6 +443,7 @@ void compare_methods(reports::Comparison& record, const MethodComparison& compar
     require_sizes(comparison);
     const Differences differences = differences_of(comparison);
     const std::vector<Row> rows = rows_of(comparison);
+    record.score_probability = gum::en_coverage_probability(comparison.coverage_probability);
     record.points.clear();
     record.summary.clear();
     for (std::size_t i = 0; i < comparison.points.size(); ++i) {
@@ -408,7 +452,8 @@ void compare_methods(reports::Comparison& record, const MethodComparison& compar
     MethodFindings findings{.unit = comparison.printed_unit, .correlation_unknown = comparison.correlation_unknown};
     for (const Row& of : rows) {
         const gum::MethodDifferences chosen = selected(differences.all, of.points);
-        const gum::Agreement agreement = gum::agreement(chosen, comparison.coverage_probability);
+        const gum::Agreement agreement =
+            gum::agreement(chosen, gum::en_coverage_probability(comparison.coverage_probability));
         ComparisonSummary row;
         row.direction = of.direction;
         add_agreement(agreement, row);

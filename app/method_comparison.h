@@ -17,6 +17,7 @@ struct ComparedPoint {
     double value = 0.0, u = 0.0, U = 0.0, k = 2.0;
     std::optional<double> nu = {};
     double reference_value = 0.0, reference_u = 0.0, reference_U = 0.0, reference_k = 2.0;
+    std::optional<double> reference_nu = {};
 };
 
 /// A method against a reference method: what the record of a comparison is computed from.

@@ -42,6 +42,8 @@ public:
         too_large_differences();
         singular_covariance();
         failing_differences();
+        test_of_uncertainty();
+        coverage_factors();
         bias_lines();
         audit();
     }
@@ -189,22 +191,54 @@ private:
         }
     }
 
+    /// What a deviation must be to be found, in place of the difference that would have been observed.
     void failing_differences() {
+        const ComparisonSummary& row = whole();
+        if (!row.found_with_80_percent) {
+            return;
+        }
+        say("A deviation of " + row.printed.found_with_80_percent + unit_ +
+            " is found at every single point with a probability of 80 %, one of " + row.printed.found_with_95_percent +
+            unit_ + " with 95 %. D_fail is smaller: it bounds the difference that is observed, and a deviation as " +
+            "large as D_fail is found in about half of all comparisons.");
         if (!record_.tolerance) {
             return;
         }
-        std::int64_t blind = 0;
-        for (const ComparisonPoint& point : record_.points) {
-            blind += *point.U_D > *record_.tolerance ? 1 : 0;
-        }
         const std::string tolerance = record_.printed_tolerance + unit_;
-        if (blind > 0) {
-            say("At " + std::to_string(blind) + " of " + count_of(whole().points, "point") +
-                " a deviation as large as the tolerance of " + tolerance +
-                " would have passed: D_fail is larger there, up to " + whole().printed.D_fail_largest + unit_ + ".");
+        if (*row.found_with_95_percent <= *record_.tolerance) {
+            say("A deviation as large as the tolerance of " + tolerance +
+                " would have been found at every point with a probability of 95 % or more.");
+        } else if (*row.found_with_80_percent <= *record_.tolerance) {
+            say("A deviation as large as the tolerance of " + tolerance +
+                " would have been found at every point with a probability of 80 % or more, but not with 95 %.");
         } else {
             say("A deviation as large as the tolerance of " + tolerance +
-                " would have failed at every point: D_fail is " + whole().printed.D_fail_largest + unit_ + " at most.");
+                " would not have been found at every point with a probability of 80 %.");
+        }
+    }
+
+    /// Whether so many points could confirm the uncertainty at all.
+    void test_of_uncertainty() {
+        const ComparisonSummary& row = whole();
+        if (!row.power_to_confirm) {
+            return;
+        }
+        say("To confirm an uncertainty the differences must refute one that should be twice as large, and one that "
+            "should be half as large, each with an error of 5 %. Where all uncertainties are right these points do so "
+            "with a probability of " +
+            row.printed.power_to_confirm + ".");
+    }
+
+    /// Coverage factors that E_n cannot take as stated.
+    void coverage_factors() {
+        std::int64_t converted = 0;
+        for (const ComparisonPoint& point : record_.points) {
+            converted += point.U_of_scores || point.reference_U_of_scores ? 1 : 0;
+        }
+        if (converted > 0) {
+            say("At " + std::to_string(converted) + " of " + count_of(whole().points, "point") +
+                " a stated coverage factor is not that of about 95 %: En takes U = k u with the factor for " +
+                gum::percent(record_.score_probability) + " and the stated degrees of freedom there.");
         }
     }
 

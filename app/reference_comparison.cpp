@@ -156,7 +156,8 @@ MethodComparison method_comparison(const RotaryTableJob& job, const gum::Propaga
                                      .reference_value = side.value[i],
                                      .reference_u = of_reference.u,
                                      .reference_U = of_reference.U,
-                                     .reference_k = of_reference.k});
+                                     .reference_k = of_reference.k,
+                                     .reference_nu = finite_or_none(of_reference.degrees_of_freedom)});
     }
     comparison.covariance = displacement.covariance(rows, rows) / (gum::k_micrometre * gum::k_micrometre);
     comparison.correlation_unknown = job.reference->correlation == ReferenceCorrelation::unknown;

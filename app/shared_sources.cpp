@@ -37,6 +37,24 @@ double root_sum_of_squares(const Contributions& contributions) {
     return std::sqrt(sum);
 }
 
+/// A name in small letters, with its letters and digits alone; zeros before a number count for nothing. Bytes beyond
+/// ASCII stay as they are.
+std::string without_spelling(const std::string& name) {
+    std::string plain;
+    for (const char c : name) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (c >= 'A' && c <= 'Z') {
+            plain += static_cast<char>(c - 'A' + 'a');
+        } else if ((c >= 'a' && c <= 'z') || byte >= 0x80U) {
+            plain += c;
+        } else if (c >= '0' && c <= '9') {
+            const bool leading = c == '0' && (plain.empty() || plain.back() < '0' || plain.back() > '9');
+            plain += leading ? "" : std::string(1, c);
+        }
+    }
+    return plain;
+}
+
 /// Where both sides have one contribution, these two; else by name, and the largest that the others can have.
 SourceCovariance covariance_through(const std::string& source, const Contributions& first,
                                     const Contributions& second) {
@@ -91,6 +109,35 @@ std::vector<Sources> by_source(const std::vector<std::vector<UncertaintySource>>
 }
 
 }  // namespace
+
+std::vector<gum::Diagnostic> similar_source_names(const std::set<std::string>& names,
+                                                  const std::vector<std::string>& different) {
+    std::map<std::string, std::vector<std::string>> alike;
+    for (const std::string& name : names) {
+        if (std::find(different.begin(), different.end(), name) == different.end()) {
+            alike[without_spelling(name)].push_back(name);
+        }
+    }
+    std::vector<gum::Diagnostic> questions;
+    for (const auto& [plain, spelled] : alike) {
+        if (spelled.size() < 2 || plain.empty()) {
+            continue;
+        }
+        std::string list;
+        for (const std::string& name : spelled) {
+            list += (list.empty() ? "\"" : ", \"") + name + '"';
+        }
+        questions.push_back(
+            {.code = "GC-COMPARE-0129",
+             .where = "sources",
+             .what = "the names " + list + " are taken as different sources of uncertainty; are they the same?",
+             .rule =
+                 "results share a source where they name it alike, and a covariance that is left out hides failures",
+             .action = "Spell the source alike everywhere, or list the names in \"different_sources\".",
+             .severity = gum::Severity::warning});
+    }
+    return questions;
+}
 
 std::vector<UncertaintySource> uncertainty_sources(const engine::BudgetJob& job, const BudgetResult& result,
                                                    std::size_t point, std::size_t output, const gum::Unit& unit,

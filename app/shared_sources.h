@@ -2,12 +2,14 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "app/evaluate_budget.h"
 #include "engine/job/budget_job.h"
 #include "engine/job/comparison_job.h"
+#include "gum/quantity/diagnostic.h"
 
 namespace gumcert::app {
 
@@ -34,6 +36,13 @@ struct SourceCovariance {
 [[nodiscard]] std::vector<SourceCovariance> shared_covariance(const std::vector<engine::UncertaintySource>& first,
                                                               const std::vector<engine::UncertaintySource>& second,
                                                               const std::vector<std::string>& independent);
+
+/// A question for every group of names that differ in nothing but capitals, blanks, hyphens and the like: sources that
+/// several results share are found by their names, and taken for independent where these differ.
+/// \param different  names that are known to be different sources
+/// \return GC-COMPARE-0129, warnings, in the order of the names
+[[nodiscard]] std::vector<gum::Diagnostic> similar_source_names(const std::set<std::string>& names,
+                                                                const std::vector<std::string>& different);
 
 /// The sources of all points of one method.
 struct PointSources {

@@ -29,10 +29,14 @@ struct ReferenceEstimate {
     std::optional<double> u = {};
     std::optional<double> scale = {};    ///< s*, s, MADe … of the results
     std::optional<double> between = {};  ///< τ
-    std::int64_t results = 0;            ///< that it rests on
-    bool used = false;                   ///< it is the assigned value
+    /// Expanded uncertainty from the scatter of the results with t of `nu` degrees of freedom; none where the method
+    /// has no such one.
+    std::optional<double> U = {}, nu = {};
+    std::optional<double> u_hartung_knapp = {};  ///< of a mean with τ
+    std::int64_t results = 0;                    ///< that it rests on
+    bool used = false;                           ///< it is the assigned value
     struct {
-        std::string value = {}, u = {}, scale = {}, between = {};
+        std::string value = {}, u = {}, scale = {}, between = {}, U = {};
     } printed = {};
 };
 
@@ -101,8 +105,18 @@ struct ComparisonItemEvaluation {
     std::string traceability = {};
     double value = 0.0;
     std::optional<double> u = {}, U = {}, k = {};
+    std::optional<double> nu = {};  ///< degrees of freedom of U; none: infinite
+    /// What U covers: "scatter", the scatter of the results, also where they differ by more than they state;
+    /// "uncertainties", only results whose stated uncertainties explain their scatter; "statement", as stated; "" none.
+    std::string U_rests_on = {};
+    /// Of "uncertainties": share of all y ± U that would cover the value if laboratories differed by a further standard
+    /// deviation as large as the median of their u.
+    std::optional<double> coverage_with_scatter = {};
+    std::optional<double> U_of_scores = {};     ///< that En takes in place of U: another factor k; none: U itself
+    std::optional<double> low = {}, high = {};  ///< coverage interval of the value by trials
     struct {
         std::string value = {}, u = {}, U = {}, k = {}, u_characterisation = {}, u_homogeneity = {};
+        std::string nu = {}, U_of_scores = {}, low = {}, high = {}, coverage_with_scatter = {};
         std::string u_stability = {}, sigma_pt = {}, delta_E = {}, criterion = {}, s_star = {};
         std::string pooled_standard_deviation = {};
     } printed = {};
@@ -127,6 +141,12 @@ struct ComparisonItemEvaluation {
     std::vector<PairEquivalence> pairs = {};  ///< up to 40 laboratories with uncertainties; else empty
 };
 
+/// An item, in one round, for which nothing could be computed; the others are not lost by it.
+struct ItemWithoutResult {
+    std::string id, name, round;
+    std::string code, what, rule, action;  ///< of the refusal
+};
+
 /// E_n of several quantities of one participant together.
 struct VectorScore {
     std::string name, participant, round;
@@ -140,7 +160,7 @@ struct VectorScore {
 /// One laboratory over all items and rounds.
 struct ParticipantSummary {
     std::string id, name, group;
-    std::int64_t results = 0, scored = 0, warnings = 0, actions = 0;
+    std::int64_t results = 0, scored = 0, warnings = 0, actions = 0, inconclusive = 0;
     std::optional<double> mean_abs_En = {}, max_abs_En = {}, rms_En = {}, p_low = {}, p_high = {};
     struct {
         std::string mean_abs_En = {}, max_abs_En = {}, rms_En = {}, p_low = {}, p_high = {};
@@ -154,10 +174,11 @@ struct YoudenPoint {
 };
 struct YoudenDiagram {
     std::string first_item, second_item, round, first_unit, second_unit;
-    double centre_first = 0.0, centre_second = 0.0;       ///< medians
-    double scale_first = 0.0, scale_second = 0.0;         ///< robust standard deviations
-    double correlation = 0.0;                             ///< of the two, by ranks
-    std::vector<std::pair<double, double>> ellipse = {};  ///< closed curve, in the units of the points
+    std::optional<double> sigma_first = {}, sigma_second = {};  ///< σ_pt, of √(σ_pt² + u²(X)) for z'; both or none
+    double centre_first = 0.0, centre_second = 0.0;             ///< medians
+    double scale_first = 0.0, scale_second = 0.0;               ///< robust standard deviations
+    double correlation = 0.0;                                   ///< of the two, by ranks
+    std::vector<std::pair<double, double>> ellipse = {};        ///< closed curve, in the units of the points
     std::vector<YoudenPoint> points = {};
 };
 

@@ -44,6 +44,9 @@ void describe(Archive& a, Struct& r) {
     a("u", r.u, Range::not_negative);
     a("scale", r.scale, Range::not_negative);
     a("between", r.between, Range::not_negative);
+    a.added("U", r.U, Range::not_negative);
+    a.added("nu", r.nu, Range::positive);
+    a.added("u_hartung_knapp", r.u_hartung_knapp, Range::not_negative);
     a("results", r.results, Range::not_negative);
     a("used", r.used);
     a.group("printed", [&](auto& b) {
@@ -51,6 +54,7 @@ void describe(Archive& a, Struct& r) {
         b("u", r.printed.u);
         b("scale", r.printed.scale);
         b("between", r.printed.between);
+        b.added("U", r.printed.U);
     });
 }
 
@@ -177,6 +181,12 @@ void describe(Archive& a, Struct& r) {
     a("u", r.u, Range::not_negative);
     a("U", r.U, Range::not_negative);
     a("k", r.k, Range::positive);
+    a.added("nu", r.nu, Range::positive);
+    a.added("U_rests_on", r.U_rests_on, {"", "scatter", "uncertainties", "statement"});
+    a.added("coverage_with_scatter", r.coverage_with_scatter, Range::probability);
+    a.added("U_of_scores", r.U_of_scores, Range::not_negative);
+    a.added("low", r.low);
+    a.added("high", r.high);
     a("u_characterisation", r.u_characterisation, Range::not_negative);
     a("u_homogeneity", r.u_homogeneity, Range::not_negative);
     a("u_stability", r.u_stability, Range::not_negative);
@@ -206,6 +216,11 @@ void describe(Archive& a, Struct& r) {
         b("u", r.printed.u);
         b("U", r.printed.U);
         b("k", r.printed.k);
+        b.added("nu", r.printed.nu);
+        b.added("U_of_scores", r.printed.U_of_scores);
+        b.added("low", r.printed.low);
+        b.added("high", r.printed.high);
+        b.added("coverage_with_scatter", r.printed.coverage_with_scatter);
         b("u_characterisation", r.printed.u_characterisation);
         b("u_homogeneity", r.printed.u_homogeneity);
         b("u_stability", r.printed.u_stability);
@@ -215,6 +230,17 @@ void describe(Archive& a, Struct& r) {
         b("s_star", r.printed.s_star);
         b("pooled_standard_deviation", r.printed.pooled_standard_deviation);
     });
+}
+
+template <class Archive, certificate::Described<ItemWithoutResult> Struct>
+void describe(Archive& a, Struct& r) {
+    a("id", r.id);
+    a("name", r.name);
+    a("round", r.round);
+    a("code", r.code);
+    a("what", r.what);
+    a("rule", r.rule);
+    a("action", r.action);
 }
 
 template <class Archive, certificate::Described<VectorScore> Struct>
@@ -243,6 +269,7 @@ void describe(Archive& a, Struct& r) {
     a("scored", r.scored, Range::not_negative);
     a("warnings", r.warnings, Range::not_negative);
     a("actions", r.actions, Range::not_negative);
+    a.added("inconclusive", r.inconclusive, Range::not_negative);
     a("mean_abs_En", r.mean_abs_En, Range::not_negative);
     a("max_abs_En", r.max_abs_En, Range::not_negative);
     a("rms_En", r.rms_En, Range::not_negative);
@@ -272,6 +299,8 @@ void describe(Archive& a, Struct& r) {
     a("round", r.round);
     a("first_unit", r.first_unit);
     a("second_unit", r.second_unit);
+    a.added("sigma_first", r.sigma_first, Range::positive);
+    a.added("sigma_second", r.sigma_second, Range::positive);
     a("centre_first", r.centre_first);
     a("centre_second", r.centre_second);
     a("scale_first", r.scale_first, Range::not_negative);
@@ -324,7 +353,19 @@ void describe(Archive& a, Struct& r) {
     a.added("P_A", r.P_A);
     a.added("En_worst", r.En_worst);
     a.added("En_audited", r.En_audited);
-    a.added("signal", r.signal, {"", "none", "warning", "action"});
+    a.added("signal", r.signal, {"", "none", "inconclusive", "warning", "action"});
+    a.added("signal_by", r.signal_by);
+    a.added("U_of_scores", r.U_of_scores, Range::not_negative);
+    a.added("k_of_scores", r.k_of_scores, Range::positive);
+    a.added("reference_U_of_scores", r.reference_U_of_scores, Range::not_negative);
+    a.added("u_others", r.u_others, Range::not_negative);
+    a.added("nu_others", r.nu_others, Range::positive);
+    a.added("covariance_others", r.covariance_others);
+    a.added("share", r.share);
+    a.added("factor_D", r.factor_D, Range::positive);
+    a.added("nu_D", r.nu_D, Range::positive);
+    a.added("D_low", r.D_low);
+    a.added("D_high", r.D_high);
     a.added("realism", r.realism, {"", "plausible", "small", "large"});
     a.added("U_over_CMC", r.U_over_CMC, Range::not_negative);
     a.added("U_over_median", r.U_over_median, Range::not_negative);
@@ -338,6 +379,10 @@ void describe(Archive& a, Struct& r) {
         b("U_D", r.printed.U_D);
         b("En", r.printed.En);
         b.added("zeta", r.printed.zeta);
+        b.added("U_of_scores", r.printed.U_of_scores);
+        b.added("k_of_scores", r.printed.k_of_scores);
+        b.added("D_low", r.printed.D_low);
+        b.added("D_high", r.printed.D_high);
         b.added("z", r.printed.z);
         b.added("z_prime", r.printed.z_prime);
         b.added("D_percent", r.printed.D_percent);
@@ -368,6 +413,12 @@ void describe(Archive& a, Struct& r) {
     a.added("vector_En", r.vector_En, Range::not_negative);
     a.added("rank", r.rank, Range::not_negative);
     a.added("ratio_reference", r.ratio_reference, Range::not_negative);
+    a.added("p_if_too_small", r.p_if_too_small, Range::probability);
+    a.added("p_if_too_large", r.p_if_too_large, Range::probability);
+    a.added("power_to_confirm", r.power_to_confirm, Range::probability);
+    a.added("count_by_chance", r.count_by_chance, Range::not_negative);
+    a.added("found_with_80_percent", r.found_with_80_percent, Range::not_negative);
+    a.added("found_with_95_percent", r.found_with_95_percent, Range::not_negative);
     a.added("max_abs_En_worst", r.max_abs_En_worst, Range::not_negative);
     a.added("count_above_1_worst", r.count_above_1_worst, Range::not_negative);
     a.added("mean_abs_En_audited", r.mean_abs_En_audited, Range::not_negative);
@@ -375,8 +426,8 @@ void describe(Archive& a, Struct& r) {
     a.added("count_above_1_audited", r.count_above_1_audited, Range::not_negative);
     a.added("published_mean_abs_En", r.published_mean_abs_En, Range::not_negative);
     a.added("verdict", r.verdict,
-            {"", "validated", "agreement_reference_limited", "agreement_few_points", "uncertainty_too_large",
-             "reference_not_better", "correlation_unknown", "points_above_1", "disagreement"});
+            {"", "validated", "agreement_reference_limited", "agreement_few_points", "uncertainty_not_confirmed",
+             "uncertainty_too_large", "reference_not_better", "correlation_unknown", "points_above_1", "disagreement"});
     a.added("bias", r.bias);
     a.group("printed", [&](auto& b) {
         b("mean_abs_En", r.printed.mean_abs_En);
@@ -392,6 +443,9 @@ void describe(Archive& a, Struct& r) {
         b.added("p_mahalanobis", r.printed.p_mahalanobis);
         b.added("vector_En", r.printed.vector_En);
         b.added("ratio_reference", r.printed.ratio_reference);
+        b.added("found_with_80_percent", r.printed.found_with_80_percent);
+        b.added("found_with_95_percent", r.printed.found_with_95_percent);
+        b.added("power_to_confirm", r.printed.power_to_confirm);
         b.added("max_abs_En_worst", r.printed.max_abs_En_worst);
         b.added("mean_abs_En_audited", r.printed.mean_abs_En_audited);
         b.added("max_abs_En_audited", r.printed.max_abs_En_audited);
@@ -422,6 +476,10 @@ void describe(Archive& a, Struct& r) {
     a.added("tolerance", r.tolerance, certificate::NumberRule::not_negative);
     a.added("printed_tolerance", r.printed_tolerance);
     a.added("items", r.items);
+    a.added("items_without_result", r.items_without_result);
+    a.added("languages", r.languages);
+    a.added("names_released", r.names_released);
+    a.added("score_probability", r.score_probability, certificate::NumberRule::probability);
     a.added("participants", r.participants);
     a.added("vectors", r.vectors);
     a.added("youden", r.youden);

@@ -330,6 +330,7 @@ struct ComparisonPoint {
     struct {
         std::string angle = {}, value = {}, U = {}, reference_value = {}, reference_U = {}, D = {}, U_D = {}, En = {};
         std::string zeta = {}, z = {}, z_prime = {}, D_percent = {}, P_A = {}, En_audited = {}, En_worst = {}, k = {};
+        std::string U_of_scores = {}, k_of_scores = {}, D_low = {}, D_high = {};
     } printed = {};
 
     std::string name = {};                                ///< of the point of a comparison of methods
@@ -342,7 +343,19 @@ struct ComparisonPoint {
     std::optional<double> z = {}, z_prime = {}, D_percent = {}, P_A = {};
     std::optional<double> En_worst = {};    ///< for the worst plausible correlation, where r is not known
     std::optional<double> En_audited = {};  ///< with findings on the uncertainties corrected
-    std::string signal = {};                ///< "none", "warning", "action" of the score that decides; "" without score
+    /// "none", "warning" or "action", the strongest of all scores; "inconclusive" where the reference or assigned value
+    /// is too uncertain to clear anybody; "" without score.
+    std::string signal = {};
+    std::vector<std::string> signal_by = {};  ///< scores that give it: "z", "En", "En_audited" …
+    /// U and k that E_n takes in place of those stated, so that both sides have about 95 %; none: as stated.
+    std::optional<double> U_of_scores = {}, k_of_scores = {};
+    std::optional<double> reference_U_of_scores = {};  ///< the same of the reference, between methods
+    /// Where the assigned value is made of results that scatter: its standard uncertainty as all other results show it,
+    /// their degrees of freedom, their covariance with this result, the share of this result in the value, and the
+    /// factor of U_D of a median. U_D = factor t_p(nu_D) (1 − share) √(u² + u_others² + u_item² − 2 cov), with u_item
+    /// of homogeneity and stability.
+    std::optional<double> u_others = {}, nu_others = {}, covariance_others = {}, share = {}, factor_D = {}, nu_D = {};
+    std::optional<double> D_low = {}, D_high = {};  ///< coverage interval of D by trials
     std::string realism = {};  ///< of u: "plausible", "small", "large" against u(X) and 1.5 s*; "" where not judged
     std::optional<double> U_over_CMC = {};
     std::optional<double> U_over_median = {};  ///< of the U of all other laboratories
@@ -359,6 +372,7 @@ struct ComparisonSummary {
         std::string effective_points = {}, p_mahalanobis = {}, vector_En = {}, ratio_reference = {};
         std::string max_abs_En_worst = {}, mean_abs_En_audited = {}, max_abs_En_audited = {};
         std::string published_mean_abs_En = {};
+        std::string found_with_80_percent = {}, found_with_95_percent = {}, power_to_confirm = {};
     } printed = {};
     std::optional<double> rms_En_low = {}, rms_En_high = {};  ///< 95 % band where uncertainties are right
     std::optional<double> p_low = {}, p_high = {};            ///< given the correlations of the points
@@ -367,7 +381,12 @@ struct ComparisonSummary {
     std::optional<double> effective_points = {};
     std::optional<double> mahalanobis_square = {}, p_mahalanobis = {}, vector_En = {};
     std::optional<std::int64_t> rank = {};
-    std::optional<double> ratio_reference = {};  ///< rms U of the reference / rms U of the method
+    std::optional<double> ratio_reference = {};                      ///< rms U of the reference / rms U of the method
+    std::optional<double> p_if_too_small = {}, p_if_too_large = {};  ///< of Σζ² if U should be twice, or half, as large
+    std::optional<double> power_to_confirm = {};                     ///< share of right U that the points would confirm
+    std::optional<std::int64_t> count_by_chance = {};                ///< limit of count_above_1
+    /// Constant deviation that is found at every single point with a probability of 80 % and 95 %.
+    std::optional<double> found_with_80_percent = {}, found_with_95_percent = {};
     std::optional<double> max_abs_En_worst = {};
     std::optional<std::int64_t> count_above_1_worst = {};
     std::optional<double> mean_abs_En_audited = {}, max_abs_En_audited = {};
@@ -400,6 +419,10 @@ struct Comparison {
     std::string printed_tolerance = {};
 
     std::vector<ComparisonItemEvaluation> items = {};  ///< form "laboratories"
+    std::vector<ItemWithoutResult> items_without_result = {};
+    std::vector<std::string> languages = {};  ///< that the job asks for, the binding one first
+    bool names_released = false;              ///< documents may show names beside the codes of the laboratories
+    double score_probability = 0.9545;        ///< coverage probability of the U that E_n takes
     std::vector<ParticipantSummary> participants = {};
     std::vector<VectorScore> vectors = {};
     std::vector<YoudenDiagram> youden = {};

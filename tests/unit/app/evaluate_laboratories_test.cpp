@@ -5,16 +5,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "app/evaluate_comparison.h"
 #include "app/laboratory_notes.h"
+#include "app/shared_sources.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::app {
@@ -620,7 +623,7 @@ TEST(EvaluateLaboratories, ScoresExactlyAtTheirLimits) {
     ComparisonJob z = job_of({10.2, 9.8, 10.3, 9.7, 10.19}, {});
     z.items[0].assigned_value = given(10.0, u_and_k(0.01));
     z.items[0].sigma_pt = {.method = engine::SigmaPtMethod::given, .value = 0.1};
-    const std::array<std::string, 5> of_z{"warning", "warning", "action", "action", "none"};
+    const std::array<std::string, 5> of_z{"none", "none", "action", "action", "none"};
     const reports::Comparison by_z = evaluated(z);
     for (std::size_t i = 0; i < of_z.size(); ++i) {
         EXPECT_EQ(by_z.points[i].signal, of_z[i]) << i;
@@ -826,6 +829,176 @@ TEST(EvaluateLaboratories, ConsensusAgainstAnIndependentValue) {
     const std::vector<gum::Diagnostic> messages = laboratory_diagnostics(comparison);
     EXPECT_TRUE(std::any_of(messages.begin(), messages.end(),
                             [](const gum::Diagnostic& message) { return message.code == "GC-COMPARE-0124"; }));
+}
+
+// ---- what scores may say
+// ---------------------------------------------------------------------------------------------
+
+TEST(WhatScoresSay, AGrossOutlierDoesNotHideBehindTheUncertaintyThatItCauses) {
+    // 10^6 u away from two others that agree; by every way to a value that rests on the scatter.
+    for (const AssignedValueMethod method :
+         {AssignedValueMethod::arithmetic_mean, AssignedValueMethod::median, AssignedValueMethod::algorithm_a,
+          AssignedValueMethod::q_hampel, AssignedValueMethod::dersimonian_laird, AssignedValueMethod::mandel_paule}) {
+        ComparisonJob job = job_of({10.0, 10.001, 1000.0}, {0.001, 0.001, 0.001});
+        job.items[0].assigned_value.method = method;
+        const reports::Comparison comparison = evaluated(job);
+        EXPECT_EQ(comparison.points[2].signal, "action") << comparison.items[0].method;
+        for (const std::size_t other : {0U, 1U}) {  // the outlier may be the one that is right
+            EXPECT_EQ(comparison.points[other].signal, "inconclusive") << comparison.items[0].method;
+        }
+        EXPECT_FALSE(comparison.items[0].consistency->consistent);
+        EXPECT_EQ(comparison.items[0].U_rests_on, "scatter");
+        EXPECT_THAT(comparison.remarks, testing::Contains(HasSubstr("clear none of them")));
+    }
+}
+
+TEST(WhatScoresSay, CoverageFactorsAreBroughtToOne) {
+    // D = 0.24, u = 0.1, X = 10 with u = 0.05: U = 0.2 whatever factor was stated.
+    std::vector<double> scores;
+    for (const double k : {1.0, 2.0, 3.0}) {
+        ComparisonJob job = job_of({10.24, 10.0}, {0.1, 0.1});
+        job.results[0].uncertainty = u_and_k(0.1, k);
+        job.items[0].assigned_value = given(10.0, u_and_k(0.05));
+        const reports::Comparison comparison = evaluated(job);
+        scores.push_back(*comparison.points[0].En);
+        EXPECT_DOUBLE_EQ(*comparison.points[0].U, 0.1 * k) << "as stated";
+        EXPECT_EQ(comparison.points[0].U_of_scores.has_value(), k != 2.0);
+        const auto said = testing::Contains(HasSubstr("L1 are not those of about 95 %"));
+        if (k == 2.0) {
+            EXPECT_THAT(comparison.remarks, testing::Not(said));
+        } else {
+            EXPECT_THAT(comparison.remarks, said);
+        }
+    }
+    EXPECT_NEAR(scores[0], scores[1], 1e-4);
+    EXPECT_NEAR(scores[2], scores[1], 1e-4);
+    ComparisonJob half = job_of({10.24, 10.0}, {0.1, 0.1});
+    half.coverage_probability = 0.5;
+    half.items[0].assigned_value = given(10.0, u_and_k(0.05));
+    EXPECT_NEAR(*evaluated(half).points[0].En, scores[1], 1e-4);
+    EXPECT_EQ(evaluated(half).score_probability, 0.9545);
+}
+
+TEST(WhatScoresSay, ASignalOfAnyScoreIsTheSignal) {
+    // z is small, and the laboratory claims more than it can: E_n = 0.3/√(0.1² + 0.02²).
+    ComparisonJob job = job_of({10.3, 10.0, 10.05}, {0.05, 0.05, 0.05});
+    job.items[0].assigned_value = given(10.0, u_and_k(0.01));
+    job.items[0].sigma_pt = {.method = engine::SigmaPtMethod::given, .value = 0.5};
+    job.results[2].audited = engine::AuditedUncertainty{u_and_k(0.01), "counted twice"};
+    const reports::Comparison comparison = evaluated(job);
+    EXPECT_EQ(comparison.items[0].score, "z");
+    EXPECT_EQ(comparison.points[0].signal, "action");
+    EXPECT_THAT(comparison.points[0].signal_by, ElementsAre("En", "zeta"));
+    EXPECT_EQ(comparison.points[1].signal, "none");
+    EXPECT_THAT(comparison.points[1].signal_by, IsEmpty());
+    EXPECT_THAT(comparison.points[2].signal_by, ElementsAre("En_audited"));
+    EXPECT_EQ(comparison.participants[2].actions, 1);
+}
+
+TEST(WhatScoresSay, AReferenceThatIsWorseClearsNobody) {
+    ComparisonJob job = job_of({10.0, 10.1}, {0.1, 0.4});
+    job.items[0].assigned_value = given(10.0, u_and_k(0.2));
+    const reports::Comparison comparison = evaluated(job);
+    EXPECT_EQ(comparison.points[0].signal, "inconclusive");
+    EXPECT_EQ(comparison.points[1].signal, "none");
+    EXPECT_EQ(comparison.participants[0].inconclusive, 1);
+    bool told = false;
+    for (const gum::Diagnostic& message : laboratory_diagnostics(comparison)) {
+        told = told || message.code == "GC-COMPARE-0128";
+    }
+    EXPECT_TRUE(told);
+}
+
+TEST(WhatScoresSay, UOfStatedUncertaintiesSaysWhatItDoesNotKnow) {
+    const reports::Comparison comparison = evaluated(job_of({1.0, 1.1, 0.9}, {0.1, 0.1, 0.1}));
+    EXPECT_EQ(comparison.items[0].U_rests_on, "uncertainties");
+    EXPECT_NEAR(*comparison.items[0].coverage_with_scatter, 0.8427, 1e-4);  // P(|Z| < 2/√2)
+    EXPECT_THAT(comparison.remarks, testing::Contains(HasSubstr("84.3 %")));
+}
+
+TEST(WhatScoresSay, UOfTheScatterHasItsDegreesOfFreedom) {
+    ComparisonJob job = job_of({1.0, 1.3, 0.9}, {0.1, 0.1, 0.1});
+    job.items[0].assigned_value.method = AssignedValueMethod::mandel_paule;
+    const reports::ComparisonItemEvaluation item = evaluated(job).items[0];
+    // equal u: y ± t_0.9545(2) s/√3 = 1.0666… ± 4.5265507600819926 · 0.20816659994661327/√3
+    EXPECT_NEAR(*item.U, 0.5440261, 1e-6);
+    EXPECT_EQ(*item.nu, 2.0);
+    EXPECT_NEAR(*item.k * *item.u, *item.U, 1e-12);
+}
+
+TEST(WhatScoresSay, IntervalsOfTrialsAreKept) {
+    ComparisonJob job = key_comparison();
+    job.items[0].assigned_value.method = AssignedValueMethod::median;
+    job.items[0].assigned_value.median_by_trials = true;
+    job.items[0].assigned_value.trials = 20000;
+    const reports::Comparison comparison = evaluated(job);
+    EXPECT_LT(*comparison.items[0].low, comparison.items[0].value);
+    EXPECT_GT(*comparison.items[0].high, comparison.items[0].value);
+    for (const reports::ComparisonPoint& point : comparison.points) {
+        EXPECT_LT(*point.D_low, *point.D_high);
+        EXPECT_NE(point.printed.D_low, "");
+    }
+}
+
+TEST(WhatScoresSay, OneItemDoesNotLoseTheOthers) {
+    ComparisonJob job = job_of({1.0, 1.1, 0.9}, {0.1, 0.1, 0.1});
+    job.items.push_back(item_in("equal", "mm"));
+    job.items[1].assigned_value.method = AssignedValueMethod::algorithm_a;
+    for (std::size_t p = 0; p < 3; ++p) {
+        add_result(job, p, 2.0, u_and_k(0.1), 1);
+    }
+    std::vector<gum::Diagnostic> notes;
+    const reports::Comparison comparison = evaluate_laboratories(job, {}, &notes);
+    ASSERT_EQ(comparison.items.size(), 1U);
+    EXPECT_EQ(comparison.points.size(), 3U);
+    ASSERT_EQ(comparison.items_without_result.size(), 1U);
+    EXPECT_EQ(comparison.items_without_result[0].id, "equal");
+    EXPECT_EQ(comparison.items_without_result[0].code, "GC-GUM-0102");
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_THAT(notes[0].where, HasSubstr("item \"equal\""));
+}
+
+TEST(WhatScoresSay, NamesOfSourcesThatLookAlikeAreAskedAbout) {
+    ComparisonJob job = job_of({1.0, 1.1, 0.9}, {0.1, 0.1, 0.1});
+    job.results[0].sources = {{.source = "Std 17", .input = "", .contribution = 0.05}};
+    job.results[1].sources = {{.source = "std-17", .input = "", .contribution = 0.05}};
+    job.results[2].sources = {{.source = "Std 18", .input = "", .contribution = 0.05}};
+    std::vector<gum::Diagnostic> notes;
+    (void)evaluate_laboratories(job, {}, &notes);
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_EQ(notes[0].code, "GC-COMPARE-0129");
+    EXPECT_THAT(notes[0].what, HasSubstr("\"Std 17\", \"std-17\""));
+    // The cure that it names: one spelling, or said to be different.
+    ComparisonJob different = job;
+    different.different_sources = {"Std 17", "std-17"};
+    notes.clear();
+    (void)evaluate_laboratories(different, {}, &notes);
+    EXPECT_THAT(notes, IsEmpty());
+    job.results[1].sources[0].source = "Std 17";
+    (void)evaluate_laboratories(job, {}, &notes);
+    EXPECT_THAT(notes, IsEmpty());
+}
+
+TEST(WhatScoresSay, ManySpellingsOfOneNameAreOneQuestion) {
+    std::mt19937 random(5);
+    const std::string separators = " -_./";
+    for (int run = 0; run < 200; ++run) {
+        std::set<std::string> names;
+        for (int spelling = 0; spelling < 3; ++spelling) {
+            std::string name;
+            for (const char c : std::string("Mass Standard 0017")) {
+                const bool blank = c == ' ';
+                const bool upper = random() % 2 == 0;
+                name += blank   ? separators[random() % separators.size()]
+                        : upper ? static_cast<char>(std::toupper(c))
+                                : static_cast<char>(std::tolower(c));
+            }
+            names.insert(name);
+        }
+        EXPECT_EQ(similar_source_names(names, {}).size(), names.size() > 1 ? 1U : 0U);
+    }
+    EXPECT_THAT(similar_source_names({"Std 17", "Std 170", "Std 71"}, {}), IsEmpty());
+    EXPECT_EQ(similar_source_names({"Std 17", "Std 017"}, {}).size(), 1U);
 }
 
 TEST(EvaluateComparison, RecordOfAComparison) {

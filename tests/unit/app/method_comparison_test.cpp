@@ -58,6 +58,16 @@ std::vector<Stated> sound() {
     return {{0.9, 2.0, 0.2}, {-1.1, 2.0, 0.2}, {0.4, 2.0, 0.2}, {-0.7, 2.0, 0.2}, {1.3, 2.0, 0.2}, {-0.5, 2.0, 0.2}};
 }
 
+/// So many points of that kind that their uncertainty can be confirmed.
+std::vector<Stated> many(int times) {
+    std::vector<Stated> points;
+    for (int i = 0; i < times; ++i) {
+        const std::vector<Stated> six = sound();
+        points.insert(points.end(), six.begin(), six.end());
+    }
+    return points;
+}
+
 std::string all_remarks(const reports::Comparison& record) {
     std::string text;
     for (const std::string& remark : record.remarks) {
@@ -94,7 +104,8 @@ TEST(CompareMethods, MaximumPermissibleErrorAsOnlyTerm) {
     EXPECT_EQ(point.printed.En, "0.87");
     EXPECT_EQ(point.printed.zeta, "1.75");
     EXPECT_EQ(point.printed.En_audited, "1.43");
-    EXPECT_EQ(point.signal, "none");
+    EXPECT_EQ(point.signal, "action") << "by the corrected uncertainty";
+    EXPECT_EQ(point.signal_by, std::vector<std::string>{"En_audited"});
     ASSERT_EQ(record.summary.size(), 1U);
     EXPECT_EQ(record.summary.front().direction, "all");
     EXPECT_EQ(*record.summary.front().count_above_1_audited, 1);
@@ -106,7 +117,7 @@ TEST(CompareMethods, FillsEveryNumberOfASoundComparison) {
     const reports::Comparison record = compared(comparison_of(sound()));
     ASSERT_EQ(record.summary.size(), 1U);
     const reports::ComparisonSummary& all = record.summary.front();
-    EXPECT_EQ(all.verdict, "validated");
+    EXPECT_EQ(all.verdict, "agreement_few_points");
     EXPECT_EQ(all.points, 6);
     EXPECT_EQ(all.count_above_1, 0);
     EXPECT_EQ(all.printed.ratio_reference, "0.100");
@@ -222,11 +233,13 @@ TEST(CompareMethods, WordsNeverPraiseWhatIsNotShown) {
     std::vector<Stated> too_large(20, {0.05, 2.0, 0.2});
     too_large[1].D = -0.05;
     std::vector<Stated> poor_reference = sound();
-    std::vector<Stated> limited = sound();
+    std::vector<Stated> limited = many(6);
+    for (Stated& point : limited) {
+        point.U_reference = 1.0;
+    }
     std::vector<Stated> far = sound();
     for (std::size_t i = 0; i < poor_reference.size(); ++i) {
         poor_reference[i].U_reference = 2.0;
-        limited[i].U_reference = 1.0;
     }
     far[0].D = 7.0;
     struct Case {
@@ -249,7 +262,7 @@ TEST(CompareMethods, SinglePointsAbove1AreHeldAgainstChance) {
     std::vector<Stated> points = sound();
     points[0].D = 2.2;  // E_n 1.09; the largest of 6 points exceeds 1.33 as often as one exceeds 1
     reports::Comparison record = compared(comparison_of(points));
-    EXPECT_EQ(record.summary.front().verdict, "points_above_1");
+    EXPECT_EQ(record.summary.front().verdict, "agreement_few_points") << "one of six is no objection";
     EXPECT_EQ(record.points.front().signal, "action");
     EXPECT_THAT(all_remarks(record), HasSubstr(": 1.09 against a limit of 1.33 for 6 points."));
     MethodComparison unknown = comparison_of(points);
@@ -258,9 +271,12 @@ TEST(CompareMethods, SinglePointsAbove1AreHeldAgainstChance) {
     unknown.reference_covariance(1, 1) = 0.95 * 0.95;
     unknown.correlation_unknown = true;
     record = compared(unknown);
-    EXPECT_EQ(record.summary.front().verdict, "points_above_1");
+    EXPECT_EQ(record.summary.front().verdict, "correlation_unknown");
     EXPECT_THAT(all_remarks(record), HasSubstr("share nothing: with the worst plausible correlation |En| would be "
                                                "above 1 at 2 of 6 points."));
+    points[1].D = -2.2;
+    EXPECT_EQ(compared(comparison_of(points)).summary.front().verdict, "points_above_1");
+    points[1].D = -1.1;
     points[0].D = 2.9;
     EXPECT_EQ(compared(comparison_of(points)).summary.front().verdict, "disagreement");
     EXPECT_EQ(compared(comparison_of({points[0]})).summary.front().verdict, "disagreement");
@@ -268,15 +284,30 @@ TEST(CompareMethods, SinglePointsAbove1AreHeldAgainstChance) {
 }
 
 TEST(CompareMethods, FewPointsConfirmNoUncertainty) {
-    std::vector<Stated> points = sound();
-    points.pop_back();
-    EXPECT_EQ(compared(comparison_of(points)).summary.front().verdict, "validated");
-    points.pop_back();
-    EXPECT_EQ(compared(comparison_of(points)).summary.front().verdict, "agreement_few_points");
-    MethodComparison shared = comparison_of(sound());
+    EXPECT_EQ(compared(comparison_of(many(3))).summary.front().verdict, "validated");
+    EXPECT_EQ(compared(comparison_of(many(2))).summary.front().verdict, "agreement_few_points");
+    MethodComparison shared = comparison_of(many(3));
     shared.covariance.setConstant(0.8);
     shared.covariance.diagonal().setConstant(1.0);
     EXPECT_EQ(compared(shared).summary.front().verdict, "agreement_few_points");
+}
+
+TEST(CompareMethods, CoverageFactorsOfBothSidesAreBroughtToOne) {
+    MethodComparison comparison = comparison_of(sound());
+    const reports::Comparison with_2 = compared(comparison);
+    for (ComparedPoint& point : comparison.points) {
+        point.U = 3.0 * point.u;
+        point.k = 3.0;
+        point.reference_U = point.reference_u;
+        point.reference_k = 1.0;
+    }
+    const reports::Comparison brought = compared(comparison);
+    for (std::size_t i = 0; i < brought.points.size(); ++i) {
+        EXPECT_NEAR(*brought.points[i].En, *with_2.points[i].En, 1e-4);
+        EXPECT_DOUBLE_EQ(*brought.points[i].U, 3.0 * *brought.points[i].u) << "as stated";
+    }
+    EXPECT_THAT(all_remarks(brought), HasSubstr("At 6 of 6 points a stated coverage factor is not that of about 95 %"));
+    EXPECT_THAT(all_remarks(with_2), Not(HasSubstr("stated coverage factor")));
 }
 
 TEST(CompareMethods, RemarksNameTheDirection) {
@@ -289,19 +320,27 @@ TEST(CompareMethods, RemarksNameTheDirection) {
     EXPECT_THAT(remarks, HasSubstr("(rms ratio 1.50 of the direction x, 1.06 of all directions together)"));
 }
 
-TEST(CompareMethods, DFailIsHeldAgainstTheTolerance) {
+TEST(CompareMethods, DeviationsThatAreFoundAreHeldAgainstTheTolerance) {
     reports::Comparison record;
     record.tolerance = 2.0;
     record.printed_tolerance = "2";
     compare_methods(record, comparison_of(sound()));
     EXPECT_THAT(all_remarks(record),
-                HasSubstr("At 6 of 6 points a deviation as large as the tolerance of 2 µm would have passed: D_fail is "
-                          "larger there, up to 2.0 µm."));
+                HasSubstr("tolerance of 2 µm would not have been found at every point with a probability of 80 %"));
+    // U = 2 √1.01, u = U/2: U + 0.842 u and U + 1.645 u
+    EXPECT_THAT(all_remarks(record), HasSubstr("A deviation of 2.9 µm is found at every single point"));
+    EXPECT_THAT(all_remarks(record), HasSubstr("one of 3.7 µm with 95 %"));
+    record.remarks.clear();
+    record.tolerance = 3.0;
+    record.printed_tolerance = "3";
+    compare_methods(record, comparison_of(sound()));
+    EXPECT_THAT(all_remarks(record), HasSubstr("with a probability of 80 % or more, but not with 95 %"));
     record.remarks.clear();
     record.tolerance = 5.0;
     record.printed_tolerance = "5";
     compare_methods(record, comparison_of(sound()));
-    EXPECT_THAT(all_remarks(record), HasSubstr("tolerance of 5 µm would have failed at every point"));
+    EXPECT_THAT(all_remarks(record), HasSubstr("tolerance of 5 µm would have been found at every point with a "
+                                               "probability of 95 % or more."));
 }
 
 TEST(CompareMethods, BiasLineAgainstThePosition) {
