@@ -79,6 +79,10 @@ std::vector<std::string> languages_of(const EvaluationRecord& record, const Rend
         languages = record.certificate->data.languages;
         languages.resize(std::min<std::size_t>(languages.size(), 2));
     }
+    if (languages.empty() && record.comparison) {
+        languages = record.comparison->languages;
+        languages.resize(std::min<std::size_t>(languages.size(), 2));
+    }
     return languages.empty() ? std::vector<std::string>{"en"} : languages;
 }
 

@@ -70,6 +70,14 @@ void facts_of_value(CertificateBuilder& builder, const Wording& words, const Com
     }
     facts.emplace_back(words("comparison", "method"), method);
     facts.emplace_back("u(X)", printed_quantity(words, item.printed.u, item.difference_unit));
+    if (!item.U_rests_on.empty()) {
+        facts.emplace_back(words("comparison", "U_rests_on"), words("comparison_U_rests_on", item.U_rests_on));
+    }
+    if (!item.printed.low.empty()) {
+        facts.emplace_back(words("comparison", "interval"), with_unit("[" + words.number(item.printed.low) + "; " +
+                                                                          words.number(item.printed.high) + "]",
+                                                                      gum::unit_for_people(item.unit)));
+    }
     add_fact(facts, words("comparison", "components"), components_of(words, item));
     facts.emplace_back(words("comparison", "results"),
                        is_independent(item.method)
@@ -140,14 +148,16 @@ void estimates(CertificateBuilder& builder, const Wording& words, const Comparis
                const std::string& id) {
     Rows rows;
     for (const ReferenceEstimate& e : item.estimates) {
-        rows.push_back({reference_value_method(words, e.method), e.printed.value, e.printed.u, e.printed.scale,
-                        e.printed.between, plain(e.results), e.used ? words("comparison", "used") : Text("\u00A0")});
+        rows.push_back({reference_value_method(words, e.method), e.printed.value, e.printed.u, e.printed.U,
+                        e.printed.scale, e.printed.between, plain(e.results),
+                        e.used ? words("comparison", "used") : Text("\u00A0")});
     }
     const std::string unit = gum::unit_for_people(item.difference_unit);
     table_of_filled_columns(builder, "estimates-" + id, words("comparison", "estimates_table"),
                             {{words("comparison", "method"), ""},
                              {words("label", "value"), gum::unit_for_people(item.unit), true},
                              {"u", unit, true},
+                             {words("comparison", "U_by_scatter"), unit, true},
                              {words("comparison", "scale"), unit, true},
                              {words("comparison", "between"), unit, true},
                              {words("comparison", "results"), "", true},
@@ -216,6 +226,9 @@ Text assigned_value_text(const Wording& words, const ComparisonItemEvaluation& i
     }
     if (!item.printed.k.empty()) {
         text += separator + "k = " + words.number(item.printed.k);
+    }
+    if (item.U_rests_on == "scatter" && !item.printed.nu.empty()) {
+        text += separator + "ν = " + words.number(item.printed.nu);
     }
     return text;
 }

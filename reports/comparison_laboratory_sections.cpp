@@ -75,22 +75,82 @@ Points shown_points(CertificateBuilder& builder, const Wording& words, const Com
     return shown;
 }
 
-/// What the scores of one item say, in plain words.
+bool is_refuted(const ComparisonItemEvaluation& item) {
+    return item.consistency && !item.consistency->consistent;
+}
+
+/// The name of a score that gives a signal.
+Text name_of_signal(const Wording& words, const std::string& score) {
+    return score == "En_audited" ? words("comparison", "En_audited") : score_name(words, score);
+}
+
+/// "L04 (ζ, Eₙ)": results with a signal, and the scores that give it.
+Text with_scores(const Wording& words, const Points& points, const std::string& signal) {
+    constexpr std::size_t k_most_names = 12;
+    Text names;
+    std::size_t count_of_names = 0;
+    for (const ComparisonPoint* p : points) {
+        if (p->signal != signal) {
+            continue;
+        }
+        if (++count_of_names > k_most_names) {
+            continue;
+        }
+        Text scores;
+        for (const std::string& score : p->signal_by) {
+            scores = (scores.empty() ? scores : scores + words("document", "separator")) + name_of_signal(words, score);
+        }
+        names = (names.empty() ? names : names + words("document", "separator")) + p->participant;
+        names += scores.empty() ? Text() : " (" + scores + ")";
+    }
+    return count_of_names <= k_most_names
+               ? names
+               : words.fill("and_more", {{"names", names}, {"count", count(count_of_names - k_most_names)}});
+}
+
+/// A signal of a score that is not the one that decides.
+bool has_signal_of_another_score(const ComparedItem& compared) {
+    return std::any_of(compared.points.begin(), compared.points.end(), [&](const ComparisonPoint* p) {
+        return has_signal(*p) && !p->signal_by.empty() &&
+               std::find(p->signal_by.begin(), p->signal_by.end(), compared.item->score) == p->signal_by.end();
+    });
+}
+
+/// What the scores of one item say, in plain words; "" where no result can be judged.
 Text scores_sentence(const Wording& words, const ComparedItem& compared) {
     const std::string& score = compared.item->score;
     if (score.empty()) {
         return words.filled("comparison_scores", "none", {{"item", compared.name}});
     }
+    const std::size_t inconclusive = with_signal(compared.points, "inconclusive").size();
     const std::vector<std::string> action = with_signal(compared.points, "action");
     const std::vector<std::string> warning = with_signal(compared.points, "warning");
-    const auto scored = std::count_if(compared.points.begin(), compared.points.end(),
-                                      [](const ComparisonPoint* p) { return !p->signal.empty(); });
+    const auto all = static_cast<std::size_t>(std::count_if(
+        compared.points.begin(), compared.points.end(), [](const ComparisonPoint* p) { return !p->signal.empty(); }));
+    const bool silent = action.empty() && warning.empty();
+    const std::size_t scored = silent ? all - inconclusive : all;
+    if (silent && scored == 0) {
+        return {};
+    }
+    if (silent && is_refuted(*compared.item)) {
+        return words.filled("comparison_scores", "none_of_inconsistent",
+                            {{"item", compared.name}, {"scored", count(scored)}});
+    }
+    if (!silent && has_signal_of_another_score(compared)) {
+        return words.filled("comparison_scores", action.empty() ? "any_warning" : "any_action",
+                            {{"item", compared.name},
+                             {"scored", count(scored)},
+                             {"actions", count(action.size())},
+                             {"warnings", count(warning.size())},
+                             {"action_names", with_scores(words, compared.points, "action")},
+                             {"warning_names", with_scores(words, compared.points, "warning")}});
+    }
     const std::string kind = score == "En" || score == "D" ? score : "z";
     const char* outcome = !action.empty() ? "action" : !warning.empty() && kind == "z" ? "warning" : "none";
     return words.filled("comparison_scores", kind + "_" + outcome,
                         {{"item", compared.name},
                          {"score", score_name(words, score)},
-                         {"scored", count(static_cast<std::size_t>(scored))},
+                         {"scored", count(scored)},
                          {"actions", count(action.size())},
                          {"warnings", count(warning.size())},
                          {"action_names", some_of(words, action)},
@@ -121,6 +181,62 @@ void open_results(CertificateBuilder& builder, const Wording& words, const Compa
     if (!names.empty()) {
         builder.paragraph(
             words.filled("comparison", "worst_in_brief", {{"item", compared.name}, {"names", some_of(words, names)}}));
+    }
+}
+
+/// That the results contradict each other, and whom the scores cannot clear.
+void what_scores_cannot_say(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared) {
+    const ComparisonItemEvaluation& item = *compared.item;
+    if (is_refuted(item)) {
+        const ConsistencySummary& s = *item.consistency;
+        builder.paragraph(words.filled("comparison_scores", "inconsistent",
+                                       {{"item", compared.name},
+                                        {"chi_square", words.number(s.printed.chi_square)},
+                                        {"critical", words.number(s.printed.critical_value)},
+                                        {"p", words.number(s.printed.p_value)}}));
+        if (item.U_rests_on == "uncertainties") {
+            builder.paragraph(words.filled("comparison_scores", "contradicted_U", {{"item", compared.name}}));
+        }
+    }
+    const std::vector<std::string> names = with_signal(compared.points, "inconclusive");
+    if (!names.empty()) {
+        builder.paragraph(
+            words.filled("comparison_scores", "cannot_clear",
+                         {{"item", compared.name}, {"count", count(names.size())}, {"names", some_of(words, names)}}));
+    }
+}
+
+/// Whose stated factor E_n does not take.
+void factors_in_brief(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    std::vector<std::string> names;
+    for (const ComparisonPoint& p : c.points) {
+        if (p.U_of_scores && std::find(names.begin(), names.end(), p.participant) == names.end()) {
+            names.push_back(p.participant);
+        }
+    }
+    if (!names.empty()) {
+        builder.paragraph(
+            words.filled("comparison", "factors_in_brief",
+                         {{"names", some_of(words, names)}, {"p", words.number(gum::percent(c.score_probability))}}));
+    }
+}
+
+/// Items for which nothing could be computed, each in its place.
+void items_without_result(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    constexpr std::size_t k_most_items = 10;
+    for (std::size_t i = 0; i < std::min(c.items_without_result.size(), k_most_items); ++i) {
+        const ItemWithoutResult& item = c.items_without_result[i];
+        const Text name = item.name.empty() ? item.id : item.name;
+        builder.paragraph(words.filled(
+            "comparison_scores", "without_result",
+            {{"item", item.round.empty()
+                          ? name
+                          : words.filled("comparison", "item_in_round", {{"item", name}, {"round", item.round}})},
+             {"what", item.what}}));
+    }
+    if (c.items_without_result.size() > k_most_items) {
+        builder.paragraph(words.filled("comparison_scores", "more_without_result",
+                                       {{"count", count(c.items_without_result.size() - k_most_items)}}));
     }
 }
 
@@ -267,6 +383,19 @@ void values_figure(CertificateBuilder& builder, const Wording& words, const Comp
                   words("plot", "laboratory_values_description"), laboratory_values_plot(c, *compared.item, id, words));
 }
 
+/// Numbers of the laboratories in the figures: in ascending order of their values.
+std::map<std::string, std::size_t> numbers_in_figures(const ComparedItem& compared) {
+    Points ascending = compared.points;
+    std::sort(ascending.begin(), ascending.end(), [](const ComparisonPoint* a, const ComparisonPoint* b) {
+        return a->value != b->value ? a->value < b->value : a->participant < b->participant;
+    });
+    std::map<std::string, std::size_t> numbers;
+    for (std::size_t i = 0; i < ascending.size(); ++i) {
+        numbers[ascending[i]->participant] = i + 1;
+    }
+    return numbers;
+}
+
 /// Results of one item with every score that was asked for.
 void results_table(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared,
                    const std::string& id) {
@@ -274,10 +403,16 @@ void results_table(CertificateBuilder& builder, const Wording& words, const Comp
     const std::string unit = gum::unit_for_people(item.unit);
     const std::string difference_unit = gum::unit_for_people(item.difference_unit);
     Rows rows;
+    const bool numbered = compared.points.size() > k_most_named_columns;
+    const std::map<std::string, std::size_t> numbers = numbers_in_figures(compared);
     for (const ComparisonPoint* p : shown_points(builder, words, compared, k_most_rows)) {
         rows.push_back({p->participant, p->printed.value, p->printed.U, p->printed.k, p->printed.D, p->printed.U_D,
                         p->printed.D_percent, p->printed.P_A, p->printed.zeta, p->printed.En, p->printed.z,
-                        p->printed.z_prime, signal_name(words, p->signal)});
+                        p->printed.z_prime, signal_name(words, p->signal), p->printed.U_of_scores,
+                        p->printed.D_low.empty()
+                            ? Text()
+                            : "[" + words.number(p->printed.D_low) + "; " + words.number(p->printed.D_high) + "]",
+                        numbered ? Text(plain(static_cast<std::int64_t>(numbers.at(p->participant)))) : Text()});
     }
     table_of_filled_columns(builder, "results-" + id,
                             words.filled("comparison", "results_table", {{"item", compared.name}}),
@@ -293,7 +428,10 @@ void results_table(CertificateBuilder& builder, const Wording& words, const Comp
                              {words("label", "En"), "", true},
                              {words("label", "z"), "", true},
                              {words("label", "z_prime"), "", true},
-                             {words("comparison", "signal"), ""}},
+                             {words("comparison", "signal"), ""},
+                             {words("comparison", "U_of_scores"), difference_unit, true},
+                             {words("comparison", "interval_of_D"), difference_unit},
+                             {words("comparison", "number_in_figures"), "", true}},
                             rows);
 }
 
@@ -346,6 +484,12 @@ void item_sections(CertificateBuilder& builder, const Wording& words, const Comp
         if (items.size() > 1 && i > 0) {
             values_figure(builder, words, c, compared, "plot-values-" + id);
         }
+        if (compared.item->score == "En") {
+            const std::string plot = "plot-differences-" + id;
+            figure_if_any(builder, plot, words.filled("comparison", "figure_differences", {{"item", compared.name}}),
+                          words("plot", "laboratory_differences_description"),
+                          laboratory_differences_plot(c, *compared.item, plot, words));
+        }
         if (!compared.item->score.empty()) {
             const std::string plot = "plot-scores-" + id;
             figure_if_any(builder, plot,
@@ -381,15 +525,18 @@ void participants_section(CertificateBuilder& builder, const Wording& words, con
     }
     Rows names;
     Rows rows;
+    const bool any_inconclusive = std::any_of(c.participants.begin(), c.participants.end(),
+                                              [](const ParticipantSummary& p) { return p.inconclusive > 0; });
     const std::vector<std::size_t> shown = shown_rows(weights, k_most_rows);
     for (const std::size_t i : shown) {
         const ParticipantSummary& p = c.participants[i];
-        if (p.name != p.id || !p.group.empty()) {
-            names.push_back({p.id, p.name, p.group});
+        const std::string name = c.names_released && p.name != p.id ? p.name : "";
+        if (!name.empty() || !p.group.empty()) {
+            names.push_back({p.id, name, p.group});
         }
         rows.push_back({p.id, plain(p.results), plain(p.scored), plain(p.warnings), plain(p.actions),
-                        p.printed.mean_abs_En, p.printed.max_abs_En, p.printed.rms_En, p.printed.p_low,
-                        p.printed.p_high});
+                        any_inconclusive ? plain(p.inconclusive) : "", p.printed.mean_abs_En, p.printed.max_abs_En,
+                        p.printed.rms_En, p.printed.p_low, p.printed.p_high});
     }
     say_what_is_shown(builder, words, weights, shown.size());
     const Column laboratory = {words("comparison", "participant"), ""};
@@ -401,6 +548,7 @@ void participants_section(CertificateBuilder& builder, const Wording& words, con
                              {words("comparison", "scored"), "", true},
                              {words("comparison", "warnings"), "", true},
                              {words("comparison", "actions"), "", true},
+                             {words("comparison", "inconclusive"), "", true},
                              {words("label", "mean_abs_En"), "", true},
                              {words("label", "max_abs_En"), "", true},
                              {words("label", "rms_En"), "", true},
@@ -442,6 +590,25 @@ Text name_in_round(const Wording& words, const Comparison& c, const std::string&
     return round.empty() ? name : words.filled("comparison", "item_in_round", {{"item", name}, {"round", round}});
 }
 
+/// Deviations as z, in which laboratories that are off by equal parts of σ_pt lie on one line.
+void divide_by_sigma(YoudenDiagram& diagram) {
+    const double first = *diagram.sigma_first;
+    const double second = *diagram.sigma_second;
+    for (YoudenPoint& p : diagram.points) {
+        p.first /= first;
+        p.second /= second;
+    }
+    for (auto& [x, y] : diagram.ellipse) {
+        x /= first;
+        y /= second;
+    }
+    diagram.centre_first /= first;
+    diagram.centre_second /= second;
+    diagram.scale_first /= first;
+    diagram.scale_second /= second;
+    diagram.first_unit = diagram.second_unit = "";
+}
+
 void youden_section(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
     if (c.youden.empty()) {
         return;
@@ -454,6 +621,10 @@ void youden_section(CertificateBuilder& builder, const Wording& words, const Com
         const Text second = name_in_round(words, c, diagram.second_item, diagram.round);
         diagram.first_item = first.first();
         diagram.second_item = second.first();
+        const bool in_z = diagram.sigma_first && diagram.sigma_second;
+        if (in_z) {
+            divide_by_sigma(diagram);
+        }
         const std::string id = "plot-youden-" + count(i + 1);
         figure_if_any(builder, id,
                       words.filled("comparison", "figure_youden",
@@ -540,10 +711,15 @@ void laboratory_answer(CertificateBuilder& builder, const Wording& words, const 
     builder.section("answer");
     Text compared;
     for (std::size_t i = 0; i < std::min(items.size(), k_most_side_by_side); ++i) {
-        builder.paragraph(scores_sentence(words, items[i]));
+        what_scores_cannot_say(builder, words, items[i]);
+        if (const Text sentence = scores_sentence(words, items[i]); !sentence.empty()) {
+            builder.paragraph(sentence);
+        }
         open_results(builder, words, items[i]);
         compared = compared.empty() ? items[i].name : compared + "; " + items[i].name;
     }
+    factors_in_brief(builder, words, c);
+    items_without_result(builder, words, c);
     if (items.size() > k_most_side_by_side) {
         compared = words.fill("and_more", {{"names", compared}, {"count", count(items.size() - k_most_side_by_side)}});
     }

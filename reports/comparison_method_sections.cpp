@@ -38,9 +38,15 @@ Text direction_name(const Wording& words, const std::string& direction) {
 
 /// The gravest verdict of all directions: what holds for the method as a whole. Nothing where nothing was judged.
 const ComparisonSummary* gravest(const Comparison& c) {
-    static constexpr std::array<const char*, 8> k_order = {
-        "disagreement",          "points_above_1",       "correlation_unknown",         "reference_not_better",
-        "uncertainty_too_large", "agreement_few_points", "agreement_reference_limited", k_validated};
+    static constexpr std::array<const char*, 9> k_order = {"disagreement",
+                                                           "points_above_1",
+                                                           "correlation_unknown",
+                                                           "reference_not_better",
+                                                           "uncertainty_too_large",
+                                                           "agreement_few_points",
+                                                           "uncertainty_not_confirmed",
+                                                           "agreement_reference_limited",
+                                                           k_validated};
     for (const char* code : k_order) {
         const ComparisonSummary* found = nullptr;
         for (const ComparisonSummary& s : c.summary) {
@@ -69,6 +75,7 @@ Text verdict_sentence(const Wording& words, const ComparisonSummary& s) {
                         {{"count", plain(s.count_above_1)},
                          {"points", plain(s.points)},
                          {"effective", words.number(s.printed.effective_points)},
+                         {"power", words.number(s.printed.power_to_confirm)},
                          {"largest", words.number(s.printed.max_abs_En)},
                          {"worst", words.number(s.printed.max_abs_En_worst)},
                          {"p_low", words.number(s.printed.p_low)},
@@ -125,6 +132,9 @@ constexpr Companion k_companions[] = {
     {"p_high", [](const Summary& s) { return s.printed.p_high; }},
     {"D_fail", [](const Summary& s) { return s.printed.D_fail; }},
     {"D_fail_largest", [](const Summary& s) { return s.printed.D_fail_largest; }},
+    {"found_with_80_percent", [](const Summary& s) { return s.printed.found_with_80_percent; }},
+    {"found_with_95_percent", [](const Summary& s) { return s.printed.found_with_95_percent; }},
+    {"power_to_confirm", [](const Summary& s) { return s.printed.power_to_confirm; }},
     {"ratio_reference", [](const Summary& s) { return s.printed.ratio_reference; }},
     {"max_abs_En_worst", [](const Summary& s) { return s.printed.max_abs_En_worst; }},
     {"count_above_1_worst", [](const Summary& s) { return count(s.count_above_1_worst); }},
@@ -136,7 +146,8 @@ constexpr Companion k_companions[] = {
 };
 
 bool has_unit(const std::string& companion) {
-    return companion == "D_fail" || companion == "D_fail_largest";
+    return companion == "D_fail" || companion == "D_fail_largest" || companion == "found_with_80_percent" ||
+           companion == "found_with_95_percent";
 }
 
 /// Largest U / CMC of a direction, "all" being the whole; "" where no capability is stated.

@@ -22,7 +22,9 @@ namespace {
 
 using Symbol = PlotKey::Symbol;
 
-constexpr std::size_t k_most_names = 60;     // laboratories whose names fit below their columns
+constexpr std::size_t k_most_names = 60;  // laboratories whose columns are wide enough for caps and outlines
+constexpr double k_least_pitch = 9.0;     // of names side by side, else they stand in several rows
+constexpr double k_small_name_size = 8.5;
 constexpr std::size_t k_most_columns = 400;  // laboratories that are told apart at all
 constexpr std::size_t k_name_length = 22;
 constexpr double k_name_size = 9.5;
@@ -42,14 +44,14 @@ struct LaboratoryColumn {
 /// The laboratories of an item in ascending order of their values.
 /// \throws gum::NoResultError  GC-REPORT-0003 a value or its U is not finite
 std::vector<LaboratoryColumn> columns_of(const Comparison& comparison, const ComparisonItemEvaluation& item,
-                                         bool deviations) {
+                                         bool deviations, bool with_U_of_D = false) {
     std::vector<LaboratoryColumn> columns;
     for (const ComparisonPoint& p : comparison.points) {
         if (p.item == item.id && p.round == item.round) {
-            require_finite("result of " + p.participant, {p.value, p.D, p.U.value_or(0.0)});
+            require_finite("result of " + p.participant, {p.value, p.D, p.U.value_or(0.0), p.U_D.value_or(0.0)});
             columns.push_back({.name = p.participant,
                                .value = deviations ? p.D : p.value,
-                               .U = p.U.value_or(0.0),
+                               .U = with_U_of_D ? p.U_D.value_or(0.0) : p.U.value_or(0.0),
                                .contributes = p.contributes,
                                .score = score_of(p, item.score)});
         }
@@ -84,6 +86,9 @@ std::string name_of(const ComparisonItemEvaluation& item) {
 struct NameRow {
     bool upright = false;
     double height = 0.0;
+    std::size_t rows = 1;  ///< names stand in, one after the other, where one row has no room for them
+    double row_height = 0.0;
+    double size = k_name_size;
 
     NameRow(const std::vector<LaboratoryColumn>& columns, double pitch) {
         double widest = 0.0;
@@ -91,15 +96,25 @@ struct NameRow {
             widest = std::max(widest, label_width(short_name(c.name), k_name_size));
         }
         upright = widest > pitch - 5.0;
-        height = upright ? widest + 8.0 : 16.0;
+        if (upright && pitch < k_least_pitch) {
+            rows = static_cast<std::size_t>(std::ceil(k_least_pitch / pitch));
+            size = k_small_name_size;
+            widest *= k_small_name_size / k_name_size;
+        }
+        row_height = upright ? widest + 8.0 : 16.0;
+        height = static_cast<double>(rows) * row_height;
     }
 
-    void draw(Drawing& drawing, const std::string& name, double x, double bottom) const {
+    void draw(Drawing& drawing, const std::string& name, std::size_t i, double x, double axis) const {
+        const double bottom = axis + static_cast<double>(i % rows) * row_height;
+        if (bottom > axis) {
+            drawing.line(x, axis + 4.0, x, bottom + 4.0, "stroke=\"#8a8a8a\" stroke-width=\"0.4\"");
+        }
         if (!upright) {
             drawing.text(x, bottom + 13.0, name, "middle", k_name_size);
             return;
         }
-        draw_upright_name(drawing, x + 3.2, bottom + 6.0, name, k_name_size);
+        draw_upright_name(drawing, x + 0.34 * size, bottom + 6.0, name, size);
     }
 };
 
@@ -109,9 +124,9 @@ public:
     LaboratoryAxis(const std::vector<LaboratoryColumn>& columns, double width)
         : columns_(columns),
           pitch_(width / static_cast<double>(std::max<std::size_t>(1, columns.size()))),
-          names_(columns.size() <= k_most_names ? columns : std::vector<LaboratoryColumn>(), pitch_) {}
+          names_(columns.size() <= k_most_named_columns ? columns : std::vector<LaboratoryColumn>(), pitch_) {}
 
-    [[nodiscard]] bool named() const { return columns_.size() <= k_most_names; }
+    [[nodiscard]] bool named() const { return columns_.size() <= k_most_named_columns; }
     [[nodiscard]] double pitch() const { return pitch_; }
     [[nodiscard]] double height() const { return (named() ? names_.height : 18.0) + 22.0; }
     /// Middle of the column of a laboratory.
@@ -122,7 +137,7 @@ public:
             for (std::size_t i = 0; i < columns_.size(); ++i) {
                 const double x = frame.px(middle(i));
                 drawing.line(x, frame.bottom(), x, frame.bottom() + 4.0, "stroke=\"#000000\" stroke-width=\"0.8\"");
-                names_.draw(drawing, short_name(columns_[i].name), x, frame.bottom());
+                names_.draw(drawing, short_name(columns_[i].name), i, x, frame.bottom());
             }
         } else {
             const Ticks ticks = nice_ticks(0.0, static_cast<double>(columns_.size()), 10);
@@ -356,6 +371,41 @@ void add_column_keys(PlotKey& key, const std::vector<LaboratoryColumn>& columns,
 }
 
 }  // namespace
+
+std::string laboratory_differences_plot(const Comparison& comparison, const ComparisonItemEvaluation& item,
+                                        const std::string& id, const Wording& words) {
+    std::vector<LaboratoryColumn> columns = columns_of(comparison, item, true, true);
+    std::erase_if(columns, [](const LaboratoryColumn& c) { return !(c.U > 0.0); });
+    if (columns.empty() || columns.size() > k_most_columns) {
+        return "";
+    }
+    AxisRange range = range_of_values(columns, 0.0, 0.0);
+    const AxisScale scale = AxisScale::of(std::max(std::abs(range.low), std::abs(range.high)));
+    scale_columns(id, columns, scale, {});
+    PlotKey key;
+    add_column_keys(key, columns, Symbol::disc, Symbol::ring, words);
+    key.add(Symbol::bar, words("plot", "difference_key").first());
+    PlotFrame frame{.height = k_panel, .across = {.low = 0.0, .high = static_cast<double>(columns.size())}};
+    frame.up = nice_ticks(scale(range.low), scale(range.high), 7);
+    if (columns.front().value < frame.up.low || columns.back().value > frame.up.high) {
+        key.add(Symbol::beyond, words("plot", "beyond_key").first());
+    }
+    Drawing body;
+    frame.x = room_for_axis(frame.up);
+    frame.width = k_drawing_width - frame.x - 10.0;
+    frame.y = key.draw(body, frame.x, k_drawing_width) + 4.0;
+    const LaboratoryAxis axis(columns, frame.width);
+    draw_up_axis(body, frame,
+                 scale.label(words("plot", "difference_axis").first(),
+                             gum::unit_for_people(item.difference_unit.empty() ? item.unit : item.difference_unit)));
+    body.line(frame.x, frame.py(0.0), frame.right(), frame.py(0.0), k_line);
+    draw_columns(body, frame, columns);
+    draw_outline(body, frame);
+    axis.draw(body, frame, words);
+    return plot_document(id, words.filled("plot", "laboratory_differences_title", {{"item", name_of(item)}}).first(),
+                         words("plot", "laboratory_differences_description").first(), frame.bottom() + axis.height(),
+                         body);
+}
 
 std::string laboratory_values_plot(const Comparison& comparison, const ComparisonItemEvaluation& item,
                                    const std::string& id, const Wording& words) {

@@ -64,7 +64,7 @@ struct YoudenAxis {
     std::string title;
 
     YoudenAxis(std::vector<double> p, std::vector<double> e, double c, const std::string& item, const std::string& unit,
-               const Wording& words) {
+               bool in_z, const Wording& words) {
         double largest = std::abs(c);
         for (const auto* numbers : {&p, &e}) {
             for (const double v : *numbers) {
@@ -77,9 +77,10 @@ struct YoudenAxis {
         points = scaled("Youden, " + item, std::move(p), scale);
         ellipse = scaled("Youden, " + item, std::move(e), scale);
         centre = on_axis("Youden, " + item, scale(c));
-        title =
-            scale.label(words.filled("plot", "deviation_of_axis", {{"item", shortened(printable(item), 40)}}).first(),
-                        gum::unit_for_people(unit));
+        title = scale.label(
+            words.filled("plot", in_z ? "z_of_axis" : "deviation_of_axis", {{"item", shortened(printable(item), 40)}})
+                .first(),
+            gum::unit_for_people(unit));
     }
     [[nodiscard]] AxisRange range() const { return range_of_youden(points, ellipse, centre); }
 };
@@ -153,8 +154,11 @@ std::string youden_plot(const YoudenDiagram& diagram, const std::string& id, con
         ellipse_first.push_back(x);
         ellipse_second.push_back(y);
     }
-    const YoudenAxis across(first, ellipse_first, diagram.centre_first, diagram.first_item, diagram.first_unit, words);
-    const YoudenAxis up(second, ellipse_second, diagram.centre_second, diagram.second_item, diagram.second_unit, words);
+    const bool in_z = diagram.sigma_first && diagram.sigma_second;
+    const YoudenAxis across(first, ellipse_first, diagram.centre_first, diagram.first_item, diagram.first_unit, in_z,
+                            words);
+    const YoudenAxis up(second, ellipse_second, diagram.centre_second, diagram.second_item, diagram.second_unit, in_z,
+                        words);
     const AxisRange x_range = across.range();
     const AxisRange y_range = up.range();
     PlotFrame frame{.width = 400.0, .height = 400.0};

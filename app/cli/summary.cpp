@@ -118,7 +118,11 @@ void print_item(const reports::Comparison& comparison, const reports::Comparison
     }
     fmt::print("  assigned value ({}) {}{}\n", method_in_words(item.method),
                with_uncertainty(item.printed.value, item.printed.U, item.unit, item.difference_unit),
-               item.printed.k.empty() ? "" : "   (k = " + item.printed.k + ", p = " + coverage + ")");
+               item.printed.k.empty()
+                   ? ""
+                   : "   (k = " + item.printed.k +
+                         (item.U_rests_on == "scatter" && !item.printed.nu.empty() ? ", nu = " + item.printed.nu : "") +
+                         ", p = " + coverage + ")");
     if (item.consistency) {
         fmt::print("  consistency: chi-square {} on {} of freedom, p = {}{}\n", item.consistency->printed.chi_square,
                    app::count_of(item.consistency->degrees_of_freedom, "degree"), item.consistency->printed.p_value,
@@ -165,8 +169,19 @@ void print_laboratories(const reports::Comparison& comparison, const std::string
         warnings += point.signal == "warning" ? 1U : 0U;
         actions += point.signal == "action" ? 1U : 0U;
     }
+    std::size_t inconclusive = 0;
+    for (const reports::ComparisonPoint& point : comparison.points) {
+        inconclusive += point.signal == "inconclusive" ? 1U : 0U;
+    }
     fmt::print("\n{} results: {} with an action signal, {} with a warning signal\n", comparison.points.size(), actions,
                warnings);
+    if (inconclusive > 0) {
+        fmt::print("{} cannot be judged: the assigned value is too uncertain for them\n", inconclusive);
+    }
+    for (const reports::ItemWithoutResult& item : comparison.items_without_result) {
+        fmt::print("{}{}{}: no result: {} [{}]\n", item.name.empty() ? item.id : item.name,
+                   item.round.empty() ? "" : ", round ", item.round, item.what, item.code);
+    }
 }
 
 /// What a comparison of methods shows, for people.
@@ -177,9 +192,10 @@ const char* verdict_text(const std::string& verdict) {
            : verdict == "reference_not_better"  ? "no contradiction; the reference is not better than the method"
            : verdict == "correlation_unknown"   ? "agreement only if both methods share nothing"
            : verdict == "agreement_few_points" ? "agreement; too few points to tell whether the uncertainties are right"
-           : verdict == "points_above_1"       ? "single points above 1, as chance explains"
-           : verdict == "disagreement"         ? "disagreement"
-                                               : "";
+           : verdict == "uncertainty_not_confirmed" ? "agreement; whether the uncertainties are right cannot be told"
+           : verdict == "points_above_1"            ? "more points above 1 than chance explains"
+           : verdict == "disagreement"              ? "disagreement"
+                                                    : "";
 }
 
 void print_methods(const reports::Comparison& comparison) {

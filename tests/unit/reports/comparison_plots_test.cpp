@@ -100,10 +100,20 @@ TEST_F(ComparisonPlots, LaboratoriesStandInAscendingOrder) {
     EXPECT_THAT(svg, HasSubstr(">Value / µm</text>"));
 }
 
-TEST_F(ComparisonPlots, NamesAreLeftOutWhereTheyDoNotFit) {
-    const Comparison some = *test::sample_laboratories_record(60).comparison;
-    EXPECT_THAT(laboratory_values_plot(some, some.items[0], "p", words()), HasSubstr(">L031</text>"));
-    const Comparison many = *test::sample_laboratories_record(62).comparison;
+TEST_F(ComparisonPlots, EveryLaboratoryIsFoundInEveryFigure) {
+    for (const std::size_t laboratories : {60U, 62U, 100U, 150U}) {
+        const Comparison some = *test::sample_laboratories_record(laboratories).comparison;
+        for (const std::string& svg : {laboratory_values_plot(some, some.items[0], "p", words()),
+                                       laboratory_differences_plot(some, some.items[0], "p", words())}) {
+            for (const ComparisonPoint& p : some.points) {
+                if (p.item == some.items[0].id && p.round == some.items[0].round && p.U_D) {
+                    EXPECT_THAT(svg, HasSubstr(">" + p.participant + "</text>")) << laboratories;
+                }
+            }
+        }
+    }
+    // Of more there are numbers, which the table of results gives.
+    const Comparison many = *test::sample_laboratories_record(162).comparison;
     EXPECT_THAT(laboratory_values_plot(many, many.items[0], "p", words()), Not(HasSubstr(">L031</text>")));
     const Comparison most = *test::sample_laboratories_record(500).comparison;
     EXPECT_LT(count(laboratory_values_plot(most, most.items[0], "p", words()), "<circle"), 5U);

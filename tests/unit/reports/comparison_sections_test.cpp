@@ -37,6 +37,7 @@ const std::vector<std::string> k_verdicts = {"disagreement",
                                              "reference_not_better",
                                              "uncertainty_too_large",
                                              "agreement_few_points",
+                                             "uncertainty_not_confirmed",
                                              "agreement_reference_limited",
                                              "validated",
                                              ""};
