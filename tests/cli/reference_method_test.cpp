@@ -75,11 +75,12 @@ protected:
 std::vector<std::string> row_of(const std::string& name, const std::string& direction, const json& summary) {
     static const std::map<std::string, std::string> k_verdicts{
         {"disagreement", "disagreement"},
-        {"points_above_1", "single points above 1, as by chance"},
+        {"points_above_1", "more points above 1 than by chance"},
         {"correlation_unknown", "agreement only if nothing is shared"},
         {"reference_not_better", "no proof: reference not better"},
         {"uncertainty_too_large", "uncertainty too large"},
         {"agreement_few_points", "agreement, too few points"},
+        {"uncertainty_not_confirmed", "agreement, uncertainty not confirmed"},
         {"agreement_reference_limited", "agreement, limited by the reference"},
         {"validated", "validated"}};
     const json& printed = summary.at("printed");

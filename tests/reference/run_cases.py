@@ -48,8 +48,6 @@ NOT_LOOKED_UP = (
     (r"random_effects_mean", r"between_std", r"tau_cochran_anova",
      "the record holds no Cochran estimate of the spread between laboratories; the unit tests of gum/random_effects "
      "look it up"),
-    (r"random_effects_mean", r"(u|interval_low|interval_high)_hksj", r"mu",
-     "the record holds no uncertainty by Hartung and Knapp; the unit tests of gum/random_effects look it up"),
     (r"algorithm_a_and_s", r"robust_pooled_std_full", r"w\*",
      "computed with the factors of the table, rounded to 0.001; the program takes exact ones, and the unit tests of "
      "gum/robust_statistics look it up with the rounded ones"),
@@ -1388,6 +1386,12 @@ class RandomEffects(Laboratories):
             stated = self.with_u(probability)
         return self.comparison(method, stated, probability)
 
+    def t_of(self, results, probability):
+        """Quantile of t with n − 1 degrees of freedom, from a job: U over u of an arithmetic mean."""
+        participants = [{"id": f"L{i + 1}", "value": float(i)} for i in range(results)]
+        item = self.comparison("arithmetic_mean", participants, probability, sigma_pt=1.0)["items"][0]
+        return item["U"] / item["u"]
+
     def find(self, entry):
         kind, method = entry["kind"], self.method_of(entry["quantity"])
         comparison = self.results(method, self.probability(entry))
@@ -1395,7 +1399,15 @@ class RandomEffects(Laboratories):
         if kind in ("chi_square", "p_value"):
             return self.consistency(comparison, kind)
         if kind in ("interval_low", "interval_high"):
-            return Found(item["value"] + (item["U"] if kind.endswith("high") else -item["U"]), how="y ± U")
+            # Of the publication: with the normal factor. U of the record has the t-distribution and the scatter.
+            half = statistics.NormalDist().inv_cdf(0.5 + 0.5 * self.probability(entry)) * item["u"]
+            return Found(item["value"] + (half if kind.endswith("high") else -half), how="y ± z u")
+        if kind == "u_hksj":
+            return Found(estimate["u_hartung_knapp"])
+        if kind in ("interval_low_hksj", "interval_high_hksj"):
+            # Through the record alone: t of n − 1 degrees of freedom is U over u of a mean of equal weights.
+            half = self.t_of(len(self.data["x"]), self.probability(entry)) * estimate["u_hartung_knapp"]
+            return Found(item["value"] + (half if "high" in kind else -half), how="y ± t u of Hartung and Knapp")
         value = {"y": item["value"], "u": item["u"], "between_std": estimate.get("between")}.get(kind)
         if kind == "between_variance":
             value = estimate["between"] ** 2
