@@ -371,6 +371,9 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
                                                     .warnings = job.warnings,
                                                     .notes = result.notes},
                                                    options_json(job), files);
+    for (const BudgetInput& input : job.inputs) {
+        record.inputs.push_back({.name = input.name, .description = input.description, .unit = input.unit.text()});
+    }
     if (!job.model.empty()) {
         record.model.emplace();
         for (const gum::EquationText& equation : job.model) {
@@ -395,7 +398,10 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
             out.point = at ? job.points[p].name : "";
             for (const engine::BudgetOutput& stated : job.outputs) {
                 if (stated.name == out.quantity) {
-                    out.description = stated.description;
+                    out.description = stated.description.in("en");
+                    if (!stated.description.by_language.empty()) {
+                        out.description_by_language = stated.description;
+                    }
                 }
             }
             out.value = unit.from_si(point.propagation.value(index));

@@ -13,6 +13,7 @@
 #include "engine/job/budget_job.h"
 #include "engine/job/comparison_job.h"
 #include "engine/job/rotary_table_job.h"
+#include "reports/record_sentences.h"
 
 namespace gumcert::app {
 
@@ -141,14 +142,18 @@ Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string
         read_as(engine::probable_job_kind(job_file).value_or(""), job_file);
         throw;
     }
+    const auto with_statements = [&](Evaluation evaluation) {
+        reports::identify_sentences(evaluation.record, templates);
+        return evaluation;
+    };
     if (kind == "budget") {
-        return evaluate_budget_job(job_file, covariance_file, threads, templates, progress);
+        return with_statements(evaluate_budget_job(job_file, covariance_file, threads, templates, progress));
     }
     if (kind == "rotary_table") {
-        return evaluate_rotary_table_job(job_file, covariance_file, threads, templates, progress);
+        return with_statements(evaluate_rotary_table_job(job_file, covariance_file, threads, templates, progress));
     }
     if (kind == "comparison") {
-        return evaluate_comparison_job(job_file, progress);
+        return with_statements(evaluate_comparison_job(job_file, progress));
     }
     throw gum::InputError(gum::Diagnostic{
         "GC-INPUT-0900", job_file.string() + "#/kind", "\"" + kind + "\" cannot be evaluated by this version",

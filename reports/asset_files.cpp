@@ -1,6 +1,7 @@
 #include "reports/asset_files.h"
 
 #include "gum/quantity/diagnostic.h"
+#include "reports/wording.h"
 
 #include <nlohmann/json.hpp>
 
@@ -29,6 +30,18 @@ std::string read_asset(const std::filesystem::path& file) {
 
 namespace {
 
+nlohmann::json parsed(const std::filesystem::path& file) {
+    nlohmann::json wording = nlohmann::json::parse(read_asset(file), nullptr, false);
+    if (!wording.is_object()) {
+        throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0001",
+                                                .where = file.string(),
+                                                .what = "not a JSON object",
+                                                .rule = "wording files are JSON",
+                                                .action = "take the templates of this release"});
+    }
+    return wording;
+}
+
 /// \throws gum::StorageError if there is no wording of this language
 nlohmann::json wording_of(const std::string& language, const RenderAssets& assets) {
     // The language becomes part of a file name: letters and hyphens only.
@@ -43,15 +56,7 @@ nlohmann::json wording_of(const std::string& language, const RenderAssets& asset
                                                 .rule = "a document is printed in a language of templates/wording",
                                                 .action = "choose another language, e.g. en"});
     }
-    nlohmann::json wording = nlohmann::json::parse(read_asset(file), nullptr, false);
-    if (!wording.is_object()) {
-        throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0001",
-                                                .where = file.string(),
-                                                .what = "not a JSON object",
-                                                .rule = "wording files are JSON",
-                                                .action = "take the templates of this release"});
-    }
-    return wording;
+    return parsed(file);
 }
 
 nlohmann::json wording_of(const std::vector<std::string>& languages, const RenderAssets& assets) {
@@ -68,6 +73,7 @@ nlohmann::json wording_of(const std::vector<std::string>& languages, const Rende
             all.push_back(wording_of(language, assets));
         }
     }
+    all.front()[Wording::k_sentences_key] = parsed(assets.templates / "wording" / "sentences.json");
     return all;
 }
 

@@ -20,6 +20,7 @@ namespace gumcert::reports {
 namespace {
 
 constexpr std::size_t k_most_budgets = 12;
+constexpr std::size_t k_most_inputs = 60;
 constexpr std::size_t k_most_plots = 4;
 constexpr std::size_t k_most_names = 6;
 constexpr std::size_t k_most_data = 200;      // rows of the data of a fit
@@ -177,8 +178,8 @@ void coverage(CertificateBuilder& builder, const Wording& words, const std::vect
     }
     constexpr std::size_t k_most_notes = 12;
     for (std::size_t i = 0; i < std::min(notes.size(), k_most_notes); ++i) {
-        builder.paragraph(
-            words.fill("coverage_note", {{"names", listed(notes[i].second, words)}, {"note", notes[i].first}}));
+        builder.paragraph(words.fill(
+            "coverage_note", {{"names", listed(notes[i].second, words)}, {"note", words.sentence(notes[i].first)}}));
     }
     if (notes.size() > k_most_notes) {
         builder.paragraph(words.fill("more_notes", {{"count", std::to_string(notes.size() - k_most_notes)}}));
@@ -231,7 +232,8 @@ void result_table(CertificateBuilder& builder, const Wording& words, const Resul
     for (const Result* r : list.results) {
         std::vector<Text> row = {points ? r->point : r->name};
         if (described) {
-            row.push_back(r->description);
+            row.push_back(r->description_by_language.empty() ? Text(r->description)
+                                                             : words.localised(r->description_by_language));
         }
         row.push_back(r->printed.value);
         row.push_back(r->printed.U);
@@ -289,6 +291,27 @@ void model(CertificateBuilder& builder, const Wording& words, const ModelSummary
             names += (names.empty() ? "" : ", ") + unknown;
         }
         builder.paragraph(words.fill("unknowns", {{"names", names}}));
+    }
+}
+
+/// The input quantities with what they are. A budget names them by their symbols only.
+void input_quantities(CertificateBuilder& builder, const Wording& words, const std::vector<InputQuantity>& inputs) {
+    const bool described =
+        std::any_of(inputs.begin(), inputs.end(), [](const InputQuantity& q) { return !q.description.empty(); });
+    if (!described) {
+        return;
+    }
+    builder.section("input_quantities");
+    Rows rows;
+    for (std::size_t i = 0; i < std::min(inputs.size(), k_most_inputs); ++i) {
+        const std::string unit = gum::unit_for_people(inputs[i].unit);
+        rows.push_back({inputs[i].name, words.localised(inputs[i].description), unit.empty() ? "1" : unit});
+    }
+    builder.table("input-quantities", words("sentence", "input_quantities"),
+                  {{words("label", "quantity"), ""}, {words("label", "description"), ""}, {words("label", "unit"), ""}},
+                  rows);
+    if (inputs.size() > k_most_inputs) {
+        builder.paragraph(words.fill("more_in_record", {{"count", std::to_string(inputs.size() - k_most_inputs)}}));
     }
 }
 
@@ -876,6 +899,7 @@ void budget_results(CertificateBuilder& builder, const Wording& words, const Eva
 }
 
 void budget_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    input_quantities(builder, words, record.inputs);
     if (record.model) {
         model(builder, words, *record.model);
     }

@@ -272,7 +272,7 @@ void conformity_section(CertificateBuilder& builder, const Wording& words, const
         return;
     }
     for (const std::string& note : notes) {
-        builder.paragraph(note);
+        builder.paragraph(words.sentence(note));
     }
     verdict_meanings(builder, words, used);
     builder.paragraph(words("statement", "conformity_points"));

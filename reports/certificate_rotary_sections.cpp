@@ -163,7 +163,7 @@ void global_test(CertificateBuilder& builder, const Wording& words, const Adjust
                                                            {"lower", words.number(test.printed_lower)},
                                                            {"upper", words.number(test.printed_upper)}}));
     if (!test.meaning.empty()) {
-        builder.paragraph(test.meaning);
+        builder.paragraph(words.sentence(test.meaning));
     }
 }
 
@@ -190,7 +190,7 @@ void variance_components(CertificateBuilder& builder, const Wording& words, cons
     }
     Rows rows;
     for (const VarianceComponent& v : r.variance_components) {
-        std::vector<Text> row = {v.name, v.printed.value, v.printed.U, v.printed.unit};
+        std::vector<Text> row = {words.sentence(v.name), v.printed.value, v.printed.U, v.printed.unit};
         if (in_depth) {
             row.push_back(v.printed_stated);
             row.push_back(v.degrees_of_freedom ? degrees_of_freedom(*v.degrees_of_freedom) : "");
@@ -257,7 +257,7 @@ void flagged_distances(CertificateBuilder& builder, const Wording& words, const 
     if (!reasons.empty()) {
         Facts facts;
         for (const auto& [numbers, reason] : reasons) {
-            facts.emplace_back(words("label", "order") + " " + numbers, reason);
+            facts.emplace_back(words("label", "order") + " " + numbers, words.sentence(reason));
         }
         builder.definitions(facts);
     }
@@ -273,7 +273,7 @@ void runs(CertificateBuilder& builder, const Wording& words, const PositioningAc
 
 void targets(CertificateBuilder& builder, const Wording& words, const PositioningAccuracy& p) {
     for (const std::string& remark : p.remarks) {
-        builder.paragraph(remark);
+        builder.paragraph(words.sentence(remark));
     }
     if (p.targets.empty()) {
         return;
@@ -355,7 +355,7 @@ void budget_by_source(CertificateBuilder& builder, const Wording& words, const R
     }
     Rows rows;
     for (const BudgetSummaryRow& row : r.budget_summary) {
-        std::vector<Text> line = {row.quantity, row.printed_rms_u, gum::unit_for_people(row.unit)};
+        std::vector<Text> line = {words.sentence(row.quantity), row.printed_rms_u, gum::unit_for_people(row.unit)};
         line.insert(line.end(), row.printed_shares.begin(), row.printed_shares.end());
         rows.push_back(std::move(line));
     }
@@ -383,7 +383,7 @@ void fixture(CertificateBuilder& builder, const Wording& words, const RotaryTabl
         }
         builder.definitions(facts);
         for (const std::string& remark : f.remarks) {
-            builder.paragraph(remark);
+            builder.paragraph(words.sentence(remark));
         }
     }
     if (!rows.empty()) {
@@ -405,7 +405,7 @@ void rotary_monte_carlo(CertificateBuilder& builder, const Wording& words, const
     builder.section("monte_carlo");
     builder.paragraph(words("sentence", "rotary_monte_carlo"));
     if (!m.statement.empty()) {
-        builder.paragraph(m.statement);
+        builder.paragraph(words.sentence(m.statement));
     }
     builder.definitions({{words("label", "trials"), plain(m.trials)},
                          {words("label", "seed"), plain(m.seed)},
@@ -514,7 +514,7 @@ void adjustment(CertificateBuilder& builder, const Wording& words, const RotaryT
     facts.emplace_back(words("label", "variance_factor_used"),
                        words("value", "variance_factor", a.variance_factor.used));
     if (!a.variance_factor.reason.empty()) {
-        facts.emplace_back(words("label", "variance_factor_reason"), a.variance_factor.reason);
+        facts.emplace_back(words("label", "variance_factor_reason"), words.sentence(a.variance_factor.reason));
     }
     facts.emplace_back(words("label", "condition_number"), words.number(a.printed.condition_number));
     facts.emplace_back(words("label", "iterations"), plain(a.iterations));
@@ -602,9 +602,9 @@ void reliability(CertificateBuilder& builder, const Wording& words, const Rotary
     if (!worst.empty()) {
         Rows rows;
         for (const ExternalReliability* e : worst) {
-            rows.push_back({e->quantity, e->angle_deg ? plain(*e->angle_deg) : "", rounded(e->influence),
-                            gum::unit_for_people(e->unit), rounded(e->ratio_to_U), e->station, e->reflector, e->pass,
-                            plain(e->at_angle_deg), detectable(e->minimal_detectable_bias_um)});
+            rows.push_back({words.sentence(e->quantity), e->angle_deg ? plain(*e->angle_deg) : "",
+                            rounded(e->influence), gum::unit_for_people(e->unit), rounded(e->ratio_to_U), e->station,
+                            e->reflector, e->pass, plain(e->at_angle_deg), detectable(e->minimal_detectable_bias_um)});
         }
         builder.table("external-reliability", words("sentence", "external_reliability"),
                       {{words("label", "quantity"), ""},

@@ -747,7 +747,7 @@ void laboratory_answer(CertificateBuilder& builder, const Wording& words, const 
 
 void laboratory_sections(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
     how_to_read(builder, words, c);
-    remarks_section(builder, c);
+    remarks_section(builder, words, c);
     item_sections(builder, words, c, compared_items(words, c));
     participants_section(builder, words, c);
     vectors_section(builder, words, c);

@@ -369,7 +369,7 @@ void method_sections_of_comparison(CertificateBuilder& builder, const Wording& w
     companion_table(builder, words, c, "companion");
     how_to_read(builder, words, c);
     shared_sources_table(builder, words, c);
-    remarks_section(builder, c);
+    remarks_section(builder, words, c);
     builder.section("bias");
     if (has_bias(c)) {
         bias_lines(builder, words, c);
@@ -402,7 +402,7 @@ void reference_comparison_section(CertificateBuilder& builder, const Wording& wo
     }
     companion_table(builder, words, c, "comparison-summary");
     for (const std::string& remark : c.remarks) {
-        builder.paragraph(remark);
+        builder.paragraph(words.sentence(remark));
     }
     if (!c.points.empty()) {
         method_figure(builder, words, c, "plot-en", "method_scores", words("sentence", "figure_En"),

@@ -102,13 +102,13 @@ void shared_sources_table(CertificateBuilder& builder, const Wording& words, con
                             rows);
 }
 
-void remarks_section(CertificateBuilder& builder, const Comparison& comparison) {
+void remarks_section(CertificateBuilder& builder, const Wording& words, const Comparison& comparison) {
     if (comparison.remarks.empty()) {
         return;
     }
     builder.section("comparison_remarks");
     for (const std::string& remark : comparison.remarks) {
-        builder.paragraph(remark);
+        builder.paragraph(words.sentence(remark));
     }
 }
 

@@ -48,7 +48,7 @@ void say_what_is_shown(CertificateBuilder& builder, const Wording& words, const 
 void shared_sources_table(CertificateBuilder& builder, const Wording& words, const Comparison& comparison);
 
 /// What the record remarks on the comparison; nothing where it has no remarks.
-void remarks_section(CertificateBuilder& builder, const Comparison& comparison);
+void remarks_section(CertificateBuilder& builder, const Wording& words, const Comparison& comparison);
 
 /// The first names of a list with the number of the others: "A, B, C and 17 more".
 [[nodiscard]] Text some_of(const Wording& words, const std::vector<std::string>& names);

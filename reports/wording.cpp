@@ -75,6 +75,9 @@ Wording::Wording(const nlohmann::json& texts) {
     if (texts_.empty()) {
         refuse("", "", "no language");
     }
+    if (const auto catalogue = texts_.front()->find(k_sentences_key); catalogue != texts_.front()->end()) {
+        sentences_ = std::make_shared<const ProgramSentences>(*catalogue);
+    }
 }
 
 Text Wording::text_of(const std::vector<std::string>& path) const {
@@ -139,6 +142,27 @@ Text Wording::number(const std::string& printed) const {
         all.push_back(with_decimal_sign(text, sign));
     }
     return Text(std::move(all));
+}
+
+Text Wording::sentence(const std::string& english) const {
+    if (!sentences_ || english.empty()) {
+        return english;
+    }
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < languages_.size(); ++i) {
+        all.push_back(sentences_->worded(english, languages_[i], signs_[i]));
+    }
+    return Text(std::move(all));
+}
+
+Text Wording::message(const gum::Diagnostic& diagnostic) const {
+    Text text;
+    for (const std::string* part : {&diagnostic.where, &diagnostic.what, &diagnostic.rule, &diagnostic.action}) {
+        if (!part->empty()) {
+            text += (text.empty() ? Text() : Text(" — ")) + sentence(*part);
+        }
+    }
+    return text;
 }
 
 Text Wording::localised(const certificate::LocalisedText& text) const {

@@ -1,11 +1,14 @@
 #pragma once
 
 #include "certificate/localised_text.h"
+#include "gum/quantity/diagnostic.h"
 #include "reports/document_text.h"
+#include "reports/program_sentences.h"
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,9 +19,12 @@ namespace gumcert::reports {
 /// binding one first. A text that is missing in any of them is an error: a document is never printed with a hole.
 class Wording {
 public:
+    static constexpr const char* k_sentences_key = "sentences_of_the_program";
+
     using Values = std::vector<std::pair<std::string, Text>>;
 
-    /// \param texts  the object of a wording file, or an array of several; must outlive this object
+    /// \param texts  the object of a wording file, or an array of several; must outlive this object. The first one may
+    ///               hold the catalogue of ProgramSentences under k_sentences_key; read_wording() puts it there.
     explicit Wording(const nlohmann::json& texts);
 
     /// Codes of the languages: "de", "en".
@@ -41,6 +47,13 @@ public:
     /// The digits stay as they are.
     [[nodiscard]] Text number(const std::string& printed) const;
 
+    /// A sentence that the record holds in English, in each language of the document; see ProgramSentences. English
+    /// where the catalogue does not know it.
+    [[nodiscard]] Text sentence(const std::string& english) const;
+
+    /// A message as gum::message() makes it, its parts in each language of the document.
+    [[nodiscard]] Text message(const gum::Diagnostic& diagnostic) const;
+
     /// A text of the certificate data in each language of the document.
     [[nodiscard]] Text localised(const certificate::LocalisedText& text) const;
 
@@ -48,6 +61,7 @@ private:
     std::vector<const nlohmann::json*> texts_;  ///< one a language
     std::vector<std::string> languages_;
     std::vector<std::string> signs_;
+    std::shared_ptr<const ProgramSentences> sentences_;  ///< none: records are printed in English
 
     [[nodiscard]] Text text_of(const std::vector<std::string>& path) const;
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/job/budget_fit_statement.h"
+#include "engine/job/certificate_archive.h"
 #include "engine/job/csv_table.h"
 #include "gum/quantity/decimal_rounding.h"
 #include "gum/rounding.h"
@@ -149,9 +150,14 @@ std::optional<BudgetInputs::Evaluated> BudgetInputs::evaluate(const Stated& stat
     out.input.where = keys.where();
     bool is_read = true;
     if (keys.has("description")) {
-        const auto description = keys.text("description");
-        out.input.description = description.value_or("");
-        is_read = description.has_value();
+        if (const nlohmann::json* value = keys.value("description"); value != nullptr && value->is_object()) {
+            read_localised(*value, out.input.description, true,
+                           {&keys.document("description"), keys.pointer("description"), &keys.problems("description")});
+        } else {
+            const auto description = keys.text("description");
+            out.input.description = description.value_or("");
+            is_read = description.has_value();
+        }
     }
     if (keys.has("between_points")) {
         const auto word = keys.text("between_points");

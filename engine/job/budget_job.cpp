@@ -11,6 +11,7 @@
 #include "engine/job/budget_fit_statement.h"
 #include "engine/job/budget_inputs.h"
 #include "engine/job/budget_statement.h"
+#include "engine/job/certificate_archive.h"
 #include "engine/job/certificate_statement.h"
 #include "engine/job/job_files.h"
 #include "engine/job/json_document.h"
@@ -207,7 +208,13 @@ private:
             BudgetOutput output;
             output.name = name;
             output.where = object.where();
-            output.description = object.optional_string("description").value_or("");
+            const nlohmann::json* const description = object.find("description");
+            if (description != nullptr && description->is_object()) {
+                read_localised(*description, output.description, true,
+                               {&*document_, object.pointer("description"), problems_});
+            } else {
+                output.description = object.optional_string("description").value_or("");
+            }
             output.coverage_probability = object.optional_number("coverage_probability", k_probability);
             if (object.has("unit")) {
                 output.unit = read_unit(object, "unit", *problems_);

@@ -58,7 +58,7 @@ struct StatedQuantity {
 
 struct BudgetInput {
     std::string name;
-    std::string description;  ///< "length of the standard"; may be empty
+    certificate::LocalisedText description;  ///< "length of the standard"; may be empty
     gum::Unit unit;
     bool constant = false;                   ///< u = 0 on purpose
     std::vector<StatedQuantity> components;  ///< one, or several that are added up
@@ -112,7 +112,7 @@ struct BudgetPoint {
 
 struct BudgetOutput {
     std::string name;
-    std::string description;
+    certificate::LocalisedText description;
     std::optional<gum::Unit> unit;
     std::optional<double> coverage_probability;
     std::string where;

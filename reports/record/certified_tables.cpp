@@ -46,7 +46,7 @@ CertifiedValue value_of(const Result& r) {
     return out;
 }
 
-CertifiedColumn column(const std::string& result, const std::string& name, const std::string& unit,
+CertifiedColumn column(const std::string& result, const certificate::LocalisedText& name, const std::string& unit,
                        std::vector<CertifiedValue> values) {
     return {.result = result,
             .name = name,
@@ -104,7 +104,9 @@ std::vector<CertifiedTable> tables_of_results(const std::vector<Result>& results
             values.push_back(value_of(*r));
         }
         at->second.columns.push_back(column(series.quantity,
-                                            first.description.empty() ? series.quantity : first.description,
+                                            !first.description_by_language.empty() ? first.description_by_language
+                                            : first.description.empty() ? certificate::LocalisedText(series.quantity)
+                                                                        : certificate::LocalisedText(first.description),
                                             series.unit, std::move(values)));
     }
     std::vector<CertifiedTable> out;

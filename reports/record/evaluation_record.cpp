@@ -184,6 +184,7 @@ void describe(Archive& a, Struct& r) {
 template <class Archive, Is<Result> Struct>
 void describe(Archive& a, Struct& r) {
     a("description", r.description);
+    a.added("description_by_language", r.description_by_language);
     a("value", r.value);
     a("unit", r.unit);
     a("u", r.u, Range::not_negative);
@@ -696,6 +697,26 @@ void describe(Archive& a, Struct& r) {
     a.severity("severity", r.severity);
 }
 
+template <class Archive, Is<IdentifiedSentence::Argument> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("value", r.value);
+}
+
+template <class Archive, Is<IdentifiedSentence> Struct>
+void describe(Archive& a, Struct& r) {
+    a("id", r.id);
+    a("arguments", r.arguments);
+    a("text", r.text);
+}
+
+template <class Archive, Is<InputQuantity> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("description", r.description);
+    a("unit", r.unit);
+}
+
 template <class Archive, Is<RotaryTable> Struct>
 void describe(Archive& a, Struct& r) {
     a("axis", r.axis, {"A", "B", "C"});
@@ -751,6 +772,7 @@ void describe(Archive& a, Struct& r) {
     });
     a.document("options", r.options_json);
     a.results("results", r.results);
+    a.added("inputs", r.inputs);
     a.added("model", r.model);
     a.added("covariance", r.covariance);
     a.added("region", r.region);
@@ -762,6 +784,7 @@ void describe(Archive& a, Struct& r) {
     a("comparison", r.comparison);
     a.added("certificate", r.certificate);
     a("diagnostics", r.diagnostics);
+    a.added("statements", r.statements);
     a.null("audit");  // the record of this version holds no audit
 }
 

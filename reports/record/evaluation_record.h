@@ -4,6 +4,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "reports/record/budget_evaluation.h"
 #include "reports/record/comparison_evaluation.h"
+#include "reports/record/identified_sentence.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -58,7 +59,8 @@ struct CorrelationRow {
 /// `results.NAME`
 struct Result {
     std::string name;
-    std::string description;  ///< "offset of the fixture along y"
+    std::string description;  ///< "offset of the fixture along y"; English where it is stated in several languages
+    certificate::LocalisedText description_by_language = {};  ///< empty where `description` is for all languages
     double value = 0.0;
     std::string unit;  ///< "um", "arcsec", … as UDUNITS-2 writes it
     double u = 0.0;
@@ -454,6 +456,7 @@ struct EvaluationRecord {
     std::vector<InputFile> job_files;
     std::string options_json;                    ///< every tolerance and option in force, canonical JSON text
     std::vector<Result> results;                 ///< in the order of documents; an object keyed by name in JSON
+    std::vector<InputQuantity> inputs;           ///< kind "budget", in the order of the job
     std::optional<ModelSummary> model;           ///< kind "budget"
     std::optional<ResultCovariance> covariance;  ///< kind "budget", two or more results
     std::optional<CoverageRegion> region;        ///< kind "budget", two or more outputs, one point
@@ -465,6 +468,8 @@ struct EvaluationRecord {
     std::optional<Comparison> comparison;
     std::optional<certificate::Certificate> certificate;  ///< where the job states certificate data
     std::vector<gum::Diagnostic> diagnostics;
+    /// Every sentence that the program put into this record, each once, sorted by its text
+    std::vector<IdentifiedSentence> statements;
 };
 
 /// Canonical JSON of a record: keys sorted by code point, shortest numbers that read back the same, LF, UTF-8, no NaN.

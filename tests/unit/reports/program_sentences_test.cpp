@@ -1,0 +1,150 @@
+#include "reports/program_sentences.h"
+
+#include "gum/quantity/diagnostic.h"
+#include "reports/asset_files.h"
+#include "reports/wording.h"
+#include "tests/unit/reports/document_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace gumcert::reports {
+namespace {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+
+json catalogue_file() {
+    return json::parse(read_asset(assets().templates / "wording" / "sentences.json"));
+}
+
+ProgramSentences sample() {
+    return ProgramSentences(json::parse(R"({
+        "a": {"en": "the value {value:number} of {name} is missing", "de": "von {name} fehlt der Wert {value}",
+              "es": "falta el valor {value} de {name}", "zh-Hant": "{name} 缺值 {value}"},
+        "b": {"en": "the standard \"{name}\"", "de": "das Normal „{name}“", "es": "x {name}", "zh-Hant": "y{name}"},
+        "c": {"en": "{what:sentence} was late", "de": "{what} kam zu spät", "es": "{what} z", "zh-Hant": "{what}遲"},
+        "d": {"en": "It is so.", "de": "Es ist so.", "es": "Es así.", "zh-Hant": "如此。"},
+        "e": {"en": "set {{\"k\": 2}} in {file}", "de": "setze {{\"k\": 2}} in {file}", "es": "{file}",
+              "zh-Hant": "{file}"}})"));
+}
+
+TEST(ProgramSentences, AreFoundWithTheirArguments) {
+    const auto found = sample().identified("the value 1.5 mm of R 2.5 is missing");
+    ASSERT_TRUE(found.has_value());
+    ASSERT_EQ(found->size(), 1U);
+    EXPECT_EQ(found->front().id, "a");
+    EXPECT_EQ(found->front().text, "the value 1.5 mm of R 2.5 is missing");
+    const std::vector<IdentifiedSentence::Argument> arguments = {{"value", "1.5 mm"}, {"name", "R 2.5"}};
+    EXPECT_EQ(found->front().arguments, arguments);
+    EXPECT_FALSE(sample().identified("the value nothing of R is missing").has_value());  // no number
+    EXPECT_FALSE(sample().identified("something else").has_value());
+}
+
+/// Numbers get the decimal sign of the language; names stay what they are.
+TEST(ProgramSentences, AreWorded) {
+    const ProgramSentences all = sample();
+    EXPECT_EQ(all.worded("the value 1.5 mm of R 2.5 is missing", "de", ","), "von R 2.5 fehlt der Wert 1,5 mm");
+    EXPECT_EQ(all.worded("the standard \"A\" was late", "de", ","), "das Normal „A“ kam zu spät");
+    EXPECT_EQ(all.worded("It is so. the standard \"A\"; It is so.", "de", ","),
+              "Es ist so. das Normal „A“; Es ist so.");
+    EXPECT_EQ(all.worded("It is so. It is so.", "zh-Hant", "."), "如此。如此。");
+    EXPECT_EQ(all.worded("It is so. Nobody knows this one. It is so.", "de", ","),
+              "Es ist so. Nobody knows this one. Es ist so.");
+    EXPECT_EQ(all.worded("set {\"k\": 2} in a.json", "de", ","), "setze {\"k\": 2} in a.json");
+    EXPECT_EQ(all.worded("the value 1.5 of R is missing", "en", "."), "the value 1.5 of R is missing");
+    EXPECT_EQ(all.worded("the value 1.5 of R is missing", "fr", ","), "the value 1.5 of R is missing");
+}
+
+TEST(ProgramSentences, RefuseADamagedCatalogue) {
+    for (const char* text : {R"({"a": {"de": "x"}})", R"({"a": {"en": "x {name"}})", R"({"a": {"en": "x {n:colour}"}})",
+                             R"({"a": {"en": "{a}{b}"}})", R"({"a": "x"})", R"({"a": {"en": 1}})"}) {
+        EXPECT_THROW(ProgramSentences(json::parse(text)), gum::StorageError) << text;
+    }
+    const ProgramSentences all(json::parse(R"({"a": {"en": "x {name}", "de": "y {nome}"}})"));
+    EXPECT_THROW(static_cast<void>(all.worded("x z", "de", ",")), gum::StorageError);
+}
+
+/// A text that was made to match badly is given up, and in time.
+TEST(ProgramSentences, GiveUpOnHostileTexts) {
+    const ProgramSentences all(json::parse(R"({"a": {"en": "{a:number} a {b:number} a {c:number} a {d:number} z",
+                                                     "de": "{a}{b}{c}{d}"}})"));
+    std::string text;
+    for (int i = 0; i < 3000; ++i) {
+        text += "1 a ";
+    }
+    EXPECT_EQ(all.worded(text, "de", ","), text);
+}
+
+/// Law: every entry of the catalogue, filled with arguments, is found again with the same arguments and worded in each
+/// language with them; and no entry hides another one.
+TEST(ProgramSentences, AreEachFoundAgain) {
+    const json file = catalogue_file();
+    const ProgramSentences all(file);
+    EXPECT_GT(file.size(), 300U);
+    static const std::regex k_placeholder(R"(\{(\w+)(:(\w+))?\})");
+    for (const auto& [id, texts] : file.items()) {
+        std::string english;
+        std::vector<IdentifiedSentence::Argument> arguments;
+        std::string pattern = texts.at("en").get<std::string>();
+        std::smatch match;
+        int number = 0;
+        while (std::regex_search(pattern, match, k_placeholder)) {
+            ++number;
+            const std::string value =
+                match[3] == "number" ? std::to_string(number) + ".5" : "Qx" + std::to_string(number) + "z";
+            english += match.prefix().str() + value;
+            arguments.push_back({.name = match[1], .value = value});
+            pattern = match.suffix();
+        }
+        english += pattern;
+        english =
+            std::regex_replace(std::regex_replace(english, std::regex(R"(\{\{)"), "{"), std::regex(R"(\}\})"), "}");
+        const auto found = all.identified(english);
+        ASSERT_TRUE(found.has_value()) << id << ": " << english;
+        ASSERT_EQ(found->size(), 1U) << id << ": " << english;
+        if (id != "where/point_name") {  // the same words for a name in place of a number
+            EXPECT_EQ(found->front().id, id) << english;
+            EXPECT_EQ(found->front().arguments, arguments) << id;
+        }
+        for (const auto& [language, sign] : {std::pair("de", ","), std::pair("es", ","), std::pair("zh-Hant", ".")}) {
+            const std::string worded = all.worded(english, language, sign);
+            EXPECT_NE(worded, english) << id << " " << language;
+            for (const IdentifiedSentence::Argument& argument : arguments) {
+                EXPECT_THAT(worded, ::testing::HasSubstr(argument.value.starts_with("Qx")
+                                                             ? argument.value
+                                                             : with_decimal_sign(argument.value, sign)))
+                    << id << " " << language;
+            }
+        }
+    }
+}
+
+/// A document shows the sentences of a record in its languages; without a catalogue they stay in English.
+TEST(Wording, SaysTheSentencesOfTheProgram) {
+    json de = json::parse(R"({"language": "de", "document": {"decimal_sign": ","}})");
+    const std::string english = "Probabilities are counted from 1000 Monte Carlo trials.";
+    EXPECT_EQ(Wording(de).sentence(english).first(), english);
+    de[Wording::k_sentences_key] = catalogue_file();
+    const Wording words(de);
+    EXPECT_EQ(words.sentence(english).first(),
+              "Die Wahrscheinlichkeiten sind aus 1000 Monte-Carlo-Versuchen ausgezählt.");
+    EXPECT_EQ(
+        words
+            .message({.code = "GC-BUDGET-0022",
+                      .where = "result y",
+                      .what = "1000 trials, and the results have not stabilised",
+                      .rule = "",
+                      .action = "Raise adaptive.max_trials, or ask for one digit."})
+            .first(),
+        "Ergebnis y — 1000 Versuche, und die Ergebnisse sind nicht stabil — Erhöhen Sie adaptive.max_trials, oder "
+        "verlangen Sie nur eine Stelle.");
+}
+
+}  // namespace
+}  // namespace gumcert::reports
