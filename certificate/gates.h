@@ -38,6 +38,10 @@ namespace gumcert::certificate {
 /// capabilities that can be true.
 [[nodiscard]] std::vector<Finding> scope_findings(const Certificate& certificate);
 
+/// Texts that are given in some languages and not in every language of the certificate. The document shows another
+/// language in their place.
+[[nodiscard]] std::vector<Finding> language_findings(const Certificate& certificate);
+
 /// All of them, the gravest first; sets `findings`, `blocked` and `symbol`. A specimen is not issued, so that nothing
 /// blocks it.
 /// \param audit  findings of the evaluation, put to those of the gates
