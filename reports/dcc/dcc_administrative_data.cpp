@@ -256,8 +256,12 @@ void status_statements(DccWriter& w) {
         append_line(text, words("document", "draft_reason"));
         w.statement("draft", text);
         for (const certificate::Finding& finding : certificate->findings) {
-            w.statement("finding", finding.id + " (" + finding.clause + ") " + finding.where + ": " + finding.what +
-                                       (finding.action.empty() ? "" : " " + finding.action));
+            Text finding_text = finding.id + " (" + finding.clause + ") " + words.sentence(finding.where) + ": " +
+                                words.sentence(finding.what);
+            if (!finding.action.empty()) {
+                finding_text += " " + words.sentence(finding.action);
+            }
+            w.statement("finding", finding_text);
         }
     }
     if (w.has_scope() && certificate->symbol) {
@@ -287,7 +291,7 @@ void decision_rules(DccWriter& w) {
         }
         append_line(text, words.localised(s.rule.text));
         if (!s.rule.prescribed_by.empty()) {
-            append_line(text, words.filled("statement", "conformity_prescribed", {{"by", s.rule.prescribed_by}}));
+            append_line(text, words("certificate", "prescribed_by") + ": " + s.rule.prescribed_by);
         }
         w.text("dcc:declaration", text);
         w.xml.close();
@@ -376,9 +380,9 @@ void texts_of_laboratory(DccWriter& w) {
         for (const std::string& name : external.results) {
             names += (names.empty() ? "" : ", ") + name;
         }
-        w.statement("external_results",
-                    words.filled("statement", "external",
-                                 {{"provider", words.localised(external.provider)}, {"results", names}}));
+        w.statement(
+            "external_results",
+            words.filled("dcc", "external", {{"provider", words.localised(external.provider)}, {"results", names}}));
     }
     for (const certificate::Omission& omission : d.omissions) {
         w.statement("omission", words.filled("certificate", "omission", {{"clause", omission.clause}}) + ": " +

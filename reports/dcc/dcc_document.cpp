@@ -6,6 +6,7 @@
 
 #include "reports/asset_files.h"
 #include "reports/dcc/dcc_writer.h"
+#include "reports/result_names.h"
 
 namespace gumcert::reports {
 
@@ -36,7 +37,7 @@ std::vector<InputSource> sources_of(const EvaluationRecord& record) {
 /// What the evaluation rests on, for whoever repeats it: files by their digest, inputs by their source.
 void write_comment(DccWriter& w) {
     const std::vector<InputSource> sources = sources_of(w.record());
-    if (w.record().job_files.empty() && sources.empty()) {
+    if (w.record().job_files.empty() && sources.empty() && w.record().inputs.empty()) {
         return;
     }
     w.xml.open("dcc:comment");
@@ -44,8 +45,17 @@ void write_comment(DccWriter& w) {
     for (const InputFile& file : w.record().job_files) {
         w.xml.element("inputFile", file.sha256.empty() ? "-" : file.sha256, {{"name", file.name}});
     }
+    for (const InputQuantity& input : w.record().inputs) {
+        const Text description = w.words().localised(input.description);
+        for (std::size_t i = 0; i < w.words().languages().size() && !without_outer_blanks(description.in(i)).empty();
+             ++i) {
+            w.xml.element("inputQuantity", description.in(i),
+                          {{"name", input.name}, {"unit", input.unit}, {"lang", iso_639_1(w.words().languages()[i])}});
+        }
+    }
     for (const auto& [input, source] : sources) {
-        w.xml.element("inputSource", source, {{"input", input}});
+        w.xml.element("inputSource", source_name(source, w.words()).first(),
+                      {{"input", source_name(input, w.words()).first()}});
     }
     w.xml.close();
     w.xml.close();

@@ -7,6 +7,7 @@
 #include "reports/dcc/dcc_joint_results.h"
 #include "reports/dcc/dcc_quantity.h"
 #include "reports/dcc/dcc_writer.h"
+#include "reports/result_names.h"
 
 namespace gumcert::reports {
 
@@ -275,7 +276,7 @@ void column_once(DccWriter& w, const Column& c, Stated stated, bool with_meta_da
     const std::string known = w.ref_types()("value_" + c.table.id);
     const std::string ref_type = known.empty() ? w.ref_types()("value_results") : known;
     w.xml.open("dcc:quantity", {{"refType", ref_type + " gumcert_" + as_token(c.column.result)}});
-    w.text("dcc:name", w.words().localised(c.column.name));
+    w.text("dcc:name", result_meaning(c.table, c.column, w.words()));
     if (stated == Stated::standard) {
         w.text("dcc:description", note_on_standard(w, c));
     }
