@@ -130,7 +130,8 @@ void CertificateBuilder::section(const std::string& id) {
 
 void CertificateBuilder::section(const std::string& id, const Text& heading) {
     json entry = {{"id", id}, {"kind", annexes_ ? "annex" : ""}, {"blocks", json::array()}};
-    put(entry, "heading", annexes_ ? wording_.filled("heading", "annex", {{"heading", heading}}) : heading,
+    put(entry, "heading",
+        annexes_ ? wording_.filled("heading", outside_ ? "annex_outside" : "annex", {{"heading", heading}}) : heading,
         wording_.languages());
     sections_->push_back(std::move(entry));
 }

@@ -38,7 +38,11 @@ public:
     /// A section whose heading is not in the wording.
     void section(const std::string& id, const Text& heading);
     /// Sections from here on are annexes: their headings say so.
-    void annexes() { annexes_ = true; }
+    /// \param outside  of the accreditation, which the headings say as well
+    void annexes(bool outside = false) {
+        annexes_ = true;
+        outside_ = outside;
+    }
     void paragraph(const Text& text);
     void formula(const Text& text);
     void definitions(const std::vector<std::pair<Text, Text>>& rows);
@@ -64,7 +68,7 @@ private:
     int tables_ = 0;
     int figures_ = 0;
     std::size_t absent_cells_ = 0;
-    bool annexes_ = false;
+    bool annexes_ = false, outside_ = false;
 
     void block(const char* kind, nlohmann::json content);
 };

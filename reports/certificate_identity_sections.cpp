@@ -207,7 +207,8 @@ Text results_in_one_line(const Certificate& certificate, const Wording& words, c
     const auto only = only_value(certificate);  // Clang 14 lets no lambda below capture a structured binding
     const certificate::CertifiedColumn* column = only.first;
     const certificate::CertifiedValue* value = only.second;
-    if (column == nullptr || value->printed_value.empty() || !CertifiedOverview(certificate).note(*value).empty()) {
+    const std::string note = value == nullptr ? "" : CertifiedOverview(certificate).note(*value);
+    if (column == nullptr || value->printed_value.empty() || (!note.empty() && note != k_raised_mark)) {
         return words("statement", "see_following_pages");
     }
     const auto quantity = [&](const std::string& printed) {
@@ -230,6 +231,9 @@ Text results_in_one_line(const Certificate& certificate, const Wording& words, c
         {{"name", column->result}, {"value", quantity(value->printed_value)}, {"U", quantity(value->printed_U)}});
     if (!value->printed_k.empty()) {
         text += words("document", "separator") + words.fill("k_one", {{"k", words.number(value->printed_k)}});
+    }
+    if (value->raised) {
+        text += " " + words("statement", "raised_mark");
     }
     return text;
 }
@@ -384,8 +388,7 @@ nlohmann::json running_texts(const Wording& words, const EvaluationRecord& recor
     }
     return {{"header_left", shortened(printable(words.localised(data.laboratory.name).first()), 80)},
             {"header_right", head},
-            {"footer_left", std::string(k_form) + " · " + printable(record.certificate->profile.id) + " · " +
-                                record.software.name + " " + record.software.version}};
+            {"footer_left", std::string(k_form) + " · " + record.software.name + " " + record.software.version}};
 }
 
 }  // namespace gumcert::reports

@@ -73,12 +73,6 @@ void legend(CertificateBuilder& builder, const Wording& words, const CertifiedOv
     if (overview.used().size() > 1) {
         mark(words.filled("statement", "coverage_marks", {{"heading", words("heading", "statement_of_uncertainty")}}));
     }
-    if (!overview.separates() && overview.any([&](const auto& v) { return overview.is_outside(v); })) {
-        mark(words("statement", "outside_mark"));
-    }
-    if (overview.any([](const auto& v) { return v.external; })) {
-        mark(words.filled("statement", "external_mark", {{"heading", words("heading", "external")}}));
-    }
     if (!text.empty()) {
         builder.paragraph(text);
     }
@@ -275,7 +269,8 @@ void findings_section(CertificateBuilder& builder, const Wording& words, const C
     Lines lines;
     for (const Finding& f : certificate.findings) {
         const Text severity = words("finding_severity", k_severities.at(static_cast<std::size_t>(f.severity)));
-        lines.push_back({f.id, f.clause, severity, f.where, f.what, f.action});
+        lines.push_back(
+            {f.id, f.clause, severity, words.sentence(f.where), words.sentence(f.what), words.sentence(f.action)});
     }
     builder.table("findings", words("statement", "findings_table"),
                   {{words("certificate", "finding"), ""},

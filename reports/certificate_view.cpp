@@ -252,7 +252,7 @@ void messages(CertificateBuilder& builder, const Wording& words, const std::vect
     for (const gum::Diagnostic& d : diagnostics) {
         rows.emplace_back(
             words("value", "severity", k_severities.at(static_cast<std::size_t>(d.severity))) + " " + printable(d.code),
-            gum::message(d));
+            words.message(d));
     }
     builder.definitions(rows);
 }
@@ -295,7 +295,8 @@ void certified_sections(CertificateBuilder& builder, const Wording& words, const
     }
     result_sections(builder, words, record);
     closing_sections(builder, words, record);
-    builder.annexes();
+    // What the scope covers are the certified tables: nothing else of the document claims the accreditation.
+    builder.annexes(record.certificate->symbol);
     identification(builder, words, record);
     if (record.rotary) {
         positioning_targets(builder, words, *record.rotary);

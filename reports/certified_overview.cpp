@@ -78,6 +78,27 @@ std::string CertifiedOverview::note(const CertifiedValue& v) const {
     if (v.external) {
         mark("‡");
     }
+    if (v.raised) {
+        mark(k_raised_mark);
+    }
+    return text;
+}
+
+Text CertifiedOverview::meaning_of_marks(const Wording& words, const std::vector<const CertifiedValue*>& values) const {
+    Text text;
+    const auto mark = [&](const Text& sentence) { text += text.empty() ? sentence : " " + sentence; };
+    const auto some = [&](const Holds& holds) {
+        return std::any_of(values.begin(), values.end(), [&](const CertifiedValue* v) { return holds(*v); });
+    };
+    if (!separates() && some([&](const auto& v) { return is_outside(v); })) {
+        mark(words("statement", "outside_mark"));
+    }
+    if (some([](const auto& v) { return v.external; })) {
+        mark(words.filled("statement", "external_mark", {{"heading", words("heading", "external")}}));
+    }
+    if (some([](const auto& v) { return v.raised; })) {
+        mark(words("statement", "raised_mark"));
+    }
     return text;
 }
 

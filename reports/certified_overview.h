@@ -1,6 +1,7 @@
 #pragma once
 
 #include "certificate/certified_results.h"
+#include "reports/wording.h"
 
 #include <array>
 #include <cstddef>
@@ -9,6 +10,9 @@
 #include <vector>
 
 namespace gumcert::reports {
+
+/// Beside a value whose U is the capability of the scope.
+inline constexpr const char* k_raised_mark = "#";
 
 /// What the U (or the interval) of a value means; each has a sentence.
 enum class Coverage { nothing, none, normal, student_t, convolution, monte_carlo, interval };
@@ -36,8 +40,13 @@ public:
 
     /// "(a)", "(b)" … where more than one sentence is needed; "" else.
     [[nodiscard]] std::string letter(Coverage c) const;
-    /// Marks beside a value: the letter of its sentence, * outside of the accreditation, ‡ external.
+    /// Marks beside a value: the letter of its sentence, * outside of the accreditation, ‡ external, # raised to the
+    /// capability.
     [[nodiscard]] std::string note(const certificate::CertifiedValue& v) const;
+    /// What the marks *, ‡ and # of some values mean, one sentence each; empty without marks. It stands in the caption
+    /// of their table, so that it is on the page where they appear.
+    [[nodiscard]] Text meaning_of_marks(const Wording& words,
+                                        const std::vector<const certificate::CertifiedValue*>& values) const;
     [[nodiscard]] bool is_outside(const certificate::CertifiedValue& v) const;
     [[nodiscard]] bool any(const Holds& holds) const;
 

@@ -94,6 +94,12 @@ Text meaning(const CertifiedTable& table, const CertifiedColumn& column, const W
     return result_meaning(table, column, words);
 }
 
+Text with_marks(Text caption, const CertifiedOverview& overview, const Wording& words,
+                const std::vector<const CertifiedValue*>& values) {
+    const Text marks = overview.meaning_of_marks(words, values);
+    return marks.empty() ? caption : std::move(caption) + " " + marks;
+}
+
 /// One row a quantity: for a table without argument.
 void quantity_table(CertificateBuilder& builder, const Wording& words, const CertifiedTable& table,
                     const std::string& id, const CertifiedOverview::Holds& shown, const CertifiedOverview& overview) {
@@ -122,18 +128,20 @@ void quantity_table(CertificateBuilder& builder, const Wording& words, const Cer
         columns.push_back({words("certificate", "unit"), ""});
     }
     Lines lines;
+    std::vector<const CertifiedValue*> marked;
     for (const CertifiedColumn* column : rows_of) {
         std::vector<Text> row = {name_in_table(table.id, column->result)};
         if (named) {
             row.push_back(meaning(table, *column, words));
         }
         cells(row, parts, &column->values.front(), overview);
+        marked.push_back(&column->values.front());
         if (!unit) {
             row.emplace_back(column->printed_unit.empty() ? "1" : column->printed_unit);
         }
         lines.push_back(std::move(row));
     }
-    builder.table(id, certified_table_name(table, words), columns, lines);
+    builder.table(id, with_marks(certified_table_name(table, words), overview, words, marked), columns, lines);
 }
 
 /// Rows of the argument, a group of columns a quantity; more than one table where they do not fit side by side.
@@ -173,6 +181,7 @@ void argument_table(CertificateBuilder& builder, const Wording& words, const Cer
             groups.emplace_back(name_in_table(table.id, quantities[q].column->result), quantities[q].parts.count());
         }
         Lines lines;
+        std::vector<const CertifiedValue*> marked;
         for (std::size_t r = 0; r < argument.printed.size(); ++r) {
             std::vector<Text> row = {argument.printed[r]};
             bool any = false;
@@ -180,6 +189,9 @@ void argument_table(CertificateBuilder& builder, const Wording& words, const Cer
                 const CertifiedValue& v = quantities[q].column->values.at(r);
                 any = any || shown(v);
                 cells(row, quantities[q].parts, shown(v) ? &v : nullptr, overview);
+                if (shown(v)) {
+                    marked.push_back(&v);
+                }
             }
             if (any) {
                 lines.push_back(std::move(row));
@@ -193,7 +205,8 @@ void argument_table(CertificateBuilder& builder, const Wording& words, const Cer
             }
             caption += " " + joined(names) + ".";
         }
-        builder.table(id + (part == 0 ? "" : "-" + std::to_string(part)), caption, columns, lines, groups);
+        builder.table(id + (part == 0 ? "" : "-" + std::to_string(part)),
+                      with_marks(std::move(caption), overview, words, marked), columns, lines, groups);
         ++part;
         first = last;
     }

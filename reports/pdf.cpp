@@ -3,6 +3,7 @@
 #include "reports/certificate_view.h"
 #include "reports/document_forms.h"
 #include "reports/pdf_conformity.h"
+#include "reports/pdf_page_texts.h"
 #include "reports/pdf_worker.h"
 #include "reports/render.h"
 
@@ -54,11 +55,25 @@ nlohmann::json with_pdf_keys(nlohmann::json view, bool further_fonts, bool attac
     return view;
 }
 
+/// What must not be missing on any page, whatever the template does.
+std::vector<std::string> texts_of_every_page(const nlohmann::json& view) {
+    std::vector<std::string> texts;
+    for (const auto& [list, key] : {std::pair("identity", "number"), std::pair("mark", "text")}) {
+        for (const nlohmann::json& entry : view.value(list, nlohmann::json::array())) {
+            texts.push_back(entry.at(key).get<std::string>());
+        }
+    }
+    return texts;
+}
+
 std::string checked_pdf(const nlohmann::json& view, const RenderAssets& assets, const std::string& dcc,
                         PdfWorker& worker) {
     const bool further_fonts = !assets.fonts.empty() && needs_further_fonts(view.dump());
     std::string pdf = worker.set(with_pdf_keys(view, further_fonts, !dcc.empty()).dump(), dcc, further_fonts);
     std::vector<gum::Diagnostic> findings = check_pdf(pdf, dcc);
+    if (findings.empty()) {
+        findings = check_pages(pdf, texts_of_every_page(view));
+    }
     if (!findings.empty()) {
         throw gum::NoResultError(std::move(findings));
     }

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "gum/quantity/diagnostic.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gumcert::reports {
+
+/// The text of every page of a PDF as a reader copies it, by the ToUnicode maps of its fonts, in the order in which it
+/// is drawn and without blanks. Texts in pictures are not looked at.
+/// \throws std::exception of the reader if the file is no PDF
+[[nodiscard]] std::vector<std::string> texts_of_pages(std::string_view pdf);
+
+/// Whether each text stands on every page: the number of a certificate, the mark of a draft or a specimen. A template
+/// of a laboratory can forget them; then there is no document.
+/// \param texts  compared without blanks and hyphens, because a line may break in them; empty ones are left out
+[[nodiscard]] std::vector<gum::Diagnostic> check_pages(std::string_view pdf, const std::vector<std::string>& texts);
+
+}  // namespace gumcert::reports
