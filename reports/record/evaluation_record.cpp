@@ -1,6 +1,8 @@
 #include "reports/record/evaluation_record.h"
 
 #include "certificate/certificate_fields.h"
+#include "encoding/base64.h"
+#include "encoding/sha2.h"
 #include "reports/record/canonical_json.h"
 #include "reports/record/comparison_check.h"
 #include "reports/record/comparison_fields.h"
@@ -678,6 +680,8 @@ template <class Archive, Is<InputFile> Struct>
 void describe(Archive& a, Struct& r) {
     a("name", r.name);
     a("sha256", r.sha256);
+    a.added("content", r.content);
+    a.added("encoding", r.encoding, {"utf-8", "base64", "none"});
 }
 
 template <class Archive, Is<Software> Struct>
@@ -785,6 +789,7 @@ void describe(Archive& a, Struct& r) {
     a.added("certificate", r.certificate);
     a("diagnostics", r.diagnostics);
     a.added("statements", r.statements);
+    a.digest("digest", r.digest);
     a.null("audit");  // the record of this version holds no audit
 }
 
@@ -1065,6 +1070,8 @@ void check_certificate(const certificate::Certificate& c, const Report& report) 
 }
 
 constexpr std::array<const char*, 3> k_severities = {"note", "warning", "error"};
+constexpr const char* k_digest_key = "digest";
+constexpr const char* k_digest_algorithm = "SHA-256";
 
 /// Where a value stands. Its JSON pointer is made where it is needed: a record has a million values, and few problems.
 struct Place {
@@ -1144,6 +1151,7 @@ public:
 
     void constant(const char* key, const char* v) { object[key] = v; }
     void null(const char* key) { object[key] = nullptr; }
+    void digest(const char*, const std::string&) {}  // with_digest() adds it to the finished record
 
     void severity(const char* key, gum::Severity v) { object[key] = k_severities.at(static_cast<std::size_t>(v)); }
 
@@ -1444,6 +1452,27 @@ public:
         }
     }
 
+    /// Records of earlier releases state none.
+    void digest(const char* key, std::string& value) {
+        const json* item = find_if_there(key);
+        if (item == nullptr) {
+            return;
+        }
+        const std::string at = pointer_ + "/" + key;
+        if (!item->is_object()) {
+            wrong_type(*item, at, "an object");
+            return;
+        }
+        std::string algorithm;
+        Reader inner(*item, at, problems_);
+        inner("algorithm", algorithm, {k_digest_algorithm});
+        inner("value", value);
+        inner.finish();
+        if (value.empty()) {
+            problems_.add("GC-RECORD-0016", at + "/value", "\"\"", "must be 64 hexadecimal digits", k_restore);
+        }
+    }
+
     void severity(const char* key, gum::Severity& v) {
         std::string name;
         (*this)(key, name, {k_severities[0], k_severities[1], k_severities[2]});
@@ -1732,6 +1761,10 @@ private:
         } else if constexpr (std::same_as<Type, std::string>) {
             if (item.is_string()) {
                 v = item.get<std::string>();
+                if (v.find('\0') != std::string::npos) {
+                    problems_.add("GC-RECORD-0016", at.pointer(), "a text with NUL (U+0000)",
+                                  "a text that is printed has no NUL", k_restore);
+                }
             } else {
                 wrong_type(item, at.pointer(), "a text");
             }
@@ -1915,7 +1948,7 @@ std::string to_canonical_json(const EvaluationRecord& record) {
     }
     Writer writer("");
     describe(writer, record);
-    std::string text = canonical_json(writer.object);
+    std::string text = with_digest(std::move(writer.object));
     if (text.size() > k_max_record_bytes) {
         Writer::refuse("", std::to_string(text.size()) + " bytes",
                        "a record has at most " + std::to_string(k_max_record_bytes) + " bytes",
@@ -1979,7 +2012,51 @@ EvaluationRecord record_from_json(const std::string& text, const std::string& wh
         check_certificate(*record.certificate, report);
     }
     problems.throw_if_any();
+    if (!record.digest.empty()) {
+        json without = std::move(parser.root);
+        without.erase(k_digest_key);
+        if (const std::string own = encoding::sha256(canonical_json(without)); own != record.digest) {
+            problems.add("GC-RECORD-0021", std::string("/") + k_digest_key,
+                         "SHA-256 of the record is " + own + ", and it states " + record.digest,
+                         "a record states the digest of its own contents: this one was changed after it was written",
+                         "take the record as the program wrote it, or evaluate its job again");
+            problems.throw_if_any();
+        }
+    }
     return record;
+}
+
+std::string with_digest(json record) {
+    record.erase(k_digest_key);
+    std::string text = canonical_json(record);
+    const std::string member = std::string("\n \"") + k_digest_key + "\": {\n  \"algorithm\": \"" + k_digest_algorithm +
+                               "\",\n  \"value\": \"" + encoding::sha256(text) + "\"\n }";
+    // Put in its place among the sorted keys, for a record is large. Only a key of the outermost object stands behind
+    // one blank at the beginning of a line.
+    for (const auto& [key, item] : record.items()) {
+        if (key > k_digest_key) {
+            std::string name = canonical_json(json(key));
+            name.pop_back();
+            text.insert(text.find("\n " + name + ": "), member + ',');
+            return text;
+        }
+    }
+    record[k_digest_key] = {{"algorithm", k_digest_algorithm}, {"value", encoding::sha256(text)}};
+    return canonical_json(record);
+}
+
+InputFile input_file(const std::string& name, const std::string& bytes, bool with_content) {
+    InputFile file{.name = name, .sha256 = encoding::sha256(bytes)};
+    if (with_content) {
+        const bool text = is_utf8(bytes) && bytes.find('\0') == std::string::npos;
+        file.content = text ? bytes : encoding::base64(bytes);
+        file.encoding = text ? "utf-8" : "base64";
+    }
+    return file;
+}
+
+std::optional<std::string> bytes_of(const InputFile& file) {
+    return file.encoding == "base64" && file.content ? encoding::bytes_from_base64(*file.content) : file.content;
 }
 
 }  // namespace gumcert::reports

@@ -438,7 +438,16 @@ struct Software {
 struct InputFile {
     std::string name;    ///< as the job names it
     std::string sha256;  ///< hexadecimal, lower case
+    /// The bytes as text in UTF-8, or in Base64 as `encoding` says; none where the record does not hold them, because
+    /// they are too many, or because it was written by an earlier release.
+    std::optional<std::string> content = {};
+    std::string encoding = "none";  ///< "utf-8", "base64", "none"
 };
+
+/// Bytes of a file of a job as a record holds them: as text where they are UTF-8 without NUL, else in Base64.
+[[nodiscard]] InputFile input_file(const std::string& name, const std::string& bytes, bool with_content);
+/// The bytes that a record holds of a file; none without, or where its Base64 is none.
+[[nodiscard]] std::optional<std::string> bytes_of(const InputFile& file);
 
 /// Everything that a document prints and a third party needs to recompute it (contract, section 6).
 ///
@@ -470,15 +479,23 @@ struct EvaluationRecord {
     std::vector<gum::Diagnostic> diagnostics;
     /// Every sentence that the program put into this record, each once, sorted by its text
     std::vector<IdentifiedSentence> statements;
+    /// SHA-256 that the record stated of itself when it was read; "" for one that states none, or was not read.
+    std::string digest;
 };
 
 /// Canonical JSON of a record: keys sorted by code point, shortest numbers that read back the same, LF, UTF-8, no NaN.
+/// Its member `digest` is the SHA-256 of the same text without that member.
 /// \throws gum::NoResultError if a number is not finite: it must never reach a document
 [[nodiscard]] std::string to_canonical_json(const EvaluationRecord& record);
 
 /// \param where  name of the text for messages
-/// \throws gum::InputError  if the text is not a record of schema gumcert/record/1, with every problem found
+/// \throws gum::InputError  if the text is not a record of schema gumcert/record/1, with every problem found; and
+///                          GC-RECORD-0021 if it states another digest than that of its own contents
 [[nodiscard]] EvaluationRecord record_from_json(const std::string& text, const std::string& where);
+
+/// A record as JSON with the digest that fits it, whatever digest it had, in canonical text: what a record becomes that
+/// somebody edits and closes again. A digest says that a record is whole, not who made it.
+[[nodiscard]] std::string with_digest(nlohmann::json record);
 
 /// Canonical text of any JSON value (the same rules).
 [[nodiscard]] std::string canonical_json(const nlohmann::json& value);

@@ -1,5 +1,7 @@
 #include "reports/record/evaluation_record.h"
 
+#include "encoding/sha2.h"
+
 #include "reports/record/canonical_json.h"
 #include "tests/support/record_refusal.h"
 #include "tests/support/sample_budget_record.h"
@@ -157,7 +159,61 @@ json of_the_first_release() {
             item.erase(key);
         }
     }
+    r.erase("digest");
     return r;
+}
+
+TEST(EvaluationRecord, StatesTheDigestOfItsOwnContents) {
+    const std::string text = to_canonical_json(test::sample_record());
+    json without = json::parse(text);
+    EXPECT_EQ(without["digest"]["algorithm"], "SHA-256");
+    const std::string digest = without["digest"]["value"];
+    EXPECT_EQ(record_from_json(text, "x").digest, digest);
+    without.erase("digest");
+    EXPECT_EQ(encoding::sha256(canonical_json(without)), digest);
+    EXPECT_EQ(with_digest(without), text);
+    EXPECT_EQ(with_digest(json::parse(text)), text);
+    EXPECT_EQ(canonical_json(json::parse(text)), text);
+    for (const json& other : {json{{"a", 1}}, json{{"z", 1}}, json{{"a", "\n \"z\": 1"}, {"z", {{"z", 1}}}}}) {
+        const std::string closed = with_digest(other);
+        EXPECT_EQ(canonical_json(json::parse(closed)), closed);
+        EXPECT_EQ(json::parse(closed)["digest"]["value"], encoding::sha256(canonical_json(other)));
+    }
+    EXPECT_EQ(record_from_json(canonical_json(without), "x").digest, "");  // records of earlier releases
+    // How it is laid out does not matter, and what it says does.
+    EXPECT_EQ(record_refusal(json::parse(text).dump(4)), "accepted");
+    json changed = json::parse(text);
+    changed["title"] = "Another";
+    EXPECT_THAT(record_refusal(changed.dump()), HasSubstr("GC-RECORD-0021 record.json#/digest"));
+    EXPECT_EQ(record_refusal(with_digest(changed)), "accepted");
+    changed = json::parse(text);
+    changed["digest"]["value"] = std::string(64, '0');
+    EXPECT_THAT(record_refusal(changed.dump()), HasSubstr(std::string(64, '0')));
+    changed["digest"]["value"] = "";
+    EXPECT_THAT(record_refusal(changed.dump()), HasSubstr("GC-RECORD-0016 record.json#/digest/value"));
+    changed["digest"] = "none";
+    EXPECT_THAT(record_refusal(changed.dump()), HasSubstr("GC-RECORD-0015 record.json#/digest"));
+}
+
+TEST(EvaluationRecord, NoTextHoldsNul) {
+    json record = json::parse(to_canonical_json(test::sample_record()));
+    record["title"] = std::string("a\0b", 3);
+    EXPECT_THAT(record_refusal(with_digest(record)), HasSubstr("GC-RECORD-0016 record.json#/title"));
+}
+
+TEST(EvaluationRecord, HoldsTheFilesOfItsJob) {
+    for (const std::string& bytes : {std::string(), std::string("a,b\n1,2\n"), std::string("\xEF\xBB\xBF°C\r\n"),
+                                     std::string("\x89PNG\r\n\x1A\n"), std::string("a\0b", 3)}) {
+        EvaluationRecord record = test::sample_record();
+        record.job_files.push_back(input_file("x", bytes, true));
+        const EvaluationRecord again = record_from_json(to_canonical_json(record), "x");
+        EXPECT_EQ(bytes_of(again.job_files.back()), bytes);
+        EXPECT_EQ(again.job_files.back().sha256, encoding::sha256(bytes));
+    }
+    EXPECT_EQ(input_file("x", "°", true).encoding, "utf-8");
+    EXPECT_EQ(input_file("x", "\xFF", true).encoding, "base64");
+    EXPECT_EQ(bytes_of(input_file("x", "a", false)), std::nullopt);
+    EXPECT_EQ(input_file("x", "a", false).sha256, encoding::sha256("a"));
 }
 
 TEST(EvaluationRecord, ARotaryRecordOfTheFirstReleaseIsRead) {
