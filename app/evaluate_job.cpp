@@ -1,5 +1,9 @@
 #include "app/evaluate_job.h"
 
+#include <map>
+#include <optional>
+#include <utility>
+
 #include "app/budget_covariance.h"
 #include "app/budget_record.h"
 #include "app/certificate_inputs.h"
@@ -7,9 +11,7 @@
 #include "app/evaluate_budget.h"
 #include "app/evaluate_comparison.h"
 #include "app/evaluate_rotary_table.h"
-#include "app/read_file.h"
 #include "app/rotary_table_record.h"
-#include "encoding/sha2.h"
 #include "engine/job/budget_job.h"
 #include "engine/job/comparison_job.h"
 #include "engine/job/rotary_table_job.h"
@@ -23,13 +25,46 @@ namespace {
 constexpr std::size_t k_most_results_in_record = 100;
 constexpr std::size_t k_most_correlated_results = 2000;
 
-std::vector<reports::InputFile> digests(const std::filesystem::path& job_file, const std::vector<std::string>& names) {
-    std::vector<reports::InputFile> files;
-    for (const std::string& name : names) {
-        files.push_back({name, encoding::sha256(read_file(job_file.parent_path() / name))});
+// A record holds the files of its job, so that it can be evaluated again: up to so many bytes of one and of all.
+constexpr std::size_t k_largest_held_file = std::size_t{8} << 20U;
+constexpr std::size_t k_most_held_bytes = std::size_t{16} << 20U;
+
+/// The files of a job, each read once: what is parsed is what the digest is of and what the record holds.
+class FilesOfJob : public engine::FileSource {
+public:
+    explicit FilesOfJob(const engine::FileSource& from) : from_(from) {}
+
+    [[nodiscard]] std::string read(const std::string& name) const override {
+        const auto found = bytes_.find(name);
+        return found != bytes_.end() ? found->second : bytes_.emplace(name, from_.read(name)).first->second;
     }
-    return files;
-}
+
+    [[nodiscard]] std::vector<reports::InputFile> input_files(const std::vector<std::string>& names) const {
+        std::vector<reports::InputFile> files;
+        std::size_t held = 0;
+        for (const std::string& name : names) {
+            const std::string bytes = read(name);
+            const bool holds = bytes.size() <= k_largest_held_file && held + bytes.size() <= k_most_held_bytes;
+            held += holds ? bytes.size() : 0;
+            files.push_back(reports::input_file(name, bytes, holds));
+        }
+        return files;
+    }
+
+private:
+    const engine::FileSource& from_;
+    mutable std::map<std::string, std::string> bytes_;
+};
+
+/// What is the same for jobs of all kinds.
+struct Task {
+    const FilesOfJob& files;
+    const std::string& job_file;         ///< name in `files`
+    const std::string& covariance_file;  ///< name that it will have; "" when none will be written
+    unsigned threads = 0;
+    const std::filesystem::path& templates;
+    const Progress& progress;
+};
 
 /// The profile that certificate data ask for: found before the evaluation, which may take long.
 std::optional<certificate::Profile> profile_of(const std::optional<certificate::CertificateData>& data,
@@ -45,11 +80,10 @@ void make_certificate(Evaluation& evaluation, const std::optional<certificate::C
     }
 }
 
-Evaluation evaluate_budget_job(const std::filesystem::path& job_file, const std::string& covariance_file,
-                               unsigned threads, const std::filesystem::path& templates, const Progress& progress) {
-    const engine::BudgetJob job = engine::read_budget_job(job_file);
-    const std::optional<certificate::Profile> profile = profile_of(job.certificate, templates);
-    BudgetResult result = evaluate_budget(job, threads, progress);
+Evaluation evaluate_budget_job(const Task& task) {
+    const engine::BudgetJob job = engine::read_budget_job(task.files, task.job_file);
+    const std::optional<certificate::Profile> profile = profile_of(job.certificate, task.templates);
+    BudgetResult result = evaluate_budget(job, task.threads, task.progress);
     const std::size_t results = result.points.size() * result.output_names.size();
     Eigen::MatrixXd covariance;
     if (results > 1 && results <= k_most_correlated_results) {
@@ -63,37 +97,35 @@ Evaluation evaluate_budget_job(const std::filesystem::path& job_file, const std:
                                 .severity = gum::Severity::note});
     }
     Evaluation evaluation;
-    const bool in_file = results > k_most_results_in_record && covariance.size() > 0 && !covariance_file.empty();
+    const bool in_file = results > k_most_results_in_record && covariance.size() > 0 && !task.covariance_file.empty();
     if (in_file) {
         evaluation.covariance_csv = budget_covariance_csv(job, result, covariance);
     }
     evaluation.record =
-        budget_record(job, result, digests(job_file, job.files), covariance, in_file ? covariance_file : "");
+        budget_record(job, result, task.files.input_files(job.files), covariance, in_file ? task.covariance_file : "");
     evaluation.negative = result.validation_failed;
     if (job.certificate) {
-        make_certificate(evaluation, job.certificate, profile, capability_inputs(job, result, threads));
+        make_certificate(evaluation, job.certificate, profile, capability_inputs(job, result, task.threads));
     }
     return evaluation;
 }
 
-Evaluation evaluate_rotary_table_job(const std::filesystem::path& job_file, const std::string& covariance_file,
-                                     unsigned threads, const std::filesystem::path& templates,
-                                     const Progress& progress) {
-    engine::RotaryTableJob job = engine::read_rotary_table_job(job_file);
-    const std::optional<certificate::Profile> profile = profile_of(job.certificate, templates);
-    const RotaryTableResult result = evaluate_rotary_table(job, threads, progress);
+Evaluation evaluate_rotary_table_job(const Task& task) {
+    engine::RotaryTableJob job = engine::read_rotary_table_job(task.files, task.job_file);
+    const std::optional<certificate::Profile> profile = profile_of(job.certificate, task.templates);
+    const RotaryTableResult result = evaluate_rotary_table(job, task.threads, task.progress);
     Evaluation evaluation;
     evaluation.covariance_csv = covariance_csv(job, result.solution.quantities, result.propagation.covariance);
-    evaluation.record = rotary_table_record(job, result, digests(job_file, job.files), covariance_file);
+    evaluation.record = rotary_table_record(job, result, task.files.input_files(job.files), task.covariance_file);
     evaluation.negative = result.validation_failed;
     make_certificate(evaluation, job.certificate, profile, {});
     return evaluation;
 }
 
-Evaluation evaluate_comparison_job(const std::filesystem::path& job_file, const Progress& progress) {
-    const engine::ComparisonJob job = engine::read_comparison_job(job_file);
+Evaluation evaluate_comparison_job(const Task& task) {
+    const engine::ComparisonJob job = engine::read_comparison_job(task.files, task.job_file);
     Evaluation evaluation;
-    evaluation.record = evaluate_comparison(job, digests(job_file, job.files), progress);
+    evaluation.record = evaluate_comparison(job, task.files.input_files(job.files), task.progress);
     evaluation.negative = !evaluation.record.comparison->items_without_result.empty();
     return evaluation;
 }
@@ -134,31 +166,33 @@ std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_
 
 Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string& covariance_file, unsigned threads,
                         const std::filesystem::path& templates, const Progress& progress) {
-    std::string kind;
+    const engine::DiskFileSource folder(job_file.parent_path());
     try {
-        kind = engine::job_kind(job_file);
+        (void)engine::job_kind(job_file);
     } catch (const gum::InputError&) {
         // The reader of its kind tells the other problems of the job together with this one.
         read_as(engine::probable_job_kind(job_file).value_or(""), job_file);
         throw;
     }
-    const auto with_statements = [&](Evaluation evaluation) {
-        reports::identify_sentences(evaluation.record, templates);
-        return evaluation;
-    };
-    if (kind == "budget") {
-        return with_statements(evaluate_budget_job(job_file, covariance_file, threads, templates, progress));
-    }
-    if (kind == "rotary_table") {
-        return with_statements(evaluate_rotary_table_job(job_file, covariance_file, threads, templates, progress));
-    }
-    if (kind == "comparison") {
-        return with_statements(evaluate_comparison_job(job_file, progress));
-    }
-    throw gum::InputError(gum::Diagnostic{
-        "GC-INPUT-0900", job_file.string() + "#/kind", "\"" + kind + "\" cannot be evaluated by this version",
-        "this version evaluates jobs of the kinds \"budget\", \"rotary_table\" and \"comparison\"",
-        "see CHANGELOG.md for what each version brings", gum::Severity::error});
+    return evaluate_job(folder, job_file.filename().string(), covariance_file, threads, templates, progress);
+}
+
+Evaluation evaluate_job(const engine::FileSource& source, const std::string& job_file,
+                        const std::string& covariance_file, unsigned threads, const std::filesystem::path& templates,
+                        const Progress& progress) {
+    const FilesOfJob files(source);
+    const Task task{.files = files,
+                    .job_file = job_file,
+                    .covariance_file = covariance_file,
+                    .threads = threads,
+                    .templates = templates,
+                    .progress = progress};
+    const std::string kind = engine::job_kind(files, job_file);
+    Evaluation evaluation = kind == "budget"       ? evaluate_budget_job(task)
+                            : kind == "comparison" ? evaluate_comparison_job(task)
+                                                   : evaluate_rotary_table_job(task);
+    reports::identify_sentences(evaluation.record, templates);
+    return evaluation;
 }
 
 }  // namespace gumcert::app

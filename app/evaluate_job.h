@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/job/file_source.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -37,5 +38,9 @@ using Progress = std::function<void(const std::string&)>;
 [[nodiscard]] Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string& covariance_file,
                                       unsigned threads, const std::filesystem::path& templates,
                                       const Progress& progress = {});
+/// The same of a job in any source of files, under its name there.
+[[nodiscard]] Evaluation evaluate_job(const engine::FileSource& source, const std::string& job_file,
+                                      const std::string& covariance_file, unsigned threads,
+                                      const std::filesystem::path& templates, const Progress& progress = {});
 
 }  // namespace gumcert::app

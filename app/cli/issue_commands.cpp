@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include "app/issue_documents.h"
 #include "app/output_files.h"
 #include "app/read_file.h"
+#include "app/recompute_record.h"
 #include "certificate/day_of_issue.h"
 #include "reports/record/evaluation_record.h"
 
@@ -205,10 +207,34 @@ app::DocumentForm form_of(const std::string& format) {
                              : app::DocumentForm::text;
 }
 
+/// What is done with a record that was not evaluated again: nothing is believed, so nothing is issued.
+/// \return whether a draft is to be printed
+bool print_as_unchecked(reports::EvaluationRecord& record, gum::Diagnostic why, const DocumentOptions& options,
+                        const CommonOptions& common) {
+    if (!options.signer.empty()) {
+        throw gum::InputError(std::move(why));
+    }
+    why.severity = options.draft ? gum::Severity::warning : gum::Severity::error;
+    print_message(why, common);
+    if (options.draft && record.certificate) {
+        record.certificate->blocked = true;
+        record.certificate->symbol = false;
+    }
+    return options.draft;
+}
+
 /// \param file  empty: to standard output
 ExitCode render_record(const std::string& name, const std::string& format, const fs::path& file, Issuer& issuer,
                        const DocumentOptions& options, const CommonOptions& common) {
     reports::EvaluationRecord record = reports::record_from_json(app::read_file(name), name);
+    ProgressLine progress(!common.quiet);
+    const std::optional<gum::Diagnostic> unchecked =
+        app::recompute_record(record, name, static_cast<unsigned>(common.threads), templates_if_any(options.share),
+                              [&](const std::string& text) { progress("checking the record: " + text); });
+    progress.clear();
+    if (unchecked && !print_as_unchecked(record, *unchecked, options, common)) {
+        return negative_answer;
+    }
     look_at_the_day(record);
     if (withheld(record, options.draft)) {
         report_findings(record, common);

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/evaluate_job.h"
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::app {
+
+/// What was found out about a file.
+struct FileCheck {
+    std::string kind;                       ///< "job of kind budget", "record of kind rotary_table"
+    std::vector<gum::Diagnostic> findings;  ///< of severity error where something is wrong
+};
+
+/// Use case of `gumcert check FILE`. A job is read with all its files, and everything that its reader refuses or warns
+/// of is told; it is not evaluated. A record is read, its digest compared, its job evaluated again and the two
+/// compared. \throws gum::StorageError  if a file cannot be read \throws gum::InputError    GC-CHECK-0001 if it is
+/// neither
+[[nodiscard]] FileCheck check_file(const std::filesystem::path& file, unsigned threads,
+                                   const std::filesystem::path& templates, const Progress& progress = {});
+
+}  // namespace gumcert::app

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/evaluate_job.h"
+#include "gum/quantity/diagnostic.h"
+#include "reports/record/evaluation_record.h"
+
+namespace gumcert::app {
+
+/// At most so many places of one record are told.
+inline constexpr std::size_t k_most_disagreements = 20;
+
+/// Where a record says something else than the one that its job gives. The same numbers are those that agree within
+/// 1e-9 of their size, or of 1e-12 of the largest in their list: mathematical functions of two computers may differ in
+/// the last digit. Every text, every digit that is printed, every verdict is the same to the letter.
+/// \param where  name of the record, for messages
+[[nodiscard]] std::vector<gum::Diagnostic> disagreements(const reports::EvaluationRecord& stated,
+                                                         const reports::EvaluationRecord& evaluated,
+                                                         const std::string& where);
+
+/// Why a record cannot be evaluated again by this program: another program made it, it does not hold all files of its
+/// job, it states no digest. None: it can.
+[[nodiscard]] std::optional<gum::Diagnostic> not_recomputable(const reports::EvaluationRecord& record,
+                                                              const std::string& where);
+
+/// The record that the job in a record gives: its files as the record holds them, evaluated with this program.
+/// \throws gum::InputError  GC-RECORD-0023 if a file is not that of its digest, -0024 if the job cannot be evaluated
+[[nodiscard]] reports::EvaluationRecord evaluated_again(const reports::EvaluationRecord& record,
+                                                        const std::string& where, unsigned threads,
+                                                        const std::filesystem::path& templates,
+                                                        const Progress& progress = {});
+
+/// Believes nothing that a record says: evaluates its job again and compares.
+/// \return why it cannot be evaluated again, as a diagnostic; none where it was, and agrees in everything
+/// \throws gum::InputError  GC-RECORD-0022 with every place where it disagrees, and those of evaluated_again()
+[[nodiscard]] std::optional<gum::Diagnostic> recompute_record(const reports::EvaluationRecord& record,
+                                                              const std::string& where, unsigned threads,
+                                                              const std::filesystem::path& templates,
+                                                              const Progress& progress = {});
+
+}  // namespace gumcert::app
