@@ -288,7 +288,7 @@ void add_uncertainty(const engine::ComparisonJob& job, const LaboratoryData& dat
     evaluation.printed.nu = printed_degrees_of_freedom(evaluation.nu);
     evaluation.printed.U_of_scores = printed_uncertainty(evaluation.U_of_scores);
     evaluation.printed.coverage_with_scatter =
-        evaluation.coverage_with_scatter ? gum::percent(*evaluation.coverage_with_scatter) : "";
+        evaluation.coverage_with_scatter ? gum::percent(*evaluation.coverage_with_scatter) + " %" : "";
     evaluation.printed.value = printed_value(evaluation.value, evaluation.U);
     evaluation.printed.u = printed_uncertainty(evaluation.u);
     evaluation.printed.U = printed_uncertainty(evaluation.U);

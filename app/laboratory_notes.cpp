@@ -23,6 +23,11 @@ std::string place_of(const ComparisonItemEvaluation& item) {
 
 constexpr std::size_t k_most_names_in_remark = 12;
 
+/// A coverage probability: "95.45 %".
+std::string in_percent(double probability) {
+    return gum::round_significant(100.0 * probability, 4) + " %";
+}
+
 /// A message about those items that something holds for; nothing where it holds for none.
 class ItemMessages {
 public:
@@ -261,7 +266,7 @@ void add_remarks_on_coverage(const engine::ComparisonJob& job, const reports::Co
                 "large "
                 "as the median of their u, U(X) would cover " +
                 item.printed.coverage_with_scatter + " of all cases in place of " +
-                gum::percent(job.coverage_probability) +
+                in_percent(job.coverage_probability) +
                 (comparison.items.size() > 1 ? " (" + place_of(item) + ")." : "."));
             break;
         }
@@ -281,12 +286,12 @@ void add_remarks_on_coverage(const engine::ComparisonJob& job, const reports::Co
     if (!converted.empty()) {
         remarks.push_back("The coverage factors of " + listed(converted, k_most_names_in_remark) +
                           " are not those of about 95 %: En takes U = k u with the factor for " +
-                          gum::percent(comparison.score_probability) +
+                          in_percent(comparison.score_probability) +
                           " and the stated degrees of freedom in place of the stated U.");
     }
     if (comparison.score_probability != job.coverage_probability) {
         remarks.push_back("En is defined for about 95 %: it takes expanded uncertainties for " +
-                          gum::percent(comparison.score_probability) + ", whatever the comparison states.");
+                          in_percent(comparison.score_probability) + ", whatever the comparison states.");
     }
 }
 

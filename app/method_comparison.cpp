@@ -425,7 +425,7 @@ void print(ComparisonSummary& row) {
     row.printed.D_fail_largest = printed_uncertainty(row.D_fail_largest);
     row.printed.found_with_80_percent = printed_uncertainty(row.found_with_80_percent);
     row.printed.found_with_95_percent = printed_uncertainty(row.found_with_95_percent);
-    row.printed.power_to_confirm = row.power_to_confirm ? gum::percent(*row.power_to_confirm) : "";
+    row.printed.power_to_confirm = row.power_to_confirm ? gum::percent(*row.power_to_confirm) + " %" : "";
     row.printed.effective_points = gum::round_to_quantum(*row.effective_points, k_decimals_of_points);
     row.printed.p_mahalanobis = printed_probability(row.p_mahalanobis);
     row.printed.vector_En = printed_score(row.vector_En);

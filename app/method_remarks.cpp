@@ -238,7 +238,8 @@ private:
         if (converted > 0) {
             say("At " + std::to_string(converted) + " of " + count_of(whole().points, "point") +
                 " a stated coverage factor is not that of about 95 %: En takes U = k u with the factor for " +
-                gum::percent(record_.score_probability) + " and the stated degrees of freedom there.");
+                gum::round_significant(100.0 * record_.score_probability, 4) + " %" +
+                " and the stated degrees of freedom there.");
         }
     }
 

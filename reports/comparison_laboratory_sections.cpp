@@ -217,7 +217,8 @@ void factors_in_brief(CertificateBuilder& builder, const Wording& words, const C
     if (!names.empty()) {
         builder.paragraph(
             words.filled("comparison", "factors_in_brief",
-                         {{"names", some_of(words, names)}, {"p", words.number(gum::percent(c.score_probability))}}));
+                         {{"names", some_of(words, names)},
+                          {"p", words.number(gum::round_significant(100.0 * c.score_probability, 4) + " %")}}));
     }
 }
 
