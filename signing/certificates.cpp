@@ -122,6 +122,167 @@ std::string issuer_of(X509* certificate) {
     return name_text(X509_get_issuer_name(certificate));
 }
 
+std::vector<std::string> names_of(X509* certificate) {
+    std::vector<std::string> names;
+    const X509_NAME* subject = X509_get_subject_name(certificate);
+    for (const int nid : {NID_commonName, NID_organizationName, NID_organizationalUnitName}) {
+        for (int at = X509_NAME_get_index_by_NID(subject, nid, -1); at >= 0;
+             at = X509_NAME_get_index_by_NID(subject, nid, at)) {
+            unsigned char* utf8 = nullptr;
+            const int size = ASN1_STRING_to_UTF8(&utf8, X509_NAME_ENTRY_get_data(X509_NAME_get_entry(subject, at)));
+            if (size >= 0) {
+                names.emplace_back(reinterpret_cast<const char*>(utf8), static_cast<std::size_t>(size));
+                OPENSSL_free(utf8);
+            }
+        }
+    }
+    ERR_clear_error();
+    return names;
+}
+
+std::string weakness_of_issue(X509* certificate) {
+    if (X509_NAME_cmp(X509_get_subject_name(certificate), X509_get_issuer_name(certificate)) == 0) {
+        return {};
+    }
+    int digest = NID_undef;
+    int security_bits = 0;
+    const bool known = X509_get_signature_info(certificate, &digest, nullptr, &security_bits, nullptr) == 1;
+    ERR_clear_error();
+    constexpr int k_112_bits_of_security = 112;
+    if (known && security_bits >= k_112_bits_of_security) {
+        return {};
+    }
+    return OBJ_nid2ln(digest == NID_undef ? X509_get_signature_nid(certificate) : digest);
+}
+
+std::vector<Bytes> revocation_lists_from(const Bytes& file) {
+    std::vector<Bytes> all;
+    const auto add = [&](X509_CRL* list) {
+        unsigned char* der = nullptr;
+        const int size = i2d_X509_CRL(list, &der);
+        if (size > 0) {
+            all.emplace_back(reinterpret_cast<const char*>(der), static_cast<std::size_t>(size));
+        }
+        OPENSSL_free(der);
+    };
+    const Handle<BIO> in(BIO_new_mem_buf(file.data(), static_cast<int>(file.size())));
+    while (const Handle<X509_CRL> list{PEM_read_bio_X509_CRL(in.get(), nullptr, nullptr, nullptr)}) {
+        add(list.get());
+    }
+    if (all.empty()) {
+        const auto* at = reinterpret_cast<const unsigned char*>(file.data());
+        if (const Handle<X509_CRL> list{d2i_X509_CRL(nullptr, &at, static_cast<long>(file.size()))}) {
+            add(list.get());
+        }
+    }
+    ERR_clear_error();
+    return all;
+}
+
+namespace {
+
+std::vector<Handle<X509_CRL>> lists_of(const std::vector<Bytes>& ders) {
+    std::vector<Handle<X509_CRL>> lists;
+    for (const Bytes& der : ders) {
+        const auto* at = reinterpret_cast<const unsigned char*>(der.data());
+        Handle<X509_CRL> list(d2i_X509_CRL(nullptr, &at, static_cast<long>(der.size())));
+        if (list != nullptr) {
+            lists.push_back(std::move(list));
+        }
+    }
+    return lists;
+}
+
+/// Whether one of some certificates has issued a certificate, and has signed the list.
+bool is_list_for(X509_CRL* list, X509* certificate, const std::vector<X509*>& issuers) {
+    if (X509_NAME_cmp(X509_CRL_get_issuer(list), X509_get_issuer_name(certificate)) != 0) {
+        return false;
+    }
+    return std::any_of(issuers.begin(), issuers.end(), [&](X509* issuer) {
+        return X509_check_issued(issuer, certificate) == X509_V_OK &&
+               X509_CRL_verify(list, X509_get0_pubkey(issuer)) == 1;
+    });
+}
+
+}  // namespace
+
+std::vector<gum::Diagnostic> check_revocation(const std::string& where, const std::vector<CertificateHandle>& chain,
+                                              const TrustedMaterial& trusted, std::int64_t now) {
+    std::vector<gum::Diagnostic> found;
+    std::vector<CertificateHandle> roots;
+    std::vector<X509*> issuers;
+    for (const Bytes& der : trusted.certificates) {
+        if (CertificateHandle root = certificate_from_der(der); root != nullptr) {
+            issuers.push_back(root.get());
+            roots.push_back(std::move(root));
+        }
+    }
+    for (const CertificateHandle& certificate : chain) {
+        issuers.push_back(certificate.get());
+    }
+    // From the signer upwards; what else came with the signature has no say.
+    std::vector<X509*> path = {chain.front().get()};
+    for (bool longer = true; longer && path.size() <= issuers.size();) {
+        const auto next = std::find_if(issuers.begin(), issuers.end(), [&](X509* issuer) {
+            return X509_cmp(issuer, path.back()) != 0 && X509_check_issued(issuer, path.back()) == X509_V_OK;
+        });
+        longer = next != issuers.end();
+        if (longer) {
+            path.push_back(*next);
+        }
+    }
+    bool signer_checked = false;
+    for (const Handle<X509_CRL>& list : lists_of(trusted.revocation_lists)) {
+        for (X509* const certificate : path) {
+            if (!is_list_for(list.get(), certificate, issuers)) {
+                continue;
+            }
+            const std::string subject = subject_of(certificate);
+            signer_checked = signer_checked || certificate == path.front();
+            X509_REVOKED* entry = nullptr;
+            if (X509_CRL_get0_by_cert(list.get(), &entry, certificate) == 1) {
+                const std::optional<std::int64_t> since = seconds_of(X509_REVOKED_get0_revocationDate(entry));
+                found.push_back({.code = "GC-SIGN-0137",
+                                 .where = where,
+                                 .what = "the certificate of " + subject + " is revoked" +
+                                         (since ? " since " + time_text(*since) : ""),
+                                 .rule =
+                                     "a signature by a revoked certificate is not valid; the time that it claims is "
+                                     "the signer's own statement",
+                                 .action = "ask the laboratory for a document signed anew"});
+            }
+            const std::optional<std::int64_t> next = seconds_of(X509_CRL_get0_nextUpdate(list.get()));
+            if (!next || *next < now) {
+                found.push_back({.code = "GC-SIGN-0138",
+                                 .where = where,
+                                 .what = "the list of revoked certificates of " + issuer_of(certificate) +
+                                         (next ? " was to be replaced by " + time_text(*next) : " has no end"),
+                                 .rule = "a list of revoked certificates speaks for the time until the next one",
+                                 .action = "get the present list",
+                                 .severity = gum::Severity::warning});
+            }
+        }
+    }
+    ERR_clear_error();
+    if (signer_checked && found.empty()) {
+        found.push_back({.code = "GC-SIGN-0139",
+                         .where = where,
+                         .what = "the certificate of " + subject_of(chain.front().get()) + " is not revoked",
+                         .rule = "by the list of its issuer",
+                         .action = "nothing",
+                         .severity = gum::Severity::note});
+    }
+    if (!signer_checked && !trusted.revocation_lists.empty()) {
+        found.push_back({.code = "GC-SIGN-0138",
+                         .where = where,
+                         .what = "none of the lists of revoked certificates is of " + issuer_of(chain.front().get()),
+                         .rule = "the issuer of a certificate says whether it is revoked",
+                         .action = "get the list of that issuer",
+                         .severity = gum::Severity::warning});
+    }
+    return found;
+}
+
 std::string kind_of_key(X509* certificate) {
     EVP_PKEY* key = X509_get0_pubkey(certificate);
     if (key == nullptr) {

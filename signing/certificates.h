@@ -8,6 +8,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "signing/openssl_handles.h"
 #include "signing/signer.h"
+#include "signing/verify.h"
 
 namespace gumcert::signing {
 
@@ -20,6 +21,9 @@ namespace gumcert::signing {
 /// Names as RFC 2253 writes them: "CN=…,O=…".
 [[nodiscard]] std::string subject_of(X509* certificate);
 [[nodiscard]] std::string issuer_of(X509* certificate);
+
+/// CN, O and OU of the subject as UTF-8, each by itself.
+[[nodiscard]] std::vector<std::string> names_of(X509* certificate);
 
 /// Why a key is too weak or of a kind that is not accepted; "" where it is accepted: RSA from 2048 bits, ECDSA with
 /// P-256, P-384 or P-521.
@@ -52,6 +56,22 @@ namespace gumcert::signing {
 [[nodiscard]] std::vector<gum::Diagnostic> check_chain(const std::string& where,
                                                        const std::vector<CertificateHandle>& chain,
                                                        const std::vector<Bytes>& trusted, std::int64_t time);
+
+/// Why the signature that a certificate bears cannot be relied on: "SHA-1", "MD5" …; "" where it can, or where the
+/// certificate is signed by itself and so a matter of trust alone.
+[[nodiscard]] std::string weakness_of_issue(X509* certificate);
+
+/// Lists of revoked certificates in PEM or DER, as DER.
+[[nodiscard]] std::vector<Bytes> revocation_lists_from(const Bytes& file);
+
+/// What lists of revoked certificates say of the certificates of a chain (RFC 5280, clause 5). A list counts where the
+/// issuer of the certificate has signed it. A signature by a revoked certificate is not valid whatever time it claims,
+/// for that is the signer's own statement.
+/// \return GC-SIGN-0137 revoked (error), -0138 a list that is out of date (warning), -0139 checked, and not revoked
+///         (note); none where no list is of the issuer
+[[nodiscard]] std::vector<gum::Diagnostic> check_revocation(const std::string& where,
+                                                            const std::vector<CertificateHandle>& chain,
+                                                            const TrustedMaterial& trusted, std::int64_t now);
 
 /// End of validity, seconds since 1970-01-01 UTC; none if it cannot be read.
 [[nodiscard]] std::optional<std::int64_t> end_of_validity(X509* certificate);

@@ -89,6 +89,9 @@ void show_safely(SignatureReport& report) {
          {&report.format, &report.signer, &report.issuer, &report.signing_time, &report.algorithm}) {
         *text = shown_text(*text);
     }
+    for (std::string& name : report.signer_names) {
+        name = shown_text(name);
+    }
     show_safely(report.findings);
 }
 
@@ -97,11 +100,18 @@ void add_error(SignatureReport& report, const char* code, const std::string& whe
     report.findings.push_back({.code = code, .where = where, .what = what, .rule = rule, .action = action});
 }
 
+void add_warning(SignatureReport& report, const char* code, const std::string& where, const std::string& what,
+                 const char* rule, const char* action) {
+    add_error(report, code, where, what, rule, action);
+    report.findings.back().severity = gum::Severity::warning;
+}
+
 void check_signer(SignatureReport& report, const std::string& where, const std::vector<CertificateHandle>& chain,
-                  const std::vector<Bytes>& trusted, const std::string& claimed_time, std::int64_t now) {
+                  const TrustedMaterial& trusted, const std::string& claimed_time, std::int64_t now) {
     X509* const signer = chain.front().get();
     report.signer = subject_of(signer);
     report.issuer = issuer_of(signer);
+    report.signer_names = names_of(signer);
     std::int64_t time = now;
     if (!claimed_time.empty()) {
         const std::optional<std::int64_t> claimed = time_from_text(claimed_time);
@@ -119,7 +129,7 @@ void check_signer(SignatureReport& report, const std::string& where, const std::
                   "signed at " + time_text(time) + ", which is after the present time " + time_text(now),
                   "a signature is made before it is checked", "check the clock of this computer");
     }
-    for (gum::Diagnostic& finding : check_chain(where, chain, trusted, time)) {
+    for (gum::Diagnostic& finding : check_chain(where, chain, trusted.certificates, time)) {
         report.findings.push_back(std::move(finding));
     }
     const std::optional<std::int64_t> end = end_of_validity(signer);
@@ -131,6 +141,11 @@ void check_signer(SignatureReport& report, const std::string& where, const std::
                                    .rule = "only a time stamp of a third party proves the time of a signature",
                                    .action = "ask the laboratory if the age of the signature matters",
                                    .severity = gum::Severity::warning});
+    }
+    const std::vector<gum::Diagnostic> revoked = check_revocation(where, chain, trusted, now);
+    report.findings.insert(report.findings.end(), revoked.begin(), revoked.end());
+    if (!revoked.empty()) {
+        return;
     }
     report.findings.push_back({.code = "GC-SIGN-0136",
                                .where = where,

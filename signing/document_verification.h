@@ -13,11 +13,11 @@ namespace gumcert::signing {
 
 /// Signatures of an XML document. \throws gum::InputError  as parse_xml()
 [[nodiscard]] std::vector<SignatureReport> verify_xml(const Bytes& xml, const std::string& name,
-                                                      const std::vector<Bytes>& trusted, std::int64_t now);
+                                                      const TrustedMaterial& trusted, std::int64_t now);
 
 /// Signatures of a PDF and of the digital certificates attached to it; `kind` and `valid` are left to the caller.
 /// \throws gum::InputError  GC-SIGN-0052 if it cannot be read
-[[nodiscard]] Verification verify_pdf(const Bytes& pdf, const std::string& name, const std::vector<Bytes>& trusted,
+[[nodiscard]] Verification verify_pdf(const Bytes& pdf, const std::string& name, const TrustedMaterial& trusted,
                                       std::int64_t now);
 
 /// Adds a finding that makes the signature invalid.
@@ -28,7 +28,11 @@ void add_error(SignatureReport& report, const char* code, const std::string& whe
 /// \param chain         the signer's certificate first
 /// \param claimed_time  "" where the signature claims none
 void check_signer(SignatureReport& report, const std::string& where, const std::vector<CertificateHandle>& chain,
-                  const std::vector<Bytes>& trusted, const std::string& claimed_time, std::int64_t now);
+                  const TrustedMaterial& trusted, const std::string& claimed_time, std::int64_t now);
+
+/// Adds a finding that leaves the signature valid.
+void add_warning(SignatureReport& report, const char* code, const std::string& where, const std::string& what,
+                 const char* rule, const char* action);
 
 /// A text of a document that nobody vouches for, to be shown: what is hidden, steers a terminal or is not UTF-8 is
 /// written as \u{9B} or \x{80}, so that it cannot look like a line of the program; cut after 300 characters.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <ctime>
 #include <exception>
 #include <optional>
@@ -99,7 +100,7 @@ public:
     PdfSignatureCheck(std::string_view file, Object signature, std::string where)
         : file_(file), signature_(std::move(signature)), where_(std::move(where)) {}
 
-    SignatureReport run(const std::vector<Bytes>& trusted, std::int64_t now) {
+    SignatureReport run(const TrustedMaterial& trusted, std::int64_t now) {
         Object filter = signature_.getKey("/SubFilter");
         const std::string name = filter.isName() ? filter.getName().substr(1) : std::string();
         const bool pades = name == "ETSI.CAdES.detached";
@@ -169,7 +170,7 @@ private:
         return range;
     }
 
-    void check_cms(const Range& range, bool pades, const std::vector<Bytes>& trusted, std::int64_t now) {
+    void check_cms(const Range& range, bool pades, const TrustedMaterial& trusted, std::int64_t now) {
         const auto* at = reinterpret_cast<const unsigned char*>(cms_bytes_.data());
         const Handle<CMS_ContentInfo> cms(d2i_CMS_ContentInfo(nullptr, &at, static_cast<long>(cms_bytes_.size())));
         ERR_clear_error();
@@ -217,7 +218,28 @@ private:
                 chain.emplace_back(one);
             }
         }
+        check_times(info, pades);
         check_signer(report_, where_, chain, trusted, claimed_time(info), now);
+    }
+
+    /// Two times of one signature: that of the signed attributes, and /M of the signature dictionary.
+    void check_times(CMS_SignerInfo* info, bool pades) {
+        const std::string attribute = time_of_attributes(info);
+        if (attribute.empty()) {
+            return;
+        }
+        if (pades) {
+            report_.format = "PAdES";  // ETSI EN 319 142-1 has the time in /M alone, at its baseline levels
+        }
+        const std::optional<std::int64_t> signed_at = time_from_text(attribute);
+        const std::optional<std::int64_t> in_dictionary = time_from_text(time_of_dictionary());
+        constexpr std::int64_t k_same_time = 300;  // seconds between the two clock readings of one program
+        if (signed_at && in_dictionary && std::abs(*signed_at - *in_dictionary) > k_same_time) {
+            add_warning(report_, "GC-SIGN-0147", where_,
+                        "it says that it was made at " + time_text(*signed_at) + ", and at " +
+                            time_text(*in_dictionary) + " in its dictionary (/M)",
+                        "a signature is made at one time", "ask the laboratory which is right");
+        }
     }
 
     [[nodiscard]] bool only_later_bytes() const {
@@ -301,6 +323,16 @@ private:
 
     /// The time of the signed attributes, or that of the signature dictionary, which is within the signed bytes.
     std::string claimed_time(CMS_SignerInfo* info) {
+        const std::string attribute = time_of_attributes(info);
+        return attribute.empty() ? time_of_dictionary() : attribute;
+    }
+
+    std::string time_of_dictionary() {
+        Object time = signature_.getKey("/M");
+        return time.isString() ? time.getStringValue() : std::string();
+    }
+
+    static std::string time_of_attributes(CMS_SignerInfo* info) {
         const int at = CMS_signed_get_attr_by_NID(info, NID_pkcs9_signingTime, -1);
         const X509_ATTRIBUTE* attribute = at < 0 ? nullptr : CMS_signed_get_attr(info, at);
         const ASN1_TYPE* value =
@@ -313,8 +345,7 @@ private:
                        two(parts.tm_hour) + two(parts.tm_min) + two(parts.tm_sec);
             }
         }
-        Object time = signature_.getKey("/M");
-        return time.isString() ? time.getStringValue() : std::string();
+        return {};
     }
 
     std::string_view file_;
@@ -367,8 +398,8 @@ std::vector<Object> attached_streams(QPDF& pdf) {
     return streams;
 }
 
-std::vector<SignatureReport> attachment_reports(QPDF& pdf, const std::string& name, const std::vector<Bytes>& trusted,
-                                                std::int64_t now) {
+std::vector<SignatureReport> attachment_reports(QPDF& pdf, const std::string& name, const TrustedMaterial& trusted,
+                                                std::int64_t now, std::vector<Bytes>& documents) {
     std::vector<SignatureReport> reports;
     const std::vector<Object> files = attached_streams(pdf);
     if (files.size() > k_most_signatures) {
@@ -392,6 +423,7 @@ std::vector<SignatureReport> attachment_reports(QPDF& pdf, const std::string& na
             add_error(report, "GC-SIGN-0145", where, "larger than 200 MB", "attachments are read whole", k_ask_again);
             reports.push_back(std::move(report));
         } else if (xml) {
+            documents.push_back(content.text());
             try {
                 for (SignatureReport& report : verify_xml(content.text(), where, trusted, now)) {
                     reports.push_back(std::move(report));
@@ -408,8 +440,7 @@ std::vector<SignatureReport> attachment_reports(QPDF& pdf, const std::string& na
 
 }  // namespace
 
-Verification verify_pdf(const Bytes& pdf, const std::string& name, const std::vector<Bytes>& trusted,
-                        std::int64_t now) {
+Verification verify_pdf(const Bytes& pdf, const std::string& name, const TrustedMaterial& trusted, std::int64_t now) {
     Verification verification;
     QPDF document;
     document.setSuppressWarnings(true);
@@ -426,7 +457,10 @@ Verification verify_pdf(const Bytes& pdf, const std::string& name, const std::ve
             const std::string where = name + ", signature " + std::to_string(verification.signatures.size() + 1);
             verification.signatures.push_back(PdfSignatureCheck(pdf, signature, where).run(trusted, now));
         }
-        verification.attachment_signatures = attachment_reports(document, name, trusted, now);
+        verification.attachment_signatures = attachment_reports(document, name, trusted, now, verification.attachments);
+        if (Object keywords = entry(document.getTrailer().getKey("/Info"), "/Keywords"); keywords.isString()) {
+            verification.pdf_keywords = keywords.getUTF8Value();
+        }
     } catch (const gum::DiagnosedError&) {
         throw;
     } catch (const std::exception& failure) {

@@ -53,6 +53,15 @@ std::vector<Bytes> chain_from(const fs::path& file) {
                "the signer's own certificate stands first, and has CA:FALSE and key usage digitalSignature",
                "put it first, or have one made for signing documents (docs/signing.md)");
     }
+    for (const Bytes& der : chain) {
+        const CertificateHandle certificate = certificate_from_der(der);
+        if (const std::string weakness = weakness_of_issue(certificate.get()); !weakness.empty()) {
+            refuse("GC-SIGN-0019", file.string(),
+                   "the certificate of " + subject_of(certificate.get()) + " was issued with " + weakness,
+                   "certificates issued with less than 112 bits of security, SHA-1 or MD5 for instance, verify nowhere",
+                   "have the certificate issued anew with SHA-256");
+        }
+    }
     return chain;
 }
 

@@ -42,7 +42,7 @@ bool looks_like_html(const Bytes& file) {
 
 }  // namespace
 
-Verification verify_signatures(const Bytes& file, const std::string& name, const std::vector<Bytes>& trusted,
+Verification verify_signatures(const Bytes& file, const std::string& name, const TrustedMaterial& trusted,
                                std::int64_t now) {
     Verification verification;
     if (file.starts_with("%PDF-")) {
@@ -64,6 +64,18 @@ Verification verify_signatures(const Bytes& file, const std::string& name, const
     verification.valid = !verification.signatures.empty() && all_valid(verification.signatures) &&
                          all_valid(verification.attachment_signatures);
     return verification;
+}
+
+std::vector<Bytes> read_revocation_lists(const fs::path& file) {
+    std::vector<Bytes> lists = revocation_lists_from(read_signing_file(file));
+    if (lists.empty()) {
+        throw gum::InputError(gum::Diagnostic{.code = "GC-SIGN-0053",
+                                              .where = file.string(),
+                                              .what = "no list of revoked certificates in it",
+                                              .rule = "such a list is a file in PEM (-----BEGIN X509 CRL-----) or DER",
+                                              .action = "get it from the issuer of the signer's certificate"});
+    }
+    return lists;
 }
 
 std::vector<Bytes> read_trust_store(const fs::path& store) {

@@ -198,7 +198,7 @@ public:
     XmlSignatureCheck(xmlNode* signature, const std::vector<xmlNode*>& elements, std::string where)
         : signature_(signature), elements_(elements), where_(std::move(where)) {}
 
-    SignatureReport run(const std::vector<Bytes>& trusted, std::int64_t now) {
+    SignatureReport run(const TrustedMaterial& trusted, std::int64_t now) {
         report_.format = "XMLDSig";
         check_shape();
         find_certificate();
@@ -315,6 +315,7 @@ private:
             const xmlNode* qualifying = only_child(object, k_xades_namespace, "QualifyingProperties");
             if (xmlNode* found = only_child(qualifying, k_xades_namespace, "SignedProperties"); found != nullptr) {
                 properties_ = found;
+                check_target(qualifying);
             }
         }
         const std::string id = attribute(properties_, "Id");
@@ -330,6 +331,17 @@ private:
                   "every other transform could leave out a part of them");
         }
         check_digest(reference);
+    }
+
+    /// The properties say which signature they belong to (ETSI EN 319 132-1, QualifyingProperties/@Target).
+    void check_target(const xmlNode* qualifying) {
+        const std::string id = attribute(signature_, "Id");
+        if (id.empty() || attribute(qualifying, "Target") != '#' + id || count_of_id(elements_, id) != 1) {
+            error("GC-SIGN-0123",
+                  "the properties are of the signature \"" + attribute(qualifying, "Target") +
+                      "\", and this one is \"" + id + '"',
+                  "the signed properties name the signature that they stand in, which is there once");
+        }
     }
 
     [[nodiscard]] const xmlNode* signature_properties() const {
@@ -481,7 +493,7 @@ private:
 
 }  // namespace
 
-std::vector<SignatureReport> verify_xml(const Bytes& xml, const std::string& name, const std::vector<Bytes>& trusted,
+std::vector<SignatureReport> verify_xml(const Bytes& xml, const std::string& name, const TrustedMaterial& trusted,
                                         std::int64_t now) {
     const XmlDocument document = parse_xml(xml, name);
     xmlNode* root = xmlDocGetRootElement(document.get());

@@ -147,6 +147,68 @@ TEST(CertificateAttack, ACertificateWithTheSameIssuerAndSerialNumber) {
     EXPECT_THAT(errors_with({forged, own}, {der(own)}), testing::Each(refused));
 }
 
+/// Codes of the findings that a list of revoked certificates leads to, of a digital certificate.
+std::vector<std::string> revocation_codes(const Identity& own, const Identity& root, const std::vector<Bytes>& lists,
+                                          bool valid) {
+    const CarelessSigner signer(own.key, {own, root});
+    const Verification verification =
+        verify_signatures(sign_dcc(k_dcc, signer, k_signing_time), "certificate.xml", {{der(root)}, lists}, k_now);
+    EXPECT_EQ(verification.valid, valid);
+    std::vector<std::string> codes;
+    for (const gum::Diagnostic& finding : verification.signatures.at(0).findings) {
+        if (finding.code >= "GC-SIGN-0136" && finding.code <= "GC-SIGN-0139") {
+            codes.push_back(finding.code);
+        }
+    }
+    return codes;
+}
+
+TEST(CertificateAttack, RevokedByItsIssuer) {
+    using Codes = std::vector<std::string>;
+    const Identity root = root_named("Example Root");
+    const Identity own = make_identity(ec_key(), {}, &root);
+    const Identity other = make_identity(ec_key(), {}, &root);
+    EXPECT_EQ(revocation_codes(own, root, {}, true), Codes{"GC-SIGN-0136"});
+    EXPECT_EQ(revocation_codes(own, root, {revocation_list(root, {})}, true), Codes{"GC-SIGN-0139"});
+    EXPECT_EQ(revocation_codes(own, root, {revocation_list(root, {&other})}, true), Codes{"GC-SIGN-0139"});
+    EXPECT_EQ(revocation_codes(own, root, {revocation_list(root, {&other, &own})}, false), Codes{"GC-SIGN-0137"});
+    // A list that is out of date still says who was revoked, and not who was not.
+    EXPECT_EQ(revocation_codes(own, root, {revocation_list(root, {}, k_now - k_day)}, true), Codes{"GC-SIGN-0138"});
+    EXPECT_EQ(revocation_codes(own, root, {revocation_list(root, {&own}, k_now - k_day)}, false),
+              (Codes{"GC-SIGN-0137", "GC-SIGN-0138"}));
+    // Only the issuer says so, not somebody of the same name.
+    const Identity impostor = root_named("Example Root");
+    EXPECT_EQ(revocation_codes(own, root, {revocation_list(impostor, {&own})}, true), Codes{"GC-SIGN-0138"});
+    const Identity stranger = root_named("Another Root");
+    EXPECT_EQ(revocation_codes(own, root, {revocation_list(stranger, {&own})}, true), Codes{"GC-SIGN-0138"});
+    EXPECT_EQ(revocation_codes(own, root, {revocation_list(stranger, {}), revocation_list(root, {&own})}, false),
+              Codes{"GC-SIGN-0137"});
+}
+
+TEST(RevocationLists, ArePemOrDer) {
+    const Identity root = root_named("Example Root");
+    const Bytes list = revocation_list(root, {});
+    const Folder folder;
+    EXPECT_EQ(read_revocation_lists(folder.put("a.crl", list)), std::vector<Bytes>{list});
+    const auto pem_of = [](const Bytes& der) {
+        const auto* at = reinterpret_cast<const unsigned char*>(der.data());
+        X509_CRL* const crl = d2i_X509_CRL(nullptr, &at, static_cast<long>(der.size()));
+        const std::unique_ptr<BIO, FreeKey> out(BIO_new(BIO_s_mem()));
+        PEM_write_bio_X509_CRL(out.get(), crl);
+        X509_CRL_free(crl);
+        return text_of(out.get());
+    };
+    EXPECT_EQ(read_revocation_lists(folder.put("b.pem", pem_of(list) + pem_of(list))).size(), 2U);
+    for (const std::string& none : {std::string(), pem(root), std::string("nothing")}) {
+        try {
+            (void)read_revocation_lists(folder.put("c.pem", none));
+            ADD_FAILURE() << none;
+        } catch (const gum::InputError& refused) {
+            EXPECT_EQ(refused.diagnostics().front().code, "GC-SIGN-0053");
+        }
+    }
+}
+
 TEST(CertificateAttack, NamesCannotPretendToBeLinesOfTheProgram) {
     const Identity root = root_named("Example Root");
     const Identity own = make_identity(ec_key(),

@@ -77,6 +77,38 @@ TEST(SignerFromFiles, RefusesWhatDoesNotFit) {
     EXPECT_EQ(code_with({.extended_key_usage = "serverAuth"}), "GC-SIGN-0018");
 }
 
+// What it signed, nobody could verify.
+TEST(SignerFromFiles, RefusesACertificateThatWasIssuedWithAWeakDigest) {
+    const Folder folder;
+    const Identity root =
+        make_identity(ec_key(), {.name = "Example Root", .key_usage = "critical,keyCertSign", .authority = true});
+    for (const EVP_MD* digest : {EVP_md5(), EVP_sha1()}) {
+        const Identity weak = make_identity(rsa_key(), {.digest = digest}, &root);
+        const auto key = folder.put("key.pem", key_pem(weak));
+        for (const std::string& chain : {pem(weak), pem(weak) + pem(root)}) {
+            EXPECT_EQ(code_of([&] { return signer_from_files(key, folder.put("chain.pem", chain)); }), "GC-SIGN-0019");
+        }
+        const Identity below = make_identity(
+            ec_key(), {.name = "Issuer", .key_usage = "critical,keyCertSign", .authority = true, .digest = digest},
+            &root);
+        const Identity own = make_identity(ec_key(), {}, &below);
+        EXPECT_EQ(code_of([&] {
+                      return signer_from_files(folder.put("own.pem", key_pem(own)),
+                                               folder.put("chain.pem", pem(own) + pem(below) + pem(root)));
+                  }),
+                  "GC-SIGN-0019");
+    }
+    // A root is trusted or not, whatever it was signed with.
+    const Identity old_root = make_identity(
+        ec_key(), {.name = "Old Root", .key_usage = "critical,keyCertSign", .authority = true, .digest = EVP_sha1()});
+    const Identity own = make_identity(ec_key(), {}, &old_root);
+    EXPECT_EQ(code_of([&] {
+                  return signer_from_files(folder.put("own.pem", key_pem(own)),
+                                           folder.put("chain.pem", pem(own) + pem(old_root)));
+              }),
+              "");
+}
+
 TEST(SignerFromFiles, AnEncryptedKeyNeedsItsPassphraseAndNobodyIsAsked) {
     const Laboratory laboratory(ec_key());
     const auto key = laboratory.folder.put("locked.pem", key_pem(laboratory.own, "open sesame"));

@@ -53,6 +53,7 @@ struct CertificateOptions {
     const char* key_usage = "critical,digitalSignature";  ///< "": none
     const char* extended_key_usage = "";                  ///< "": none
     bool authority = false;                               ///< may issue certificates, if its key usage says so
+    const EVP_MD* digest = EVP_sha256();                  ///< that the issuer signs it with
     std::int64_t from = k_signing_time - 100 * k_day;
     std::int64_t to = k_signing_time + 300 * k_day;
 };
@@ -86,7 +87,7 @@ inline Identity make_identity(Key key, const CertificateOptions& options = {}, c
     if (*options.extended_key_usage != '\0') {
         add_extension(certificate.get(), NID_ext_key_usage, options.extended_key_usage);
     }
-    X509_sign(certificate.get(), issuer == nullptr ? key.get() : issuer->key.get(), EVP_sha256());
+    X509_sign(certificate.get(), issuer == nullptr ? key.get() : issuer->key.get(), options.digest);
     return {.key = key, .certificate = certificate};
 }
 
@@ -95,6 +96,33 @@ inline Bytes der(const Identity& identity) {
     const int size = i2d_X509(identity.certificate.get(), &data);
     Bytes bytes(reinterpret_cast<const char*>(data), static_cast<std::size_t>(size));
     OPENSSL_free(data);
+    return bytes;
+}
+
+/// A list of revoked certificates by an issuer, DER.
+inline Bytes revocation_list(const Identity& issuer, const std::vector<const Identity*>& revoked,
+                             std::int64_t next_update = k_now + 7 * k_day) {
+    X509_CRL* const list = X509_CRL_new();
+    X509_CRL_set_version(list, 1);
+    X509_CRL_set_issuer_name(list, X509_get_subject_name(issuer.certificate.get()));
+    ASN1_TIME* const time = ASN1_TIME_set(nullptr, k_signing_time - 10 * k_day);
+    X509_CRL_set1_lastUpdate(list, time);
+    for (const Identity* one : revoked) {
+        X509_REVOKED* const entry = X509_REVOKED_new();
+        X509_REVOKED_set_serialNumber(entry, X509_get_serialNumber(one->certificate.get()));
+        X509_REVOKED_set_revocationDate(entry, time);
+        X509_CRL_add0_revoked(list, entry);
+    }
+    ASN1_TIME_set(time, next_update);
+    X509_CRL_set1_nextUpdate(list, time);
+    ASN1_TIME_free(time);
+    X509_CRL_sort(list);
+    X509_CRL_sign(list, issuer.key.get(), EVP_sha256());
+    unsigned char* data = nullptr;
+    const int size = i2d_X509_CRL(list, &data);
+    Bytes bytes(reinterpret_cast<const char*>(data), static_cast<std::size_t>(size));
+    OPENSSL_free(data);
+    X509_CRL_free(list);
     return bytes;
 }
 

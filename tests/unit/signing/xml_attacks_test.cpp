@@ -273,6 +273,13 @@ TEST_F(XmlAttack, TheSignedPropertiesAreReplaced) {
               "GC-SIGN-0114");
 }
 
+TEST_F(XmlAttack, ThePropertiesAreOfTheSignatureThatTheyStandIn) {
+    EXPECT_EQ(error_of(replaced(good_, "Target=\"#gumcert-signature\"", "Target=\"#another\"")), "GC-SIGN-0123");
+    EXPECT_EQ(error_of(replaced(good_, " Target=\"#gumcert-signature\"", "")), "GC-SIGN-0123");
+    EXPECT_EQ(error_of(replaced(good_, " Id=\"gumcert-signature\"", " Id=\"another\"")), "GC-SIGN-0123");
+    EXPECT_EQ(error_of(replaced(good_, " Id=\"gumcert-signature\"", "")), "GC-SIGN-0123");
+}
+
 TEST_F(XmlAttack, ALargeNumberOfSignaturesIsNotAWayToKeepTheCheckBusy) {
     std::string many;
     for (int i = 0; i < 5000; ++i) {
