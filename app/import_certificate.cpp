@@ -220,6 +220,11 @@ std::optional<Input> Importer::input_of(const ImportedQuantity& q) {
     }
     Input input;
     input.members = {{"unit", json_text(q.unit)}, {"value", *value}};
+    if (!q.objection.empty()) {
+        remark(q, q.objection, "an input needs a statement of its uncertainty that holds",
+               "ask the laboratory; add the input by hand");
+        return std::nullopt;
+    }
     if (q.kind == "none") {
         input.members.emplace_back("constant", "true");
     } else if (!add_uncertainty(q, input.members)) {
@@ -244,7 +249,8 @@ public:
 
     /// A number without uncertainty in a table: it says where the values of its row were measured.
     [[nodiscard]] static bool is_beside(const ImportedQuantity& q) {
-        return q.role == "result" && q.table > 0 && q.row && q.kind == "none" && !is_degrees_of_freedom(q);
+        return q.role == "result" && q.table > 0 && q.row && q.kind == "none" && q.objection.empty() &&
+               !is_degrees_of_freedom(q);
     }
     /// Of a certificate that this program wrote: they carry the label of their result.
     [[nodiscard]] static bool is_degrees_of_freedom(const ImportedQuantity& q) {
@@ -322,7 +328,8 @@ void note_distribution(const ImportedQuantity& q, Members& members) {
 }
 
 std::string source_of(const ImportedCertificate& c) {
-    return "certificate " + c.identifier + (c.laboratory.empty() ? "" : ", " + c.laboratory) + ", SHA-256 " + c.sha256;
+    return (c.state.empty() ? "" : c.state + " of ") + "certificate " + c.identifier +
+           (c.laboratory.empty() ? "" : ", " + c.laboratory) + ", SHA-256 " + c.sha256;
 }
 
 std::string description_of(const ImportedQuantity& q, const std::string& place) {
@@ -387,12 +394,20 @@ std::string job_text(const ImportedCertificate& c, const std::vector<Input>& inp
 
 }  // namespace
 
-ImportedJob import_certificate(std::string_view bytes, const std::string& file) {
+ImportedJob import_certificate(std::string_view bytes, const std::string& file, const CertificateTrust& trust) {
     const ImportedCertificate certificate = reports::read_dcc(bytes, file);
+    const std::vector<gum::Diagnostic> reservations = reservations_on(certificate, bytes, file, trust);
+    bool unreliable = false;
+    for (const gum::Diagnostic& reservation : reservations) {
+        if (reservation.code == "GC-DCC-0041") {
+            throw gum::InputError(reservation);
+        }
+        unreliable = unreliable || reservation.severity == gum::Severity::error;
+    }
     Importer importer(file);
-    const bool any_uncertainty =
-        std::any_of(certificate.quantities.begin(), certificate.quantities.end(),
-                    [](const ImportedQuantity& q) { return q.role == "result" && q.kind != "none"; });
+    const bool any_uncertainty = std::any_of(
+        certificate.quantities.begin(), certificate.quantities.end(),
+        [](const ImportedQuantity& q) { return q.role == "result" && (q.kind != "none" || !q.objection.empty()); });
     const Rows rows(certificate);
     std::vector<Input> inputs;
     std::map<std::string, std::size_t> distributions;
@@ -401,7 +416,7 @@ ImportedJob import_certificate(std::string_view bytes, const std::string& file) 
         if (q.role != "result" || Rows::is_degrees_of_freedom(q) || is_stated_twice(q)) {
             continue;
         }
-        if (any_uncertainty && q.kind == "none") {
+        if (any_uncertainty && q.kind == "none" && q.objection.empty()) {
             continue;
         }
         if (std::optional<Input> input = importer.input_of(q); input) {
@@ -421,8 +436,8 @@ ImportedJob import_certificate(std::string_view bytes, const std::string& file) 
     const auto left_out = static_cast<std::size_t>(
         std::count_if(certificate.quantities.begin(), certificate.quantities.end(), [&](const ImportedQuantity& q) {
             const bool in_description = Rows::is_beside(q) && tables.contains(q.table);
-            return any_uncertainty && q.role == "result" && q.kind == "none" && !Rows::is_degrees_of_freedom(q) &&
-                   !in_description;
+            return any_uncertainty && q.role == "result" && q.kind == "none" && q.objection.empty() &&
+                   !Rows::is_degrees_of_freedom(q) && !in_description;
         }));
     if (inputs.empty()) {
         std::vector<gum::Diagnostic> refusal = importer.remarks;
@@ -433,7 +448,8 @@ ImportedJob import_certificate(std::string_view bytes, const std::string& file) 
                                                         .action = "enter the inputs by hand"});
         throw gum::InputError(std::move(refusal));
     }
-    ImportedJob out{.job = job_text(certificate, inputs), .remarks = certificate.remarks};
+    ImportedJob out{.job = job_text(certificate, inputs), .remarks = reservations, .negative = unreliable};
+    out.remarks.insert(out.remarks.end(), certificate.remarks.begin(), certificate.remarks.end());
     out.remarks.insert(out.remarks.end(), importer.remarks.begin(), importer.remarks.end());
     add_notes(file, inputs.size(), left_out, distributions, out.remarks);
     return out;

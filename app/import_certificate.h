@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/foreign_certificate.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::app {
@@ -12,6 +13,7 @@ namespace gumcert::app {
 struct ImportedJob {
     std::string job;                       ///< JSON text: a job of kind "budget" that can be evaluated at once
     std::vector<gum::Diagnostic> remarks;  ///< what could not be carried over, and what a person has to decide
+    bool negative = false;                 ///< imported, and the answer is no: its signature cannot be relied on
 };
 
 /// Use case of `gumcert import dcc FILE`: every result of the certificate that has an uncertainty becomes an input
@@ -20,7 +22,13 @@ struct ImportedJob {
 /// an example, y = the first input: the user writes his own.
 /// \param bytes  content of the file
 /// \param file   its name, for messages
-/// \throws gum::InputError  as reports::read_dcc(); GC-DCC-0030 if the certificate has no result that can be an input
-[[nodiscard]] ImportedJob import_certificate(std::string_view bytes, const std::string& file);
+///
+/// A draft or a specimen, a signature and what it is worth, broken rules, and statements of uncertainty that cannot be
+/// used (NaN, two that contradict each other, a k that its p cannot have) are remarked; the source of each input says
+/// that it comes from a draft.
+/// \throws gum::InputError  as reports::read_dcc(); GC-DCC-0030 if the certificate has no result that can be an input;
+///                          GC-DCC-0041 if it was changed after it was signed
+[[nodiscard]] ImportedJob import_certificate(std::string_view bytes, const std::string& file,
+                                             const CertificateTrust& trust = {});
 
 }  // namespace gumcert::app

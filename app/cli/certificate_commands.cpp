@@ -7,7 +7,11 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "app/check_file.h"
 #include "app/cli/clock.h"
+#include "app/cli/share_folder.h"
+#include "app/document_identity.h"
+#include "app/foreign_certificate.h"
 #include "app/import_certificate.h"
 #include "app/output_files.h"
 #include "app/read_file.h"
@@ -34,8 +38,23 @@ void print_signature(const signing::SignatureReport& signature, const std::strin
     }
 }
 
+void print_identity(const app::DocumentIdentity& identity) {
+    const auto row = [](const char* name, const std::string& text) {
+        if (!text.empty()) {
+            fmt::print("  {:<12}{}\n", name, text);
+        }
+    };
+    const bool days = !identity.performed_to.empty() && identity.performed_to != identity.performed_from;
+    row("number", identity.number + (identity.attached ? " (of the digital certificate in it)" : ""));
+    row("laboratory", identity.laboratory);
+    row("item", identity.item);
+    row("performed", identity.performed_from + (days ? " to " + identity.performed_to : ""));
+    row("issued", identity.issued);
+    row("state", identity.state);
+}
+
 void print_verification(const std::string& file, const signing::Verification& verification,
-                        const CommonOptions& common) {
+                        const std::vector<app::DocumentIdentity>& identities, const CommonOptions& common) {
     for (const auto* signatures : {&verification.signatures, &verification.attachment_signatures}) {
         for (const signing::SignatureReport& signature : *signatures) {
             for (const gum::Diagnostic& finding : signature.findings) {
@@ -54,6 +73,9 @@ void print_verification(const std::string& file, const signing::Verification& ve
                : attachment_alone                ? "NOT VALID: the pages are not signed, only what is attached to them"
                : verification.signatures.empty() ? "not signed"
                                                  : "NOT VALID");
+    for (const app::DocumentIdentity& identity : identities) {
+        print_identity(identity);
+    }
     for (const signing::SignatureReport& signature : verification.signatures) {
         print_signature(signature, "");
     }
@@ -62,14 +84,41 @@ void print_verification(const std::string& file, const signing::Verification& ve
     }
 }
 
+app::CertificateTrust trust_of(const std::string& trust_store) {
+    app::CertificateTrust trust{.trusted = {}, .now = seconds_now()};
+    if (!trust_store.empty()) {
+        trust.trusted = signing::read_trust_store(trust_store);
+    }
+    return trust;
+}
+
+ExitCode print_check(const std::string& file, const app::FileCheck& check, const CommonOptions& common) {
+    std::size_t errors = 0;
+    std::size_t warnings = 0;
+    for (const gum::Diagnostic& finding : check.findings) {
+        errors += finding.severity == gum::Severity::error ? 1 : 0;
+        warnings += finding.severity == gum::Severity::warning ? 1 : 0;
+        if (!common.quiet || finding.severity != gum::Severity::note) {
+            print_message(finding, common);
+        }
+    }
+    if (!common.quiet) {
+        fmt::print(
+            "{}: {}, {}\n", file, check.kind,
+            errors + warnings == 0 ? "nothing found" : fmt::format("errors: {}, warnings: {}", errors, warnings));
+    }
+    return errors > 0 ? negative_answer : done;
+}
+
 }  // namespace
 
-ExitCode import_certificate(const std::string& file, const std::string& output, const CommonOptions& common) {
+ExitCode import_certificate(const std::string& file, const std::string& output, const std::string& trust_store,
+                            const CommonOptions& common) {
     if (!output.empty() && output != "-") {
         app::require_writable(output);
         app::require_not_an_input(output, {file});
     }
-    const app::ImportedJob imported = app::import_certificate(app::read_file(file), file);
+    const app::ImportedJob imported = app::import_certificate(app::read_file(file), file, trust_of(trust_store));
     for (const gum::Diagnostic& remark : imported.remarks) {
         if (!common.quiet || remark.severity != gum::Severity::note) {
             print_message(remark, common);
@@ -77,25 +126,54 @@ ExitCode import_certificate(const std::string& file, const std::string& output, 
     }
     if (output.empty() || output == "-") {
         write_to_stdout(imported.job);
-        return done;
+        return imported.negative ? negative_answer : done;
     }
     app::write_files({{output, imported.job}});
     if (!common.quiet) {
         fmt::print("Written: {}\nNext: keep the inputs that you need, write the model, gumcert run {}\n", output,
                    output);
     }
-    return done;
+    return imported.negative ? negative_answer : done;
 }
 
-ExitCode verify_files(const std::vector<std::string>& files, const std::string& trust_store,
-                      const CommonOptions& common) {
-    const std::vector<signing::Bytes> trusted = signing::read_trust_store(trust_store);
+ExitCode check_files(const std::vector<std::string>& files, bool certificates, const std::string& trust_store,
+                     const std::string& share, const CommonOptions& common) {
+    const app::CertificateTrust trust = certificates ? trust_of(trust_store) : app::CertificateTrust();
     ExitCode code = done;
     for (const std::string& file : files) {
         const ExitCode one = explained(common, [&] {
-            const signing::Verification verification =
-                signing::verify_signatures(app::read_file(file), file, trusted, seconds_now());
-            print_verification(file, verification, common);
+            app::FileCheck check{.kind = "digital certificate", .findings = {}};
+            if (certificates) {
+                check.findings = app::check_certificate(app::read_file(file), file, trust);
+            } else {
+                ProgressLine progress(!common.quiet);
+                check = app::check_file(file, static_cast<unsigned>(common.threads), templates_if_any(share),
+                                        [&](const std::string& text) { progress(text); });
+            }
+            return print_check(file, check, common);
+        });
+        code = std::max(code, one);
+    }
+    return code;
+}
+
+ExitCode verify_files(const std::vector<std::string>& files, const std::string& trust_store,
+                      const std::vector<std::string>& revocation_lists, const CommonOptions& common) {
+    signing::TrustedMaterial trusted(signing::read_trust_store(trust_store));
+    for (const std::string& file : revocation_lists) {
+        const std::vector<signing::Bytes> lists = signing::read_revocation_lists(file);
+        trusted.revocation_lists.insert(trusted.revocation_lists.end(), lists.begin(), lists.end());
+    }
+    ExitCode code = done;
+    for (const std::string& file : files) {
+        const ExitCode one = explained(common, [&] {
+            const std::string bytes = app::read_file(file);
+            const signing::Verification verification = signing::verify_signatures(bytes, file, trusted, seconds_now());
+            const std::vector<app::DocumentIdentity> identities = app::identities_in(bytes, file, verification);
+            for (const gum::Diagnostic& doubt : app::doubts_about(file, identities, verification)) {
+                print_message(doubt, common);
+            }
+            print_verification(file, verification, identities, common);
             return verification.valid ? done : negative_answer;
         });
         code = std::max(code, one);

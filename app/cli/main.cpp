@@ -56,13 +56,14 @@ constexpr const char* k_footer =
 /// What the command line may say; CLI11 fills it.
 struct Arguments {
     CommonOptions common;
-    std::vector<std::string> jobs, records, files;
+    std::vector<std::string> jobs, records, files, revocation_lists;
     std::string job, file, output, format, share, trust_store;
     DocumentOptions documents;
     std::optional<std::size_t> runs;
     std::optional<std::int64_t> seed;
 };
 
+constexpr const char* k_trust_help = "Certificates that are trusted, for signatures: a PEM file, or a folder of them";
 constexpr const char* k_share_help = "Folder that holds templates/ and node_modules/";
 
 void add_common(CLI::App& command, CommonOptions& common) {
@@ -142,7 +143,7 @@ CLI::App& add_compare(CLI::App& program, Arguments& a) {
 }
 
 CLI::App& add_render(CLI::App& program, Arguments& a) {
-    CLI::App& command = *program.add_subcommand("render", "Make documents from records, without evaluating");
+    CLI::App& command = *program.add_subcommand("render", "Make documents from records");
     command.add_option("RECORD", a.records, "Record files (JSON)")->required();
     command
         .add_option("--format", a.format,
@@ -154,7 +155,9 @@ CLI::App& add_render(CLI::App& program, Arguments& a) {
     add_document_options(command, a.documents);
     command.footer(
         "Example: gumcert render record.json --format pdf -o certificate.pdf\n"
-        "         gumcert render record.json --format pdf --language de,en");
+        "         gumcert render record.json --format pdf --language de,en\n"
+        "The job in the record is evaluated again first: a record that says anything else than its job gives, by one\n"
+        "digit or one word, is refused. docs/adr/0027-records-are-evaluated-again.md");
     return command;
 }
 
@@ -166,10 +169,30 @@ CLI::App& add_import(CLI::App& program, Arguments& a) {
     command.add_option("FILE", a.file, "The certificate (XML)")->required();
     command.add_option("-o,--output", a.output,
                        "Job file of kind budget with the numbers as inputs; default: to the terminal");
+    command.add_option("--trust", a.trust_store, k_trust_help);
     command.footer(
-        "Example: gumcert import dcc certificate.xml -o standard.json\n"
+        "Example: gumcert import dcc certificate.xml -o standard.json --trust trusted.pem\n"
         "Every number comes with its U, k and distribution, and names the certificate as its source. Keep the inputs\n"
-        "that you need, and write the model. docs/digital_certificate.md");
+        "that you need, and write the model. Drafts, specimens, broken rules and uncertainties that cannot be used "
+        "are\n"
+        "told. A certificate that was changed after it was signed is refused; exit code 1 where a signature cannot be\n"
+        "relied on. docs/digital_certificate.md");
+    return command;
+}
+
+CLI::App& add_check(CLI::App& program, Arguments& a) {
+    CLI::App& command = *program.add_subcommand("check", "Look for what is wrong with files, without writing anything");
+    command.add_option("FILE", a.files, "Jobs and records (JSON); or the word dcc, and digital certificates (XML)")
+        ->required();
+    command.add_option("--trust", a.trust_store, k_trust_help);
+    command.add_option("--share", a.share, k_share_help);
+    command.footer(
+        "Example: gumcert check job.json record.json\n"
+        "         gumcert check dcc certificate.xml\n"
+        "A job is read with all its files and not evaluated. Of a record, its own digest is compared, its job is\n"
+        "evaluated again, and every number, text and verdict compared. A digital certificate is checked by the rules\n"
+        "above its schema, for a draft or a specimen, for statements of uncertainty that cannot be used, and for its\n"
+        "signature. Exit code 1 where an error is found. docs/digital_certificate.md");
     return command;
 }
 
@@ -178,9 +201,14 @@ CLI::App& add_verify(CLI::App& program, Arguments& a) {
     command.add_option("FILE", a.files, "Signed files")->required();
     command.add_option("--trust", a.trust_store, "Certificates that are trusted: a PEM file, or a folder of them")
         ->required();
+    command
+        .add_option("--crl", a.revocation_lists, "Lists of revoked certificates of their issuers: files, PEM or DER")
+        ->allow_extra_args(false);
     command.footer(
-        "Example: gumcert verify certificate.pdf --trust trusted.pem\n"
-        "Says who signed, when, and what the signature covers. Exit code 1 when a file is not signed, or a signature\n"
+        "Example: gumcert verify certificate.pdf --trust trusted.pem --crl revoked.crl\n"
+        "Says whose certificate it is, who signed, when, and what the signature covers; warns where signer and\n"
+        "laboratory differ, PDF and digital certificate, or dates. Exit code 1 when a file is not signed, or a "
+        "signature\n"
         "is not valid. docs/signing.md");
     return command;
 }
@@ -222,6 +250,7 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
     CLI::App& compare = add_compare(program, a);
     CLI::App& render = add_render(program, a);
     CLI::App& import = add_import(program, a);
+    CLI::App& check = add_check(program, a);
     CLI::App& verify = add_verify(program, a);
     CLI::App& simulate_command = add_simulate(program, a);
     CLI::App& plan_command = add_plan(program, a);
@@ -232,7 +261,7 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
         command->add_option("--share", a.share, k_share_help);
     }
     for (CLI::App* command :
-         {&program, &run, &evaluate, &compare, &render, &import, &verify, &simulate_command, &plan_command}) {
+         {&program, &run, &evaluate, &compare, &render, &import, &check, &verify, &simulate_command, &plan_command}) {
         add_common(*command, a.common);
     }
     try {
@@ -259,10 +288,20 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
         return render_records(a.records, a.format, a.documents, a.common);
     }
     if (import.parsed()) {
-        return import_certificate(a.file, a.output, a.common);
+        return import_certificate(a.file, a.output, a.trust_store, a.common);
+    }
+    if (check.parsed()) {
+        const bool certificates = a.files.front() == "dcc";
+        if (certificates) {
+            a.files.erase(a.files.begin());
+        }
+        if (a.files.empty()) {
+            refuse_usage("check dcc", "no file", "gumcert check dcc FILE", "name the digital certificates");
+        }
+        return check_files(a.files, certificates, a.trust_store, a.share, a.common);
     }
     if (verify.parsed()) {
-        return verify_files(a.files, a.trust_store, a.common);
+        return verify_files(a.files, a.trust_store, a.revocation_lists, a.common);
     }
     if (simulate_command.parsed()) {
         return simulate(a.job, a.runs, a.seed, a.output, a.share, a.common);

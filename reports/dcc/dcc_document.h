@@ -23,4 +23,8 @@ namespace gumcert::reports {
 /// \throws gum::InputError  GC-DCC-0001 … if the bytes are not a well-formed DCC, or hold a DOCTYPE
 [[nodiscard]] std::vector<gum::Diagnostic> check_dcc(std::string_view bytes, const std::string& file);
 
+/// Parts that every DCC has and this one has not, as missing_parts().
+/// \throws gum::InputError  as check_dcc()
+[[nodiscard]] std::vector<gum::Diagnostic> check_dcc_structure(std::string_view bytes, const std::string& file);
+
 }  // namespace gumcert::reports

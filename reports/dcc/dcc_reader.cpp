@@ -3,10 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <set>
 #include <span>
 #include <utility>
 
+#include "gum/coverage.h"
 #include "reports/certificate_view.h"
 #include "reports/dcc/d_si_unit.h"
 #include "reports/dcc/dcc_element.h"
@@ -103,6 +108,96 @@ std::optional<std::string> entry(const std::vector<std::string>& words, std::siz
     return words.size() == rows ? std::optional(words[row]) : std::nullopt;
 }
 
+bool is_not_a_number(const std::string& text) {
+    return text == "NaN" || text == "nan" || text == "INF" || text == "-INF" || text == "inf" || text == "-inf";
+}
+
+std::optional<double> number_of(const std::string& text) {
+    const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
+    double value = 0.0;
+    const auto [end, failure] = std::from_chars(begin, text.data() + text.size(), value);
+    const bool whole = failure == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+    return whole ? std::optional(value) : std::nullopt;
+}
+
+void set_kind(ImportedNumber& number) {
+    if (!number.low.empty() && !number.high.empty()) {
+        number.kind = "coverage_interval";
+    } else if (!number.U.empty()) {
+        number.kind = "expanded";
+    } else if (!number.u.empty()) {
+        number.kind = "standard";
+    }
+}
+
+/// "" where a coverage factor is one that the coverage probability can have: from that of an arcsine distribution, the
+/// least of those in use, to that of a t-distribution with one degree of freedom, the largest.
+std::string contradiction_of_k_and_p(const ImportedNumber& number) {
+    const std::optional<double> k = number_of(number.k);
+    const std::optional<double> p = number_of(number.p);
+    if (!p) {
+        return k && *k < 1.0 ? "its coverage factor is " + number.k + ", below 1, and no coverage probability is stated"
+                             : "";
+    }
+    if (!(*p > 0.0 && *p < 1.0)) {
+        return k ? "its coverage probability is " + number.p : "";  // alone it is refused where it is used
+    }
+    if (!k || !(*k > 0.0)) {
+        return "";
+    }
+    constexpr double k_printed = 0.01;  // of k: as it is rounded on certificates
+    const double least = std::numbers::sqrt2 * std::sin(0.5 * std::numbers::pi * *p);
+    const double normal = gum::coverage_factor(*p, std::numeric_limits<double>::infinity());
+    const double most = gum::coverage_factor(*p, 1.0);
+    if (*k >= std::min(least, normal) - k_printed && *k <= most + k_printed) {
+        return "";
+    }
+    return "its coverage factor " + number.k + " does not belong to its coverage probability " + number.p;
+}
+
+/// The standard uncertainty that a statement comes to; none where it cannot be told.
+std::optional<double> standard_uncertainty_of(const ImportedNumber& number) {
+    if (const std::optional<double> u = number_of(number.u)) {
+        return u;
+    }
+    const std::optional<double> U = number_of(number.U);
+    const std::optional<double> k = number_of(number.k);
+    return U && k && *k > 0.0 ? std::optional(*U / *k) : std::nullopt;
+}
+
+std::string statement_of(const ImportedNumber& number) {
+    return number.kind == "standard"            ? "u = " + number.u
+           : number.kind == "coverage_interval" ? number.low + " to " + number.high
+                                                : "U = " + number.U + (number.k.empty() ? "" : " with k = " + number.k);
+}
+
+/// Adds one statement of uncertainty to those that a number has. Two that contradict each other are both worth nothing.
+void add_statement(const ImportedNumber& stated, ImportedNumber& number) {
+    constexpr double k_rounding = 0.05;  // of U: what two digits lose at most
+    if (number.kind != "none" && stated.kind != "none" && number.objection.empty()) {
+        const std::optional<double> first = standard_uncertainty_of(number);
+        const std::optional<double> second = standard_uncertainty_of(stated);
+        const std::optional<double> first_U = number_of(number.U);
+        const std::optional<double> second_U = number_of(stated.U);
+        const auto differ = [&](const std::optional<double>& a, const std::optional<double>& b) {
+            return a && b && std::abs(*a - *b) > k_rounding * std::max(std::abs(*a), std::abs(*b));
+        };
+        const bool comparable = first && second;
+        if (differ(first, second) || (!comparable && differ(first_U, second_U))) {
+            number.objection =
+                "its uncertainty is stated twice, as " + statement_of(number) + " and as " + statement_of(stated);
+        }
+    }
+    for (std::string ImportedNumber::*text :
+         {&ImportedNumber::u, &ImportedNumber::U, &ImportedNumber::k, &ImportedNumber::p, &ImportedNumber::low,
+          &ImportedNumber::high, &ImportedNumber::distribution, &ImportedNumber::objection}) {
+        if ((number.*text).empty()) {
+            number.*text = stated.*text;
+        }
+    }
+    set_kind(number);
+}
+
 class Reader {
 public:
     Reader(std::string file, ImportedCertificate& out) : file_(std::move(file)), out_(out) {}
@@ -182,17 +277,20 @@ void Reader::uncertainty_from(const XmlElement& stated, std::span<ImportedNumber
                 text->clear();
             }
         }
+        for (const std::string* text : {&number.u, &number.U, &number.low, &number.high}) {
+            // A row of a list may have none; a number that it would be printed beside has one or the other.
+            if (is_not_a_number(*text) && number.objection.empty()) {
+                number.objection = "its uncertainty is stated as " + *text;
+            }
+        }
         for (std::string* text : {&number.u, &number.U, &number.k, &number.p, &number.low, &number.high}) {
-            if (*text == "NaN") {
+            if (is_not_a_number(*text)) {
                 text->clear();  // how D-SI says that there is none
             }
         }
-        if (!number.low.empty() && !number.high.empty()) {
-            number.kind = "coverage_interval";
-        } else if (!number.U.empty()) {
-            number.kind = "expanded";
-        } else if (!number.u.empty()) {
-            number.kind = "standard";
+        set_kind(number);
+        if (number.objection.empty()) {
+            number.objection = contradiction_of_k_and_p(number);
         }
     }
 }
@@ -233,7 +331,11 @@ void Reader::uncertainty_in(const XmlElement& holder, std::span<ImportedNumber> 
         if (std::find(k_groups.begin(), k_groups.end(), child.name) != k_groups.end()) {
             uncertainty_in(child, numbers);
         } else if (std::find(k_statements.begin(), k_statements.end(), child.name) != k_statements.end()) {
-            uncertainty_from(child, numbers);
+            std::vector<ImportedNumber> stated(numbers.size());
+            uncertainty_from(child, stated);
+            for (std::size_t row = 0; row < numbers.size(); ++row) {
+                add_statement(stated[row], numbers[row]);
+            }
         }
     }
 }
@@ -539,6 +641,26 @@ const XmlElement* descend(const XmlElement* from, std::initializer_list<const ch
     return from;
 }
 
+/// What a document says of itself: this program marks drafts and specimens; others write it in the number.
+std::string state_of(const XmlElement& root, const std::string& identifier) {
+    std::string state;
+    for_each_element(root, [&](const XmlElement& e) {
+        const std::string ref_type = e.name == "dcc:statement" ? e.attribute("refType") : "";
+        if (ref_type == "gumcert_draft" || (ref_type == "gumcert_specimen" && state.empty())) {
+            state = ref_type.substr(ref_type.find('_') + 1);
+        }
+    });
+    const std::string words = "_" + as_name(identifier) + "_";
+    for (const auto& [word, meaning] :
+         {std::pair("draft", "draft"), std::pair("entwurf", "draft"), std::pair("borrador", "draft"),
+          std::pair("specimen", "specimen"), std::pair("muster", "specimen")}) {
+        if (state.empty() && words.find("_" + std::string(word) + "_") != std::string::npos) {
+            state = meaning;
+        }
+    }
+    return state;
+}
+
 std::string trimmed_or_empty(const XmlElement* element) {
     return element == nullptr ? "" : element->trimmed();
 }
@@ -558,6 +680,7 @@ ImportedCertificate read_dcc(std::string_view bytes, const std::string& file) {
     out.laboratory = first_content(descend(administrative, {"dcc:calibrationLaboratory", "dcc:contact", "dcc:name"}));
     out.item = first_content(descend(administrative, {"dcc:items", "dcc:item", "dcc:name"}));
     out.sha256 = encoding::sha256(bytes);
+    out.state = state_of(root, out.identifier);
     Reader reader(file, out);
     reader.walk(root, {});
     return out;

@@ -18,6 +18,9 @@ struct ImportedNumber {
     std::string U, k, p, u, low, high;  ///< "" where absent
     std::string distribution;
     std::string label;  ///< si:label: the symbol of the quantity; "" without
+    /// Why the statement of uncertainty must not be used: "" where it may. It is stated as NaN; two statements (of the
+    /// old and the new notation, say) contradict each other; k is not one that its p can have.
+    std::string objection;
 };
 
 /// One number of a foreign certificate, ready to be an input of a budget. Where the document states the same number in
@@ -46,6 +49,8 @@ struct ImportedCertificate {
     std::string schema_version;  ///< "3.3.0"
     std::string identifier, laboratory, item, issued, performed_from, performed_to;
     std::string sha256;  ///< of the file
+    /// "draft" or "specimen" where the document says that it is one, else ""
+    std::string state;
     std::vector<ImportedQuantity> quantities;
     std::vector<ImportedWords> words;
     std::vector<gum::Diagnostic> remarks;

@@ -513,6 +513,47 @@ std::vector<gum::Diagnostic> business_rule_breaches(const XmlElement& root, cons
     return Rules(root, file).all();
 }
 
+std::vector<gum::Diagnostic> missing_parts(const XmlElement& root, const std::string& file) {
+    // Each below the one of the second name, which itself is looked for further up in the list.
+    static constexpr std::array<std::pair<const char*, const char*>, 15> k_parts{
+        {{"dcc:administrativeData", ""},
+         {"dcc:measurementResults", ""},
+         {"dcc:dccSoftware", "dcc:administrativeData"},
+         {"dcc:coreData", "dcc:administrativeData"},
+         {"dcc:items", "dcc:administrativeData"},
+         {"dcc:calibrationLaboratory", "dcc:administrativeData"},
+         {"dcc:respPersons", "dcc:administrativeData"},
+         {"dcc:customer", "dcc:administrativeData"},
+         {"dcc:countryCodeISO3166_1", "dcc:coreData"},
+         {"dcc:usedLangCodeISO639_1", "dcc:coreData"},
+         {"dcc:mandatoryLangCodeISO639_1", "dcc:coreData"},
+         {"dcc:uniqueIdentifier", "dcc:coreData"},
+         {"dcc:beginPerformanceDate", "dcc:coreData"},
+         {"dcc:endPerformanceDate", "dcc:coreData"},
+         {"dcc:performanceLocation", "dcc:coreData"}}};
+    std::vector<gum::Diagnostic> missing;
+    const XmlElement* const administrative = root.child("dcc:administrativeData");
+    const XmlElement* const core = administrative == nullptr ? nullptr : administrative->child("dcc:coreData");
+    for (const auto& [name, in] : k_parts) {
+        const std::string_view holder_name = in;
+        const XmlElement* const holder = holder_name.empty()             ? &root
+                                         : holder_name == "dcc:coreData" ? core
+                                                                         : administrative;
+        if (holder != nullptr && holder->child(name) == nullptr) {
+            missing.push_back({.code = "GC-DCC-0112",
+                               .where = place_of(*holder, file),
+                               .what = "no " + std::string(name).substr(4) + " in " + holder->name.substr(4),
+                               .rule = "the schema of the DCC demands it",
+                               .action = "add it; the schema itself tells the order (docs/digital_certificate.md)"});
+        }
+    }
+    return missing;
+}
+
+std::vector<gum::Diagnostic> check_dcc_structure(std::string_view bytes, const std::string& file) {
+    return missing_parts(read_dcc_root(bytes, file), file);
+}
+
 std::vector<gum::Diagnostic> check_dcc(std::string_view bytes, const std::string& file) {
     return business_rule_breaches(read_dcc_root(bytes, file), file);
 }

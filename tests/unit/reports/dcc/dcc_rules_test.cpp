@@ -35,6 +35,18 @@ const std::string k_good =
     "</dcc:measurementMetaData></dcc:quantity></dcc:measurementResult></dcc:measurementResults>\n"
     "</dcc:digitalCalibrationCertificate>\n";
 
+TEST(DccStructure, MissingPartsAreToldWithTheirPlace) {
+    std::vector<std::string> missing;
+    for (const gum::Diagnostic& d : check_dcc_structure(k_good, "a.xml")) {
+        EXPECT_EQ(d.code, "GC-DCC-0112");
+        missing.push_back(d.what);
+    }
+    EXPECT_EQ(missing, (std::vector<std::string>{
+                           "no calibrationLaboratory in administrativeData", "no respPersons in administrativeData",
+                           "no customer in administrativeData", "no countryCodeISO3166_1 in coreData",
+                           "no uniqueIdentifier in coreData", "no performanceLocation in coreData"}));
+}
+
 std::string with(const std::string& from, const std::string& to) {
     std::string text = k_good;
     const std::size_t at = text.find(from);
