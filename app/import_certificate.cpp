@@ -215,7 +215,7 @@ std::optional<Input> Importer::input_of(const ImportedQuantity& q) {
     if (q.unit.empty()) {
         remark(q,
                q.d_si_unit.empty() ? "no unit" : "unit \"" + reports::printable(q.d_si_unit) + "\" is not known here",
-               "an input has a unit of UDUNITS-2", "add the input by hand, in a unit that is known");
+               "an input has a unit of the program", "add the input by hand, in a unit that is known");
         return std::nullopt;
     }
     Input input;

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "encoding/sha2.h"
+#include "gum/quantity/unit_table.h"
 #include "gum/rounding.h"
 
 namespace gumcert::app {
@@ -23,7 +25,11 @@ reports::EvaluationRecord record_head(const std::string& kind, const JobHead& jo
     record.printed_coverage = gum::round_significant(100.0 * job.coverage_probability, 4) + " %";
     record.job_json = reports::canonical_json(job.document);
     record.job_files = files;
-    record.options_json = reports::canonical_json(options);
+    // The sizes of units that the numbers were found with.
+    static const std::string unit_table = encoding::sha256(gum::unit_table_text());
+    nlohmann::json in_force = options;
+    in_force["unit_table_sha256"] = unit_table;
+    record.options_json = reports::canonical_json(in_force);
     record.diagnostics = job.warnings;
     record.diagnostics.insert(record.diagnostics.end(), job.notes.begin(), job.notes.end());
     return record;

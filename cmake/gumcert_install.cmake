@@ -19,7 +19,7 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/gumcert-config.cmake.in
                               PATH_VARS gumcert_share_dir)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/gumcert-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/gumcert-config.cmake ${PROJECT_BINARY_DIR}/gumcert-config-version.cmake
-              ${CMAKE_CURRENT_LIST_DIR}/gumcert_udunits2.cmake ${CMAKE_CURRENT_LIST_DIR}/gumcert_libraries.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/gumcert_libraries.cmake
         DESTINATION ${gumcert_package_dir})
 
 install(TARGETS gumcert RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

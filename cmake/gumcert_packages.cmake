@@ -8,7 +8,6 @@ find_package(OpenSSL 3 REQUIRED)
 find_package(LibXml2 2.9 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)
 find_package(Threads REQUIRED)
-include(${CMAKE_CURRENT_LIST_DIR}/gumcert_udunits2.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/gumcert_libraries.cmake)
 
 # Some packages of headers bring no package file of their own that Debian installs.

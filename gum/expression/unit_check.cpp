@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "gum/quantity/unit_exponent.h"
+
 namespace gumcert::gum {
 
 namespace {
@@ -401,11 +403,10 @@ Unit output_unit(const std::string& name, const QuantityKind& kind, const std::o
                       "the result is neither a Celsius temperature nor a difference of temperatures",
                       cure_of_weight(kind));
     }
-    for (std::size_t i = 0; i < Dimension::k_base_units; ++i) {
-        if (std::fabs(kind.dimension.exponent(i) - std::round(kind.dimension.exponent(i))) > 1e-9) {
-            return refuse("GC-MODEL-0039", name + " has the dimension " + kind.dimension.text(),
-                          "a unit has whole powers", "Correct the equation, or the units of its inputs.");
-        }
+    if (!is_of_a_unit(kind.dimension)) {
+        return refuse("GC-MODEL-0039", name + " has the dimension " + kind.dimension.text(),
+                      "exponents of a unit are whole numbers, or fractions with a denominator up to 9",
+                      "Correct the equation, or the units of its inputs.");
     }
     return Unit::coherent(kind.dimension, temperature && is_same_weight(kind.celsius, 1.0));
 }

@@ -1,16 +1,16 @@
 #include "gum/quantity/unit.h"
 
-#include <udunits2.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
-#include <memory>
-#include <mutex>
 #include <vector>
 
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/unit_exponent.h"
+#include "gum/quantity/unit_expression.h"
+#include "gum/quantity/unit_table.h"
 
 namespace gumcert::gum {
 
@@ -21,10 +21,9 @@ namespace {
 
 constexpr std::size_t k_kelvin = 4;
 constexpr std::size_t k_radian = 7;
-constexpr std::size_t k_decibel = 8;
 constexpr double k_exponent_rounding = 1e-9;  // of fractional exponents, which come from roots
-constexpr double k_ice_point = 273.15;        // [K], exact by definition of the degree Celsius
 constexpr std::size_t k_longest_unit = 256;
+constexpr double k_fahrenheit_zero = -160.0 / 9.0;  // 0 °F, [°C]
 
 std::string number_text(double value) {
     std::array<char, 32> buffer{};
@@ -32,129 +31,169 @@ std::string number_text(double value) {
     return error == std::errc{} ? std::string(buffer.data(), end) : std::string();
 }
 
-bool is_whole(double value) {
-    return std::abs(value - std::round(value)) < k_exponent_rounding;
-}
-
-struct UnitFree {
-    void operator()(ut_unit* unit) const { ut_free(unit); }
-};
-using UnitPointer = std::unique_ptr<ut_unit, UnitFree>;
-
-/// UDUNITS-2 with its database and the units that gumcert adds. The library keeps global state, hence the lock.
-struct Database {
-    std::mutex lock;
-    ut_system* system = nullptr;
-    std::string failure;
-    std::array<UnitPointer, Dimension::k_base_units> base_units;
-
-    Database() {
-        ut_set_error_message_handler(ut_ignore);
-        system = ut_read_xml(nullptr);
-        if (system == nullptr) {
-            failure = "status " + std::to_string(static_cast<int>(ut_get_status()));
-            return;
-        }
-        const std::array<const char*, Dimension::k_base_units> names{"meter", "kilogram", "second", "ampere", "kelvin",
-                                                                     "mole",  "candela",  "radian", nullptr};
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            base_units[i].reset(names[i] != nullptr ? ut_get_unit_by_name(system, names[i]) : ut_new_base_unit(system));
-            if (!base_units[i]) {
-                failure = "base unit " + std::to_string(i + 1) + " is missing";
-                return;
-            }
-        }
-        // A level in decibels is taken as a quantity of its own kind, not as a function of a ratio.
-        ut_map_name_to_unit("dB", UT_ASCII, base_units[k_decibel].get());
-        ut_map_unit_to_symbol(base_units[k_decibel].get(), "dB", UT_ASCII);
-        // Names that people write and the database lacks.
-        add_name("deg", "arc_degree");
-        add_name("Ohm", "ohm");
-        add_name("gon", "0.9 arc_degree");
-        add_name("ppm", "1e-6");
-        add_name("ppb", "1e-9");
-        add_name("turn", "360 arc_degree");
-        // Differences of temperature, for those who want to say so.
-        ut_map_name_to_unit("delta_degC", UT_ASCII, base_units[k_kelvin].get());
-        const UnitPointer rankine(ut_scale(5.0 / 9.0, base_units[k_kelvin].get()));
-        ut_map_name_to_unit("delta_degF", UT_ASCII, rankine.get());
-    }
-
-    void add_name(const char* name, const char* same_as) const {
-        if (const UnitPointer unit(ut_parse(system, same_as, UT_UTF8)); unit) {
-            ut_map_name_to_unit(name, UT_ASCII, unit.get());
-        }
-    }
+/// The unevaluated sum of two numbers, about 106 bits (T. J. Dekker, Numer. Math. 18 (1971) 224-242).
+struct Pair {
+    double high = 1.0;
+    double low = 0.0;
 };
 
-Database& database() {
-    static Database instance;
-    return instance;
+Pair quick_sum(double a, double b) {
+    const double sum = a + b;
+    return {sum, b - (sum - a)};
 }
 
-enum class Trouble { none, logarithm, timestamp, too_deep };
+Pair exact_product(double a, double b) {
+    constexpr double k_splitter = 134217729.0;  // 2^27 + 1
+    const auto split = [](double x) {
+        const double scaled = k_splitter * x;
+        const double upper = scaled - (scaled - x);
+        return std::array<double, 2>{upper, x - upper};
+    };
+    const auto [a_upper, a_lower] = split(a);
+    const auto [b_upper, b_lower] = split(b);
+    const double product = a * b;
+    return {product, ((a_upper * b_upper - product) + a_upper * b_lower + a_lower * b_upper) + a_lower * b_lower};
+}
 
-/// A unit taken apart: value in SI base units = scale · x + offset.
-struct Parts {
+Pair operator*(const Pair& a, const Pair& b) {
+    const Pair product = exact_product(a.high, b.high);
+    return quick_sum(product.high, product.low + (a.high * b.low + a.low * b.high));
+}
+
+Pair operator/(const Pair& a, const Pair& b) {
+    const double quotient = a.high / b.high;
+    const Pair back = exact_product(quotient, b.high);
+    const double rest = ((a.high - back.high) - back.low) + (a.low - quotient * b.low);
+    return quick_sum(quotient, rest / b.high);
+}
+
+/// Exact up to 10^22.
+double power_of_ten(int exponent) {
+    double power = 1.0;
+    for (int i = 0; i < exponent; ++i) {
+        power *= 10.0;
+    }
+    return power;
+}
+
+/// The size of a unit: a number times powers of 2 and of 10, which neither overflow nor round on the way.
+struct Magnitude {
+    Pair number;
+    int exp2 = 0;
+    int exp10 = 0;
+
+    void normalise() {
+        int shift = 0;
+        number.high = std::frexp(number.high, &shift);
+        number.low = std::ldexp(number.low, -shift);
+        exp2 += shift;
+    }
+    void multiply(const Pair& by) {
+        number = number * by;
+        normalise();
+    }
+    void divide(const Pair& by) {
+        number = number / by;
+        normalise();
+    }
+    void multiply(const Magnitude& by) {
+        multiply(by.number);
+        exp2 += by.exp2;
+        exp10 += by.exp10;
+    }
+    [[nodiscard]] double value() const {
+        Magnitude result = *this;
+        int left = std::abs(exp10);
+        for (; left > 0; left -= std::min(left, k_exact_power)) {
+            const Pair power{power_of_ten(std::min(left, k_exact_power)), 0.0};
+            exp10 > 0 ? result.multiply(power) : result.divide(power);
+        }
+        return std::ldexp(result.number.high + result.number.low, result.exp2);
+    }
+
+private:
+    static constexpr int k_exact_power = 22;  // 10^22 is a double
+};
+
+Pair whole_number(std::int64_t value) {
+    const auto high = static_cast<double>(value);
+    return {high, static_cast<double>(value - static_cast<std::int64_t>(high))};
+}
+
+Magnitude power(const Magnitude& base, int exponent) {
+    Magnitude result;
+    for (int i = 0; i < std::abs(exponent); ++i) {
+        if (exponent > 0) {
+            result.multiply(base);
+        } else {
+            result.divide(base.number);
+            result.exp2 -= base.exp2;
+            result.exp10 -= base.exp10;
+        }
+    }
+    return result;
+}
+
+Magnitude root(const Magnitude& of, int order) {
+    const auto floor_rest = [&](int exponent) { return ((exponent % order) + order) % order; };
+    const int rest2 = floor_rest(of.exp2);
+    const int rest10 = floor_rest(of.exp10);
+    const double number = std::ldexp(of.number.high, rest2) * power_of_ten(rest10);
+    Magnitude result;
+    result.number.high = order == 2   ? std::sqrt(number)
+                         : order == 3 ? std::cbrt(number)
+                                      : std::pow(number, 1.0 / static_cast<double>(order));
+    result.exp2 = (of.exp2 - rest2) / order;
+    result.exp10 = (of.exp10 - rest10) / order;
+    result.normalise();
+    return result;
+}
+
+Magnitude size_of(const UnitFactor& factor) {
+    constexpr Pair k_pi{3.141592653589793, 1.2246467991473532e-16};
+    const UnitDefinition& unit = *factor.named.unit;
+    Magnitude one;
+    one.multiply(whole_number(unit.mantissa));
+    one.divide(whole_number(unit.divisor));
+    for (int i = 0; i < std::abs(unit.pi); ++i) {
+        unit.pi > 0 ? one.multiply(k_pi) : one.divide(k_pi);
+    }
+    one.exp10 += unit.exp10 + (factor.named.prefix != nullptr ? factor.named.prefix->exp10 : 0);
+    const Magnitude raised = power(one, factor.exponent.numerator);
+    return factor.exponent.denominator == 1 ? raised : root(raised, factor.exponent.denominator);
+}
+
+double factor_of(const UnitExpression& expression) {
+    Magnitude size;
+    for (const UnitFactor& factor : expression.factors) {
+        size.multiply(size_of(factor));
+    }
+    for (const UnitNumber& number : expression.numbers) {
+        Magnitude one;
+        one.multiply(whole_number(number.mantissa));
+        one.exp10 = number.exp10;
+        size.multiply(power(one, number.power));
+    }
+    return size.value();
+}
+
+Dimension dimension_of(const UnitExpression& expression) {
     std::array<double, Dimension::k_base_units> exponents{};
-    double scale = 1.0;
-    double offset = 0.0;
-    Trouble trouble = Trouble::none;
-};
-
-ut_status add_basic(Parts& parts, const ut_unit* unit, int power) {
-    const Database& units = database();
-    for (std::size_t i = 0; i < units.base_units.size(); ++i) {
-        if (ut_compare(unit, units.base_units[i].get()) == 0) {
-            parts.exponents[i] += power;
-            return UT_SUCCESS;
+    for (const UnitFactor& factor : expression.factors) {
+        for (std::size_t i = 0; i < exponents.size(); ++i) {
+            exponents[i] += static_cast<double>(factor.named.unit->exponents[i] * factor.exponent.numerator) /
+                            static_cast<double>(factor.exponent.denominator);
         }
     }
-    return UT_VISIT_ERROR;
+    return Dimension(exponents);
 }
 
-ut_status visit_basic(const ut_unit* unit, void* argument) {
-    return add_basic(*static_cast<Parts*>(argument), unit, 1);
-}
-
-ut_status visit_product(const ut_unit* /*unit*/, int count, const ut_unit* const* basic_units, const int* powers,
-                        void* argument) {
-    for (int i = 0; i < count; ++i) {
-        if (const ut_status status = add_basic(*static_cast<Parts*>(argument), basic_units[i], powers[i]);
-            status != UT_SUCCESS) {
-            return status;
-        }
-    }
-    return UT_SUCCESS;
-}
-
-ut_status visit_galilean(const ut_unit* unit, double scale, const ut_unit* underlying, double origin, void* argument);
-
-ut_status visit_timestamp(const ut_unit* /*unit*/, const ut_unit* /*time*/, double /*origin*/, void* argument) {
-    static_cast<Parts*>(argument)->trouble = Trouble::timestamp;
-    return UT_SUCCESS;
-}
-
-ut_status visit_logarithmic(const ut_unit* /*unit*/, double /*base*/, const ut_unit* /*reference*/, void* argument) {
-    static_cast<Parts*>(argument)->trouble = Trouble::logarithm;
-    return UT_SUCCESS;
-}
-
-constexpr ut_visitor k_visitor{visit_basic, visit_product, visit_galilean, visit_timestamp, visit_logarithmic};
-
-ut_status visit_galilean(const ut_unit* /*unit*/, double scale, const ut_unit* underlying, double origin,
-                         void* argument) {
-    Parts& parts = *static_cast<Parts*>(argument);
-    Parts inner;
-    const ut_status status = ut_accept_visitor(underlying, &k_visitor, &inner);
-    if (status != UT_SUCCESS) {
-        return status;
-    }
-    parts.exponents = inner.exponents;
-    parts.trouble = inner.trouble;
-    parts.scale = inner.scale * scale;
-    parts.offset = inner.scale * scale * origin + inner.offset;
-    return UT_SUCCESS;
+/// The scale of a temperature, with or without a prefix, that stands alone; none for every other unit.
+const UnitFactor* temperature_scale(const UnitExpression& expression) {
+    const bool alone = expression.factors.size() == 1 && expression.factors.front().exponent == UnitExponent{};
+    return alone && expression.factors.front().named.unit->scale != UnitDefinition::Scale::from_zero
+               ? &expression.factors.front()
+               : nullptr;
 }
 
 InputError unit_error(const char* code, std::string_view text, const std::string& what, std::string rule,
@@ -166,199 +205,49 @@ InputError unit_error(const char* code, std::string_view text, const std::string
                                  .action = std::move(action)});
 }
 
-/// What a name of a unit stands for in print and in D-SI.
-struct UnitName {
-    std::string_view udunits;
-    std::string_view people;
-    std::string_view d_si;  ///< "" where D-SI has none
-};
+constexpr const char* k_rule = "a unit is a product of names, each with or without a prefix and an exponent";
+constexpr const char* k_action =
+    "Write for example um, nm/K, J/(kg K), V/Hz^(1/2), degC, 1/K, percent, or 1 for a bare number.";
 
-constexpr std::array k_unit_names{
-    UnitName{"m", "m", "metre"},
-    UnitName{"g", "g", "gram"},
-    UnitName{"s", "s", "second"},
-    UnitName{"A", "A", "ampere"},
-    UnitName{"K", "K", "kelvin"},
-    UnitName{"delta_degC", "K", "kelvin"},
-    UnitName{"delta_degF", "Δ°F", ""},
-    UnitName{"mol", "mol", "mole"},
-    UnitName{"cd", "cd", "candela"},
-    UnitName{"rad", "rad", "radian"},
-    UnitName{"sr", "sr", "steradian"},
-    UnitName{"Hz", "Hz", "hertz"},
-    UnitName{"N", "N", "newton"},
-    UnitName{"Pa", "Pa", "pascal"},
-    UnitName{"J", "J", "joule"},
-    UnitName{"W", "W", "watt"},
-    UnitName{"C", "C", "coulomb"},
-    UnitName{"V", "V", "volt"},
-    UnitName{"F", "F", "farad"},
-    UnitName{"ohm", "Ω", "ohm"},
-    UnitName{"Ohm", "Ω", "ohm"},
-    UnitName{"Ω", "Ω", "ohm"},
-    UnitName{"S", "S", "siemens"},
-    UnitName{"Wb", "Wb", "weber"},
-    UnitName{"T", "T", "tesla"},
-    UnitName{"H", "H", "henry"},
-    UnitName{"degC", "°C", "degreecelsius"},
-    UnitName{"degrees_C", "°C", "degreecelsius"},
-    UnitName{"°C", "°C", "degreecelsius"},
-    UnitName{"degF", "°F", ""},
-    UnitName{"lm", "lm", "lumen"},
-    UnitName{"lx", "lx", "lux"},
-    UnitName{"Bq", "Bq", "becquerel"},
-    UnitName{"Gy", "Gy", "gray"},
-    UnitName{"Sv", "Sv", "sievert"},
-    UnitName{"kat", "kat", "katal"},
-    UnitName{"min", "min", "minute"},
-    UnitName{"h", "h", "hour"},
-    UnitName{"d", "d", "day"},
-    UnitName{"deg", "°", "degree"},
-    UnitName{"degree", "°", "degree"},
-    UnitName{"degrees", "°", "degree"},
-    UnitName{"°", "°", "degree"},
-    UnitName{"arcmin", "′", "arcminute"},
-    UnitName{"arcsec", "″", "arcsecond"},
-    UnitName{"L", "L", "litre"},
-    UnitName{"l", "l", "litre"},
-    UnitName{"t", "t", "tonne"},
-    UnitName{"eV", "eV", "electronvolt"},
-    UnitName{"bar", "bar", "bar"},
-    UnitName{"percent", "%", "percent"},
-    UnitName{"%", "%", "percent"},
-    UnitName{"ppm", "ppm", "ppm"},
-    UnitName{"dB", "dB", "decibel"},
-};
-
-struct Prefix {
-    std::string_view udunits;
-    std::string_view people;
-    std::string_view d_si;
-};
-
-constexpr std::array k_prefixes{
-    Prefix{"da", "da", "deca"}, Prefix{"Y", "Y", "yotta"}, Prefix{"Z", "Z", "zetta"}, Prefix{"E", "E", "exa"},
-    Prefix{"P", "P", "peta"},   Prefix{"T", "T", "tera"},  Prefix{"G", "G", "giga"},  Prefix{"M", "M", "mega"},
-    Prefix{"k", "k", "kilo"},   Prefix{"h", "h", "hecto"}, Prefix{"d", "d", "deci"},  Prefix{"c", "c", "centi"},
-    Prefix{"m", "m", "milli"},  Prefix{"u", "µ", "micro"}, Prefix{"µ", "µ", "micro"}, Prefix{"μ", "µ", "micro"},
-    Prefix{"n", "n", "nano"},   Prefix{"p", "p", "pico"},  Prefix{"f", "f", "femto"}, Prefix{"a", "a", "atto"},
-    Prefix{"z", "z", "zepto"},  Prefix{"y", "y", "yocto"},
-};
-
-/// A factor of a product of units.
-struct UnitFactor {
-    std::string_view prefix, prefix_d_si;  ///< as people and as D-SI write it
-    const UnitName* name = nullptr;        ///< none for a name that the table lacks
-    std::string raw;                       ///< the name as it was written
-    int power = 1;
-};
-
-const UnitName* find_name(std::string_view text) {
-    const auto found =
-        std::find_if(k_unit_names.begin(), k_unit_names.end(), [&](const UnitName& n) { return n.udunits == text; });
-    return found == k_unit_names.end() ? nullptr : &*found;
-}
-
-UnitFactor resolve(std::string_view text, int power) {
-    UnitFactor factor;
-    factor.raw = text;
-    factor.power = power;
-    factor.name = find_name(text);
-    if (factor.name == nullptr) {
-        for (const Prefix& prefix : k_prefixes) {
-            if (text.starts_with(prefix.udunits) && text.size() > prefix.udunits.size()) {
-                if (const UnitName* name = find_name(text.substr(prefix.udunits.size())); name != nullptr) {
-                    factor.prefix = prefix.people;
-                    factor.prefix_d_si = prefix.d_si;
-                    factor.name = name;
-                    return factor;
-                }
-            }
-        }
+/// What is no unit of the grammar, and is told better than as a fault in it.
+void refuse_other_scales(std::string_view text) {
+    const auto has = [&](std::string_view part) { return text.find(part) != std::string_view::npos; };
+    constexpr std::array<std::string_view, 7> k_levels{"dBm", "dBW", "dBV", "dBu", "dBuV", "dBc", "Np"};
+    if (text.starts_with("lg(") || text.starts_with("ln(") || text.starts_with("lb(") ||
+        std::find(k_levels.begin(), k_levels.end(), text) != k_levels.end()) {
+        throw unit_error("GC-UNIT-0002", text, "a logarithmic unit",
+                         "levels are stated in dB, which is a unit of its own",
+                         "Write dB, or state the quantity itself and use log10 in the model.");
     }
-    return factor;
-}
-
-bool is_name_byte(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '%' ||
-           static_cast<unsigned char>(c) >= 0x80U;
-}
-
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
-/// The factors of a plain product such as "nm/K", "kg m-3", "J/(kg K)"; nothing where there is a number other than 1 as
-/// a factor, a second pair of parentheses or anything else that is not such a product.
-std::optional<std::vector<UnitFactor>> factors_of(std::string_view text) {
-    std::vector<UnitFactor> factors;
-    int sign = 1;
-    bool inside = false;  // of the parentheses of a denominator
-    std::size_t i = 0;
-    while (i < text.size()) {
-        const char c = text[i];
-        if (c == ' ' || c == '.' || c == '*') {
-            ++i;
-        } else if (text.substr(i).starts_with("·")) {
-            i += std::string_view("·").size();
-        } else if (c == '/') {
-            if (inside) {
-                return std::nullopt;
-            }
-            sign = -1;
-            ++i;
-        } else if (c == '(' && !inside) {
-            inside = true;
-            ++i;
-        } else if (c == ')' && inside) {
-            inside = false;
-            sign = 1;
-            ++i;
-        } else if (c == '1' && (i + 1 == text.size() || !is_digit(text[i + 1])) &&
-                   (i + 1 == text.size() || text[i + 1] == '/' || text[i + 1] == ' ')) {
-            ++i;  // the 1 of "1/K"
-        } else if (is_name_byte(c)) {
-            std::size_t end = i;
-            while (end < text.size() && is_name_byte(text[end]) && !text.substr(end).starts_with("·")) {
-                ++end;
-            }
-            const std::string_view name = text.substr(i, end - i);
-            int power = 1;
-            std::size_t digits = end;
-            if (digits < text.size() && text[digits] == '^') {
-                ++digits;
-            } else if (text.substr(digits).starts_with("**")) {
-                digits += 2;
-            }
-            int direction = 1;
-            if (digits < text.size() && (text[digits] == '-' || text[digits] == '+')) {
-                direction = text[digits] == '-' ? -1 : 1;
-                ++digits;
-            }
-            if (digits < text.size() && is_digit(text[digits])) {
-                int exponent = 0;
-                const auto [stop, error] = std::from_chars(text.data() + digits, text.data() + text.size(), exponent);
-                if (error != std::errc{}) {
-                    return std::nullopt;
-                }
-                power = direction * exponent;
-                end = static_cast<std::size_t>(stop - text.data());
-            } else if (digits != end) {
-                return std::nullopt;
-            }
-            factors.push_back(resolve(name, sign * power));
-            if (!inside) {
-                sign = 1;  // UDUNITS-2 reads a/b c as (a/b) c
-            }
-            i = end;
-        } else {
-            return std::nullopt;
-        }
+    if (has(" since ")) {
+        throw unit_error("GC-UNIT-0003", text, "a point in time", "quantities are durations, not dates",
+                         "Write s, min, h or d.");
     }
-    if (inside) {
-        return std::nullopt;
+    if (has("@") || has(" from ")) {
+        throw unit_error("GC-UNIT-0004", text, "a scale with an origin of its own",
+                         "only temperatures have such scales: degC, degF", "State the quantity from zero.");
     }
-    return factors;
+}
+
+InputError refused(std::string_view text, const UnitRefusal& refusal) {
+    using Reason = UnitRefusal::Reason;
+    const auto action = [&](const char* other) { return refusal.action.empty() ? other : refusal.action; };
+    switch (refusal.reason) {
+        case Reason::exponent:
+            return unit_error("GC-UNIT-0005", text, refusal.what,
+                              "exponents are whole numbers, or fractions in parentheses", action(k_action));
+        case Reason::number:
+            return unit_error("GC-UNIT-0006", text, refusal.what,
+                              "a number in a unit stands at its beginning, apart from what follows", action(k_action));
+        case Reason::quotient:
+            return unit_error("GC-UNIT-0007", text, refusal.what,
+                              "what is below the line is one factor, or stands in parentheses (SI Brochure, chapter 5)",
+                              action(k_action));
+        case Reason::not_known:
+        case Reason::malformed:
+            break;
+    }
+    return unit_error("GC-UNIT-0001", text, refusal.what, k_rule, action(k_action));
 }
 
 std::string superscript(int power) {
@@ -368,6 +257,28 @@ std::string superscript(int power) {
         text += k_digits[static_cast<std::size_t>(c - '0')];
     }
     return text;
+}
+
+std::string with_exponent(const std::string& name, const UnitExponent& exponent) {
+    if (exponent == UnitExponent{1, 2}) {
+        return "√" + name;
+    }
+    if (exponent.denominator != 1) {
+        return name + "^" + exponent_text(exponent);
+    }
+    return exponent.numerator == 1 ? name : name + superscript(exponent.numerator);
+}
+
+/// A unit as factors with no number before them but 1; nothing for any other text.
+std::optional<UnitExpression> factors_of(std::string_view text) {
+    UnitReading reading = read_unit_expression(text);
+    const auto is_one = [](const UnitNumber& number) { return number.mantissa == 1 && number.exp10 == 0; };
+    const UnitExpression& expression = reading.expression;
+    if (text.size() > k_longest_unit || reading.refusal || expression.factors.empty() ||
+        !std::all_of(expression.numbers.begin(), expression.numbers.end(), is_one)) {
+        return std::nullopt;
+    }
+    return std::move(reading.expression);
 }
 
 }  // namespace
@@ -396,12 +307,10 @@ std::string Dimension::text() const {
             continue;
         }
         text += (text.empty() ? "" : " ") + std::string(k_symbols[i]);
-        if (is_whole(exponent)) {
-            if (const int whole = static_cast<int>(std::lround(exponent)); whole != 1) {
-                text += std::to_string(whole);
-            }
-        } else {
+        if (const std::optional<UnitExponent> fraction = unit_exponent(exponent); !fraction) {
             text += "^" + number_text(exponent);
+        } else if (*fraction != UnitExponent{}) {
+            text += (fraction->denominator == 1 ? "" : "^") + exponent_text(*fraction);
         }
     }
     return text.empty() ? "1" : text;
@@ -437,8 +346,6 @@ bool operator==(const Dimension& a, const Dimension& b) {
 }
 
 Unit Unit::parse(std::string_view text) {
-    const std::string rule = "units are written as UDUNITS-2 reads them";
-    const std::string action = "Write for example um, nm/K, arcsec, degC, uohm, 1/K, percent, or 1 for a bare number.";
     Unit unit;
     unit.text_ = text.empty() ? "1" : std::string(text);
     if (unit.text_ == "1") {
@@ -446,50 +353,32 @@ Unit Unit::parse(std::string_view text) {
     }
     if (text.size() > k_longest_unit) {
         throw unit_error("GC-UNIT-0001", text.substr(0, 40), "a text of " + std::to_string(text.size()) + " bytes",
-                         "a unit has at most 256 bytes", action);
+                         "a unit has at most 256 bytes", k_action);
     }
     if (text.find('\0') != std::string_view::npos || text.front() == ' ' || text.back() == ' ') {
-        throw unit_error("GC-UNIT-0001", text, "spaces around it, or a NUL character", rule, action);
+        throw unit_error("GC-UNIT-0001", text, "spaces around it, or a NUL character", k_rule, k_action);
     }
-    Database& units = database();
-    const std::lock_guard guard(units.lock);
-    if (!units.failure.empty()) {
-        throw StorageError(Diagnostic{.code = "GC-UNIT-0010",
-                                      .where = "unit database of UDUNITS-2",
-                                      .what = "cannot be read: " + units.failure,
-                                      .rule = "units are read with it",
-                                      .action = "Install libudunits2-0 with its data, or run scripts/setup."});
+    refuse_other_scales(text);
+    const UnitReading reading = read_unit_expression(text);
+    if (reading.refusal) {
+        throw refused(text, *reading.refusal);
     }
-    const UnitPointer parsed(ut_parse(units.system, unit.text_.c_str(), UT_UTF8));
-    if (!parsed) {
-        throw unit_error("GC-UNIT-0001", text, "not a unit that is known", rule, action);
+    const UnitExpression& expression = reading.expression;
+    unit.dimension_ = dimension_of(expression);
+    unit.factor_ = factor_of(expression);
+    constexpr int k_largest_power_of_two = 830;  // about 10^250: powers and products stay finite
+    if (!(unit.factor_ > std::ldexp(1.0, -k_largest_power_of_two) &&
+          unit.factor_ < std::ldexp(1.0, k_largest_power_of_two))) {
+        throw unit_error("GC-UNIT-0001", text, "larger than 1e249 or smaller than 1e-249 SI units", k_rule, k_action);
     }
-    Parts parts;
-    const ut_status status = ut_accept_visitor(parsed.get(), &k_visitor, &parts);
-    if (parts.trouble == Trouble::logarithm) {
-        throw unit_error("GC-UNIT-0002", text, "a logarithmic unit",
-                         "levels are stated in dB, which is a unit of its own",
-                         "Write dB, or state the quantity itself and use log10 in the model.");
-    }
-    if (parts.trouble == Trouble::timestamp) {
-        throw unit_error("GC-UNIT-0003", text, "a point in time", "quantities are durations, not dates",
-                         "Write s, min, h or d.");
-    }
-    if (status != UT_SUCCESS || !std::isfinite(parts.scale) || !(parts.scale > 0.0)) {
-        throw unit_error("GC-UNIT-0001", text, "not a unit that can be expressed in SI base units", rule, action);
-    }
-    unit.dimension_ = Dimension(parts.exponents);
-    unit.factor_ = parts.scale;
-    if (parts.offset != 0.0) {
-        if (!(unit.dimension_ == Dimension::temperature())) {
-            throw unit_error("GC-UNIT-0004", text, "a scale with an origin of its own",
-                             "only temperatures have such scales: degC, degF", "State the quantity from zero.");
+    if (const UnitFactor* scale = temperature_scale(expression); scale != nullptr) {
+        if (!expression.numbers.empty()) {
+            throw unit_error("GC-UNIT-0004", text, "a number before a scale of temperature",
+                             "degC and degF have an origin of their own, which a number would move",
+                             "Write degC or mdegC, or K for a difference.");
         }
         unit.celsius_ = true;
-        unit.offset_ = parts.offset - k_ice_point;
-        if (std::abs(unit.offset_) < 1e-12) {
-            unit.offset_ = 0.0;
-        }
+        unit.offset_ = scale->named.unit->scale == UnitDefinition::Scale::fahrenheit ? k_fahrenheit_zero : 0.0;
     }
     const double inverse = std::round(1.0 / unit.factor_);
     if (unit.factor_ < 1.0 && inverse < 9e15 && std::abs(inverse * unit.factor_ - 1.0) < 4e-16) {
@@ -510,19 +399,22 @@ std::string unit_for_people(std::string_view text) {
     if (text == "1" || text.empty()) {
         return "";
     }
-    const std::optional<std::vector<UnitFactor>> factors = factors_of(text);
-    if (!factors || factors->empty()) {
+    const std::optional<UnitExpression> expression = factors_of(text);
+    if (!expression || !expression->plain) {
         return std::string(text);
     }
     std::vector<std::string> above;
     std::vector<std::string> below;
-    const bool slash = text.find('/') != std::string_view::npos;
-    for (const UnitFactor& factor : *factors) {
-        const std::string name =
-            factor.name != nullptr ? std::string(factor.prefix) + std::string(factor.name->people) : factor.raw;
-        const bool under = slash && factor.power < 0;
-        const int power = under ? -factor.power : factor.power;
-        (under ? below : above).push_back(power == 1 ? name : name + superscript(power));
+    for (const UnitFactor& factor : expression->factors) {
+        const UnitDefinition& unit = *factor.named.unit;
+        const PrefixDefinition* prefix = factor.named.prefix;
+        const std::string name = unit.people.empty()
+                                     ? std::string(factor.text)
+                                     : std::string(prefix != nullptr ? prefix->people : "") + std::string(unit.people);
+        const bool under = expression->quotient && factor.exponent.numerator < 0;
+        UnitExponent exponent = factor.exponent;
+        exponent.numerator = under ? -exponent.numerator : exponent.numerator;
+        (under ? below : above).push_back(with_exponent(name, exponent));
     }
     const auto joined = [](const std::vector<std::string>& names) {
         std::string product;
@@ -539,32 +431,42 @@ std::string unit_for_people(std::string_view text) {
 }
 
 std::string unit_of_difference(std::string_view text) {
-    const Unit unit = Unit::parse(text);
-    if (!unit.is_celsius_temperature()) {
+    if (!Unit::parse(text).is_celsius_temperature()) {
         return std::string(text);
     }
-    return unit.difference_to_si(1.0) == 1.0 ? "K" : "delta_degF";
+    const NamedUnit named = read_unit_expression(text).expression.factors.front().named;
+    if (named.unit->scale == UnitDefinition::Scale::fahrenheit) {
+        return "delta_degF";
+    }
+    return named.prefix == nullptr
+               ? "K"
+               : std::string(named.prefix->symbols.substr(0, named.prefix->symbols.find(' '))) + "K";
 }
 
 std::optional<std::string> unit_in_d_si(std::string_view text) {
     if (text == "1" || text.empty()) {
         return "\\one";
     }
-    const std::optional<std::vector<UnitFactor>> factors = factors_of(text);
-    if (!factors || factors->empty()) {
+    const std::optional<UnitExpression> expression = factors_of(text);
+    if (!expression) {
         return std::nullopt;
     }
     std::string result;
-    for (const UnitFactor& factor : *factors) {
-        if (factor.name == nullptr || factor.name->d_si.empty()) {
+    for (const UnitFactor& factor : expression->factors) {
+        if (factor.named.unit->d_si.empty()) {
             return std::nullopt;
         }
-        if (!factor.prefix_d_si.empty()) {
-            result += "\\" + std::string(factor.prefix_d_si);
+        if (factor.named.prefix != nullptr) {
+            result += "\\" + std::string(factor.named.prefix->name);
         }
-        result += "\\" + std::string(factor.name->d_si);
-        if (factor.power != 1) {
-            result += "\\tothe{" + std::to_string(factor.power) + "}";
+        result += "\\" + std::string(factor.named.unit->d_si);
+        if (factor.exponent != UnitExponent{}) {
+            // D-SI writes exponents as decimal numbers: halves, quarters, fifths and eighths are such exactly.
+            const int d = factor.exponent.denominator;
+            if (d != 1 && d != 2 && d != 4 && d != 5 && d != 8) {
+                return std::nullopt;
+            }
+            result += "\\tothe{" + number_text(static_cast<double>(factor.exponent.numerator) / d) + "}";
         }
     }
     return result;

@@ -13,7 +13,7 @@ namespace gumcert::reports {
 
 namespace {
 
-using Name = std::pair<std::string_view, std::string_view>;  // D-SI, UDUNITS-2
+using Name = std::pair<std::string_view, std::string_view>;  // D-SI, ours
 
 constexpr std::array k_prefixes{
     Name{"deca", "da"}, Name{"hecto", "h"}, Name{"kilo", "k"},  Name{"mega", "M"},  Name{"giga", "G"},
@@ -43,6 +43,10 @@ std::optional<std::string_view> look_up(const std::array<Name, size>& names, std
     return found == names.end() ? std::nullopt : std::optional(found->second);
 }
 
+struct Power {
+    int numerator = 1, denominator = 1;
+};
+
 /// Walks over "\kilo\gram\per\metre\tothe{3}".
 class Tokens {
 public:
@@ -63,21 +67,30 @@ public:
         return found.empty() ? std::nullopt : std::optional(found);
     }
     [[nodiscard]] bool at_power() const { return rest_.starts_with(k_power); }
-    /// A whole exponent in braces; nothing for any other.
-    std::optional<int> power() {
+    /// The exponent in braces, a decimal number; nothing for one that no unit of ours has, such as 0.333333.
+    std::optional<Power> power() {
         rest_.remove_prefix(k_power.size());
         const std::size_t end = rest_.find('}');
         if (end == std::string_view::npos) {
             return std::nullopt;
         }
-        int value = 0;
+        double value = 0.0;
         const char* const last = rest_.data() + end;
-        const auto [stop, failure] = std::from_chars(rest_.data(), last, value);
+        const auto [stop, failure] = std::from_chars(rest_.data(), last, value, std::chars_format::fixed);
         rest_.remove_prefix(end + 1);
-        constexpr int k_largest = 99;
-        return failure == std::errc() && stop == last && value >= -k_largest && value <= k_largest
-                   ? std::optional(value)
-                   : std::nullopt;
+        constexpr double k_largest = 99.0;
+        if (failure != std::errc() || stop != last || !(std::abs(value) <= k_largest) || value == 0.0) {
+            return std::nullopt;
+        }
+        // Halves, quarters, eighths and fifths are decimal numbers.
+        for (const int denominator : {1, 2, 4, 5, 8}) {
+            const double numerator = std::round(value * denominator);
+            constexpr double k_noise = 1e-12;  // of a product with a fifth
+            if (std::abs(value * denominator - numerator) < k_noise) {
+                return Power{static_cast<int>(numerator), denominator};
+            }
+        }
+        return std::nullopt;
     }
 
 private:
@@ -94,8 +107,8 @@ bool is_unit(const std::string& text) {
     }
 }
 
-/// Whether a symbol with a prefix is that multiple of the unit for UDUNITS-2 too: "ft" is a foot and no femtotonne,
-/// "yd" a yard and no yoctoday, "m1" a metre and no thousandth.
+/// Whether a symbol with a prefix is that multiple of the unit for us too: "ft" is a foot and no femtotonne, "kt" the
+/// knot of some, "m1" a metre and no thousandth.
 bool is_multiple(std::string_view prefix, std::string_view unit) {
     if (unit == "1") {
         return false;
@@ -129,18 +142,23 @@ std::optional<std::string> factor_of(std::optional<std::string_view> word, Token
     if (!unit || (prefix && !is_multiple(*prefix, *unit))) {
         return std::nullopt;
     }
-    int power = sign;
+    Power power;
     if (tokens.at_power()) {
-        const std::optional<int> stated = tokens.power();
+        const std::optional<Power> stated = tokens.power();
         if (!stated) {
             return std::nullopt;
         }
-        power *= *stated;
+        power = *stated;
     }
     if (*unit == "1") {
         return "";  // a factor of one says nothing
     }
-    return std::string(prefix.value_or("")) + std::string(*unit) + (power == 1 ? "" : std::to_string(power));
+    power.numerator *= sign;
+    const std::string numerator = std::to_string(power.numerator);
+    return std::string(prefix.value_or("")) + std::string(*unit) +
+           (power.denominator != 1 ? "^(" + numerator + "/" + std::to_string(power.denominator) + ")"
+            : power.numerator == 1 ? ""
+                                   : numerator);
 }
 
 }  // namespace

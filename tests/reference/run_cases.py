@@ -117,7 +117,7 @@ def parse_unit(text):
 
 
 def unit_text(unit):
-    """As UDUNITS-2 reads it."""
+    """As the program reads it."""
     if any(exponent != int(exponent) for exponent in unit.values()):
         whole = {}
         for name, exponent in unit.items():

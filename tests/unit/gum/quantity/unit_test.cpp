@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/unit_exponent.h"
 
 namespace gumcert::gum {
 namespace {
@@ -58,6 +59,23 @@ TEST(Unit, ConvertsToCoherentSi) {
         {"1", 7.0, 7.0, "1"},
         {"", 7.0, 7.0, "1"},
         {"µm", 1.0, 1e-6, "m"},
+        {"V/Hz^(1/2)", 2.0, 2.0, "m2 kg s^(-5/2) A-1"},
+        {"nV/Hz^(1/2)", 4.2, 4.2e-9, "m2 kg s^(-5/2) A-1"},
+        {"nV Hz^(-1/2)", 4.2, 4.2e-9, "m2 kg s^(-5/2) A-1"},
+        {"kHz^(1/2)", 1.0, 31.622776601683793, "s^(-1/2)"},
+        {"(um^2/s)^(1/2)", 1.0, 1e-6, "m s^(-1/2)"},
+        {"L^(1/3)", 1.0, 0.1, "m"},
+        {"1e-6/K", 11.5, 11.5e-6, "K-1"},
+        {"10^-6 m", 1.0, 1e-6, "m"},
+        {"L/(100 km)", 8.0, 8e-8, "m2"},
+        {"m·s⁻²", 9.8, 9.8, "m s-2"},
+        {"J/mol/K", 8.3, 8.3, "m2 kg s-2 K-1 mol-1"},
+        {"um/m", 1.0, 1e-6, "1"},
+        {"psi", 1.0, 6894.757293168361, "m-1 kg s-2"},
+        {"eV", 1.0, 1.602176634e-19, "m2 kg s-2"},
+        {"mSv", 1.0, 1e-3, "m2 s-2"},
+        {"uin", 1.0, 2.54e-8, "m"},
+        {"N.m", 1.0, 1.0, "m2 kg s-2"},
     };
     for (const Case& c : cases) {
         SCOPED_TRACE(c.text);
@@ -108,15 +126,69 @@ TEST(Unit, RefusesWhatIsNotAUnit) {
     EXPECT_EQ(code_of(std::string("m\0m", 3)), "GC-UNIT-0001");
     EXPECT_EQ(code_of(std::string(300, 'm')), "GC-UNIT-0001");
     EXPECT_EQ(code_of("lg(re 1 mW)"), "GC-UNIT-0002");
+    EXPECT_EQ(code_of("dBm"), "GC-UNIT-0002");
     EXPECT_EQ(code_of("seconds since 1970-01-01"), "GC-UNIT-0003");
     EXPECT_EQ(code_of("m @ 3"), "GC-UNIT-0004");
+    EXPECT_EQ(code_of("2 degC"), "GC-UNIT-0004");
     EXPECT_EQ(code_of("-1 m"), "GC-UNIT-0001");
-    EXPECT_EQ(code_of("0 m"), "GC-UNIT-0001");
+    EXPECT_EQ(code_of("0 m"), "GC-UNIT-0006");
+    EXPECT_EQ(code_of("Ym^99"), "GC-UNIT-0001") << "10^2376";
     EXPECT_EQ(code_of(std::string(100, '(') + "m" + std::string(100, ')')), "");
 }
 
+/// UDUNITS-2 reads each of these, and as something else than a metrologist means: "Hz^0.5" as 5, "m^3/2" as m³/2,
+/// "10^-6.5 m" as 0.5 um, "1.5e3.5 m" as 750 m. All have in common a number that is neither the first of the unit nor a
+/// whole exponent nor a fraction in parentheses.
+TEST(Unit, RefusesExponentsAndNumbersWithTwoMeanings) {
+    for (const char* name : {"Hz", "m", "K", "nm", "degC", "ohm", "°", "µm", "inch", "volt"}) {
+        for (const char* tail :
+             {"^0.5", "**0.5", "^.5",    "^1.5",     "^-0.5",   "^2.0",   "^2,5",    "^1/2",     "^-1/2",    "-1/2",
+              "^3/2", "1/2",   "2/3",    "0.5",      ".5",      "2.5",    "1.5",     " 0.5",     " 3/2",     " 2",
+              "*2",   "/2",    "·2",     "/0.5",     "^0",      "0",      "^00",     "01",       "^01",      "^100",
+              "^1e2", "2e3",   "^(0.5)", "^(1/2",    "^(1:2)",  "^(1/0)", "^(1/10)", "^(100/3)", "^((1/2))", "^ 2",
+              "^2^3", "²³⁰",   "⁰",      "²2",       "2²",      "^½",     "^+2",     "+2",       "--1",      "-",
+              "^",    "^-",    "(2)",    "^(1 / 2)", "^(1/-2)", "@2",     "^2e",     "'",        "\""}) {
+            EXPECT_NE(code_of(std::string(name) + tail), "") << name << tail;
+            EXPECT_NE(code_of("V/" + std::string(name) + tail), "") << "V/" << name << tail;
+            EXPECT_NE(code_of("kg (" + std::string(name) + tail + ")"), "") << "kg (" << name << tail << ")";
+        }
+    }
+    for (const char* text : {"10^-6.5 m", "1.5e3.5 m", "1e6.5 m", "2m",      "1e-6m",    "1e m",
+                             "1e-6 2 m",  "2 3 m",     "07 m",    "1/2 m",   "m/2",      "10^(1/2) m",
+                             "10^0.5 m",  "1..5 m",    ".5 m",    "1e100 m", "0x10 m",   "1e-6K",
+                             "J/kg K",    "W/m^2 K",   "J/kg*K",  "J/kg.K",  "1/K m",    "N-m",
+                             "m/s^2/",    "/m",        "m//s",    "m**",     "kg m2s-2", "()",
+                             "(m",        "m)",        "(m)(s)",  "m (s",    "1e9999 m", "1234567890123456 m"}) {
+        EXPECT_NE(code_of(text), "") << text;
+    }
+    EXPECT_EQ(code_of("Hz^0.5"), "GC-UNIT-0005");
+    EXPECT_EQ(code_of("m^3/2"), "GC-UNIT-0006");
+    EXPECT_EQ(code_of("J/kg K"), "GC-UNIT-0007");
+}
+
+TEST(Unit, RefusesNamesWithTwoMeaningsAndSaysWhatToWrite) {
+    for (const char* name : {"kt", "gal", "ton", "cal", "oz", "hp", "Btu", "year", "a", "pt"}) {
+        try {
+            (void)Unit::parse(name);
+            ADD_FAILURE() << name;
+        } catch (const InputError& error) {
+            EXPECT_EQ(error.diagnostics().front().code, "GC-UNIT-0001");
+            EXPECT_NE(error.diagnostics().front().what.find("may be"), std::string::npos);
+            EXPECT_TRUE(error.diagnostics().front().action.starts_with("Write ")) << error.what();
+        }
+    }
+}
+
+TEST(Unit, ScaleOfATemperatureTakesPrefixes) {
+    const Unit millidegree = Unit::parse("m°C");
+    EXPECT_TRUE(millidegree.is_celsius_temperature());
+    EXPECT_EQ(millidegree.to_si(1500.0), 1.5);
+    EXPECT_EQ(unit_of_difference("mdegC"), "mK");
+    EXPECT_EQ(unit_of_difference("degF"), "delta_degF");
+}
+
 TEST(Unit, CoherentUnitReadsBack) {
-    for (const char* text : {"J/(kg K)", "um", "dB", "1", "ohm", "m rad"}) {
+    for (const char* text : {"J/(kg K)", "um", "dB", "1", "ohm", "m rad", "V/Hz^(1/2)", "m^(1/3)", "Pa m^(1/2)"}) {
         const Unit unit = Unit::parse(text);
         const Unit coherent = Unit::coherent(unit.dimension());
         EXPECT_EQ(Unit::parse(coherent.text()).dimension(), unit.dimension()) << text;
@@ -129,7 +201,14 @@ TEST(Unit, ArithmeticOfDimensions) {
     const Dimension length = Unit::parse("m").dimension();
     EXPECT_EQ(length * length, Unit::parse("m2").dimension());
     EXPECT_EQ((length * length).power(0.5), length);
-    EXPECT_EQ(length.power(0.5).text(), "m^0.5");
+    EXPECT_EQ(length.power(0.5).text(), "m^(1/2)");
+    EXPECT_EQ(length.power(0.123).text(), "m^0.123");
+    EXPECT_TRUE(is_of_a_unit(length.power(0.5)));
+    EXPECT_FALSE(is_of_a_unit(length.power(0.123)));
+    EXPECT_EQ(unit_exponent(-2.5), (UnitExponent{-5, 2}));
+    EXPECT_EQ(unit_exponent(1.0 / 3.0), (UnitExponent{1, 3}));
+    EXPECT_EQ(unit_exponent(0.1), std::nullopt);
+    EXPECT_EQ(exponent_text({-5, 2}), "(-5/2)");
     EXPECT_TRUE((length / length).is_one());
     EXPECT_FALSE(length.power(1.0 / 3.0) == length);
     EXPECT_EQ(length.power(1.0 / 3.0) * length.power(2.0 / 3.0), length);
@@ -149,6 +228,13 @@ TEST(Unit, PrintsForPeopleAndForDocuments) {
     EXPECT_EQ(unit_for_people("m2"), "m²");
     EXPECT_EQ(unit_for_people("m^2/s^2"), "m²/s²");
     EXPECT_EQ(unit_for_people("furlong"), "furlong");
+    EXPECT_EQ(unit_for_people("V/Hz^(1/2)"), "V/√Hz");
+    EXPECT_EQ(unit_for_people("V Hz^(-1/2)"), "V·Hz^(-1/2)");
+    EXPECT_EQ(unit_for_people("s^(-5/2)"), "s^(-5/2)");
+    EXPECT_EQ(unit_for_people("J/mol/K"), "J/(mol·K)");
+    EXPECT_EQ(unit_for_people("1e-6/K"), "1e-6/K");
+    EXPECT_EQ(unit_in_d_si("V/Hz^(1/2)"), "\\volt\\hertz\\tothe{-0.5}");
+    EXPECT_EQ(unit_in_d_si("m^(1/3)"), std::nullopt);
     EXPECT_EQ(unit_in_d_si("um"), "\\micro\\metre");
     EXPECT_EQ(unit_in_d_si("nm/K"), "\\nano\\metre\\kelvin\\tothe{-1}");
     EXPECT_EQ(unit_in_d_si("kg/m3"), "\\kilo\\gram\\metre\\tothe{-3}");
