@@ -1,6 +1,5 @@
 #include "app/evaluate_job.h"
 
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -14,6 +13,9 @@
 #include "app/rotary_table_record.h"
 #include "engine/job/budget_job.h"
 #include "engine/job/comparison_job.h"
+#include "engine/job/file_source.h"
+#include "engine/job/job_kind.h"
+#include "engine/job/read_once_source.h"
 #include "engine/job/rotary_table_job.h"
 #include "reports/record_sentences.h"
 
@@ -29,36 +31,23 @@ constexpr std::size_t k_most_correlated_results = 2000;
 constexpr std::size_t k_largest_held_file = std::size_t{8} << 20U;
 constexpr std::size_t k_most_held_bytes = std::size_t{16} << 20U;
 
-/// The files of a job, each read once: what is parsed is what the digest is of and what the record holds.
-class FilesOfJob : public engine::FileSource {
-public:
-    explicit FilesOfJob(const engine::FileSource& from) : from_(from) {}
-
-    [[nodiscard]] std::string read(const std::string& name) const override {
-        const auto found = bytes_.find(name);
-        return found != bytes_.end() ? found->second : bytes_.emplace(name, from_.read(name)).first->second;
+/// The files as a record states and holds them: the bytes that were parsed.
+std::vector<reports::InputFile> held_files(const engine::ReadOnceSource& source,
+                                           const std::vector<std::string>& names) {
+    std::vector<reports::InputFile> files;
+    std::size_t held = 0;
+    for (const std::string& name : names) {
+        const std::string bytes = source.read(name);
+        const bool holds = bytes.size() <= k_largest_held_file && held + bytes.size() <= k_most_held_bytes;
+        held += holds ? bytes.size() : 0;
+        files.push_back(reports::input_file(name, bytes, holds));
     }
-
-    [[nodiscard]] std::vector<reports::InputFile> input_files(const std::vector<std::string>& names) const {
-        std::vector<reports::InputFile> files;
-        std::size_t held = 0;
-        for (const std::string& name : names) {
-            const std::string bytes = read(name);
-            const bool holds = bytes.size() <= k_largest_held_file && held + bytes.size() <= k_most_held_bytes;
-            held += holds ? bytes.size() : 0;
-            files.push_back(reports::input_file(name, bytes, holds));
-        }
-        return files;
-    }
-
-private:
-    const engine::FileSource& from_;
-    mutable std::map<std::string, std::string> bytes_;
-};
+    return files;
+}
 
 /// What is the same for jobs of all kinds.
 struct Task {
-    const FilesOfJob& files;
+    const engine::ReadOnceSource& files;
     const std::string& job_file;         ///< name in `files`
     const std::string& covariance_file;  ///< name that it will have; "" when none will be written
     unsigned threads = 0;
@@ -102,7 +91,7 @@ Evaluation evaluate_budget_job(const Task& task) {
         evaluation.covariance_csv = budget_covariance_csv(job, result, covariance);
     }
     evaluation.record =
-        budget_record(job, result, task.files.input_files(job.files), covariance, in_file ? task.covariance_file : "");
+        budget_record(job, result, held_files(task.files, job.files), covariance, in_file ? task.covariance_file : "");
     evaluation.negative = result.validation_failed;
     if (job.certificate) {
         make_certificate(evaluation, job.certificate, profile, capability_inputs(job, result, task.threads));
@@ -116,7 +105,7 @@ Evaluation evaluate_rotary_table_job(const Task& task) {
     const RotaryTableResult result = evaluate_rotary_table(job, task.threads, task.progress);
     Evaluation evaluation;
     evaluation.covariance_csv = covariance_csv(job, result.solution.quantities, result.propagation.covariance);
-    evaluation.record = rotary_table_record(job, result, task.files.input_files(job.files), task.covariance_file);
+    evaluation.record = rotary_table_record(job, result, held_files(task.files, job.files), task.covariance_file);
     evaluation.negative = result.validation_failed;
     make_certificate(evaluation, job.certificate, profile, {});
     return evaluation;
@@ -125,19 +114,19 @@ Evaluation evaluate_rotary_table_job(const Task& task) {
 Evaluation evaluate_comparison_job(const Task& task) {
     const engine::ComparisonJob job = engine::read_comparison_job(task.files, task.job_file);
     Evaluation evaluation;
-    evaluation.record = evaluate_comparison(job, task.files.input_files(job.files), task.progress);
+    evaluation.record = evaluate_comparison(job, held_files(task.files, job.files), task.progress);
     evaluation.negative = !evaluation.record.comparison->items_without_result.empty();
     return evaluation;
 }
 
 /// The reader of its kind tells all problems of a job whose kind cannot be read for sure.
-void read_as(const std::string& kind, const std::filesystem::path& job_file) {
+void read_as(const std::string& kind, const Task& task) {
     if (kind == "budget") {
-        (void)engine::read_budget_job(job_file);
+        (void)engine::read_budget_job(task.files, task.job_file);
     } else if (kind == "comparison") {
-        (void)engine::read_comparison_job(job_file);
+        (void)engine::read_comparison_job(task.files, task.job_file);
     } else {
-        (void)engine::read_rotary_table_job(job_file);
+        (void)engine::read_rotary_table_job(task.files, task.job_file);
     }
 }
 
@@ -166,28 +155,28 @@ std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_
 
 Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string& covariance_file, unsigned threads,
                         const std::filesystem::path& templates, const Progress& progress) {
-    const engine::DiskFileSource folder(job_file.parent_path());
-    try {
-        (void)engine::job_kind(job_file);
-    } catch (const gum::InputError&) {
-        // The reader of its kind tells the other problems of the job together with this one.
-        read_as(engine::probable_job_kind(job_file).value_or(""), job_file);
-        throw;
-    }
-    return evaluate_job(folder, job_file.filename().string(), covariance_file, threads, templates, progress);
+    return evaluate_job(engine::DiskFileSource(job_file.parent_path()), job_file.filename().string(), covariance_file,
+                        threads, templates, progress);
 }
 
 Evaluation evaluate_job(const engine::FileSource& source, const std::string& job_file,
                         const std::string& covariance_file, unsigned threads, const std::filesystem::path& templates,
                         const Progress& progress) {
-    const FilesOfJob files(source);
+    const engine::ReadOnceSource files(source);
     const Task task{.files = files,
                     .job_file = job_file,
                     .covariance_file = covariance_file,
                     .threads = threads,
                     .templates = templates,
                     .progress = progress};
-    const std::string kind = engine::job_kind(files, job_file);
+    std::string kind;
+    try {
+        kind = engine::job_kind(files, job_file);
+    } catch (const gum::InputError&) {
+        // The reader of its kind tells the other problems of the job together with this one.
+        read_as(engine::probable_job_kind(files, job_file).value_or(""), task);
+        throw;
+    }
     Evaluation evaluation = kind == "budget"       ? evaluate_budget_job(task)
                             : kind == "comparison" ? evaluate_comparison_job(task)
                                                    : evaluate_rotary_table_job(task);

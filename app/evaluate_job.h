@@ -38,7 +38,8 @@ using Progress = std::function<void(const std::string&)>;
 [[nodiscard]] Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string& covariance_file,
                                       unsigned threads, const std::filesystem::path& templates,
                                       const Progress& progress = {});
-/// The same of a job in any source of files, under its name there.
+/// The same of a job in any source of files, under its name there. Every file is read once, so that the digests in the
+/// record are those of the bytes that were evaluated.
 [[nodiscard]] Evaluation evaluate_job(const engine::FileSource& source, const std::string& job_file,
                                       const std::string& covariance_file, unsigned threads,
                                       const std::filesystem::path& templates, const Progress& progress = {});

@@ -175,6 +175,20 @@ bool looks_like_decimal_commas(const std::vector<CsvCell>& fields, std::size_t e
     return pairs > 0 && fields.size() - expected <= pairs;
 }
 
+/// A text of a cell for a message: as it stands where it looks like the text of a table, else its length only. A job
+/// may name any file that its user may read; what is no table is not shown.
+std::string shown(std::string_view text) {
+    constexpr std::size_t k_longest = 40;
+    const auto fits = [](char c) {
+        return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+               static_cast<unsigned char>(c) >= 0x80U ||
+               std::string_view(" +-.,_'%()[]<>/^").find(c) != std::string_view::npos;
+    };
+    return text.size() <= k_longest && std::all_of(text.begin(), text.end(), fits)
+               ? in_quotes(text)
+               : "a text of " + std::to_string(text.size()) + " bytes";
+}
+
 void refuse_ragged(const std::vector<CsvCell>& fields, std::size_t expected, std::string_view what_expected,
                    ProblemList& problems) {
     const std::string what = std::to_string(fields.size()) + (fields.size() == 1 ? " field" : " fields") + " where " +
@@ -183,7 +197,7 @@ void refuse_ragged(const std::vector<CsvCell>& fields, std::size_t expected, std
     std::string example;
     if (fields.size() > expected && looks_like_decimal_commas(fields, expected, example)) {
         problems.refuse(k_csv_decimal_comma, where_is(last, problems),
-                        what + "; " + in_quotes(example) + " looks like a number with a decimal comma",
+                        what + "; " + shown(example) + " looks like a number with a decimal comma",
                         "numbers have a decimal point, and columns are separated by commas",
                         "save the file with decimal points");
         return;
@@ -197,7 +211,7 @@ std::optional<double> parse_number(const CsvCell& cell, std::string_view column,
                                    ProblemList& problems) {
     const std::string of_column = column.empty() ? std::string{} : " in column " + printable(column);
     const auto refuse = [&](const InputCode& code, const std::string& rule, const std::string& action) {
-        problems.refuse(code, where_is(cell, problems), in_quotes(cell.text) + of_column, rule, action);
+        problems.refuse(code, where_is(cell, problems), shown(cell.text) + of_column, rule, action);
         return std::nullopt;
     };
     const std::string must_be_number = "must be a number with a decimal point";
@@ -335,7 +349,7 @@ std::optional<CsvTable> read_csv_table(std::string bytes, std::span<const std::s
         problems.refuse(
             k_csv_missing_column, where_is(fields.front(), problems),
             "the column " + in_quotes(required[i]) + " is missing", "the required columns are " + all_required,
-            nearest ? "is it the column " + in_quotes(*nearest) + "?" : "add it to the header and to every row");
+            nearest ? "is it the column " + shown(*nearest) + "?" : "add it to the header and to every row");
         usable = false;
     }
     if (!usable) {
@@ -428,10 +442,9 @@ std::optional<std::size_t> CsvTable::choice(std::size_t row, std::size_t column,
     const CsvCell& field = cell(row, column);
     const auto found = std::find(words.begin(), words.end(), field.text);
     if (found == words.end()) {
-        problems_->refuse(
-            field.text.empty() ? k_csv_missing_value : k_csv_unknown_choice, where(field),
-            (field.text.empty() ? "an empty cell" : in_quotes(field.text)) + " in column " + names_[column],
-            "must be " + any_of_words(words), "correct the value");
+        problems_->refuse(field.text.empty() ? k_csv_missing_value : k_csv_unknown_choice, where(field),
+                          (field.text.empty() ? "an empty cell" : shown(field.text)) + " in column " + names_[column],
+                          "must be " + any_of_words(words), "correct the value");
         return std::nullopt;
     }
     return static_cast<std::size_t>(found - words.begin());

@@ -1,9 +1,8 @@
 #include "engine/job/file_source.h"
 
-#include <cerrno>
-#include <fstream>
-#include <system_error>
+#include <utility>
 
+#include "encoding/file_bytes.h"
 #include "engine/job/input_codes.h"
 #include "engine/job/input_text.h"
 #include "gum/quantity/diagnostic.h"
@@ -21,32 +20,13 @@ namespace {
 }  // namespace
 
 std::string DiskFileSource::read(const std::string& name) const {
-    const std::filesystem::path path = folder_ / std::filesystem::path(name);
-    std::error_code code;
-    const std::filesystem::file_status status = std::filesystem::status(path, code);
-    if (!std::filesystem::exists(status)) {
-        not_readable(name,
-                     code && code != std::errc::no_such_file_or_directory ? code.message() : "there is no such file");
+    encoding::FileBytes file = encoding::read_regular_file(folder_ / std::filesystem::path(name), k_file_limit + 1);
+    if (!file.failure.empty()) {
+        // "a/" has no name of a file, "" nothing at all: the place is told as it was given.
+        const std::string folder = folder_.string();
+        not_readable(!name.empty() ? name : folder.empty() ? "the name \"\"" : folder + "/", file.failure);
     }
-    // A device or a pipe could be endless or wait for ever.
-    if (!std::filesystem::is_regular_file(status)) {
-        not_readable(name, "it is not a regular file");
-    }
-    errno = 0;
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) {
-        const std::error_code reason(errno, std::generic_category());
-        not_readable(name, reason ? reason.message() : "it cannot be opened");
-    }
-    std::string bytes;
-    const std::uintmax_t size = std::filesystem::file_size(path, code);
-    bytes.resize(code ? k_file_limit + 1 : static_cast<std::size_t>(std::min<std::uintmax_t>(size, k_file_limit) + 1));
-    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (stream.bad()) {
-        not_readable(name, "reading failed");
-    }
-    bytes.resize(static_cast<std::size_t>(stream.gcount()));
-    return bytes;
+    return std::move(file.bytes);
 }
 
 std::string MemoryFileSource::read(const std::string& name) const {

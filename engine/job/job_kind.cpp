@@ -4,6 +4,7 @@
 #include <array>
 
 #include "engine/job/json_document.h"
+#include "engine/job/read_once_source.h"
 
 namespace gumcert::engine {
 
@@ -62,10 +63,9 @@ std::string job_kind(const FileSource& source, const std::string& job_file) {
     return kind.value();
 }
 
-std::optional<std::string> probable_job_kind(const std::filesystem::path& job_file) {
-    const std::string name = job_file.filename().string();
+std::optional<std::string> probable_job_kind(const FileSource& source, const std::string& name) {
     ProblemList problems(name);
-    const std::string bytes = DiskFileSource(job_file.parent_path()).read(name);
+    const std::string bytes = source.read(name);
     const std::optional<JsonDocument> document = read_json_document(bytes, problems);
     if (document && document->value.is_object() && document->value.contains("kind") &&
         document->value["kind"].is_string()) {
@@ -79,6 +79,10 @@ std::optional<std::string> probable_job_kind(const std::filesystem::path& job_fi
         }
     }
     return std::nullopt;
+}
+
+std::optional<std::string> probable_job_kind(const std::filesystem::path& job_file) {
+    return probable_job_kind(DiskFileSource(job_file.parent_path()), job_file.filename().string());
 }
 
 std::string job_kind(const std::filesystem::path& job_file) {

@@ -1,0 +1,76 @@
+#include "encoding/file_bytes.h"
+
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace gumcert::encoding {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FileBytesTest : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = fs::path(::testing::TempDir()) / ("file_bytes_" + std::to_string(getpid()));
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+    fs::path folder_;
+};
+
+TEST_F(FileBytesTest, ReadsTheBytesOfARegularFile) {
+    const std::string content("a\0b\r\n", 5);
+    std::ofstream(folder_ / "a", std::ios::binary) << content;
+    chmod((folder_ / "a").c_str(), 0640);
+    fs::create_symlink("a", folder_ / "link");
+    for (const char* name : {"a", "link"}) {
+        const FileBytes file = read_regular_file(folder_ / name, 100);
+        EXPECT_EQ(file.failure, "");
+        EXPECT_EQ(file.bytes, content);
+        EXPECT_FALSE(file.too_long);
+        EXPECT_EQ(file.mode, 0640U);
+    }
+    EXPECT_EQ(read_regular_file(folder_ / "a", 5).bytes, content);
+    EXPECT_FALSE(read_regular_file(folder_ / "a", 5).too_long);
+    EXPECT_EQ(read_regular_file(folder_ / "a", 4).bytes, content.substr(0, 4));
+    EXPECT_TRUE(read_regular_file(folder_ / "a", 4).too_long);
+    EXPECT_EQ(read_regular_file("/proc/self/stat", 100000).failure, "") << "a file that states size 0";
+    EXPECT_NE(read_regular_file("/proc/self/stat", 100000).bytes, "");
+}
+
+/// What could wait for ever or never end is not opened.
+TEST_F(FileBytesTest, RefusesWhatIsNoRegularFile) {
+    mkfifo((folder_ / "fifo").c_str(), 0600);
+    const int server = socket(AF_UNIX, SOCK_STREAM, 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    const std::string place = (folder_ / "s").string();
+    ASSERT_LT(place.size(), sizeof(address.sun_path));
+    std::memcpy(address.sun_path, place.c_str(), place.size() + 1);
+    ASSERT_EQ(bind(server, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+    fs::create_symlink("fifo", folder_ / "to_fifo");
+    fs::create_symlink("nowhere", folder_ / "dangling");
+    for (const fs::path& path : {folder_ / "fifo", folder_ / "s", folder_ / "to_fifo", fs::path("/dev/zero"),
+                                 fs::path("/dev/null"), fs::path("/dev/urandom")}) {
+        const FileBytes file = read_regular_file(path, 100);
+        EXPECT_EQ(file.failure, "it is not a regular file") << path;
+        EXPECT_EQ(file.bytes, "");
+    }
+    EXPECT_EQ(read_regular_file(folder_, 100).failure, "it is a folder");
+    for (const fs::path& path : {folder_ / "dangling", folder_ / "absent", fs::path("")}) {
+        EXPECT_EQ(read_regular_file(path, 100).failure, "there is no such file") << path;
+    }
+    EXPECT_NE(read_regular_file(folder_ / std::string(300, 'x'), 100).failure, "");
+    close(server);
+}
+
+}  // namespace
+}  // namespace gumcert::encoding
