@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 
 /// An id is the name of a file: letters, digits, '-' and '_' only, so that it cannot lead out of the folder.
 bool is_file_stem(const std::string& id) {
-    return !id.empty() && std::all_of(id.begin(), id.end(), [](char c) {
+    constexpr std::size_t k_longest = 64;
+    return !id.empty() && id.size() <= k_longest && std::all_of(id.begin(), id.end(), [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
     });
 }
@@ -72,7 +73,8 @@ certificate::Profile certificate_profile(const certificate::CertificateData& dat
     }
     const fs::path folder = templates / "profiles";
     const fs::path file = folder / (data.profile + ".json");
-    if (!is_file_stem(data.profile) || !fs::exists(file)) {
+    std::error_code error;
+    if (!is_file_stem(data.profile) || !fs::exists(file, error)) {
         throw gum::InputError(gum::Diagnostic{.code = "GC-CERT-0300",
                                               .where = "certificate/profile",
                                               .what = "there is no profile \"" + data.profile + "\"",

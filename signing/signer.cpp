@@ -1,5 +1,6 @@
 #include "signing/signer.h"
 #include "encoding/base64.h"
+#include "encoding/file_bytes.h"
 #include "encoding/sha2.h"
 
 #include <openssl/err.h>
@@ -10,9 +11,8 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
@@ -153,6 +153,25 @@ struct Description {
 constexpr const char* k_description_rule =
     R"(a signer is {"certificates": "chain.pem", "key": "key.pem"}, or with "command": ["/path/program", "word"])";
 
+bool has_nul(const nlohmann::json& text) {
+    return text.get_ref<const std::string&>().find('\0') != std::string::npos;
+}
+
+/// A secret that more people than its owner may read is none.
+void warn_of_readers(const fs::path& file, std::vector<gum::Diagnostic>& warnings) {
+    constexpr unsigned k_read_by_others = 0044;
+    const encoding::FileBytes secret = encoding::read_regular_file(file, 0);
+    if (secret.failure.empty() && (secret.mode & k_read_by_others) != 0) {
+        warnings.push_back(
+            {.code = "GC-SIGN-0029",
+             .where = file.string(),
+             .what = "others than its owner may read it",
+             .rule = "whoever has the private key can sign in its owner's name",
+             .action = "chmod 600 " + file.string() + "; have the certificate revoked where others may have read it",
+             .severity = gum::Severity::warning});
+    }
+}
+
 void read_description_key(Description& description, const std::string& file, const std::string& name,
                           const nlohmann::json& value) {
     const auto refuse_value = [&](const char* what) {
@@ -163,12 +182,12 @@ void read_description_key(Description& description, const std::string& file, con
                         : name == "passphrase_file" ? &description.passphrase_file
                                                     : nullptr;
     if (text != nullptr) {
-        if (!value.is_string() || value.get_ref<const std::string&>().empty()) {
+        if (!value.is_string() || value.get_ref<const std::string&>().empty() || has_nul(value)) {
             refuse_value("not the name of a file");
         }
         *text = value.get<std::string>();
     } else if (name == "command") {
-        const auto is_word = [](const nlohmann::json& word) { return word.is_string(); };
+        const auto is_word = [](const nlohmann::json& word) { return word.is_string() && !has_nul(word); };
         if (!value.is_array() || value.empty() || !std::all_of(value.begin(), value.end(), is_word)) {
             refuse_value("not a list of words");
         }
@@ -184,9 +203,22 @@ void read_description_key(Description& description, const std::string& file, con
 }
 
 Description read_description(const fs::path& file) {
-    const nlohmann::json json = nlohmann::json::parse(read_signing_file(file), nullptr, false);
+    std::set<std::string> seen;
+    std::string repeated;
+    const auto look_at_keys = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
+        if (depth == 1 && event == nlohmann::json::parse_event_t::key &&
+            !seen.insert(parsed.get<std::string>()).second) {
+            repeated = parsed.get<std::string>();
+        }
+        return true;
+    };
+    const nlohmann::json json = nlohmann::json::parse(read_signing_file(file), look_at_keys, false);
     if (!json.is_object()) {
         refuse("GC-SIGN-0013", file.string(), "not a JSON object", k_description_rule, "correct the file");
+    }
+    if (!repeated.empty()) {
+        refuse("GC-SIGN-0013", file.string() + "#/" + repeated, "the key stands there twice", k_description_rule,
+               "keep one of them: nobody can know which one is meant");
     }
     Description description;
     for (const auto& [name, value] : json.items()) {
@@ -202,16 +234,19 @@ Description read_description(const fs::path& file) {
 }  // namespace
 
 std::string read_signing_file(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::string text(std::istreambuf_iterator<char>(stream), {});
-    if (!stream || !fs::is_regular_file(file)) {
+    constexpr std::size_t k_largest = std::size_t{16} << 20U;
+    encoding::FileBytes read = encoding::read_regular_file(file, k_largest);
+    if (read.too_long) {
+        read.failure = "it is larger than 16 MiB";
+    }
+    if (!read.failure.empty()) {
         throw gum::StorageError(gum::Diagnostic{.code = "GC-SIGN-0010",
-                                                .where = file.string(),
-                                                .what = "cannot be read",
-                                                .rule = "keys, certificates and signer descriptions are files",
+                                                .where = file.empty() ? "the name \"\"" : file.string(),
+                                                .what = "cannot be read: " + read.failure,
+                                                .rule = "keys, certificates and signer descriptions are regular files",
                                                 .action = "name a file that you may read"});
     }
-    return text;
+    return std::move(read.bytes);
 }
 
 std::unique_ptr<Signer> signer_from_files(const fs::path& key, const fs::path& certificates,
@@ -253,22 +288,40 @@ std::unique_ptr<Signer> signer_from_command(const std::vector<std::string>& comm
 }
 
 std::unique_ptr<Signer> signer_from_description(const fs::path& file) {
+    return described_signer(file).signer;
+}
+
+DescribedSigner described_signer(const fs::path& file) {
     Description description = read_description(file);
     const fs::path folder = file.parent_path();
     const fs::path certificates = folder / description.certificates;
+    DescribedSigner result;
+    result.files = {file, certificates};
     if (!description.command.empty()) {
         std::string& program = description.command[0];
         if (program.find('/') != std::string::npos) {
-            program = fs::absolute(folder / program).string();
+            std::error_code error;
+            const fs::path absolute = fs::absolute(folder / program, error);
+            program = error ? (folder / program).string() : absolute.string();
+            result.files.emplace_back(program);
         }
-        return signer_from_command(description.command, certificates, std::chrono::seconds(description.time_limit));
+        result.signer =
+            signer_from_command(description.command, certificates, std::chrono::seconds(description.time_limit));
+        return result;
     }
     std::string passphrase;
     if (!description.passphrase_file.empty()) {
-        passphrase = read_signing_file(folder / description.passphrase_file);
+        const fs::path secret = folder / description.passphrase_file;
+        passphrase = read_signing_file(secret);
         passphrase.erase(passphrase.find_last_not_of("\r\n") + 1);
+        result.files.push_back(secret);
+        warn_of_readers(secret, result.warnings);
     }
-    return signer_from_files(folder / description.key, certificates, passphrase);
+    const fs::path key = folder / description.key;
+    result.files.push_back(key);
+    result.signer = signer_from_files(key, certificates, passphrase);
+    warn_of_readers(key, result.warnings);
+    return result;
 }
 
 Bytes checked_signature(const Signer& signer, const Bytes& digest) {

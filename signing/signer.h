@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "gum/quantity/diagnostic.h"
+
 namespace gumcert::signing {
 
 using Bytes = std::string;
@@ -40,6 +42,14 @@ public:
 /// A signer description, JSON: {"certificates": "chain.pem", "key": "key.pem"} or {"certificates": …, "command": [..]};
 /// names relative to the file.
 [[nodiscard]] std::unique_ptr<Signer> signer_from_description(const std::filesystem::path& file);
+
+/// The same with what the caller must know of it.
+struct DescribedSigner {
+    std::unique_ptr<Signer> signer;
+    std::vector<std::filesystem::path> files;  ///< the description and every file that it names: never to be written
+    std::vector<gum::Diagnostic> warnings;     ///< GC-SIGN-0029 a key or passphrase that others may read
+};
+[[nodiscard]] DescribedSigner described_signer(const std::filesystem::path& file);
 
 /// Signs a DCC: XAdES-BASELINE-B, enveloped, exclusive canonicalisation, SHA-256 (ETSI EN 319 132-1).
 /// \param signing_time  seconds since 1970-01-01 UTC; the caller reads the clock

@@ -128,7 +128,7 @@ ExitCode import_certificate(const std::string& file, const std::string& output, 
         write_to_stdout(imported.job);
         return imported.negative ? negative_answer : done;
     }
-    app::write_files({{output, imported.job}});
+    app::write_files({{output, imported.job}}, {file});
     if (!common.quiet) {
         fmt::print("Written: {}\nNext: keep the inputs that you need, write the model, gumcert run {}\n", output,
                    output);

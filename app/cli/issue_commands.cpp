@@ -33,11 +33,19 @@ class Issuer {
 public:
     explicit Issuer(DocumentOptions options)
         : asked_(std::move(options)),
-          signer_(asked_.signer.empty() ? nullptr : signing::signer_from_description(asked_.signer)) {}
+          signer_(asked_.signer.empty() ? signing::DescribedSigner{} : signing::described_signer(asked_.signer)) {}
+
+    /// What this command reads beside its jobs or records; no output may take the place of it.
+    [[nodiscard]] std::vector<fs::path> inputs() const {
+        std::vector<fs::path> files = signer_.files;
+        add_program_files(files, asked_.share);
+        return files;
+    }
+    [[nodiscard]] const std::vector<gum::Diagnostic>& warnings() const { return signer_.warnings; }
 
     /// \param with_templates  false: for a form of the document that needs none
     [[nodiscard]] const app::IssueOptions& options(bool with_templates = true) {
-        options_.signer = signer_.get();
+        options_.signer = signer_.signer.get();
         if (with_templates && !worker_) {
             options_.assets = render_assets(asked_.share, asked_.languages);
             options_.signing_time = seconds_now();
@@ -49,10 +57,16 @@ public:
 
 private:
     DocumentOptions asked_;
-    std::unique_ptr<signing::Signer> signer_;
+    signing::DescribedSigner signer_;
     std::unique_ptr<reports::PdfWorker> worker_;
     app::IssueOptions options_;
 };
+
+void print_warnings(const Issuer& issuer, const CommonOptions& common) {
+    for (const gum::Diagnostic& warning : issuer.warnings()) {
+        print_message(warning, common);
+    }
+}
 
 void print_written(const std::vector<app::OutputFile>& files) {
     fmt::print("\nWritten:\n");
@@ -134,10 +148,11 @@ bool naming_job(const fs::path& job, const Work& work) {
     }
 }
 
+/// \param inputs   of the command, in addition to the files of the job
 /// \param several  whether the command has other jobs
 /// \return true when the answer is negative
-bool run_job(const fs::path& job, const fs::path& folder, Issuer& issuer, const DocumentOptions& options,
-             const CommonOptions& common, ProgressLine& progress, bool several) {
+bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> inputs, Issuer& issuer,
+             const DocumentOptions& options, const CommonOptions& common, ProgressLine& progress, bool several) {
     app::Evaluation evaluation =
         app::evaluate_job(job, "covariance.csv", static_cast<unsigned>(common.threads), templates_if_any(options.share),
                           [&](const std::string& text) { progress(text); });
@@ -156,10 +171,10 @@ bool run_job(const fs::path& job, const fs::path& folder, Issuer& issuer, const 
         files.push_back({documents[1], std::move(issued.pdf)});
         files.push_back({documents[2], std::move(record.kind == "comparison" ? issued.csv : issued.dcc)});
     }
-    for (const app::OutputFile& file : files) {
-        app::require_not_an_input(file.path, app::input_files(job, record));
+    for (const fs::path& file : app::input_files(job, record)) {
+        inputs.push_back(file);
     }
-    app::write_files(files);
+    app::write_files(files, inputs);
     progress.clear();
     if (several) {  // the files are written: from here on the record is for the terminal only
         evaluation.record.diagnostics = of_job(std::move(evaluation.record.diagnostics), job);
@@ -223,9 +238,11 @@ bool print_as_unchecked(reports::EvaluationRecord& record, gum::Diagnostic why, 
     return options.draft;
 }
 
-/// \param file  empty: to standard output
-ExitCode render_record(const std::string& name, const std::string& format, const fs::path& file, Issuer& issuer,
-                       const DocumentOptions& options, const CommonOptions& common) {
+/// \param file    empty: to standard output
+/// \param inputs  of the command
+ExitCode render_record(const std::string& name, const std::string& format, const fs::path& file,
+                       const std::vector<fs::path>& inputs, Issuer& issuer, const DocumentOptions& options,
+                       const CommonOptions& common) {
     reports::EvaluationRecord record = reports::record_from_json(app::read_file(name), name);
     ProgressLine progress(!common.quiet);
     const std::optional<gum::Diagnostic> unchecked =
@@ -248,7 +265,7 @@ ExitCode render_record(const std::string& name, const std::string& format, const
         write_to_stdout(bytes);
         return done;
     }
-    app::write_files({{file, bytes}});
+    app::write_files({{file, bytes}}, inputs);
     if (!common.quiet) {
         fmt::print("Written: {}\n", file.string());
     }
@@ -265,12 +282,23 @@ ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& o
     }
     require_different(folders, "jobs");
     Issuer issuer(options);
+    std::vector<fs::path> inputs = issuer.inputs();
+    inputs.insert(inputs.end(), jobs.begin(), jobs.end());
+    std::vector<fs::path> outputs;
+    for (const fs::path& folder : folders) {
+        for (const char* name : {"record.json", "covariance.csv", "certificate.html", "certificate.pdf",
+                                 "certificate.xml", "comparison.html", "comparison.pdf", "comparison.csv"}) {
+            outputs.push_back(folder / name);
+        }
+    }
+    app::require_not_inputs(outputs, inputs);
+    print_warnings(issuer, common);
     ExitCode code = done;
     ProgressLine progress(!common.quiet);
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         const ExitCode one = explained(common, [&] {
             const auto work = [&] {
-                return run_job(jobs[i], folders[i], issuer, options, common, progress, jobs.size() > 1);
+                return run_job(jobs[i], folders[i], inputs, issuer, options, common, progress, jobs.size() > 1);
             };
             return (jobs.size() > 1 ? naming_job(jobs[i], work) : work()) ? negative_answer : done;
         });
@@ -286,8 +314,11 @@ ExitCode evaluate_to_record(const fs::path& job, const std::string& output, cons
         output.empty() ? job.parent_path() / (job.stem().string() + "-record.json") : fs::path(output);
     // The covariance stands beside the record under the record's own name, so that two records do not share it.
     const std::string covariance_name = to_stdout ? "" : record_file.stem().string() + "-covariance.csv";
+    std::vector<fs::path> inputs{job};
+    add_program_files(inputs, share);
     if (!to_stdout) {
         app::require_writable(record_file);
+        app::require_not_an_input(record_file, inputs);
     }
     ProgressLine progress(!common.quiet);
     app::Evaluation evaluation =
@@ -309,10 +340,10 @@ ExitCode evaluate_to_record(const fs::path& job, const std::string& output, cons
     if (!evaluation.covariance_csv.empty()) {
         files.push_back({record_file.parent_path() / covariance_name, evaluation.covariance_csv});
     }
-    for (const app::OutputFile& file : files) {
-        app::require_not_an_input(file.path, app::input_files(job, evaluation.record));
+    for (const fs::path& file : app::input_files(job, evaluation.record)) {
+        inputs.push_back(file);
     }
-    app::write_files(files);
+    app::write_files(files, inputs);
     report_diagnostics(evaluation.record, common);
     report_findings(evaluation.record, common);
     if (!common.quiet) {
@@ -345,15 +376,24 @@ ExitCode render_records(const std::vector<std::string>& records, const std::stri
                                                : fs::path(options.output));
         if (!to_stdout) {
             app::require_writable(files.back());
-            app::require_not_an_input(files.back(), {records.begin(), records.end()});
         }
     }
     require_different(files, "documents");
+    if (!to_stdout) {
+        app::require_not_inputs(files, {records.begin(), records.end()});
+    }
     Issuer issuer(options);
+    std::vector<fs::path> inputs = issuer.inputs();
+    inputs.insert(inputs.end(), records.begin(), records.end());
+    if (!to_stdout) {
+        app::require_not_inputs(files, inputs);
+    }
+    print_warnings(issuer, common);
     ExitCode code = done;
     for (std::size_t i = 0; i < records.size(); ++i) {
         const ExitCode one = explained(common, [&] {
-            return render_record(records[i], format, to_stdout ? fs::path() : files[i], issuer, options, common);
+            return render_record(records[i], format, to_stdout ? fs::path() : files[i], inputs, issuer, options,
+                                 common);
         });
         code = std::max(code, one);
     }

@@ -51,7 +51,9 @@ constexpr const char* k_footer =
     "\n"
     "Exit codes: 0 done; 1 done, and the answer is negative; 2 the command line is wrong; 3 an input was refused;\n"
     "4 no result can be computed; 5 a file or disk trouble; 70 a defect in the program. Nothing is written when the\n"
-    "exit code is 2, 3 or 4. Messages go to stderr: where — what is wrong — the rule — what to do [code].";
+    "exit code is 2, 3 or 4. An output is a new file or takes the place of a regular one, never of an input of the\n"
+    "command. Units: um, nm/K, J/(kg K), V/Hz^(1/2), degC; docs/budget_job.md. Messages go to\n"
+    "stderr: where — what is wrong — the rule — what to do [code].";
 
 /// What the command line may say; CLI11 fills it.
 struct Arguments {

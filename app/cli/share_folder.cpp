@@ -73,6 +73,16 @@ fs::path templates_if_any(const std::string& given) {
     }
 }
 
+void add_program_files(std::vector<fs::path>& inputs, const std::string& share) {
+    inputs.push_back(executable());
+    const fs::path templates = templates_if_any(share);
+    if (!templates.empty()) {
+        inputs.push_back(templates);
+        inputs.push_back(templates.parent_path() / "schemas");
+        inputs.push_back(templates.parent_path() / "node_modules");
+    }
+}
+
 reports::RenderAssets render_assets(const std::string& share, std::vector<std::string> languages) {
     const fs::path folder = share_folder(share);
     reports::RenderAssets result;

@@ -19,6 +19,9 @@ namespace gumcert::cli {
 /// The folder of templates; empty where it is not found and --share does not name it: only certificate data need it.
 [[nodiscard]] std::filesystem::path templates_if_any(const std::string& given);
 
+/// Adds the folders that the program itself reads, templates and schemas, to the inputs that no output may overwrite.
+void add_program_files(std::vector<std::filesystem::path>& inputs, const std::string& share);
+
 /// What documents are made with.
 /// \param languages  to print in; empty: those of the certificate data
 [[nodiscard]] reports::RenderAssets render_assets(const std::string& share, std::vector<std::string> languages = {});

@@ -41,12 +41,14 @@ void write_study(const reports::StudyDocument& study, const StudyOutput& output,
         write_to_stdout(reports::render_text(study));
         return;
     }
-    app::require_not_an_input(output.file, app::study_inputs(job));
     const std::string bytes = output.form == ".json"   ? study.data_json
                               : output.form == ".html" ? reports::render_html(study, render_assets(share, {"en"}))
                               : output.form == ".pdf"  ? reports::render_pdf(study, render_assets(share, {"en"}))
                                                        : reports::render_text(study);
-    app::write_files({{output.file, bytes}});
+    std::vector<fs::path> inputs = app::study_inputs(job);
+    inputs.push_back(job);
+    add_program_files(inputs, share);
+    app::write_files({{output.file, bytes}}, inputs);
     if (!common.quiet) {
         fmt::print("Written: {}\n", output.file.string());
     }

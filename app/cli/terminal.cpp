@@ -2,7 +2,9 @@
 
 #include <unistd.h>
 
+#include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <nlohmann/json.hpp>
 
@@ -40,6 +42,22 @@ ExitCode told(const gum::DiagnosedError& error, const CommonOptions& common, Exi
 
 }  // namespace
 
+namespace {
+
+/// Without taking memory, which there is none of.
+ExitCode without_memory(const CommonOptions& common) {
+    std::fputs(common.json_messages
+                   ? "{\"action\":\"close other programs, or split the job\",\"code\":\"GC-STORE-0020\",\"rule\":\"an "
+                     "evaluation needs its memory whole\",\"severity\":\"error\",\"what\":\"out of memory\",\"where\":"
+                     "\"gumcert\"}\n"
+                   : "gumcert — out of memory — an evaluation needs its memory whole — close other programs, or split "
+                     "the job [GC-STORE-0020]\n",
+               stderr);
+    return storage_trouble;
+}
+
+}  // namespace
+
 ExitCode explained(const CommonOptions& common, const std::function<ExitCode()>& work) {
     try {
         return work();
@@ -52,14 +70,23 @@ ExitCode explained(const CommonOptions& common, const std::function<ExitCode()>&
     } catch (const gum::StorageError& error) {
         return told(error, common, storage_trouble);
     } catch (const std::bad_alloc&) {
-        print_to_stderr(
-            "gumcert — out of memory — an evaluation needs its memory whole — close other programs, or split the job "
-            "[GC-STORE-0020]\n");
+        return without_memory(common);
+    } catch (const std::filesystem::filesystem_error& error) {
+        // A name that the system does not take, a folder that vanished: trouble with files, whoever met it.
+        print_message({.code = "GC-STORE-0006",
+                       .where = error.path1().string(),
+                       .what = error.code().message(),
+                       .rule = "files and folders of a command can be read and written",
+                       .action = "check the name and the access rights"},
+                      common);
         return storage_trouble;
     } catch (const std::exception& error) {
-        print_to_stderr(
-            "gumcert — {} — this is a defect in the program — please report it with the job [GC-DEFECT-0001]\n",
-            error.what());
+        print_message({.code = "GC-DEFECT-0001",
+                       .where = "gumcert",
+                       .what = error.what(),
+                       .rule = "this is a defect in the program",
+                       .action = "please report it with the job"},
+                      common);
         return defect;
     }
 }

@@ -1840,7 +1840,13 @@ public:
     bool number_integer(number_integer_t v) override { return put(v); }
     bool number_unsigned(number_unsigned_t v) override { return put(v); }
     bool number_float(number_float_t v, const string_t&) override { return put(v); }
-    bool string(string_t& v) override { return put(std::move(v)); }
+    bool string(string_t& v) override {
+        if (v.find('\0') != std::string::npos) {
+            problems_.add("GC-RECORD-0021", pointer() + here(), "a text with a NUL character (\\u0000)",
+                          "texts of a record have none: documents would end there", k_restore);
+        }
+        return put(std::move(v));
+    }
     bool binary(binary_t&) override { return false; }  // JSON text has none
     bool start_object(std::size_t) override { return open(json::object()); }
     bool start_array(std::size_t) override { return open(json::array()); }
@@ -1875,6 +1881,13 @@ private:
     std::vector<std::string> path_;
     const std::string* key_ = nullptr;  ///< of the object that is open, where the next value goes to
     json* item_ = nullptr;
+
+    /// The key or the index that the next value goes to, behind pointer().
+    [[nodiscard]] std::string here() const {
+        return stack_.empty()              ? ""
+               : stack_.back()->is_array() ? "/" + std::to_string(stack_.back()->size())
+                                           : "/" + pointer_token(*key_);
+    }
 
     [[nodiscard]] std::string pointer() const {
         std::string text;
