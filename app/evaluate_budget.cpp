@@ -8,6 +8,7 @@
 
 #include "app/budget_coverage.h"
 #include "app/record_parts.h"
+#include "app/zero_uncertainty.h"
 
 namespace gumcert::app {
 
@@ -193,7 +194,8 @@ void use_monte_carlo(const BudgetJob& job, BudgetPointResult& point, BudgetResul
         } else if (job.monte_carlo->validate && !output.expanded_uncertainty) {
             result.validation_failed = true;
         }
-        if (!output.expanded_uncertainty && output.coverage == "none") {
+        const bool nothing_spreads = u == 0.0 && output.monte_carlo->standard_uncertainty == 0.0;
+        if (!output.expanded_uncertainty && output.coverage == "none" && !nothing_spreads) {
             // Half the width of the interval is an expanded uncertainty about its middle, not about any other value.
             const gum::CoverageInterval& interval = output.monte_carlo->symmetric;
             const double half_width = 0.5 * (interval.high - interval.low);
@@ -263,7 +265,9 @@ void warn(const BudgetJob& job, const BudgetPointResult& point, const std::strin
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
         const auto index = static_cast<Eigen::Index>(i);
         const std::string place = "result " + result.output_names[i] + where;
-        if (point.outputs[i].coverage == "none") {
+        if (point.outputs[i].standard_uncertainty == 0.0 && point.outputs[i].coverage != "monte_carlo") {
+            result.notes.push_back(zero_uncertainty_message(point.outputs[i], place));
+        } else if (point.outputs[i].coverage == "none") {
             result.notes.push_back({.code = "GC-BUDGET-0020",
                                     .where = place,
                                     .what = "no expanded uncertainty can be stated: " + point.outputs[i].coverage_note,
@@ -335,6 +339,7 @@ BudgetPointResult evaluate_point(const BudgetJob& job, const std::optional<gum::
         const auto index = static_cast<Eigen::Index>(i);
         point.propagation.coverage_probability = output.coverage_probability;
         expand_by_propagation(job, point, index, output);
+        state_zero_uncertainty(job, point, result.output_names[i], output);
         output.second_order_matters = changes(point, index, k_reported_change, k_reported_shift);
         point.outputs.push_back(std::move(output));
     }
@@ -370,7 +375,11 @@ BudgetResult evaluate_budget(const BudgetJob& job, unsigned threads,
     } else {
         for (const BudgetSymbol& symbol : result.symbols) {
             result.output_names.push_back(symbol.name);
-            result.output_units.push_back(symbol.unit);
+            // An input that is a result has the unit that it is asked for in.
+            const auto stated = std::find_if(job.outputs.begin(), job.outputs.end(), [&](const auto& output) {
+                return output.name == symbol.name && output.unit;
+            });
+            result.output_units.push_back(stated != job.outputs.end() ? *stated->unit : symbol.unit);
         }
     }
     if (job.points.empty()) {

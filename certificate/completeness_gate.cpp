@@ -145,7 +145,10 @@ void persons(FindingList& found, const CertificateData& data, const Profile& pro
 
 /// U = 0 says that nothing was evaluated; a capability in its place would only hide that.
 void no_uncertainty(FindingList& found, const CertifiedColumn& column) {
-    const auto zero = [](const CertifiedValue& v) { return v.U == 0.0 && !v.external; };
+    const auto zero = [](const CertifiedValue& v) {
+        const bool cancelled = !v.U && v.u == 0.0 && !v.interval && v.coverage == "none";
+        return (v.U == 0.0 || cancelled) && !v.external;
+    };
     const auto accredited = [&](const CertifiedValue& v) { return zero(v) && !v.scope_entry.empty(); };
     if (std::any_of(column.values.begin(), column.values.end(), zero)) {
         const bool any = std::any_of(column.values.begin(), column.values.end(), accredited);

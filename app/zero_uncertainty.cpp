@@ -1,0 +1,92 @@
+#include "app/zero_uncertainty.h"
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include "app/budget_model.h"
+#include "gum/expression/equation_system.h"
+#include "gum/expression/name.h"
+
+namespace gumcert::app {
+
+namespace {
+
+/// The names that an output depends on, directly and through other equations, in the form in which names are compared.
+std::set<std::string> names_behind(const engine::BudgetJob& job, const std::string& output) {
+    std::vector<gum::EquationNames> equations;
+    for (const gum::EquationText& equation : job.model) {
+        equations.push_back(gum::equation_names(equation));
+    }
+    std::set<std::string> unknowns;
+    for (const gum::UnknownSymbol& unknown : job.unknowns) {
+        unknowns.insert(gum::canonical_name(unknown.name));
+    }
+    std::set<std::string> names;
+    std::vector<std::string> left{gum::canonical_name(output)};
+    while (!left.empty()) {
+        const std::string name = left.back();
+        left.pop_back();
+        if (!names.insert(name).second) {
+            continue;
+        }
+        for (const gum::EquationNames& equation : equations) {
+            if (equation.defines == name || (equation.defines.empty() && unknowns.contains(name))) {
+                left.insert(left.end(), equation.uses.begin(), equation.uses.end());
+            }
+        }
+    }
+    return names;
+}
+
+}  // namespace
+
+bool is_exact_by_definition(const engine::BudgetJob& job, const BudgetPointResult& point, const std::string& output) {
+    const std::set<std::string> names = names_behind(job, output);
+    for (const gum::InputGroup& group : point.model->inputs()) {
+        const bool uncertain = (group.covariance.array() != 0.0).any();
+        // A group of several quantities, such as correlated inputs or the parameters of a fit, is named after all.
+        if (uncertain && (group.size() > 1 || names.contains(gum::canonical_name(group.name)))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void state_zero_uncertainty(const engine::BudgetJob& job, const BudgetPointResult& point, const std::string& output,
+                            BudgetOutputResult& result) {
+    if (result.standard_uncertainty != 0.0 || result.coverage == "none") {
+        return;
+    }
+    result.coverage_factor.reset();
+    if (is_exact_by_definition(job, point, output)) {
+        result.coverage_note = k_exact_by_definition;
+        result.expanded_uncertainty = 0.0;
+        return;
+    }
+    result.coverage = "none";
+    result.expanded_uncertainty.reset();
+    result.coverage_note =
+        "the standard uncertainty is 0 although quantities that the result depends on are uncertain: they cancel in "
+        "the "
+        "equation, or its derivatives vanish at these estimates";
+}
+
+gum::Diagnostic zero_uncertainty_message(const BudgetOutputResult& result, const std::string& where) {
+    if (result.coverage_note == k_exact_by_definition) {
+        return {.code = "GC-BUDGET-0028",
+                .where = where,
+                .what = result.coverage_note,
+                .rule = "a result without uncertainty was stated as such",
+                .action = "State an uncertainty where one of the constants has one.",
+                .severity = gum::Severity::note};
+    }
+    return {.code = "GC-BUDGET-0027",
+            .where = where,
+            .what = result.coverage_note,
+            .rule = "an uncertainty of 0 is stated on purpose, with \"constant\": true, or not at all",
+            .action = "Correct the equation: a quantity that is read twice has two names, one for each reading.",
+            .severity = gum::Severity::warning};
+}
+
+}  // namespace gumcert::app
