@@ -26,7 +26,7 @@ enum class RobustMean { median, algorithm_a, q_hampel };
 /// and of algorithm A for the median.
 ///
 /// 1.25 s*/√n (ISO 13528:2022, clause 7) holds for a median of many results. a_n makes ± t_0.95(n − 1) u cover 95 % for
-/// n results from one normal distribution; it was found by simulation and is 0.70 to 1.09.
+/// n results from one normal distribution; it was found by simulation and is 0.51 to 1.12.
 /// \throws InputError  GC-GUM-0101 fewer than 2 results; -0001 for a result
 /// \return u = 0 where the results have no scale
 [[nodiscard]] SpreadUncertainty robust_spread(RobustMean kind, std::span<const double> results);
