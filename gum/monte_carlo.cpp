@@ -647,6 +647,8 @@ private:
         result.mean = moments.mean;
         result.standard_uncertainty = moments.standard_deviation();
         result.histogram = histograms_[static_cast<std::size_t>(j)];
+        const double farthest = std::max(moments.largest - moments.mean, moments.mean - moments.smallest);
+        result.largest_share = moments.m2 > 0.0 ? farthest * farthest / moments.m2 : 0.0;
         NumericalError& error = result.numerical_error;
         error.mean = result.standard_uncertainty / std::sqrt(static_cast<double>(trials_));
         error.standard_uncertainty = moments.error_of_standard_deviation();

@@ -76,6 +76,9 @@ struct MonteCarloOutput {
     CoverageInterval symmetric;         ///< probabilistically symmetric, by order statistics (JCGM 101:2008, 7.7)
     CoverageInterval shortest;          ///< likewise the shortest; the lowest, where several are equally short
     NumericalError numerical_error;
+    /// Share of the largest single deviation in the sum of all squared deviations from the mean. It falls with the
+    /// number of trials unless the distribution has no variance.
+    double largest_share = 0.0;
     Histogram histogram;  ///< no cells unless MonteCarloOptions::histogram, or where the trials do not vary
 };
 

@@ -64,12 +64,12 @@ struct SecondOrderPropagation {
     Eigen::VectorXd shift;                 ///< m, expectation of y minus f(x)
 };
 
-/// First- and second-order terms together, for inputs that are normally distributed.
+/// First- and second-order terms together, with the moments of the distributions of inputs of their own.
 ///
 /// u² = c V cᵀ + ½ tr(H V H V) + Σ_jk V_jk ∂H_jk/∂s, s along V cᵀ;  shift = ½ tr(H V)
 /// For uncorrelated inputs: Σ c_i² u_i² + ΣΣ [½ (∂²f/∂x_i∂x_j)² + ∂f/∂x_i ∂³f/∂x_i∂x_j²] u_i² u_j²
 ///                                                                            (JCGM 100:2008, 5.1.2 note)
-/// The third derivatives are taken by central differences of the exact second ones.
+/// for normal ones (others: propagation.cpp). Third derivatives by central differences of the exact second ones.
 /// \return nothing when the model offers no second derivatives, or they are not finite
 [[nodiscard]] std::optional<SecondOrderPropagation> propagate_to_second_order(const MeasurementModel& model,
                                                                               const Propagation& first_order);

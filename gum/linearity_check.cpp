@@ -1,0 +1,202 @@
+#include "gum/linearity_check.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+
+#include "gum/quantity/distribution_shape.h"
+
+namespace gumcert::gum {
+
+namespace {
+
+constexpr Eigen::Index k_pairs = 64;
+constexpr double k_accepted_end = 0.05;         // of U
+constexpr double k_accepted_mean = 0.15;        // of u
+constexpr double k_accepted_rms = 0.35;         // of u
+constexpr double k_accepted_dispersion = 0.08;  // of the dispersion of the tangent
+constexpr double k_roundings = 256.0;
+
+/// Groups as the probes see them: where each begins, and the root of its covariance.
+struct ProbedGroup {
+    Eigen::Index first = 0;
+    Eigen::MatrixXd covariance;   // n×n
+    Eigen::MatrixXd root;         // n×n, root rootᵀ = covariance
+    std::vector<Support> limits;  // one a quantity, or none
+};
+
+std::vector<ProbedGroup> probed_groups(const MeasurementModel& model) {
+    std::vector<ProbedGroup> groups;
+    Eigen::Index first = 0;
+    for (const InputGroup& group : model.inputs()) {
+        const Eigen::Index n = group.size();
+        ProbedGroup probed;
+        probed.first = first;
+        first += n;
+        if (group.is_diagonal() || n == 1) {
+            const Eigen::VectorXd variance = group.covariance.col(0);
+            probed.covariance = variance.asDiagonal();
+            probed.root = variance.cwiseSqrt().asDiagonal();
+        } else {
+            probed.covariance = group.covariance;
+            const Eigen::VectorXd u = group.covariance.diagonal().cwiseSqrt();
+            const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation_matrix(group.covariance));
+            probed.root =
+                u.asDiagonal() * eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+        }
+        for (const Distribution& marginal : group.marginals) {
+            probed.limits.push_back(support(marginal));
+        }
+        groups.push_back(std::move(probed));
+    }
+    return groups;
+}
+
+/// A number between −1 and 1 that two others stand for: SplitMix64 (Steele, Lea, Flood 2014).
+double scattered(std::uint64_t pair, std::uint64_t input) {
+    std::uint64_t z = (pair * 1'000'003U + input + 1U) * 0x9E3779B97F4A7C15ULL;
+    z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
+    z ^= z >> 31U;
+    return static_cast<double>(z >> 11U) * 0x1p-52 - 1.0;
+}
+
+/// Keeps the inputs of a probe inside of the limits of their distributions.
+void keep_inside(Eigen::Ref<Eigen::RowVectorXd> point, const std::vector<ProbedGroup>& groups) {
+    for (const ProbedGroup& group : groups) {
+        for (std::size_t i = 0; i < group.limits.size(); ++i) {
+            double& x = point(group.first + static_cast<Eigen::Index>(i));
+            x = std::min(std::max(x, group.limits[i].low), group.limits[i].high);
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const Propagation& propagation,
+                                            std::span<const std::optional<double>> coverage_factor) {
+    const Eigen::VectorXd x = input_estimates(model);
+    const Eigen::Index n = x.size();
+    const Eigen::Index m = propagation.value.size();
+    const std::vector<ProbedGroup> groups = probed_groups(model);
+    const auto factor = [&](Eigen::Index k) {
+        const auto at = static_cast<std::size_t>(k);
+        return at < coverage_factor.size() ? coverage_factor[at].value_or(2.0) : 2.0;
+    };
+
+    Eigen::MatrixXd points = x.transpose().replicate(2 * k_pairs + 4 * m, 1);
+    for (Eigen::Index pair = 0; pair < k_pairs; ++pair) {
+        Eigen::VectorXd s(n);
+        for (Eigen::Index i = 0; i < n; ++i) {
+            s(i) = std::numbers::sqrt3 * scattered(static_cast<std::uint64_t>(pair), static_cast<std::uint64_t>(i));
+        }
+        for (const ProbedGroup& group : groups) {
+            const Eigen::Index size = group.root.rows();
+            const Eigen::RowVectorXd off = (group.root * s.segment(group.first, size)).transpose();
+            points.row(2 * pair).segment(group.first, size) += off;
+            points.row(2 * pair + 1).segment(group.first, size) -= off;
+        }
+    }
+    for (Eigen::Index k = 0; k < m; ++k) {
+        const double u = propagation.standard_uncertainty(k);
+        if (!(u > 0.0)) {
+            continue;
+        }
+        const std::array<double, 4> steps{-factor(k), -1.0, 1.0, factor(k)};
+        for (const ProbedGroup& group : groups) {
+            const Eigen::Index size = group.root.rows();
+            const Eigen::RowVectorXd off =
+                (group.covariance * propagation.jacobian.row(k).segment(group.first, size).transpose()).transpose() / u;
+            for (std::size_t s = 0; s < steps.size(); ++s) {
+                points.row(2 * k_pairs + 4 * k + static_cast<Eigen::Index>(s)).segment(group.first, size) +=
+                    steps[s] * off;
+            }
+        }
+    }
+    for (Eigen::Index row = 0; row < points.rows(); ++row) {
+        Eigen::RowVectorXd point = points.row(row);
+        keep_inside(point, groups);
+        points.row(row) = point;
+    }
+    Eigen::MatrixXd y(points.rows(), m);
+    model.evaluate_trials(points, y);
+    const Eigen::MatrixXd tangent = ((points.rowwise() - x.transpose()) * propagation.jacobian.transpose()).rowwise() +
+                                    propagation.value.transpose();
+
+    std::vector<LinearityCheck> checks(static_cast<std::size_t>(m));
+    for (Eigen::Index k = 0; k < m; ++k) {
+        LinearityCheck& check = checks[static_cast<std::size_t>(k)];
+        const double u = propagation.standard_uncertainty(k);
+        double size = std::abs(propagation.value(k));
+        for (Eigen::Index i = 0; i < n; ++i) {
+            size = std::max(size, std::abs(propagation.jacobian(k, i) * x(i)));
+        }
+        const double rounding = k_roundings * std::numeric_limits<double>::epsilon() * size;
+        double mean = 0.0;
+        double square = 0.0;
+        double of_model = 0.0;
+        double of_tangent = 0.0;
+        double count = 0.0;
+        for (Eigen::Index row = 0; row < 2 * k_pairs; row += 2) {
+            if (!std::isfinite(y(row, k)) || !std::isfinite(y(row + 1, k))) {
+                continue;
+            }
+            for (Eigen::Index one = row; one < row + 2; ++one) {
+                const double residual = y(one, k) - tangent(one, k);
+                mean += residual;
+                square += residual * residual;
+                of_model += (y(one, k) - propagation.value(k)) * (y(one, k) - propagation.value(k));
+                of_tangent += (tangent(one, k) - propagation.value(k)) * (tangent(one, k) - propagation.value(k));
+                count += 1.0;
+            }
+        }
+        if (count > 0.0) {
+            mean /= count;
+            const double rms = std::sqrt(square / count);
+            check.spread = std::sqrt(of_model / count);
+            const double variance = std::max(0.0, of_model / count - mean * mean);
+            const double ratio = of_tangent > 0.0 ? std::sqrt(variance / (of_tangent / count)) : 1.0;
+            check.adequate = std::abs(mean) <= k_accepted_mean * u + rounding && rms <= k_accepted_rms * u + rounding &&
+                             (std::abs(ratio - 1.0) <= k_accepted_dispersion || rms <= rounding);
+        }
+        if (!(u > 0.0)) {
+            continue;
+        }
+        for (Eigen::Index s = 0; s < 4; ++s) {
+            const Eigen::Index row = 2 * k_pairs + 4 * k + s;
+            const double residual = y(row, k) - tangent(row, k);
+            if (!std::isfinite(residual)) {
+                check.end_deviation = std::numeric_limits<double>::infinity();
+            } else {
+                check.end_deviation = std::max(check.end_deviation, std::abs(residual));
+            }
+        }
+        check.adequate = check.adequate && check.end_deviation <= k_accepted_end * factor(k) * u + rounding;
+    }
+    return checks;
+}
+
+double linear_skewness(const MeasurementModel& model, const Propagation& propagation, Eigen::Index output) {
+    const double u = propagation.standard_uncertainty(output);
+    if (!(u > 0.0)) {
+        return 0.0;
+    }
+    double sum = 0.0;
+    Eigen::Index column = 0;
+    for (const InputGroup& group : model.inputs()) {
+        if (group.marginals.size() == 1 && !is_symmetric(group.marginals.front())) {
+            const double part = propagation.jacobian(output, column) * std::sqrt(group.covariance(0, 0)) / u;
+            if (part != 0.0) {
+                sum += part * part * part * skewness(group.marginals.front());
+            }
+        }
+        column += group.size();
+    }
+    return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace gumcert::gum

@@ -1,0 +1,106 @@
+#include "gum/linearity_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "gum/expression/equation_model.h"
+#include "gum/expression/equation_system.h"
+
+namespace gumcert::gum {
+namespace {
+
+InputGroup input(const std::string& name, double value, double u, Distribution marginal = {}) {
+    InputGroup group;
+    group.name = name;
+    group.unit = "1";
+    group.value = Eigen::VectorXd::Constant(1, value);
+    group.covariance = Eigen::MatrixXd::Constant(1, 1, u * u);
+    group.marginals = {marginal.kind == DistributionKind::constant ? Distribution::normal(value, u) : marginal};
+    return group;
+}
+
+class Model final : public MeasurementModel {
+public:
+    Model(const std::string& expression, std::vector<InputGroup> inputs) : inputs_(std::move(inputs)) {
+        std::vector<InputSymbol> symbols;
+        for (const InputGroup& group : inputs_) {
+            symbols.push_back({.name = group.name, .unit = Unit(), .constant = {}});
+        }
+        const EquationText text{.text = "y = " + expression, .where = "model"};
+        system_.emplace(EquationSystem::compile({&text, 1}, symbols));
+    }
+    const std::vector<InputGroup>& inputs() const override { return inputs_; }
+    const std::vector<OutputQuantity>& outputs() const override { return outputs_; }
+    Eigen::VectorXd evaluate(const Eigen::VectorXd& x) const override { return system_->evaluate(x); }
+    Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const override { return system_->jacobian(x); }
+    void evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::Ref<Eigen::MatrixXd> y) const override {
+        system_->evaluate_trials(x, y);
+    }
+
+private:
+    std::vector<InputGroup> inputs_;
+    std::vector<OutputQuantity> outputs_{{"y", "1"}};
+    std::optional<EquationSystem> system_;
+};
+
+LinearityCheck check(const std::string& expression, const std::vector<InputGroup>& inputs) {
+    const Model model(expression, inputs);
+    return check_linearity(model, propagate(model, 0.9545), {}).at(0);
+}
+
+TEST(LinearityCheck, AcceptsWhatIsLinear) {
+    EXPECT_TRUE(check("3*a - 2*b + 1e9", {input("a", 1.0, 0.5), input("b", -4.0, 2.0)}).adequate);
+    EXPECT_TRUE(check("a*b", {input("a", 1e6, 1.0), input("b", 3.0, 1e-6)}).adequate);
+    EXPECT_TRUE(check("(1e9 + a) - 1e9", {input("a", 1.0, 1e-3)}).adequate) << "rounding is no curvature";
+    EXPECT_TRUE(check("a/b", {input("a", 1.0, 0.01), input("b", 1.0, 0.01)}).adequate);
+    EXPECT_TRUE(check("a^2 - a^2", {input("a", 1.0, 1.0)}).adequate);
+}
+
+// The Hessian of each of these vanishes, or says nothing of what happens within U.
+TEST(LinearityCheck, SeesWhatSecondDerivativesDoNot) {
+    EXPECT_FALSE(check("a^3", {input("a", 0.0, 1.0)}).adequate);
+    EXPECT_FALSE(check("sin(a*rad)", {input("a", 0.0, 1.0)}).adequate);
+    EXPECT_FALSE(check("max(a, 0)", {input("a", 0.01, 1.0)}).adequate);
+    EXPECT_FALSE(check("abs(a - b)", {input("a", 1.0, 1.0), input("b", 0.999, 1.0)}).adequate);
+    EXPECT_FALSE(
+        check("a + b*c*d", {input("a", 0.0, 1.0), input("b", 0.0, 1.0), input("c", 0.0, 1.0), input("d", 0.0, 1.0)})
+            .adequate);
+    EXPECT_FALSE(check("a + 3*tanh(20*b)", {input("a", 0.0, 1.0), input("b", 0.0, 1.0)}).adequate);
+    EXPECT_FALSE(check("min(a, 1.5)", {input("a", 0.0, 1.0)}).adequate) << "a kink inside of U";
+    EXPECT_TRUE(check("min(a, 3)", {input("a", 0.0, 1.0)}).adequate) << "a kink outside of U";
+}
+
+TEST(LinearityCheck, StaysInsideOfTheLimitsOfAnInput) {
+    // The logarithm has no value below 0: the half-normal probe at 2 u would be there, the uniform input is not.
+    const std::vector<InputGroup> bounded{input("a", 1.0, 0.9 / std::sqrt(3.0), Distribution::uniform(1.0, 0.9)),
+                                          input("b", 0.0, 30.0)};
+    EXPECT_TRUE(check("ln(a) + b", bounded).adequate);
+    EXPECT_FALSE(check("ln(a)", {input("a", 1.0, 0.6)}).adequate) << "U reaches outside of the domain";
+}
+
+TEST(LinearityCheck, MeasuresTheDeviationAtTheEndsOfU) {
+    InputGroup pair;
+    pair.name = "a";
+    pair.unit = "1";
+    pair.value = Eigen::VectorXd::Zero(1);
+    pair.covariance = Eigen::MatrixXd::Constant(1, 1, 1.0);
+    pair.marginals = {Distribution::normal(0.0, 1.0)};
+    const LinearityCheck flat = check("exp(a)", {pair});
+    EXPECT_FALSE(flat.adequate);
+    EXPECT_NEAR(flat.end_deviation, std::exp(2.0) - 3.0, 1e-12) << "at a = 2, where the tangent is 3";
+}
+
+TEST(LinearSkewness, IsThatOfTheOnlyInput) {
+    const Distribution gamma{.kind = DistributionKind::gamma, .location = 0.0, .scale = 1.0, .shape = 4.0};
+    const Model one("2*a", {input("a", 4.0, 2.0, gamma)});
+    EXPECT_NEAR(linear_skewness(one, propagate(one, 0.95), 0), 1.0, 1e-12);  // 2/√4
+    const Model difference("-a + b", {input("a", 4.0, 2.0, gamma), input("b", 0.0, 2.0)});
+    EXPECT_NEAR(linear_skewness(difference, propagate(difference, 0.95), 0), -1.0 / std::pow(2.0, 1.5), 1e-12);
+}
+
+}  // namespace
+}  // namespace gumcert::gum
