@@ -22,13 +22,13 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 17> k_job_keys{
-    "schema", "kind",   "title",        "coverage_probability", "certificate",  "monte_carlo", "notes",
-    "model",  "inputs", "correlations", "covariance",           "simultaneous", "solve_for",   "outputs",
-    "points", "fits",   "reporting"};
+constexpr std::array<std::string_view, 18> k_job_keys{
+    "schema",    "kind",         "title",      "coverage_probability", "certificate", "monte_carlo", "notes",  "model",
+    "inputs",    "correlations", "covariance", "simultaneous",         "solve_for",   "outputs",     "points", "fits",
+    "reporting", "coverage"};
 constexpr std::array<std::string_view, 2> k_reporting_keys{"degrees_of_freedom", "rounding"};
 constexpr std::array<std::string_view, 3> k_unknown_keys{"start", "unit", "description"};
-constexpr std::array<std::string_view, 3> k_output_keys{"unit", "coverage_probability", "description"};
+constexpr std::array<std::string_view, 4> k_output_keys{"unit", "coverage_probability", "coverage", "description"};
 
 constexpr NumberRange k_probability{.low = 0.0,
                                     .high = 1.0,
@@ -128,6 +128,7 @@ private:
             job_.title = root.optional_name("title", 1000).value_or("");
         }
         job_.coverage_probability = root.optional_number("coverage_probability", k_probability).value_or(0.9545);
+        job_.coverage = root.optional_choice("coverage", k_coverage_choices).value_or(CoverageChoice::as_validated);
         (void)root.optional_string("notes");
         if (const auto reporting = root.optional_object("reporting", k_reporting_keys)) {
             constexpr std::array<std::pair<std::string_view, bool>, 2> k_degrees{
@@ -216,6 +217,7 @@ private:
                 output.description = object.optional_string("description").value_or("");
             }
             output.coverage_probability = object.optional_number("coverage_probability", k_probability);
+            output.coverage = object.optional_choice("coverage", k_coverage_choices);
             if (object.has("unit")) {
                 output.unit = read_unit(object, "unit", *problems_);
                 model_is_whole_ = model_is_whole_ && output.unit;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "certificate/certificate_data.h"
+#include "engine/job/coverage_choice.h"
 #include "engine/job/file_source.h"
 #include "engine/job/job_kind.h"
 #include "engine/job/monte_carlo_request.h"
@@ -115,6 +116,7 @@ struct BudgetOutput {
     certificate::LocalisedText description;
     std::optional<gum::Unit> unit;
     std::optional<double> coverage_probability;
+    std::optional<CoverageChoice> coverage;  ///< none: that of the job
     std::string where;
 };
 
@@ -122,6 +124,7 @@ struct BudgetOutput {
 struct BudgetJob {
     std::string title;
     double coverage_probability = 0.9545;
+    CoverageChoice coverage = CoverageChoice::as_validated;  ///< of all results that do not state their own
     /// ν_eff is cut to the next lower whole number before k is taken, as the tables of JCGM 100:2008, G.4.1 and EA-4/02
     /// want it.
     bool truncate_degrees_of_freedom = false;
