@@ -21,6 +21,13 @@ void expand_by_propagation(const engine::BudgetJob& job, const BudgetPointResult
     const double u = point.propagation.standard_uncertainty(output);
     result.standard_uncertainty = u;
     result.degrees_of_freedom = point.propagation.effective_degrees_of_freedom(output);
+    if (const auto at = static_cast<std::size_t>(output);
+        at < point.without_derivative.size() && point.without_derivative[at]) {
+        result.coverage = "none";
+        result.coverage_note =
+            "the model has no derivative at these estimates, so that the law of propagation gives no uncertainty";
+        return;
+    }
     if (std::isnan(result.degrees_of_freedom)) {
         result.coverage = "none";
         Eigen::Index g = 0;

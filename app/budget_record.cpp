@@ -15,6 +15,7 @@
 #include "app/budget_readings.h"
 #include "app/budget_texts.h"
 #include "app/record_parts.h"
+#include "app/reported_result.h"
 #include "gum/coverage.h"
 #include "gum/quantity/decimal_rounding.h"
 #include "gum/rounding.h"
@@ -171,10 +172,18 @@ std::optional<reports::CorrelationRow> correlation_row(const BudgetPointResult& 
     return row;
 }
 
-std::string distribution_of(const BudgetOutputResult& output) {
-    if (output.coverage == "monte_carlo") {
-        return "numerical";
+/// Without a derivative no row has a sensitivity, and none has a share.
+void without_sensitivities(std::vector<BudgetRow>& rows) {
+    for (BudgetRow& row : rows) {
+        row.sensitivity.reset();
+        row.printed.sensitivity.clear();
+        row.printed.contribution.clear();
+        row.printed.share.clear();
+        without_sensitivities(row.components);
     }
+}
+
+std::string distribution_of(const BudgetOutputResult& output) {
     if (output.coverage == "convolution") {
         return "convolution";
     }
@@ -339,13 +348,32 @@ void warn_of_lost_digits(const BudgetResult& result, reports::EvaluationRecord& 
     }
 }
 
-nlohmann::json options_json(const BudgetJob& job) {
+/// A number that does not exist stands nowhere.
+void without_missing_moments(const BudgetOutputResult& from, reports::MonteCarloSummary& trials) {
+    if (!from.has_mean) {
+        trials.mean.reset();
+        trials.printed.mean.clear();
+        trials.numerical_error.mean = 0.0;
+    }
+    if (!from.has_u) {
+        trials.u.reset();
+        trials.printed.u.clear();
+        trials.numerical_error.u = 0.0;
+        trials.numerical_error.mean = 0.0;
+    }
+}
+
+nlohmann::json options_json(const BudgetJob& job, const BudgetResult& result) {
     nlohmann::json options;
     options["coverage_probability"] = job.coverage_probability;
     options["law_of_propagation"] = {{"order", 1}, {"second_order_reported_from_relative_change", 0.005}};
     options["reporting"] = {{"degrees_of_freedom", job.truncate_degrees_of_freedom ? "truncated" : "exact"},
                             {"rounding", job.rounding == gum::RoundingMode::up ? "up" : "half_even"}};
-    options["monte_carlo"] = monte_carlo_json(job.monte_carlo);
+    options["coverage"] = engine::coverage_choice_name(job.coverage);
+    options["monte_carlo"] = monte_carlo_json(job.monte_carlo ? job.monte_carlo : result.automatic_monte_carlo);
+    if (!job.monte_carlo && result.automatic_monte_carlo) {
+        options["monte_carlo"]["automatic"] = true;
+    }
     return options;
 }
 
@@ -370,7 +398,7 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
                                                     .document = job.document,
                                                     .warnings = job.warnings,
                                                     .notes = result.notes},
-                                                   options_json(job), files);
+                                                   options_json(job, result), files);
     for (const BudgetInput& input : job.inputs) {
         record.inputs.push_back({.name = input.name, .description = input.description, .unit = input.unit.text()});
     }
@@ -384,6 +412,8 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
         }
     }
 
+    const engine::MonteCarloRequest asked =
+        job.monte_carlo.value_or(result.automatic_monte_carlo.value_or(engine::MonteCarloRequest{}));
     const std::vector<std::string> names = budget_result_names(job, result);
     for (std::size_t p = 0; p < result.points.size(); ++p) {
         const BudgetPointResult& point = result.points[p];
@@ -417,8 +447,11 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
             out.coverage = from.coverage;
             out.coverage_note = from.coverage_note;
             out.printed = printed_result(out.value, out.U, out.u, out.unit, job.rounding);
+            out.reported = reported_of(from, point.propagation.value(index), unit, job.rounding);
             out.budget = budget_rows(job, result, at, point, index, unit);
-            if (!job.model.empty()) {
+            if (i < point.without_derivative.size() && point.without_derivative[i]) {
+                without_sensitivities(out.budget);
+            } else if (!job.model.empty()) {
                 out.correlation = correlation_row(point, out.budget, job.inputs.size(), index, unit);
             }
             if (from.second_order_matters) {
@@ -433,10 +466,11 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
             }
             if (from.monte_carlo) {
                 out.monte_carlo =
-                    monte_carlo_summary(*from.monte_carlo, *job.monte_carlo, {from.trials, from.stabilised},
+                    monte_carlo_summary(*from.monte_carlo, asked, {from.trials, from.stabilised},
                                         {[&](double value) { return unit.from_si(value); },
                                          [&](double difference) { return unit.difference_from_si(difference); }},
                                         from.validation);
+                without_missing_moments(from, *out.monte_carlo);
             }
             record.results.push_back(std::move(out));
         }

@@ -100,7 +100,7 @@ CapabilityInputs capability_inputs(const engine::BudgetJob& job, const BudgetRes
             const std::string& name = names[p * outputs + i];
             const gum::Unit& unit = result.output_units[i];
             const auto output = static_cast<Eigen::Index>(i);
-            if (point.outputs[i].coverage == "monte_carlo" && point.monte_carlo) {
+            if (point.outputs[i].by_monte_carlo && point.monte_carlo) {
                 inputs.trials.emplace(name, TrialsOfOutput{.model = point.model,
                                                            .output = output,
                                                            .unit = unit,

@@ -93,33 +93,59 @@ Agreed agreed(const AgreedSpecification& from, const std::string& unit) {
 /// The numbers of a value that its decision rests on.
 struct DecisionNumbers {
     gum::MeasuredValue unrounded, printed;
+    bool raised = false;  ///< U is the capability in place of a smaller one
 };
 
+/// U of a value: stated, or the larger distance of an end of its interval from it, so that neither end is nearer to a
+/// limit than a rule with U believes.
+std::optional<double> half_width(std::optional<double> U, double y, std::optional<double> low,
+                                 std::optional<double> high) {
+    if (U) {
+        return U;
+    }
+    return low && high ? std::optional(std::max(y - *low, *high - y)) : std::nullopt;
+}
+
 std::optional<DecisionNumbers> numbers_of(const CertifiedValue& from, const KnownDistribution& known) {
+    constexpr double k_usual_factor = 2.0;
     const std::optional<double> y = certificate::number_of(from.printed_value);
-    const std::optional<double> U = certificate::number_of(from.printed_U);
-    const std::optional<double> k = certificate::number_of(from.printed_k);
-    if (!from.U || !from.k || !y || !U || !k || !(*from.k > 0.0) || !(*k > 0.0) || !(*U > 0.0)) {
+    const bool by_interval = !from.U && from.interval && known.function;
+    if (!y || (!by_interval && (!from.U || !from.k))) {
+        return std::nullopt;
+    }
+    const std::optional<double> U =
+        by_interval ? half_width({}, from.value, from.interval->first, from.interval->second) : from.U;
+    const std::optional<double> U_printed = by_interval ? half_width({}, *y, certificate::number_of(from.printed_low),
+                                                                     certificate::number_of(from.printed_high))
+                                                        : certificate::number_of(from.printed_U);
+    // An interval has no k. Where the distribution is known, u only says how far a search for a limit has to go.
+    const double k = by_interval ? (from.u > 0.0 ? *U / from.u : k_usual_factor) : *from.k;
+    const std::optional<double> k_printed = by_interval ? std::optional(k) : certificate::number_of(from.printed_k);
+    if (!U || !U_printed || !k_printed || !(k > 0.0) || !(*k_printed > 0.0) || !(*U_printed > 0.0)) {
         return std::nullopt;
     }
     DecisionNumbers out;
     // Also where rounding alone has lifted U to the capability.
-    const bool floored = from.capability && *from.U < *from.capability && *U >= *from.capability * (1.0 - k_noise);
+    out.raised =
+        !by_interval && from.capability && *U < *from.capability && *U_printed >= *from.capability * (1.0 - k_noise);
     out.unrounded.value = from.value;
-    out.unrounded.expanded_uncertainty = floored ? *from.capability : *from.U;
-    out.unrounded.standard_uncertainty = out.unrounded.expanded_uncertainty / *from.k;
+    out.unrounded.expanded_uncertainty = out.raised ? *from.capability : *U;
+    out.unrounded.standard_uncertainty = out.unrounded.expanded_uncertainty / k;
     out.unrounded.degrees_of_freedom = from.nu_eff.value_or(std::numeric_limits<double>::infinity());
     out.printed = out.unrounded;
     out.printed.value = *y;
-    out.printed.expanded_uncertainty = *U;
-    out.printed.standard_uncertainty = *U / *k;
-    if (known.function && !floored) {
-        out.unrounded.distribution = known.function;
-        // The same shape about the printed value, as wide as the printed U.
-        const double stretch = *from.U / *U;
-        out.printed.distribution = [known, stretch, centre = from.value, y = *y](double x) {
-            return known.function(centre + (x - y) * stretch);
+    out.printed.expanded_uncertainty = *U_printed;
+    out.printed.standard_uncertainty = *U_printed / *k_printed;
+    if (known.function && *U > 0.0) {
+        // The same shape about the value, as wide as the stated U: k and p hold for it as they do for the evaluated U.
+        const auto stretched = [&](double value, double stated_U) {
+            return [function = known.function, stretch = *U / stated_U, centre = from.value, value](double x) {
+                return function(centre + (x - value) * stretch);
+            };
         };
+        out.unrounded.distribution =
+            out.raised ? stretched(from.value, out.unrounded.expanded_uncertainty) : known.function;
+        out.printed.distribution = stretched(*y, *U_printed);
     }
     return out;
 }
@@ -233,6 +259,16 @@ Verdict verdict_of(const AgreedSpecification& specification, const certificate::
     }
     if (!known.note.empty() && (!known.function || numbers->unrounded.distribution)) {
         verdict.note += (verdict.note.empty() ? "" : " ") + known.note + error_of_count(known, verdict);
+        if (numbers->raised && numbers->unrounded.distribution) {
+            verdict.note +=
+                " Its deviations from the value are widened in the ratio of the stated to the evaluated U, because the "
+                "capability of the laboratory is stated: k and the coverage probability hold for the stated U.";
+        }
+        if (!value.U) {
+            verdict.note +=
+                " U in the formula of the rule is the larger distance of an end of the coverage interval "
+                "from the value.";
+        }
     }
     print(verdict, shown, certificate::decimals_of(value.printed_value));
     return verdict;

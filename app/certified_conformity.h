@@ -18,9 +18,11 @@ struct KnownDistribution {
 /// Decides on conformity of one value, twice: with the unrounded numbers, and with those that are printed.
 ///
 /// Where the printed U is a capability in place of a smaller U, the decision rests on that larger U: it is what the
-/// certificate states. Then the value counts as normally or t-distributed. A value that no U can be stated for, a value
-/// of another laboratory, a rule that cannot be applied and a specification in a unit of another kind give
-/// "not_applicable" with a note: a specification that was agreed on is never dropped without a word.
+/// certificate states. The deviations of a known distribution from the value are then widened in the ratio of the two,
+/// so that p, k and U that are printed together agree. Of a value with a coverage interval in place of U, rules with U
+/// take the larger distance of an end from the value; probabilities are those of its distribution. A value that no U
+/// can be stated for, a value of another laboratory, a rule that cannot be applied and a specification in a unit of
+/// another kind give "not_applicable" with a note: a specification that was agreed on is never dropped without a word.
 [[nodiscard]] certificate::Verdict verdict_of(const certificate::AgreedSpecification& specification,
                                               const certificate::CertifiedColumn& column,
                                               const certificate::CertifiedValue& value, const KnownDistribution& known);

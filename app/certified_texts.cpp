@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <string>
 
+#include "reports/record/reported_result.h"
+
 namespace gumcert::app {
 
 namespace {
@@ -66,6 +68,20 @@ void take(Printed& text, const CertifiedValue* from) {
     }
 }
 
+/// What is certified is what is reported; the law of propagation has the same texts where it is reported itself.
+void take(reports::Result& result, const CertifiedValue* from) {
+    if (from == nullptr) {
+        return;
+    }
+    result.reported = reports::reported_result(result);
+    take(result.reported.printed, from);
+    result.reported.printed_low = from->printed_low;
+    result.reported.printed_high = from->printed_high;
+    if (result.reported.method == "law_of_propagation") {
+        take(result.printed, from);
+    }
+}
+
 /// The same number with the other sign, for the set-up as seen from the fixture.
 std::string negated(const std::string& printed) {
     if (printed.find_first_of("123456789") == std::string::npos) {
@@ -117,7 +133,7 @@ void print_as_certified(reports::EvaluationRecord& record, const std::vector<Cer
     for (reports::Result& result : record.results) {
         const CertifiedValue* from =
             tables.find(table, result.quantity.empty() ? result.name : result.quantity, result.point);
-        take(result.printed, from);
+        take(result, from);
         if (record.rotary) {
             take_set_up(*record.rotary, result.name, from);
         }

@@ -12,12 +12,14 @@
 #include "app/certified_texts.h"
 #include "app/certified_traceability.h"
 #include "app/record_parts.h"
+#include "app/reported_result.h"
 #include "certificate/gates.h"
 #include "certificate/result_names.h"
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/coverage.h"
 #include "gum/rounding.h"
 #include "reports/record/certified_tables.h"
+#include "reports/record/reported_result.h"
 
 namespace gumcert::app {
 
@@ -98,9 +100,6 @@ private:
         const double p = result != nullptr ? result->coverage_probability : record_.coverage_probability;
         place_in_scope({.tables = tables, .table = table, .column = column, .row = row, .coverage_probability = p},
                        value);
-        if (result != nullptr) {
-            state_interval(*result, value);
-        }
         print(value);
         note_coverage(column, p);
         decide(column, value, result);
@@ -120,16 +119,8 @@ private:
         ScopeAnswer answer = scope_of(data(), place, inputs_);
         value.scope_entry = std::move(answer.entry);
         value.outside_because = std::move(answer.outside_because);
-        if (value.U || value.u > 0.0) {  // by definition without uncertainty: no capability either
+        if (value.U || value.interval || value.u > 0.0) {  // by definition without uncertainty: no capability either
             value.capability = answer.capability;
-        }
-    }
-
-    /// The interval of Monte Carlo, where it takes the place of U or is what U comes from.
-    static void state_interval(const Result& result, CertifiedValue& value) {
-        const bool alone = result.coverage == "none" && !result.U;
-        if (result.monte_carlo && (alone || result.coverage == "monte_carlo")) {
-            value.interval = {result.monte_carlo->symmetric[0], result.monte_carlo->symmetric[1]};
         }
     }
 
@@ -181,6 +172,7 @@ private:
         }
         const gum::RoundedPair pair = gum::round_to_uncertainty(value.value, half_width, rule_.digits, rule_.rounding);
         value.printed_value = pair.value;
+        value.printed_u = value.u > 0.0 ? gum::round_significant(value.u, 2) : "";
         print_ends(value, certificate::decimals_of(pair.U));
         if (value.capability && half_width < *value.capability) {
             leave_accreditation(value, "its coverage interval is narrower than the capability of the scope entry \"" +
@@ -243,17 +235,7 @@ KnownDistribution Certifier::known_distribution(const Result* result) const {
     if (result == nullptr) {
         return {};
     }
-    if (result->coverage == "convolution") {
-        if (const auto found = inputs_.distributions.find(result->name); found != inputs_.distributions.end()) {
-            return {.function = found->second,
-                    .note = "Probabilities are those of the convolution of all input distributions."};
-        }
-        return {.function = {},
-                .note =
-                    "Probabilities are those of a normal distribution with the stated U and k; the result itself "
-                    "is not normally distributed."};
-    }
-    if (result->coverage == "monte_carlo") {
+    if (result->reported.method == "monte_carlo") {
         if (const auto found = inputs_.trials.find(result->name); found != inputs_.trials.end()) {
             TrialDistribution trials = count_trials(found->second);
             return {.function = std::move(trials.function),
@@ -265,32 +247,58 @@ KnownDistribution Certifier::known_distribution(const Result* result) const {
                     "Probabilities are those of a normal distribution with the stated U and k; the Monte Carlo "
                     "trials were not kept."};
     }
+    if (result->coverage == "convolution") {
+        if (const auto found = inputs_.distributions.find(result->name); found != inputs_.distributions.end()) {
+            return {.function = found->second,
+                    .note = "Probabilities are those of the convolution of all input distributions."};
+        }
+        return {.function = {},
+                .note =
+                    "Probabilities are those of a normal distribution with the stated U and k; the result itself "
+                    "is not normally distributed."};
+    }
     return {};
+}
+
+/// Once a result, however many points it has.
+void add_s05(std::vector<Finding>& findings, const std::string& result, const std::string& what,
+             const std::string& action) {
+    const bool known =
+        std::any_of(findings.begin(), findings.end(), [&](const Finding& f) { return f.where == result; });
+    if (!known) {
+        findings.push_back({.id = "S05",
+                            .clause = "JCGM 101:2008, clause 8",
+                            .severity = certificate::FindingSeverity::critical,
+                            .where = result,
+                            .what = what,
+                            .action = action});
+    }
 }
 
 /// Results that Monte Carlo does not confirm, although ±U of the law of propagation is certified.
 void note_validation(std::vector<Finding>& findings, const std::string& result,
                      const std::optional<reports::MonteCarloSummary>& trials) {
-    const bool contradicted =
-        trials && trials->validation && trials->validation->precise_enough && !trials->validation->validated;
-    const bool known =
-        std::any_of(findings.begin(), findings.end(), [&](const Finding& f) { return f.where == result; });
-    if (contradicted && !known) {
-        findings.push_back({.id = "S05",
-                            .clause = "JCGM 101:2008, clause 8",
-                            .severity = certificate::FindingSeverity::major,
-                            .where = result,
-                            .what = "Monte Carlo does not validate the stated expanded uncertainty",
-                            .action = "See the Monte Carlo interval in the record; improve the measurement, or agree "
-                                      "on the interval as the result."});
+    if (trials && trials->validation && trials->validation->precise_enough && !trials->validation->validated) {
+        add_s05(findings, result, "Monte Carlo does not validate the stated expanded uncertainty",
+                "See the Monte Carlo interval in the record; improve the measurement, or agree on the interval as the "
+                "result.");
     }
 }
 
 std::vector<Finding> validation_findings(const EvaluationRecord& record) {
     std::vector<Finding> findings;
     for (const Result& result : record.results) {
-        if (result.coverage != "monte_carlo") {
-            note_validation(findings, result.quantity.empty() ? result.name : result.quantity, result.monte_carlo);
+        const std::string name = result.quantity.empty() ? result.name : result.quantity;
+        const reports::ReportedResult reported = reports::reported_result(result);
+        if (!reported.against.empty()) {
+            add_s05(findings, name,
+                    "the law of propagation is reported because the job asks for it, although " +
+                        reason_in_words(reported.against),
+                    "Leave out \"coverage\": \"law_of_propagation\" in the job: then the result of Monte Carlo is "
+                    "reported.");
+        }
+        if (reported.method == "law_of_propagation") {
+            note_validation(findings, name, result.monte_carlo);
         }
     }
     if (!record.rotary) {
@@ -325,13 +333,21 @@ void certify(EvaluationRecord& record, CertificateData data, Profile profile, co
     record.certificate.emplace();
     record.certificate->data = std::move(data);
     record.certificate->profile = std::move(profile);
+    for (Result& result : record.results) {
+        result.reported = reports::reported_result(result);
+    }
     std::vector<CertifiedTable> tables = reports::certified_tables(record);
     Certifier certifier(record, inputs);
     certifier.certify_tables(tables);
     print_as_certified(record, tables);
     record.certificate->tables = std::move(tables);
     std::vector<Finding> audit = certifier.findings();
-    const std::vector<Finding> validation = validation_findings(record);
+    std::vector<Finding> validation = validation_findings(record);
+    if (record.certificate->data.status != "accredited") {
+        for (Finding& finding : validation) {
+            finding.severity = certificate::FindingSeverity::major;
+        }
+    }
     audit.insert(audit.end(), validation.begin(), validation.end());
     const std::vector<Finding> budget = budget_findings(record);
     audit.insert(audit.end(), budget.begin(), budget.end());

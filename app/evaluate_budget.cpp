@@ -8,6 +8,7 @@
 
 #include "app/budget_coverage.h"
 #include "app/record_parts.h"
+#include "app/reported_result.h"
 #include "app/zero_uncertainty.h"
 
 namespace gumcert::app {
@@ -20,16 +21,12 @@ using engine::BudgetJob;
 using gum::Diagnostic;
 
 // Second-order terms are reported where they change the standard uncertainty by half a percent or the estimate by a
-// hundredth of it, and warned about where they change what a document prints.
+// hundredth of it.
 constexpr double k_reported_change = 0.005;
 constexpr double k_reported_shift = 0.01;
-constexpr double k_warned_change = 0.05;
-constexpr double k_warned_shift = 0.1;
 constexpr Eigen::Index k_most_inputs_of_second_order = 1000;  // the matrices of second derivatives grow with the square
 constexpr std::size_t k_most_points_with_histogram = 4;       // documents draw no more
-constexpr double k_numerical_errors = 5.0;                    // beyond doubt
-constexpr double k_most_of_the_variance = 0.5;
-constexpr double k_accepted_asymmetry = 0.02;  // of half the width: below what two digits of U show
+constexpr double k_automatic_divisor = 2.0;                   // of the tolerance of trials that nobody asked for
 
 /// The equation of a fit as the curve of the adjustment.
 class EquationCurve final : public engine::Curve {
@@ -146,13 +143,16 @@ bool changes(const BudgetPointResult& point, Eigen::Index output, double change,
 }
 
 /// Monte Carlo of one point for each coverage probability that its outputs ask for.
-void run_monte_carlo(const BudgetJob& job, unsigned threads, const Progress& progress, BudgetPointResult& point) {
-    const engine::MonteCarloRequest& asked = *job.monte_carlo;
+void run_monte_carlo(const BudgetJob& job, const engine::MonteCarloRequest& asked, unsigned threads,
+                     const Progress& progress, BudgetPointResult& point) {
     gum::MonteCarloOptions options = monte_carlo_options(asked, threads);
     if (progress && job.points.empty()) {
         options.progress = [&progress](double done) {
             progress("Monte Carlo, " + std::to_string(static_cast<int>(100.0 * done)) + " %");
         };
+    }
+    if (!job.monte_carlo && options.adaptive) {
+        options.adaptive->tolerance_divisor = k_automatic_divisor;
     }
     options.streams = point.streams;
     options.regions = job.points.empty();
@@ -174,14 +174,40 @@ void run_monte_carlo(const BudgetJob& job, unsigned threads, const Progress& pro
     }
 }
 
-/// What Monte Carlo adds to the outputs: an expanded uncertainty where the law of propagation has none, validation.
-void use_monte_carlo(const BudgetJob& job, BudgetPointResult& point, BudgetResult& result) {
+/// Monte Carlo that nobody asked for: what it cannot do is told with the reason for which it was run.
+void run_monte_carlo_unasked(const BudgetJob& job, const std::vector<std::string>& evidence, const std::string& where,
+                             unsigned threads, const Progress& progress, BudgetPointResult& point,
+                             BudgetResult& result) {
+    result.automatic_monte_carlo = automatic_monte_carlo();
+    try {
+        run_monte_carlo(job, *result.automatic_monte_carlo, threads, progress, point);
+    } catch (const gum::NoResultError& error) {
+        std::vector<Diagnostic> all = error.diagnostics();
+        for (Diagnostic& problem : all) {
+            for (std::size_t i = 0; i < evidence.size(); ++i) {
+                if (!evidence[i].empty()) {
+                    problem.where = "result " + result.output_names[i] + where + ", " + problem.where;
+                    problem.rule += "; Monte Carlo is needed here, because " + reason_in_words(evidence[i]);
+                    break;
+                }
+            }
+            problem.action +=
+                " \"coverage\": \"law_of_propagation\" states the result of the law all the same, with a "
+                "warning, and is no ground for an accredited certificate.";
+        }
+        throw gum::NoResultError(std::move(all));
+    }
+}
+
+/// What Monte Carlo adds to the outputs: validation, where the job demands it.
+void validate_outputs(const BudgetJob& job, BudgetPointResult& point, BudgetResult& result) {
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
         BudgetOutputResult& output = point.outputs[i];
-        const auto index = static_cast<Eigen::Index>(i);
         const double u = output.standard_uncertainty;
-        const double y = point.propagation.value(index);
-        if (job.monte_carlo->validate && output.expanded_uncertainty && u > 0.0) {
+        const double y = point.propagation.value(static_cast<Eigen::Index>(i));
+        if (!output.expanded_uncertainty) {
+            result.validation_failed = true;
+        } else if (u > 0.0) {
             const gum::Unit& unit = result.output_units[i];
             output.validation =
                 validation_in_unit(y, u, *output.expanded_uncertainty, *output.monte_carlo,
@@ -190,27 +216,6 @@ void use_monte_carlo(const BudgetJob& job, BudgetPointResult& point, BudgetResul
                                    job.monte_carlo->digits);
             if (!output.validation->validated || !output.validation->precise_enough) {
                 result.validation_failed = true;
-            }
-        } else if (job.monte_carlo->validate && !output.expanded_uncertainty) {
-            result.validation_failed = true;
-        }
-        const bool nothing_spreads = u == 0.0 && output.monte_carlo->standard_uncertainty == 0.0;
-        if (!output.expanded_uncertainty && output.coverage == "none" && !nothing_spreads) {
-            // Half the width of the interval is an expanded uncertainty about its middle, not about any other value.
-            const gum::CoverageInterval& interval = output.monte_carlo->symmetric;
-            const double half_width = 0.5 * (interval.high - interval.low);
-            const double off_centre = std::abs(y - 0.5 * (interval.high + interval.low));
-            if (off_centre > k_accepted_asymmetry * half_width) {
-                output.coverage_note +=
-                    "; the Monte Carlo interval is not symmetric about the value, and stands in place "
-                    "of an expanded uncertainty";
-            } else {
-                output.coverage = "monte_carlo";
-                output.coverage_note += "; the expanded uncertainty is half the width of the Monte Carlo interval";
-                output.expanded_uncertainty = half_width;
-                if (u > 0.0) {
-                    output.coverage_factor = half_width / u;
-                }
             }
         }
     }
@@ -233,88 +238,81 @@ void validate_together(const BudgetJob& job, BudgetPointResult& point, BudgetRes
     result.validation_failed = result.validation_failed || !point.joint_validation->validated;
 }
 
-/// The input with a distribution that is not symmetric which makes up most of the variance of an output; "" if none
-/// does.
-std::string dominating_asymmetric_input(const BudgetPointResult& point, Eigen::Index output) {
-    for (std::size_t g = 0; g < point.model->inputs().size(); ++g) {
-        const gum::InputGroup& group = point.model->inputs()[g];
-        if (group.marginals.size() == 1 && !gum::is_symmetric(group.marginals.front()) &&
-            point.propagation.budget[g].share(output) > k_most_of_the_variance) {
-            return group.name;
-        }
-    }
-    return "";
-}
-
-/// Whether y ± U of the law of propagation and the Monte Carlo interval are two statements, beyond numerical error.
-bool differs_from_monte_carlo(const BudgetPointResult& point, Eigen::Index output) {
-    const BudgetOutputResult& result = point.outputs[static_cast<std::size_t>(output)];
-    if (!result.monte_carlo || !result.expanded_uncertainty || result.coverage == "monte_carlo") {
-        return false;
-    }
-    const double y = point.propagation.value(output);
-    const double U = *result.expanded_uncertainty;
-    const gum::CoverageInterval& interval = result.monte_carlo->symmetric;
-    const gum::CoverageInterval& error = result.monte_carlo->numerical_error.symmetric;
-    const double accepted = k_warned_change * 0.5 * (interval.high - interval.low);
-    return std::abs(y - U - interval.low) > accepted + k_numerical_errors * error.low ||
-           std::abs(y + U - interval.high) > accepted + k_numerical_errors * error.high;
-}
-
 void warn(const BudgetJob& job, const BudgetPointResult& point, const std::string& where, BudgetResult& result) {
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
-        const auto index = static_cast<Eigen::Index>(i);
         const std::string place = "result " + result.output_names[i] + where;
-        if (point.outputs[i].standard_uncertainty == 0.0 && point.outputs[i].coverage != "monte_carlo") {
-            result.notes.push_back(zero_uncertainty_message(point.outputs[i], place));
-        } else if (point.outputs[i].coverage == "none") {
+        const BudgetOutputResult& output = point.outputs[i];
+        if (output.standard_uncertainty == 0.0 && !output.by_monte_carlo) {
+            result.notes.push_back(zero_uncertainty_message(output, place));
+        } else if (output.coverage == "none" && !output.by_monte_carlo) {
             result.notes.push_back({.code = "GC-BUDGET-0020",
                                     .where = place,
-                                    .what = "no expanded uncertainty can be stated: " + point.outputs[i].coverage_note,
+                                    .what = "no expanded uncertainty can be stated: " + output.coverage_note,
                                     .rule = "a coverage factor needs the distribution of the result",
-                                    .action = job.monte_carlo ? "Use the coverage interval of Monte Carlo."
-                                                              : "Add \"monte_carlo\" to the job.",
-                                    .severity = gum::Severity::warning});
-        } else if (changes(point, index, k_warned_change, k_warned_shift) && !job.monte_carlo) {
-            result.notes.push_back({.code = "GC-BUDGET-0021",
-                                    .where = place,
-                                    .what = "the model is not linear over the uncertainties of its inputs",
-                                    .rule = "higher-order terms must be included then (JCGM 100:2008, 5.1.2 note)",
-                                    .action = "See the second-order terms of the result, and add \"monte_carlo\" with "
-                                              "\"validate\": true to the job.",
+                                    .action = job.coverage == engine::CoverageChoice::law_of_propagation
+                                                  ? "Leave out \"coverage\": \"law_of_propagation\"."
+                                                  : "Add \"coverage\": \"monte_carlo\" to the job.",
                                     .severity = gum::Severity::warning});
         }
-        if (const std::string input = dominating_asymmetric_input(point, index);
-            !input.empty() && !job.monte_carlo && point.outputs[i].coverage != "none") {
-            result.notes.push_back(
-                {.code = "GC-BUDGET-0023",
-                 .where = place,
-                 .what = "the distribution of " + input + " is not symmetric and dominates",
-                 .rule = "k of a normal or t-distribution holds for results that are nearly symmetric",
-                 .action = "Add \"monte_carlo\" to the job, and state its coverage interval.",
-                 .severity = gum::Severity::warning});
-        }
-        if (differs_from_monte_carlo(point, index)) {
-            result.notes.push_back(
-                {.code = "GC-BUDGET-0024",
-                 .where = place,
-                 .what = "the expanded uncertainty of the law of propagation differs from the Monte Carlo "
-                         "interval by more than 5 % of half its width",
-                 .rule = "the law of propagation holds for models that are nearly linear and results that "
-                         "are nearly normal (JCGM 101:2008, clause 8)",
-                 .action = "Use the coverage interval of Monte Carlo.",
-                 .severity = gum::Severity::warning});
-        }
-        if (!point.outputs[i].stabilised) {
+        if (!output.stabilised && output.has_u) {
             result.notes.push_back(
                 {.code = "GC-BUDGET-0022",
                  .where = place,
-                 .what = std::to_string(point.outputs[i].trials) + " trials, and the results have not stabilised",
+                 .what = std::to_string(output.trials) + " trials, and the results have not stabilised",
                  .rule = "adaptive Monte Carlo ends when twice the standard deviation of each result "
                          "is within its tolerance (JCGM 101:2008, 7.9.4)",
                  .action = "Raise adaptive.max_trials, or ask for one digit.",
                  .severity = gum::Severity::warning});
         }
+    }
+}
+
+/// Second-order terms, unless the model has no second derivatives at the estimates.
+std::optional<gum::SecondOrderPropagation> second_order_of(const BudgetPointResult& point) {
+    if (!point.without_derivative.empty()) {
+        return std::nullopt;
+    }
+    try {
+        return gum::propagate_to_second_order(*point.model, point.propagation);
+    } catch (const gum::NoResultError&) {
+        return std::nullopt;  // the probes of the model see what there is to see
+    }
+}
+
+/// Which result of each output is reported, with the Monte Carlo that this takes.
+void report(const BudgetJob& job, const std::optional<gum::EquationSystem>& system, const std::string& where,
+            unsigned threads, const Progress& progress, BudgetPointResult& point, BudgetResult& result) {
+    const std::vector<std::string> evidence = evidence_against_law(point, !system || is_linear(*system));
+    std::vector<engine::CoverageChoice> choices;
+    bool needed = false;
+    for (std::size_t i = 0; i < point.outputs.size(); ++i) {
+        choices.push_back(coverage_choice_of(job, result.output_names[i]));
+        needed = needed || needs_monte_carlo(choices[i], evidence[i]);
+    }
+    if (job.monte_carlo) {
+        run_monte_carlo(job, *job.monte_carlo, threads, progress, point);
+        if (job.monte_carlo->validate) {
+            validate_outputs(job, point, result);
+        }
+    } else if (needed) {
+        run_monte_carlo_unasked(job, evidence, where, threads, progress, point, result);
+    }
+    for (std::size_t i = 0; i < point.outputs.size(); ++i) {
+        BudgetOutputResult& output = point.outputs[i];
+        const auto index = static_cast<Eigen::Index>(i);
+        if (output.monte_carlo) {
+            const ExistingMoments exist = existing_moments(system, point, index, threads);
+            output.has_mean = exist.mean;
+            output.has_u = exist.u;
+        }
+        decide_reported(choices[i], evidence[i], result.output_units[i], point.propagation.value(index),
+                        job.monte_carlo ? job.monte_carlo->digits : 2, output);
+        if (i < point.without_derivative.size() && point.without_derivative[i] && output.monte_carlo && output.has_u) {
+            output.standard_uncertainty = output.monte_carlo->standard_uncertainty;
+        }
+    }
+    if (job.monte_carlo && job.monte_carlo->validate) {
+        validate_together(job, point, result);
     }
 }
 
@@ -329,9 +327,11 @@ BudgetPointResult evaluate_point(const BudgetJob& job, const std::optional<gum::
     point.streams = std::move(inputs.streams);
     point.model = std::make_shared<const BudgetModel>(system, result.symbols, std::move(inputs.groups),
                                                       std::move(inputs.quantities));
-    point.propagation = gum::propagate(*point.model, job.coverage_probability);
+    PointPropagation propagated = propagate_where_possible(job, system, *point.model, result.symbols);
+    point.propagation = std::move(propagated.propagation);
+    point.without_derivative = std::move(propagated.without_derivative);
     if (system && !is_linear(*system) && point.propagation.jacobian.cols() <= k_most_inputs_of_second_order) {
-        point.second_order = gum::propagate_to_second_order(*point.model, point.propagation);
+        point.second_order = second_order_of(point);
     }
     for (std::size_t i = 0; i < result.output_names.size(); ++i) {
         BudgetOutputResult output;
@@ -343,14 +343,9 @@ BudgetPointResult evaluate_point(const BudgetJob& job, const std::optional<gum::
         output.second_order_matters = changes(point, index, k_reported_change, k_reported_shift);
         point.outputs.push_back(std::move(output));
     }
-    if (job.monte_carlo) {
-        run_monte_carlo(job, threads, progress, point);
-        use_monte_carlo(job, point, result);
-        if (job.monte_carlo->validate) {
-            validate_together(job, point, result);
-        }
-    }
-    warn(job, point, at ? " at point " + job.points[*at].name : "", result);
+    const std::string where = at ? " at point " + job.points[*at].name : "";
+    report(job, system, where, threads, progress, point, result);
+    warn(job, point, where, result);
     return point;
 }
 
@@ -394,6 +389,7 @@ BudgetResult evaluate_budget(const BudgetJob& job, unsigned threads,
         }
         result.points.push_back(evaluate_point(job, system, p, threads, progress, result));
     }
+    note_reported(job, result);
     return result;
 }
 

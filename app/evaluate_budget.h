@@ -34,6 +34,11 @@ struct BudgetOutputResult {
     std::uint64_t trials = 0;
     bool stabilised = true;
     std::optional<gum::Validation> validation;  ///< in the unit of the result
+    /// What is reported (app/reported_result.h): the result of Monte Carlo, and why; or that of the law of propagation,
+    /// and what speaks against it where the job asks for it. Ids as in reports::ReportedResult.
+    bool by_monte_carlo = false;
+    std::string because, against;
+    bool has_mean = true, has_u = true;  ///< the distribution that the trials come from has them
 };
 
 /// A budget job at one point of its table (or the only one).
@@ -41,6 +46,7 @@ struct BudgetPointResult {
     std::shared_ptr<const BudgetModel> model;
     std::vector<std::uint64_t> streams;  ///< one a group: what points have in common is equal
     gum::Propagation propagation;
+    std::vector<bool> without_derivative;  ///< one an output, as app/reported_result.h; empty: none
     std::optional<gum::SecondOrderPropagation> second_order;
     std::vector<BudgetOutputResult> outputs;
     std::optional<gum::MonteCarloResult> monte_carlo;      ///< of the first coverage probability
@@ -54,6 +60,8 @@ struct BudgetResult {
     std::vector<engine::CurveFit> fits;
     std::vector<BudgetPointResult> points;  ///< one without a table of points
     std::vector<gum::Diagnostic> notes;
+    /// What the program ran Monte Carlo with by itself; none where the job asks for it, or nothing called for it.
+    std::optional<engine::MonteCarloRequest> automatic_monte_carlo;
     bool validation_failed = false;  ///< validation was demanded, and a result is not validated
 };
 

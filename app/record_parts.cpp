@@ -146,13 +146,13 @@ reports::MonteCarloSummary monte_carlo_summary(const gum::MonteCarloOutput& from
     summary.stabilised = done.stabilised;
     // As many digits as the numerical error allows, and not more than four of u.
     const auto shown = [&](double value, double error) {
-        const double quantum = std::max(error, 1e-4 * summary.u);
+        const double quantum = std::max(error, 1e-4 * *summary.u);
         return quantum > 0.0 ? gum::round_to_uncertainty(value, quantum, 1).value
                              : shortest(value == 0.0 ? 0.0 : value);
     };
     summary.printed.trials = std::to_string(summary.trials);
-    summary.printed.mean = shown(summary.mean, summary.numerical_error.mean);
-    summary.printed.u = shown(summary.u, summary.numerical_error.u);
+    summary.printed.mean = shown(*summary.mean, summary.numerical_error.mean);
+    summary.printed.u = shown(*summary.u, summary.numerical_error.u);
     for (std::size_t i = 0; i < 2; ++i) {
         summary.printed.symmetric[i] = shown(summary.symmetric[i], summary.numerical_error.symmetric[i]);
         summary.printed.shortest[i] = shown(summary.shortest[i], summary.numerical_error.shortest[i]);

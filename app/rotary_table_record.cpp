@@ -14,6 +14,7 @@
 #include "app/table_parameter_record.h"
 #include "gum/coverage.h"
 #include "gum/rounding.h"
+#include "reports/record/reported_result.h"
 
 namespace gumcert::app {
 
@@ -96,6 +97,7 @@ reports::Result result_of(const gum::Propagation& propagation, const gum::Measur
         row.printed.share = gum::percent(row.share);
         result.budget.push_back(std::move(row));
     }
+    result.reported = reports::reported_result(result);
     return result;
 }
 

@@ -1,7 +1,9 @@
 #include "app/trial_distribution.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "gum/random_draws.h"
 #include "gum/worker_threads.h"
@@ -18,14 +20,13 @@ std::uint64_t rows_of(const gum::MeasurementModel& model, Eigen::Index inputs) {
     return std::clamp<std::uint64_t>(k_values_at_once / std::max<std::uint64_t>(width, 1) / 8 * 8, 64, 4096);
 }
 
-}  // namespace
-
-TrialDistribution count_trials(const TrialsOfOutput& of) {
+/// The trials of an output in the order in which they are drawn, coherent SI.
+std::vector<double> drawn_trials(const TrialsOfOutput& of) {
     const gum::MeasurementModel& model = *of.model;
     gum::WorkerThreads workers(of.threads);
     const gum::InputDraws draws(model.inputs(), of.seed, of.streams, &workers);
     const std::uint64_t counted = std::min(of.trials, k_most_counted_trials);
-    auto values = std::make_shared<std::vector<double>>(static_cast<std::size_t>(counted));
+    std::vector<double> values(static_cast<std::size_t>(counted));
     const std::uint64_t rows = rows_of(model, draws.size());
     const auto blocks = static_cast<std::size_t>((counted + rows - 1) / rows);
     workers.run(blocks, [&](unsigned, std::size_t block) {
@@ -35,15 +36,50 @@ TrialDistribution count_trials(const TrialsOfOutput& of) {
         Eigen::MatrixXd y(count, static_cast<Eigen::Index>(model.outputs().size()));
         draws.draw(first, x);
         model.evaluate_trials(x, y);
-        std::copy_n(y.col(of.output).data(), count, values->begin() + static_cast<std::ptrdiff_t>(first));
+        std::copy_n(y.col(of.output).data(), count, values.begin() + static_cast<std::ptrdiff_t>(first));
     });
+    return values;
+}
+
+}  // namespace
+
+TrialDistribution count_trials(const TrialsOfOutput& of) {
+    auto values = std::make_shared<std::vector<double>>(drawn_trials(of));
     std::sort(values->begin(), values->end());
     return {.function =
                 [values, unit = of.unit](double x) {
                     const auto end = std::upper_bound(values->begin(), values->end(), unit.to_si(x));
                     return static_cast<double>(end - values->begin()) / static_cast<double>(values->size());
                 },
-            .counted = counted};
+            .counted = values->size()};
+}
+
+double tail_index(const TrialsOfOutput& of) {
+    constexpr double k_infinite = std::numeric_limits<double>::infinity();
+    std::vector<double> values = drawn_trials(of);
+    const std::size_t tail = std::clamp<std::size_t>(values.size() / 1000, 50, 4000);
+    if (values.size() < 4 * tail) {
+        return k_infinite;  // too few to tell
+    }
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    const double median = *middle;
+    for (double& value : values) {
+        value = std::abs(value - median);
+    }
+    const auto first = values.end() - static_cast<std::ptrdiff_t>(tail) - 1;
+    std::nth_element(values.begin(), first, values.end());
+    std::sort(first, values.end());
+    const double threshold = *first;
+    if (!(threshold > 0.0)) {
+        return k_infinite;
+    }
+    double sum = 0.0;
+    for (auto at = first + 1; at != values.end(); ++at) {
+        sum += std::log(*at / threshold);
+    }
+    const double exponent = sum > 0.0 ? static_cast<double>(tail) / sum : k_infinite;
+    return exponent * (1.0 - 2.0 / std::sqrt(static_cast<double>(tail)));
 }
 
 }  // namespace gumcert::app

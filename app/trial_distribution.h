@@ -34,4 +34,8 @@ constexpr std::uint64_t k_most_counted_trials = std::uint64_t{1} << 24;  // 128 
 /// trials and a conformance probability. Of more than k_most_counted_trials the first ones are taken.
 [[nodiscard]] TrialDistribution count_trials(const TrialsOfOutput& of);
 
+/// Exponent α of the tails P(|Y − median| > a) ~ a^−α from the largest deviations of the trials, a thousandth of them
+/// but 50 to 4000 (Hill 1975, Ann. Statist. 3, 1163-1174), less two of its standard errors.
+[[nodiscard]] double tail_index(const TrialsOfOutput& of);
+
 }  // namespace gumcert::app

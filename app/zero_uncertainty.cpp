@@ -81,7 +81,7 @@ gum::Diagnostic zero_uncertainty_message(const BudgetOutputResult& result, const
                 .action = "State an uncertainty where one of the constants has one.",
                 .severity = gum::Severity::note};
     }
-    return {.code = "GC-BUDGET-0027",
+    return {.code = "GC-BUDGET-0029",
             .where = where,
             .what = result.coverage_note,
             .rule = "an uncertainty of 0 is stated on purpose, with \"constant\": true, or not at all",

@@ -378,6 +378,7 @@ void describe(Archive& a, Struct& r) {
     a("printed_U", r.printed_U);
     a("printed_k", r.printed_k);
     a("printed_nu_eff", r.printed_nu_eff);
+    a.added("printed_u", r.printed_u);
     a("printed_low", r.printed_low);
     a("printed_high", r.printed_high);
     a("scope_entry", r.scope_entry);

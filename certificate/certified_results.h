@@ -45,6 +45,7 @@ struct CertifiedValue {
     std::string coverage = "student_t";                 ///< as Result::coverage
     /// printed; U is never below the capability. Low and high: of the interval
     std::string printed_value, printed_U, printed_k, printed_nu_eff, printed_low, printed_high;
+    std::string printed_u;             ///< beside an interval; "" where the distribution has no variance
     std::string scope_entry;           ///< id of the scope entry that covers it; "" = outside of the accreditation
     std::string outside_because;       ///< English, for the findings; "" where it is inside
     std::optional<double> capability;  ///< U of the scope entry here, in the unit of the column

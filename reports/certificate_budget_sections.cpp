@@ -89,7 +89,12 @@ struct CoverageGroup {
     std::vector<const Result*> results;
 };
 
+/// Of what is reported: "interval" where Monte Carlo gives one that U cannot stand for.
 std::string coverage_kind(const Result& r) {
+    const ReportedResult reported = reported_result(r);
+    if (reported.method == "monte_carlo") {
+        return reported.U ? "monte_carlo" : "interval";
+    }
     return r.coverage == "normal" ? "student_t" : r.coverage;
 }
 
@@ -131,9 +136,9 @@ Text coverage_sentence(const CoverageGroup& group, const Wording& words) {
     bool nu_differs = false;
     const Text first_nu = nu_text(group.results.front()->nu_eff, words);
     for (const Result* r : group.results) {
-        if (r->k) {
-            k_low = k_low ? std::min(*k_low, *r->k) : *r->k;
-            k_high = k_high ? std::max(*k_high, *r->k) : *r->k;
+        if (const std::optional<double> k = reported_result(*r).k) {
+            k_low = k_low ? std::min(*k_low, *k) : *k;
+            k_high = k_high ? std::max(*k_high, *k) : *k;
         }
         if (r->nu_eff && r->coverage == "student_t") {
             nu_low = nu_low ? std::min(*nu_low, *r->nu_eff) : *r->nu_eff;
@@ -148,6 +153,13 @@ Text coverage_sentence(const CoverageGroup& group, const Wording& words) {
     }
     if (group.kind == "monte_carlo") {
         return words.fill("coverage_monte_carlo", {{"p", p}});
+    }
+    if (group.kind == "interval") {
+        const Result& first = *group.results.front();
+        return words.filled("statement", "uncertainty_interval",
+                            {{"trials", words.number(first.monte_carlo ? first.monte_carlo->printed.trials : "")},
+                             {"kind", words("statement", "interval_symmetric")},
+                             {"p", p}});
     }
     if (group.kind == "convolution") {
         return words.fill("coverage_convolution", {{"k", k}, {"p", p}});
@@ -166,9 +178,12 @@ void coverage(CertificateBuilder& builder, const Wording& words, const std::vect
         const std::string mark = mark_of(*group.results.front(), groups);
         builder.paragraph((mark.empty() ? mark : mark + " ") + coverage_sentence(group, words));
     }
+    for (const Text& sentence : reasons_for_monte_carlo(results, words)) {
+        builder.paragraph(sentence);
+    }
     std::vector<std::pair<std::string, std::vector<std::string>>> notes;
     for (const Result& r : results) {
-        if (r.coverage_note.empty()) {
+        if (r.coverage_note.empty() || reported_result(r).method == "monte_carlo") {
             continue;
         }
         const auto found =
@@ -200,11 +215,18 @@ void result_table(CertificateBuilder& builder, const Wording& words, const Resul
     bool described = false;
     bool one_unit = points;
     bool without_U = false;
+    bool with_U = false;
+    bool with_interval = false;
     bool one_p = true;
+    std::vector<ReportedResult> reported;
     for (const Result* r : list.results) {
+        reported.push_back(reported_result(*r));
+        const ReportedResult& of = reported.back();
         described = described || (!points && !r->description.empty());
         one_unit = one_unit && r->printed.unit == unit;
-        without_U = without_U || r->printed.U.empty();
+        without_U = without_U || of.printed.U.empty();
+        with_U = with_U || !of.printed.U.empty() || of.printed_low.empty();
+        with_interval = with_interval || !of.printed_low.empty();
         one_p = one_p && r->coverage_probability == p;
     }
     std::vector<Column> columns = {{words("label", points ? "point" : "name"), ""}};
@@ -213,15 +235,23 @@ void result_table(CertificateBuilder& builder, const Wording& words, const Resul
     }
     const std::string head_unit = one_unit ? unit : "";
     columns.push_back({words("label", "value"), head_unit, true});
-    columns.push_back({words("label", "U"), head_unit, true});
+    if (with_U) {
+        columns.push_back({words("label", "U"), head_unit, true});
+    }
     if (without_U) {
         columns.push_back({words("label", "u"), head_unit, true});
+    }
+    if (with_interval) {
+        columns.push_back({words("label", "low"), head_unit, true});
+        columns.push_back({words("label", "high"), head_unit, true});
     }
     if (!one_unit) {
         columns.push_back({words("label", "unit"), ""});
     }
-    columns.push_back({words("label", "k"), "", true});
-    columns.push_back({words("label", "nu_eff"), "", true});
+    if (with_U) {
+        columns.push_back({words("label", "k"), "", true});
+        columns.push_back({words("label", "nu_eff"), "", true});
+    }
     if (!one_p) {
         columns.push_back({words("label", "p"), "", true});
     }
@@ -229,24 +259,35 @@ void result_table(CertificateBuilder& builder, const Wording& words, const Resul
         columns.push_back({words("label", "coverage_mark"), ""});
     }
     Rows rows;
-    for (const Result* r : list.results) {
+    for (std::size_t i = 0; i < list.results.size(); ++i) {
+        const Result* r = list.results[i];
+        const ReportedResult& of = reported[i];
         std::vector<Text> row = {points ? r->point : r->name};
         if (described) {
             row.push_back(r->description_by_language.empty() ? Text(r->description)
                                                              : words.localised(r->description_by_language));
         }
-        row.push_back(r->printed.value);
-        row.push_back(r->printed.U);
+        row.push_back(of.printed.value);
+        if (with_U) {
+            row.push_back(of.printed.U);
+        }
         if (without_U) {
-            row.push_back(rounded(r->u));
+            row.push_back(of.u ? rounded(*of.u) : "");
+        }
+        if (with_interval) {
+            row.push_back(of.printed_low);
+            row.push_back(of.printed_high);
         }
         if (!one_unit) {
             row.push_back(r->printed.unit);
         }
-        row.push_back(r->k ? fixed(*r->k, 2) : "");
-        row.push_back(coverage_kind(*r) == "student_t" ? nu_text(r->nu_eff, words)
-                      : r->nu_eff                      ? words.number(degrees_of_freedom(*r->nu_eff))
-                                                       : Text());
+        if (with_U) {
+            row.push_back(of.k ? fixed(*of.k, 2) : "");
+            row.push_back(of.method == "monte_carlo"         ? Text()
+                          : coverage_kind(*r) == "student_t" ? nu_text(r->nu_eff, words)
+                          : r->nu_eff                        ? words.number(degrees_of_freedom(*r->nu_eff))
+                                                             : Text());
+        }
         if (!one_p) {
             row.push_back(percent_text(r->coverage_probability));
         }
@@ -514,13 +555,15 @@ void monte_carlo_of(CertificateBuilder& builder, const Wording& words, const Res
                   {{words("label", "quantity"), ""},
                    {words("label", "value"), result.printed.unit, true},
                    {words("label", "numerical_error"), result.printed.unit, true}},
-                  {{words("label", "mean_trials"), m.printed.mean, rounded(error.mean)},
-                   {words("label", "u_trials"), m.printed.u, rounded(error.u)},
+                  {{words("label", "mean_trials"), m.printed.mean, m.mean && m.u ? rounded(error.mean) : ""},
+                   {words("label", "u_trials"), m.printed.u, m.u ? rounded(error.u) : ""},
                    {words("label", "symmetric_low"), m.printed.symmetric[0], rounded(error.symmetric[0])},
                    {words("label", "symmetric_high"), m.printed.symmetric[1], rounded(error.symmetric[1])},
                    {words("label", "shortest_low"), m.printed.shortest[0], rounded(error.shortest[0])},
                    {words("label", "shortest_high"), m.printed.shortest[1], rounded(error.shortest[1])}});
-    if (m.adaptive) {
+    if (!m.u) {
+        builder.paragraph(words("sentence", "no_moments"));
+    } else if (m.adaptive) {
         builder.paragraph(words("sentence", m.stabilised ? "stabilised" : "not_stabilised"));
     }
     if (m.validation) {

@@ -216,9 +216,11 @@ Text results_in_one_line(const Certificate& certificate, const Wording& words, c
     };
     const Coverage kind = coverage_of(*value);
     if (kind == Coverage::interval) {
-        return words.filled("statement", "result_interval",
+        const bool has_u = !value->printed_u.empty();
+        return words.filled("statement", has_u ? "result_interval_and_u" : "result_interval",
                             {{"name", column->result},
                              {"value", quantity(value->printed_value)},
+                             {"u", has_u ? quantity(value->printed_u) : Text()},
                              {"low", quantity(value->printed_low)},
                              {"high", quantity(value->printed_high)},
                              {"p", words.number(coverage)}});

@@ -1,6 +1,7 @@
 #include "reports/certificate_uncertainty_section.h"
 
 #include "reports/printed_texts.h"
+#include "reports/reported_results.h"
 #include "reports/result_names.h"
 
 #include <algorithm>
@@ -184,6 +185,9 @@ void uncertainty_section(CertificateBuilder& builder, const Wording& words, cons
         const std::string letter = overview.letter(c);
         builder.paragraph((letter.empty() ? Text() : Text(letter + " ")) +
                           coverage_sentence(c, overview.values(c), record, words));
+    }
+    for (const Text& sentence : reasons_for_monte_carlo(record, words)) {
+        builder.paragraph(sentence);
     }
     if (overview.raised()) {
         builder.paragraph(words("statement", "raised"));

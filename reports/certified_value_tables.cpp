@@ -23,17 +23,19 @@ constexpr std::size_t k_most_columns = 13;  // of a table on A4 upright
 
 /// Which columns stand under one quantity.
 struct Parts {
-    bool U = false, interval = false, k = false, nu_eff = false, note = false;
+    bool U = false, u = false, interval = false, k = false, nu_eff = false, note = false;
 
     void see(const CertifiedValue& v, const CertifiedOverview& overview) {
         interval = interval || coverage_of(v) == Coverage::interval;
+        u = u || (coverage_of(v) == Coverage::interval && !v.printed_u.empty());
         U = U || (!v.printed_U.empty() && coverage_of(v) != Coverage::interval);
         k = k || (overview.k_column() && !v.printed_k.empty());
         nu_eff = nu_eff || (overview.k_column() && coverage_of(v) == Coverage::student_t && !v.printed_nu_eff.empty());
         note = note || !overview.note(v).empty();
     }
     [[nodiscard]] std::size_t count() const {
-        return 1U + (U ? 1U : 0U) + (interval ? 2U : 0U) + (k ? 1U : 0U) + (nu_eff ? 1U : 0U) + (note ? 1U : 0U);
+        return 1U + (U ? 1U : 0U) + (u ? 1U : 0U) + (interval ? 2U : 0U) + (k ? 1U : 0U) + (nu_eff ? 1U : 0U) +
+               (note ? 1U : 0U);
     }
 };
 
@@ -42,6 +44,9 @@ void heads(std::vector<Column>& columns, const Parts& parts, const std::string& 
     columns.push_back({words("certificate", "value"), unit, true});
     if (parts.U) {
         columns.push_back({words("certificate", narrow ? "U_short" : "U"), unit, true});
+    }
+    if (parts.u) {
+        columns.push_back({words("certificate", "u"), unit, true});
     }
     if (parts.interval) {
         columns.push_back({words("certificate", "low"), unit, true});
@@ -66,6 +71,9 @@ void cells(std::vector<Text>& row, const Parts& parts, const CertifiedValue* val
     row.emplace_back(v.printed_value);
     if (parts.U) {
         row.emplace_back(interval ? "" : v.printed_U);
+    }
+    if (parts.u) {
+        row.emplace_back(interval ? v.printed_u : "");
     }
     if (parts.interval) {
         row.emplace_back(interval ? v.printed_low : "");

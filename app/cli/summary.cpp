@@ -16,9 +16,26 @@ namespace gumcert::cli {
 namespace {
 
 /// "k = 2.92, p = 99 %": how the expanded uncertainty was found.
-std::string coverage_text(const reports::Result& result) {
+std::string coverage_text(const reports::ReportedResult& result) {
     std::string text = result.k ? fmt::format("k = {:.2f}, ", *result.k) : "";
-    return text + fmt::format("p = {:.4g} %", 100.0 * result.coverage_probability);
+    text += fmt::format("p = {:.4g} %", 100.0 * result.coverage_probability);
+    return result.method == "monte_carlo" ? text + ", Monte Carlo" : text;
+}
+
+/// "l = 50000203 nm ± 57 nm", or the interval where that alone holds.
+void print_reported(const reports::Result& result) {
+    const reports::ReportedResult& reported = result.reported;
+    const std::string unit = reported.printed.unit.empty() ? "" : " " + reported.printed.unit;
+    if (!reported.printed.U.empty()) {
+        fmt::print("  {} = {} ± {}{}   ({})\n", result.name, reported.printed.value, reported.printed.U, unit,
+                   coverage_text(reported));
+    } else if (!reported.printed_low.empty()) {
+        const std::string u = reported.printed_u.empty() ? "no u exists" : "u = " + reported.printed_u + unit;
+        fmt::print("  {} = {}{}, {}, interval {} to {}{}   ({})\n", result.name, reported.printed.value, unit, u,
+                   reported.printed_low, reported.printed_high, unit, coverage_text(reported));
+    } else {
+        fmt::print("  {} = {}{}   no expanded uncertainty can be stated\n", result.name, reported.printed.value, unit);
+    }
 }
 
 /// Results of a budget, one a line; of a long table of points the first ones.
@@ -26,18 +43,12 @@ void print_results(const reports::EvaluationRecord& record) {
     constexpr std::size_t k_most_lines = 30;
     for (std::size_t i = 0; i < record.results.size() && i < k_most_lines; ++i) {
         const reports::Result& result = record.results[i];
-        const std::string unit = result.printed.unit.empty() ? "" : " " + result.printed.unit;
-        if (result.U) {
-            fmt::print("  {} = {} ± {}{}", result.name, result.printed.value, result.printed.U, unit);
-            fmt::print("   ({})\n", coverage_text(result));
-        } else {
-            fmt::print("  {} = {}{}   no expanded uncertainty can be stated\n", result.name, result.printed.value,
-                       unit);
-        }
+        print_reported(result);
         if (result.monte_carlo) {
             const reports::MonteCarloSummary& monte_carlo = *result.monte_carlo;
             fmt::print("      Monte Carlo, {} trials: u = {}, interval {} to {}", monte_carlo.printed.trials,
-                       monte_carlo.printed.u, monte_carlo.printed.symmetric[0], monte_carlo.printed.symmetric[1]);
+                       monte_carlo.u ? monte_carlo.printed.u : "does not exist", monte_carlo.printed.symmetric[0],
+                       monte_carlo.printed.symmetric[1]);
             if (monte_carlo.validation) {
                 fmt::print("{}", !monte_carlo.validation->precise_enough ? "; too few trials to validate"
                                  : monte_carlo.validation->validated     ? "; law of propagation validated"

@@ -90,7 +90,9 @@ void uncertainty(DccWriter& w, const Column& c, Stated stated) {
     }
     const auto u = [&] {
         number_or_list(w, c, "si:valueStandardMU", only([](const CertifiedValue& v) {
-                           return d_si_number(gum::round_significant(v.u, k_digits_of_u));
+                           // An interval of a distribution without variance has no standard uncertainty.
+                           return v.u > 0.0 ? d_si_number(gum::round_significant(v.u, k_digits_of_u))
+                                            : std::string(k_nothing);
                        }));
     };
     w.xml.open("si:measurementUncertaintyUnivariate" + suffix);

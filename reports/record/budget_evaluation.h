@@ -35,7 +35,7 @@ struct GufValidation {
 /// Monte Carlo of one result (JCGM 101:2008, clause 7), in the unit of the result.
 struct MonteCarloSummary {
     std::int64_t trials = 0, seed = 1;
-    double mean = 0.0, u = 0.0;
+    std::optional<double> mean, u;  ///< none where the distribution has none that trials can find
     std::array<double, 2> symmetric{}, shortest{};
     struct {
         double mean = 0.0, u = 0.0;

@@ -6,6 +6,7 @@
 
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/unit.h"
+#include "reports/record/reported_result.h"
 
 namespace gumcert::reports {
 
@@ -38,10 +39,19 @@ CertifiedValue value_of(const ErrorValue& e) {
 }
 
 CertifiedValue value_of(const Result& r) {
-    CertifiedValue out = value_of(r.value, r.u, r.U, r.k, r.nu_eff, r.printed);
-    out.coverage = r.coverage;
-    if (r.coverage == "monte_carlo" || r.coverage == "none") {
+    const ReportedResult reported = reported_result(r);
+    CertifiedValue out =
+        value_of(reported.value, reported.u.value_or(0.0), reported.U, reported.k, r.nu_eff, reported.printed);
+    out.coverage = reported.method == "monte_carlo" ? "monte_carlo" : r.coverage;
+    if (out.coverage == "monte_carlo" || out.coverage == "none") {
+        out.nu_eff.reset();
         out.printed_nu_eff.clear();  // k does not rest on them
+    }
+    if (reported.interval && !reported.U) {
+        out.interval = {(*reported.interval)[0], (*reported.interval)[1]};
+        out.printed_u = reported.printed_u;
+        out.printed_low = reported.printed_low;
+        out.printed_high = reported.printed_high;
     }
     return out;
 }

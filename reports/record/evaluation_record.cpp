@@ -6,6 +6,7 @@
 #include "reports/record/canonical_json.h"
 #include "reports/record/comparison_check.h"
 #include "reports/record/comparison_fields.h"
+#include "reports/record/reported_result.h"
 
 #include <nlohmann/json.hpp>
 
@@ -183,6 +184,30 @@ void describe(Archive& a, Struct& r) {
     });
 }
 
+constexpr std::initializer_list<const char*> k_reasons = {
+    "", "asked", "second_order", "vanishing", "no_derivative", "not_linear", "asymmetric", "contradicted"};
+
+template <class Archive, Is<ReportedResult> Struct>
+void describe(Archive& a, Struct& r) {
+    a("method", r.method, {"law_of_propagation", "monte_carlo"});
+    a("value", r.value);
+    a("u", r.u, Range::not_negative);
+    a("interval", r.interval);
+    a("coverage_probability", r.coverage_probability, Range::probability);
+    a("U", r.U, Range::not_negative);
+    a("k", r.k, Range::positive);
+    a("because", r.because, k_reasons);
+    a("against", r.against, k_reasons);
+    a.group("printed", [&](auto& b) {
+        b("value", r.printed.value);
+        b("U", r.printed.U);
+        b("unit", r.printed.unit);
+        b("u", r.printed_u);
+        b("low", r.printed_low);
+        b("high", r.printed_high);
+    });
+}
+
 template <class Archive, Is<Result> Struct>
 void describe(Archive& a, Struct& r) {
     a("description", r.description);
@@ -198,6 +223,7 @@ void describe(Archive& a, Struct& r) {
     a.added("coverage", r.coverage, {"student_t", "normal", "convolution", "monte_carlo", "none"});
     a.added("coverage_note", r.coverage_note);
     a("printed", r.printed);
+    a.added("reported", r.reported);
     a("budget", r.budget);
     a.added("correlation", r.correlation);
     a.added("quantity", r.quantity);
@@ -974,6 +1000,13 @@ void check_results(const EvaluationRecord& r, const Report& report) {
         if (result.monte_carlo) {
             check_monte_carlo(*result.monte_carlo, at + "/monte_carlo", report);
         }
+        if (const auto& interval = result.reported.interval; interval && (*interval)[0] > (*interval)[1]) {
+            report(at + "/reported/interval", shortest((*interval)[0]) + " to " + shortest((*interval)[1]),
+                   "the lower end of an interval is not above the upper end");
+        }
+        if (result.reported.method == "monte_carlo" && !result.monte_carlo) {
+            report(at + "/reported/method", "\"monte_carlo\"", "a result of Monte Carlo needs its trials beside it");
+        }
     }
     if (r.covariance) {
         const ResultCovariance& c = *r.covariance;
@@ -1168,6 +1201,7 @@ public:
         for (std::size_t i = 0; i < v.size(); ++i) {
             const std::string at = pointer_ + "/" + key + "/" + pointer_token(v[i].name);
             json item = structure(v[i], at);
+            item["reported"] = structure(reported_result(v[i]), at + "/reported");
             item["order"] = i;
             insert(all, v[i].name, std::move(item), at);
         }
@@ -1508,6 +1542,7 @@ public:
             describe(inner, result);
             inner("order", order);
             inner.finish();
+            result.reported = reported_result(result);
             if (order < 0 || static_cast<std::uint64_t>(order) >= all->size() || in_order.contains(order)) {
                 problems_.add("GC-RECORD-0016", at + "/order", std::to_string(order),
                               "the orders of all results are 0, 1, 2 …, each once", k_restore);

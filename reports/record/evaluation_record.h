@@ -23,6 +23,25 @@ struct Printed {
     std::string unit;  ///< as printed: "µm", "″", "mm"
 };
 
+/// What every document prints of a result: the result that holds (`results.NAME.reported`). The numbers of the law of
+/// propagation stay beside it in Result. Texts are made of the numbers by reports/record/reported_result.h alone.
+struct ReportedResult {
+    std::string method = "law_of_propagation";      ///< or "monte_carlo"
+    double value = 0.0;                             ///< estimate, in the unit of the result
+    std::optional<double> u;                        ///< none: no variance exists (Monte Carlo)
+    std::optional<std::array<double, 2>> interval;  ///< [low, high]; none: no interval can be stated
+    double coverage_probability = 0.9545;
+    /// Only where the interval is symmetric about the value to the printed digit; k = U/u
+    std::optional<double> U, k;
+    /// Why Monte Carlo is reported: "asked", "second_order", "vanishing", "no_derivative", "not_linear", "asymmetric",
+    /// "contradicted"; "" for the law of propagation
+    std::string because;
+    /// The same ids: what speaks against the law of propagation where the job asks for it all the same; "" else
+    std::string against;
+    Printed printed;                                   ///< value, U ("" where only the interval holds), unit
+    std::string printed_u, printed_low, printed_high;  ///< low and high: "" where U is printed
+};
+
 /// One row of an uncertainty budget (JCGM 100:2008, 7.2.7; layout of table H.1).
 struct BudgetRow {
     std::string input;
@@ -73,7 +92,8 @@ struct Result {
     /// the width of the symmetric interval), "none"
     std::string coverage = "student_t";
     std::string coverage_note;  ///< a sentence where `coverage` is not what a person expects; "" else
-    Printed printed;
+    Printed printed;            ///< of the law of propagation; documents print `reported`
+    ReportedResult reported;    ///< what holds, is printed, certified and compared with limits
     std::vector<BudgetRow> budget;
     std::optional<CorrelationRow> correlation;  ///< where inputs of the budget are correlated
     std::string quantity;                       ///< the output; differs from the name where there is a table of points

@@ -80,7 +80,7 @@ TEST_F(ReadAndOverwritten, UncertaintyOfZeroIsSaidOnPurpose) {
     for (const char* model : {R"("y = a - a")", R"("y = 0*a")", R"("h = a", "y = h - a")"}) {
         const Ended ended = gumcert({"evaluate", budget("z.json", model, a).string(), "--json-messages", "-o", "-"});
         EXPECT_EQ(ended.code, 0) << ended.err;
-        EXPECT_TRUE(has(codes(ended), "GC-BUDGET-0027")) << model << ended.err;
+        EXPECT_TRUE(has(codes(ended), "GC-BUDGET-0029")) << model << ended.err;
         const nlohmann::json result = nlohmann::json::parse(ended.out)["results"]["y"];
         EXPECT_TRUE(result["k"].is_null()) << model;
         EXPECT_TRUE(result["U"].is_null()) << model;
@@ -89,7 +89,7 @@ TEST_F(ReadAndOverwritten, UncertaintyOfZeroIsSaidOnPurpose) {
     const Ended ended =
         gumcert({"evaluate", budget("c.json", R"("y = 2*c", "z = a")", c).string(), "--json-messages", "-o", "-"});
     EXPECT_EQ(ended.code, 0) << ended.err;
-    EXPECT_FALSE(has(codes(ended), "GC-BUDGET-0027")) << ended.err;
+    EXPECT_FALSE(has(codes(ended), "GC-BUDGET-0029")) << ended.err;
     const nlohmann::json result = nlohmann::json::parse(ended.out)["results"]["y"];
     EXPECT_TRUE(result["k"].is_null());
     EXPECT_EQ(result["U"], 0.0);

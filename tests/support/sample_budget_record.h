@@ -14,7 +14,7 @@ inline void fill_histogram(reports::MonteCarloSummary& m, double low, double hig
     m.histogram_low = low;
     m.histogram_high = high;
     const double width = (high - low) / cells;
-    const auto below = [&](double x) { return 0.5 * std::erfc((m.mean - x) / (m.u * std::numbers::sqrt2)); };
+    const auto below = [&](double x) { return 0.5 * std::erfc((*m.mean - x) / (*m.u * std::numbers::sqrt2)); };
     for (int i = 0; i < cells; ++i) {
         const double fraction = below(low + (i + 1) * width) - below(low + i * width);
         m.histogram.push_back(static_cast<std::int64_t>(std::floor(fraction * static_cast<double>(m.trials))));

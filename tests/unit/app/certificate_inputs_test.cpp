@@ -67,12 +67,12 @@ TEST(CapabilityInputs, HoldTheValuesOfTheInputsInTheirUnits) {
 }
 
 // The trials that are drawn again are those of the evaluation: its interval has its ends at the same ranks.
-TEST(CapabilityInputs, HoldTheTrialsWhereUComesFromMonteCarlo) {
+TEST(CapabilityInputs, HoldTheTrialsWhereMonteCarloIsReported) {
     const engine::BudgetJob job =
         budget(R"("a": {"value": 0, "unit": "mm", "u": 0.002}, "b": {"value": 0, "unit": "1", "u": 1})", "y = a*b",
                R"(, "outputs": {"y": {"unit": "um"}}, "monte_carlo": {"trials": 30000, "seed": 5})");
     const BudgetResult result = evaluate_budget(job, 1);
-    ASSERT_EQ(result.points.at(0).outputs.at(0).coverage, "monte_carlo");
+    ASSERT_TRUE(result.points.at(0).outputs.at(0).by_monte_carlo);
     const CapabilityInputs inputs = capability_inputs(job, result);
     const TrialDistribution trials = count_trials(inputs.trials.at("y"));
     EXPECT_EQ(trials.counted, 30000U);

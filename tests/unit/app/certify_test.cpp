@@ -11,6 +11,7 @@
 
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/monte_carlo.h"
+#include "reports/record/reported_result.h"
 #include "tests/support/sample_budget_record.h"
 #include "tests/support/sample_certificate.h"
 
@@ -346,13 +347,13 @@ EvaluationRecord with_trials(double value, double low, double high) {
     return record;
 }
 
-TEST(Certify, PrintsTheMonteCarloIntervalToTheSamePlace) {
+TEST(Certify, PrintsPlusMinusUWhereTheMonteCarloIntervalIsSymmetric) {
     const CertifiedValue v =
         certified(with_trials(12.3456, 12.1001, 12.5911), data_with(test::capability_of_one_value(0.1, "m")));
     EXPECT_EQ(v.printed_value, "12.35");
     EXPECT_EQ(v.printed_U, "0.25");  // 0.2455
-    EXPECT_EQ(v.printed_low, "12.10");
-    EXPECT_EQ(v.printed_high, "12.59");
+    EXPECT_FALSE(v.interval);
+    EXPECT_EQ(v.printed_low, "");
     EXPECT_EQ(v.printed_nu_eff, "");
 }
 
@@ -742,7 +743,56 @@ TEST(Certify, SaysWhereMonteCarloDoesNotValidate) {
     const auto found = std::find_if(findings.begin(), findings.end(), [](const Finding& f) { return f.id == "S05"; });
     ASSERT_NE(found, findings.end());
     EXPECT_EQ(found->where, "EXA");
-    EXPECT_EQ(found->severity, certificate::FindingSeverity::major);
+    EXPECT_EQ(found->severity, certificate::FindingSeverity::critical);
+    EXPECT_TRUE(record.certificate->blocked);
+}
+
+TEST(Certify, BlocksALawOfPropagationThatWasForced) {
+    EvaluationRecord record = one_result(9.7, 0.2, "m");
+    certify(record, test::sample_certificate_data(), {});
+    EXPECT_THAT(ids(record), Not(Contains("S05")));
+    record = one_result(9.7, 0.2, "m");
+    record.results[0].reported = reports::reported_result(record.results[0]);
+    record.results[0].reported.against = "second_order";
+    certify(record, test::sample_certificate_data(), {});
+    const auto& findings = record.certificate->findings;
+    const auto found = std::find_if(findings.begin(), findings.end(), [](const Finding& f) { return f.id == "S05"; });
+    ASSERT_NE(found, findings.end());
+    EXPECT_EQ(found->severity, certificate::FindingSeverity::critical);
+    EXPECT_TRUE(record.certificate->blocked);
+}
+
+// p, k and U that are printed together agree: the deviations of the known distribution grow with U.
+TEST(Certify, WidensTheKnownDistributionWhereTheCapabilityIsStated) {
+    EvaluationRecord record = one_result(9.97, 0.0954, "m");  // rectangular, half-width 0.1
+    record.results[0].coverage = "convolution";
+    record.results[0].u = 0.1 / std::sqrt(3.0);
+    record.results[0].k = 0.0954 / record.results[0].u;
+    CapabilityInputs inputs;
+    inputs.distributions["l"] = [](double x) { return std::clamp((x - 9.87) / 0.2, 0.0, 1.0); };
+    CertificateData data = data_with(test::capability_of_one_value(0.1908, "m"));
+    data.specifications = data_with_rule("DR-01", 9.0, 10.0, "m").specifications;
+    const CertifiedValue v = certified(record, data, {}, inputs);
+    EXPECT_TRUE(v.raised);
+    EXPECT_NEAR(v.verdict->conformance_probability, 0.575, 1e-12);  // rectangular, half-width 0.2
+    EXPECT_THAT(v.verdict->note, HasSubstr("widened"));
+}
+
+// The end of an interval that is nearer to a limit counts.
+TEST(Certify, DecidesWithTheFartherEndOfAnInterval) {
+    EvaluationRecord record = with_trials(9.5, 9.4, 9.8);
+    record.results[0].coverage = "none";
+    record.results[0].U.reset();
+    record.results[0].k.reset();
+    record.results[0].printed = {.value = "9.50", .U = "", .unit = "m"};
+    const auto model = std::make_shared<const UniformModel>();
+    CapabilityInputs inputs;
+    inputs.trials["l"] = {.model = model, .unit = gum::Unit::parse("m"), .seed = 7, .streams = {}, .trials = 9999};
+    const Verdict v = *certified(record, data_with_rule("DR-03", 9.0, 10.0, "m"), {}, inputs).verdict;
+    EXPECT_NEAR(v.guard_band, 0.3, 1e-12);
+    EXPECT_EQ(v.verdict, "pass");
+    EXPECT_THAT(v.note, HasSubstr("larger distance"));
+    EXPECT_EQ(certified(record, data_with_rule("DR-03", 9.0, 9.75, "m"), {}, inputs).verdict->verdict, "fail");
 }
 
 TEST(Certify, CertifiesEveryPointOfATable) {

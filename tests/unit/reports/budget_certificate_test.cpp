@@ -1,5 +1,6 @@
 #include "gum/quantity/diagnostic.h"
 #include "reports/certificate_view.h"
+#include "reports/record/reported_result.h"
 #include "reports/render.h"
 #include "tests/support/sample_budget_record.h"
 #include "tests/unit/reports/document_text.h"
@@ -138,11 +139,49 @@ TEST(BudgetCertificate, SaysHowTheCoverageFactorWasFound) {
     r.results[0].k.reset();
     r.results[0].U.reset();
     r.results[0].printed.U = "";
+    r.results[0].monte_carlo.reset();  // else its interval is stated
     text = text_of(r);
     EXPECT_THAT(text, HasSubstr("An expanded uncertainty cannot be stated; the standard uncertainty u is given"));
     EXPECT_THAT(text, HasSubstr("On the coverage of l: The inputs are correlated."));
     EXPECT_THAT(text, HasSubstr(" 50000838 – 32 nm – – "));
     EXPECT_THAT(text, Not(HasSubstr("coverage factor k")));
+}
+
+// What is reported is printed, and why: not the law of propagation beside it.
+TEST(BudgetCertificate, PrintsTheReportedResult) {
+    EvaluationRecord r = test::sample_budget_record();
+    Result& l = r.results[0];
+    l.reported = monte_carlo_result(50000203.0, 568.0, {49999020.0, 50000856.0}, 0.99, "second_order");
+    print_reported(l.reported, l.unit);
+    const json view = view_of(r);
+    EXPECT_THAT(heads(table(view, "results-0")),
+                ElementsAre("Name", "Description", "Value", "u", "Lower end", "Upper end", "Unit"));
+    EXPECT_THAT(cells(table(view, "results-0"), 0), ElementsAre("l", "length of the end gauge at 20 °C", "5.000020E+7",
+                                                                "5.7E+2", "4.999902E+7", "5.000086E+7", "nm"));
+    std::string text = text_of(r);
+    EXPECT_THAT(text, HasSubstr("no expanded uncertainty is stated."));
+    EXPECT_THAT(text, HasSubstr("is reported for l, because second-order terms change the standard uncertainty or the "
+                                "estimate noticeably"));
+    l.reported = monte_carlo_result(50000838.0, 35.6, {50000744.0, 50000932.0}, 0.99, "contradicted");
+    print_reported(l.reported, l.unit);
+    text = text_of(r);
+    EXPECT_THAT(text, HasSubstr(" 50000838 94 nm 2.64 – "));
+    EXPECT_THAT(text, HasSubstr("half the width of the probabilistically symmetric interval"));
+    l.reported = law_of_propagation_result(50000838.0, 31.7, 92.6, 2.92, 0.99);
+    l.reported.against = "vanishing";
+    print_reported(l.reported, l.unit);
+    EXPECT_THAT(text_of(r), HasSubstr("reported for l although the first derivatives of the model vanish"));
+}
+
+TEST(BudgetCertificate, PointsOfDifferentMethodsStandInTheirColumns) {
+    EvaluationRecord r = test::sample_points_record(3);
+    r.results[1].reported = monte_carlo_result(5.2, 1.4, {4.0, 8.3}, 0.99, "not_linear");
+    print_reported(r.results[1].reported, r.results[1].unit);
+    const json view = view_of(r);
+    EXPECT_THAT(heads(table(view, "results-0")),
+                ElementsAre("Point", "Value", "U", "u", "Lower end", "Upper end", "k", "ν_eff", "Note"));
+    EXPECT_THAT(cells(table(view, "results-0"), 1),
+                ElementsAre("2 mm", "5.2", "–", "1.4", "4.0", "8.3", "–", "–", "(b)"));
 }
 
 TEST(BudgetCertificate, MarksResultsOfDifferentCoverage) {

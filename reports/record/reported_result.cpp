@@ -1,0 +1,110 @@
+#include "reports/record/reported_result.h"
+
+#include "certificate/statement_of_uncertainty.h"
+#include "gum/quantity/unit.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace gumcert::reports {
+
+namespace {
+
+double half_width_of(const std::array<double, 2>& interval) {
+    return 0.5 * (interval[1] - interval[0]);
+}
+
+std::string all_digits(double value) {
+    std::array<char, 32> text{};
+    const double shown = value == 0.0 ? 0.0 : value;  // no negative zero
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), shown).ptr};
+}
+
+}  // namespace
+
+bool is_symmetric_as_printed(double value, const std::array<double, 2>& interval, int digits) {
+    const double half_width = half_width_of(interval);
+    if (!(half_width > 0.0)) {
+        return true;
+    }
+    const int decimals = certificate::decimals_of(gum::round_to_uncertainty(value, half_width, digits).U);
+    const double half_a_unit = 0.5 * std::pow(10.0, -decimals);
+    return std::abs(value - (interval[0] + half_width)) <= half_a_unit;
+}
+
+ReportedResult monte_carlo_result(double value, std::optional<double> u, const std::array<double, 2>& interval,
+                                  double coverage_probability, const std::string& because, int digits) {
+    ReportedResult result;
+    result.method = "monte_carlo";
+    result.value = value;
+    result.u = u;
+    result.interval = interval;
+    result.coverage_probability = coverage_probability;
+    result.because = because;
+    if (u && is_symmetric_as_printed(value, interval, digits)) {
+        result.U = half_width_of(interval);
+        if (*u > 0.0 && *result.U > 0.0) {
+            result.k = *result.U / *u;
+        }
+    }
+    return result;
+}
+
+ReportedResult law_of_propagation_result(double value, double u, std::optional<double> U, std::optional<double> k,
+                                         double coverage_probability) {
+    ReportedResult result;
+    result.value = value;
+    result.u = u;
+    result.coverage_probability = coverage_probability;
+    result.U = U;
+    result.k = k;
+    if (U) {
+        result.interval = {value - *U, value + *U};
+    }
+    return result;
+}
+
+void print_reported(ReportedResult& result, const std::string& unit, const ReportedRounding& rounding) {
+    result.printed = {.value = {}, .U = {}, .unit = gum::unit_for_people(unit)};
+    result.printed_low.clear();
+    result.printed_high.clear();
+    result.printed_u = result.u && *result.u > 0.0 ? gum::round_significant(*result.u, 2) : "";
+    if (result.U && *result.U > 0.0) {
+        const gum::RoundedPair pair =
+            gum::round_to_uncertainty(result.value, *result.U, rounding.digits, rounding.rounding);
+        result.printed.value = pair.value;
+        result.printed.U = pair.U;
+        return;
+    }
+    if (!result.U && result.interval && half_width_of(*result.interval) > 0.0) {
+        const gum::RoundedPair pair =
+            gum::round_to_uncertainty(result.value, half_width_of(*result.interval), rounding.digits);
+        const int decimals = certificate::decimals_of(pair.U);
+        result.printed.value = pair.value;
+        result.printed_low = gum::round_to_quantum((*result.interval)[0], decimals);
+        result.printed_high = gum::round_to_quantum((*result.interval)[1], decimals);
+        return;
+    }
+    result.printed.value = result.u && *result.u > 0.0 ? gum::round_to_uncertainty(result.value, *result.u, 2).value
+                                                       : all_digits(result.value);
+    result.printed.U = result.U ? "0" : "";
+}
+
+ReportedResult reported_result(const Result& result) {
+    if (!result.reported.printed.value.empty()) {
+        return result.reported;
+    }
+    ReportedResult stated =
+        law_of_propagation_result(result.value, result.u, result.U, result.k, result.coverage_probability);
+    const bool of_trials = result.coverage == "monte_carlo" || (result.coverage == "none" && !result.U);
+    if (result.monte_carlo && of_trials) {
+        stated.method = "monte_carlo";
+        stated.interval = result.monte_carlo->symmetric;
+        stated.because = "vanishing";
+    }
+    print_reported(stated, result.unit);
+    stated.printed = result.printed;  // the texts that the record was issued with
+    return stated;
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "reports/document_text.h"
+#include "reports/record/evaluation_record.h"
+#include "reports/wording.h"
+
+#include <vector>
+
+namespace gumcert::reports {
+
+/// Sentences that say why Monte Carlo is reported of which results, one a reason; and those that say what speaks
+/// against the law of propagation where the job asked for it. Empty where nothing needs saying.
+[[nodiscard]] std::vector<Text> reasons_for_monte_carlo(const std::vector<Result>& results, const Wording& words);
+[[nodiscard]] std::vector<Text> reasons_for_monte_carlo(const EvaluationRecord& record, const Wording& words);
+
+}  // namespace gumcert::reports
