@@ -104,8 +104,8 @@ private:
         }
         if (!text.empty()) {
             say("The largest of several |En| is above 1 more often than that of one point, also where all "
-                "uncertainties are right. The limit that the largest of so many points exceeds no more often than one "
-                "point exceeds 1 is the one to hold it against: " +
+                "uncertainties are right. The limit that the largest of so many points exceeds in 1 of 100 comparisons "
+                "is the one to hold it against: " +
                 text + ".");
         }
     }

@@ -32,7 +32,7 @@ constexpr double k_equal_factors = 1e-12;             // of coverage, relative
 constexpr double k_tail_of_band = 0.025;              // 95 % between both
 constexpr double k_significant = 0.025;               // of p_low and p_high
 constexpr double k_negligible_reference = 1.0 / 3.0;
-constexpr double k_rounding_of_probability = 1e-12;
+constexpr double k_chance_of_single_points = 0.01;  // of their number, and of the largest of them
 
 std::string point_name(Index i) {
     return "difference at point " + std::to_string(i + 1);
@@ -276,7 +276,12 @@ void add_distributions(const MethodDifferences& differences, const VectorXd& u, 
     result.p_low = weighted_chi_square_lower_tail(of_zeta, result.sum_of_squared_zeta);
     result.p_high = weighted_chi_square_upper_tail(of_zeta, result.sum_of_squared_zeta);
     result.effective_points = m * m / R.squaredNorm();
-    result.largest_en_by_chance = largest_en_by_chance(result.points, coverage_probability);
+    if (result.points > 1) {
+        constexpr double k_normal = std::numeric_limits<double>::infinity();
+        result.largest_en_by_chance = largest_en_by_chance(result.points, 1.0 - k_chance_of_single_points) *
+                                      coverage_factor(1.0 - k_chance_of_single_points, k_normal) /
+                                      coverage_factor(coverage_probability, k_normal);
+    }
     result.count_by_chance =
         count_above_1_by_chance(result.points, std::clamp(result.effective_points, 1.0, m), coverage_probability);
     add_test_of_uncertainty(differences, u, R, of_zeta, result);
@@ -333,11 +338,14 @@ std::size_t count_above_1_by_chance(std::size_t points, double effective_points,
         refuse("GC-GUM-0032", "comparison", "no points", "a number of scores needs at least 1 point",
                "Give the points that both methods measured.");
     }
+    if (points == 1) {
+        return 0;
+    }
     const double independent = std::clamp(std::round(effective_points), 1.0, static_cast<double>(points));
     using Up = boost::math::policies::policy<
         boost::math::policies::discrete_quantile<boost::math::policies::integer_round_up>>;
     const boost::math::binomial_distribution<double, Up> above(independent, 1.0 - coverage_probability);
-    const double limit = boost::math::quantile(above, coverage_probability * (1.0 - k_rounding_of_probability));
+    const double limit = boost::math::quantile(above, 1.0 - k_chance_of_single_points);
     return static_cast<std::size_t>(std::floor(limit * static_cast<double>(points) / independent));
 }
 

@@ -23,7 +23,8 @@ struct Agreement {
     std::size_t points = 0;         ///< m
     std::size_t count_above_1 = 0;  ///< |E_n| > 1
     double mean_absolute_en = 0.0, largest_absolute_en = 0.0;
-    double largest_en_by_chance = 1.0;  ///< limit of largest_absolute_en (largest_en_by_chance())
+    /// Limit of largest_absolute_en: 1 for one point, else the one that chance exceeds in 1 of 100 comparisons.
+    double largest_en_by_chance = 1.0;
     double rms_en = 0.0;
     double rms_en_low = 0.0, rms_en_high = 0.0;  ///< 95 % of all comparisons lie between, uncertainties being right
     double sum_of_squared_zeta = 0.0;
@@ -64,8 +65,9 @@ struct Agreement {
 /// \param points  n ≥ 1
 /// \throws InputError  GC-GUM-0032 no points; -0004 p not between 0 and 1
 [[nodiscard]] double largest_en_by_chance(std::size_t points, double coverage_probability);
-/// The number of |E_n| > 1 among n points that is exceeded with probability 1 − p at most where all uncertainties are
-/// right: quantile of the binomial distribution of effective_points points, in proportion. 0 for one point.
+/// The number of |E_n| > 1 among n points that is exceeded in 1 of 100 comparisons at most where all uncertainties are
+/// right: quantile of the binomial distribution of effective_points points, each above 1 with probability 1 − p, in
+/// proportion. 0 for one point.
 /// \param effective_points  1 … points
 /// \throws InputError  as largest_en_by_chance()
 [[nodiscard]] std::size_t count_above_1_by_chance(std::size_t points, double effective_points,
@@ -111,10 +113,11 @@ enum class AgreementVerdict {
 };
 /// "Validated" is a test of equivalence: both a U of the method that should be twice as large and one that should be
 /// half as large must be refuted, each with an error of 5 % (the largest share of such methods that are validated).
-/// It is asked for only where a right U passes it nine times in ten: with a negligible reference that takes 13
-/// independent points, because the sum of squares of fewer scatters too much.
+/// It is asked for only where a right U passes it with this power, and so is validated nine times in ten together with
+/// the limits on single points: with a good reference that takes 14 or 15 independent points, because the sum of
+/// squares of fewer scatters too much.
 inline constexpr double k_error_of_confirmation = 0.05;
-inline constexpr double k_least_power_to_confirm = 0.9;
+inline constexpr double k_least_power_to_confirm = 0.92;
 /// \param worst_plausible_en  largest |E_n| for the worst plausible correlation; nothing where r is known
 [[nodiscard]] AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<double> worst_plausible_en);
 

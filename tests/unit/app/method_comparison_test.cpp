@@ -260,11 +260,11 @@ TEST(CompareMethods, WordsNeverPraiseWhatIsNotShown) {
 
 TEST(CompareMethods, SinglePointsAbove1AreHeldAgainstChance) {
     std::vector<Stated> points = sound();
-    points[0].D = 2.2;  // E_n 1.09; the largest of 6 points exceeds 1.33 as often as one exceeds 1
+    points[0].D = 2.2;  // E_n 1.09; the largest of 6 points exceeds 1.57 in 1 of 100 comparisons
     reports::Comparison record = compared(comparison_of(points));
     EXPECT_EQ(record.summary.front().verdict, "agreement_few_points") << "one of six is no objection";
     EXPECT_EQ(record.points.front().signal, "action");
-    EXPECT_THAT(all_remarks(record), HasSubstr(": 1.09 against a limit of 1.33 for 6 points."));
+    EXPECT_THAT(all_remarks(record), HasSubstr(": 1.09 against a limit of 1.57 for 6 points."));
     MethodComparison unknown = comparison_of(points);
     unknown.points[1].reference_u = 0.95;
     unknown.points[1].reference_U = 1.9;
@@ -274,10 +274,13 @@ TEST(CompareMethods, SinglePointsAbove1AreHeldAgainstChance) {
     EXPECT_EQ(record.summary.front().verdict, "correlation_unknown");
     EXPECT_THAT(all_remarks(record), HasSubstr("share nothing: with the worst plausible correlation |En| would be "
                                                "above 1 at 2 of 6 points."));
-    points[1].D = -2.2;
-    EXPECT_EQ(compared(comparison_of(points)).summary.front().verdict, "points_above_1");
-    points[1].D = -1.1;
-    points[0].D = 2.9;
+    std::vector<Stated> three = sound();  // two of six may be chance
+    three[0].D = 2.05;
+    three[1].D = -2.05;
+    three[2].D = 2.05;
+    three[3].D = three[4].D = three[5].D = 0.1;
+    EXPECT_EQ(compared(comparison_of(three)).summary.front().verdict, "points_above_1");
+    points[0].D = 3.2;
     EXPECT_EQ(compared(comparison_of(points)).summary.front().verdict, "disagreement");
     EXPECT_EQ(compared(comparison_of({points[0]})).summary.front().verdict, "disagreement");
     EXPECT_THAT(all_remarks(compared(comparison_of(sound()))), Not(HasSubstr("limit")));
