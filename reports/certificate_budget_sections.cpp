@@ -1,4 +1,6 @@
 #include "reports/certificate_budget_sections.h"
+#include "reports/record/reported_result.h"
+#include "reports/reported_results.h"
 
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
