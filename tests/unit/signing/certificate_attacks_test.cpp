@@ -151,8 +151,8 @@ TEST(CertificateAttack, ACertificateWithTheSameIssuerAndSerialNumber) {
 std::vector<std::string> revocation_codes(const Identity& own, const Identity& root, const std::vector<Bytes>& lists,
                                           bool valid) {
     const CarelessSigner signer(own.key, {own, root});
-    const Verification verification =
-        verify_signatures(sign_dcc(k_dcc, signer, k_signing_time), "certificate.xml", {{der(root)}, lists}, k_now);
+    const Verification verification = verify_signatures(sign_dcc(k_dcc, signer, k_signing_time), "certificate.xml",
+                                                        TrustedMaterial(std::vector<Bytes>{der(root)}, lists), k_now);
     EXPECT_EQ(verification.valid, valid);
     std::vector<std::string> codes;
     for (const gum::Diagnostic& finding : verification.signatures.at(0).findings) {
