@@ -10,8 +10,8 @@
 #include "gum/coverage.h"
 #include "gum/nearest_correlation.h"
 #include "gum/propagation.h"
-#include "gum/rounding.h"
 #include "gum/quantity/decimal_rounding.h"
+#include "gum/rounding.h"
 
 namespace gumcert::app {
 

@@ -25,9 +25,8 @@ bool has_accredited_value(const Certificate& certificate) {
 
 void pass_gates(Certificate& certificate, const std::vector<Finding>& audit) {
     std::vector<Finding> all = completeness_findings(certificate);
-    for (const std::vector<Finding>& more :
-         {plausibility_findings(certificate), uncertainty_findings(certificate), symbol_findings(certificate),
-          language_findings(certificate), audit}) {
+    for (const std::vector<Finding>& more : {plausibility_findings(certificate), uncertainty_findings(certificate),
+                                             symbol_findings(certificate), language_findings(certificate), audit}) {
         all.insert(all.end(), more.begin(), more.end());
     }
     std::stable_sort(all.begin(), all.end(),

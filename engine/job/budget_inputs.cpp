@@ -98,8 +98,12 @@ void BudgetInputs::read(const JsonObject& root) {
             continue;
         }
         for (const std::optional<StatedSpecification>& specification : stated.base->specifications) {
-            if (specification && specification->of) {
-                readers_[of_name_.at(*specification->of)].push_back(i);
+            if (!specification || !specification->of) {
+                continue;
+            }
+            // An input that was refused itself is read by nobody.
+            if (const auto of = of_name_.find(*specification->of); of != of_name_.end()) {
+                readers_[of->second].push_back(i);
             }
         }
     }

@@ -167,7 +167,7 @@ inline constexpr InputCode k_warn_equal_observations{"GC-WARN-0011", "observatio
 inline constexpr InputCode k_warn_fixture_u_differs{"GC-WARN-0012",
                                                     "u columns of the fixture that are not used, and are far off"};
 inline constexpr InputCode k_warn_same_position{"GC-WARN-0013", "two angles that are one position of the table"};
-inline constexpr InputCode k_warn_correlations_repaired{"GC-WARN-0020",
+inline constexpr InputCode k_warn_correlations_repaired{"GC-WARN-0014",
                                                         "correlations that hold together within their digits only"};
 
 /// The whole table, in the order of the codes.

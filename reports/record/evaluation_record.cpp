@@ -1877,7 +1877,7 @@ public:
     bool number_float(number_float_t v, const string_t&) override { return put(v); }
     bool string(string_t& v) override {
         if (v.find('\0') != std::string::npos) {
-            problems_.add("GC-RECORD-0021", pointer() + here(), "a text with a NUL character (\\u0000)",
+            problems_.add("GC-RECORD-0016", pointer() + here(), "a text with a NUL character (\\u0000)",
                           "texts of a record have none: documents would end there", k_restore);
         }
         return put(std::move(v));

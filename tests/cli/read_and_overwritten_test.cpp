@@ -197,7 +197,7 @@ TEST_F(ReadAndOverwritten, RecordWithNulInATextIsRefused) {
     const Ended ended =
         gumcert({"render", (folder() / "r.json").string(), "--format", "text", "-o", "-", "--json-messages"});
     EXPECT_EQ(ended.code, 3) << ended.err;
-    EXPECT_TRUE(has(codes(ended), "GC-RECORD-0021")) << ended.err;
+    EXPECT_TRUE(has(codes(ended), "GC-RECORD-0016")) << ended.err;
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-class RecordIntegrity : public testing::Test {
+class RecordIntegrity : public ProgramTest {
 protected:
     RecordIntegrity() {
         const Ended made =

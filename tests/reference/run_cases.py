@@ -1600,8 +1600,16 @@ class Scores(Laboratories):
         participant = re.search(r"\(([^()]+)\)", entry["quantity"]).group(1)
         if kind == "z_signal":
             return Found(self.SIGNALS[self.scored(participant, only_z=True)["signal"]], how="signal of z")
-        score = self.scored(participant, only_z=False)[self.KEYS[kind]]
-        return Found(abs(score) <= 1.0 if kind == "en_satisfactory" else score)
+        point = self.scored(participant, only_z=False)
+        score = point[self.KEYS[kind]]
+        if kind == "en_satisfactory":
+            return Found(abs(score) <= 1.0)
+        lab = next(lab for lab in self.data["participants"] if lab["lab"] == participant)
+        if kind == "En" and lab["k"] != self.data["k_pt"]:
+            as_stated = (lab["x"] - self.data["x_pt"]) / math.hypot(lab["U"], self.data["U_pt"])
+            return Found(as_stated, convention=f"U with k = {lab['k']} as the source takes it; the program brings both "
+                                               f"sides to one coverage factor, E_n = {score:.4f}")
+        return Found(score)
 
 
 PROCEDURES = {

@@ -22,6 +22,7 @@ struct DescribedKey {
     int lists = 0;     ///< how many arrays are around it
     bool optional = false, needed = false, filled = false;
     std::vector<std::string> words;
+    bool added = false;  ///< records of earlier releases do not have it
     std::optional<certificate::NumberRule> number;
     std::optional<certificate::TextForm> form;
 };
@@ -49,6 +50,11 @@ public:
         DescribedKey& described = (*this)(key, v);
         described.words.assign(words.begin(), words.end());
         return described;
+    }
+    /// A key that records of earlier releases do not have.
+    template <class Type>
+    void added(const std::string& key, const Type& v) {
+        (*this)(key, v).added = true;
     }
     template <class Type, class... Rule>
     void needed(const std::string& key, const Type& v, Rule... rule) {

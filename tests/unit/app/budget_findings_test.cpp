@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "app/budget_covariance.h"
 #include "app/budget_record.h"
 #include "app/evaluate_budget.h"
 #include "tests/support/sample_certificate.h"

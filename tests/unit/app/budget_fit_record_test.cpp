@@ -6,6 +6,7 @@
 #include <random>
 #include <string>
 
+#include "app/budget_covariance.h"
 #include "app/budget_record.h"
 #include "app/evaluate_budget.h"
 #include "tests/unit/engine/job/budget_campaign.h"

@@ -65,10 +65,11 @@ TEST(BudgetModel, DrawsSamplesOfOneFileByItsRows) {
 
 TEST(BudgetModel, RefusesCorrelationsBesideJointSamples) {
     const std::string inputs = R"("a": {"samples": "s.csv"}, "b": {"samples": "s.csv"}, "x": {"value": 1, "u": 1})";
-    for (const std::string& pair : {R"(["a", "b", 0.9])", R"(["a", "x", 0.2])"}) {
+    for (const char* pair : {R"(["a", "b", 0.9])", R"(["a", "x", 0.2])"}) {
         try {
             (void)evaluate_budget(
-                job(inputs, "a + b + x", ", \"correlations\": [" + pair + "]", {{"s.csv", samples_csv()}}), 1);
+                job(inputs, "a + b + x", std::string(", \"correlations\": [") + pair + "]", {{"s.csv", samples_csv()}}),
+                1);
             ADD_FAILURE() << pair;
         } catch (const gum::InputError& error) {
             EXPECT_EQ(error.diagnostics().front().code, "GC-BUDGET-0003");

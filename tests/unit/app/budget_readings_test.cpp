@@ -8,6 +8,7 @@
 #include <random>
 #include <string>
 
+#include "app/budget_covariance.h"
 #include "app/budget_model.h"
 #include "app/budget_record.h"
 #include "app/evaluate_budget.h"

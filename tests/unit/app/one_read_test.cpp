@@ -37,8 +37,8 @@ TEST(OneRead, OfEveryFileOfEveryExample) {
         SCOPED_TRACE(job);
         ASSERT_TRUE(fs::exists(examples / job));
         const ChangingSource source((examples / job).parent_path());
-        const Evaluation evaluation = evaluate_job(source, fs::path(job).filename().string(), "", 1,
-                                                   fs::path(GUMCERT_SOURCE_DIR) / "templates");
+        const Evaluation evaluation =
+            evaluate_job(source, fs::path(job).filename().string(), "", 1, fs::path(GUMCERT_SOURCE_DIR) / "templates");
         EXPECT_FALSE(evaluation.record.job_files.empty());
         for (const auto& [name, count] : source.readings_) {
             EXPECT_EQ(count, 1U) << name;

@@ -410,9 +410,9 @@ TEST(ComparisonReport, TheGravestObjectionIsTheVerdict) {
     EXPECT_THAT(first(with_verdicts({"correlation_unknown", "reference_not_better"})),
                 HasSubstr("Whether they agree cannot be said"));
     EXPECT_THAT(first(with_verdicts({"correlation_unknown", "points_above_1"})),
-                HasSubstr("A disagreement is not shown; agreement at these points"));
+                HasSubstr("Agreement at these points and that the uncertainties are right are not shown"));
     EXPECT_THAT(first(with_verdicts({"agreement_few_points", "agreement_reference_limited", "validated"})),
-                HasSubstr("too few to notice uncertainties that are too large"));
+                HasSubstr("Whether the uncertainty of the method is right cannot be told"));
     EXPECT_THAT(first(with_verdicts({""})), HasSubstr("do not allow a verdict"));
     EvaluationRecord scatter = with_verdicts({"disagreement"});
     for (ComparisonSummary& s : scatter.comparison->summary) {
@@ -491,9 +491,9 @@ TEST(ComparisonReport, ScoresDecideTheWords) {
     EXPECT_THAT(first(), HasSubstr(": L002."));
     c.items[0].score = "z_prime";
     c.points[2].signal = "warning";
-    EXPECT_THAT(first(), HasSubstr("1 of 5 scored results call for action (|z′| ≥ 3): L002. Warnings (|z′| ≥ 2): 1."));
+    EXPECT_THAT(first(), HasSubstr("1 of 5 scored results call for action (|z′| ≥ 3): L002. Warnings (|z′| > 2): 1."));
     c.points[1].signal = "none";
-    EXPECT_THAT(first(), HasSubstr("1 give a warning (|z′| ≥ 2): L003."));
+    EXPECT_THAT(first(), HasSubstr("1 give a warning (|z′| > 2): L003."));
     c.items[0].score = "D";
     c.points[2].signal = "action";
     EXPECT_THAT(first(), HasSubstr("largest error allowed"));

@@ -32,8 +32,11 @@ std::string html_tags(const std::string& html) {
     for (std::size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at + 1)) {
         std::string tag = html.substr(at, html.find('>', at) - at + 1);
         std::erase_if(tag, [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
-        if (const std::size_t alt = tag.find(" alt=\""); alt != std::string::npos) {
-            tag.erase(alt + 6, tag.find('"', alt + 6) - alt - 6);
+        for (const std::string attribute : {" alt=\"", " data-text=\""}) {  // texts, up to the quote that ends them
+            if (const std::size_t found = tag.find(attribute); found != std::string::npos) {
+                const std::size_t begin = found + attribute.size();
+                tag.erase(begin, tag.find('"', begin) - begin);
+            }
         }
         if (!tag.starts_with("<text ") && tag != "</text>" && !tag.starts_with("<line ")) {
             out += tag + "\n";

@@ -217,7 +217,7 @@ TEST(CertificateAttack, NamesCannotPretendToBeLinesOfTheProgram) {
                                        &root);
     const CarelessSigner signer(own.key, {own});
     const Verification verification =
-        verify_signatures(sign_dcc(k_dcc, signer, k_signing_time), "c.xml", {der(root)}, k_now);
+        verify_signatures(sign_dcc(k_dcc, signer, k_signing_time), "c.xml", std::vector<Bytes>{der(root)}, k_now);
     const std::string& name = verification.signatures.at(0).signer;
     EXPECT_THAT(name, HasSubstr("certificate.pdf: valid"));
     for (const char* hidden : {"\n", "\x1B", "\xE2\x80\xAE"}) {

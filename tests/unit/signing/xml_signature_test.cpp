@@ -149,7 +149,7 @@ TEST(SignDccOnce, TheKeyComesFromTheTrustStoreOnly) {
     EXPECT_EQ(first_error(untrusted.signatures.at(0)), "GC-SIGN-0130");
     EXPECT_FALSE(verify_signatures(good, "c.xml", {}, k_now).valid);
     // The signer's own certificate may be trusted by itself.
-    EXPECT_TRUE(verify_signatures(good, "c.xml", {der(laboratory.own)}, k_now).valid);
+    EXPECT_TRUE(verify_signatures(good, "c.xml", std::vector<Bytes>{der(laboratory.own)}, k_now).valid);
     // Signed by the stranger, with the certificate of the laboratory put in.
     const Bytes forged = sign_dcc(k_dcc, *stranger.signer, k_signing_time);
     const auto certificate = [](const Bytes& xml) {
@@ -167,7 +167,8 @@ TEST(SignDccOnce, TimesAreChecked) {
     const Verification before = verify_signatures(good, "c.xml", laboratory.trusted(), k_signing_time - k_day);
     EXPECT_EQ(first_error(before.signatures.at(0)), "GC-SIGN-0134");
     // Years later: the certificate has expired since; the signature stays valid at its time, with a warning.
-    const Verification late = verify_signatures(good, "c.xml", {der(laboratory.own)}, k_signing_time + 1000 * k_day);
+    const Verification late =
+        verify_signatures(good, "c.xml", std::vector<Bytes>{der(laboratory.own)}, k_signing_time + 1000 * k_day);
     EXPECT_TRUE(late.valid);
     EXPECT_THAT(late.signatures.at(0).findings, Contains(testing::Field(&gum::Diagnostic::code, "GC-SIGN-0135")));
     EXPECT_THROW(static_cast<void>(sign_dcc(k_dcc, *laboratory.signer, k_signing_time + 1000 * k_day)),

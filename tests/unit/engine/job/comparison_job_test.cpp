@@ -33,7 +33,7 @@ TEST(ComparisonJob, ReadsLaboratoriesWithTheirResults) {
     ASSERT_EQ(job.items.size(), 1U);
     EXPECT_EQ(job.items[0].unit.text(), "mg/kg");
     EXPECT_EQ(job.items[0].id, "");
-    EXPECT_EQ(job.items[0].assigned_value.method, AssignedValueMethod::weighted_mean);
+    EXPECT_EQ(job.items[0].assigned_value.method, AssignedValueMethod::mandel_paule);
     EXPECT_THAT(job.rounds, ElementsAre(""));
     ASSERT_EQ(job.results.size(), 3U);
     EXPECT_EQ(job.results[0].value, 10.1);

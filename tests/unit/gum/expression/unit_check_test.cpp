@@ -88,7 +88,8 @@ TEST(UnitCheck, Exponents) {
     EXPECT_EQ(code("y = x^n"), "0034 m/0, column 6");
     EXPECT_EQ(code("y = n^n"), "");
     EXPECT_EQ(code("y = n^x"), "0033 m/0, column 6");
-    EXPECT_EQ(code("y = x^0.5"), "0039 m/0, column 1");
+    EXPECT_EQ(code("y = x^0.5", {output("y", "m^(1/2)")}), "");
+    EXPECT_EQ(code("y = x^(1/11)"), "0039 m/0, column 1");
     EXPECT_EQ(code("y = sqrt(x)*sqrt(l)", {output("y", "m")}), "");
 }
 

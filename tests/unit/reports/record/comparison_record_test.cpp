@@ -160,7 +160,7 @@ TEST(ComparisonRecord, RefusesPartsThatDoNotFitTogether) {
     EXPECT_THAT(refused(between, [](json& c) { c["points"][0]["correlation"] = -1.01; }),
                 HasSubstr("/comparison/points/0/correlation — -1.01 — a correlation coefficient lies between"));
     EXPECT_THAT(refused(between, [](json& c) { c["points"][0]["signal"] = "alarm"; }),
-                HasSubstr("/comparison/points/0/signal — \"alarm\" — must be one of \"\" \"none\" \"warning\""));
+                HasSubstr("/comparison/points/0/signal — \"alarm\" — must be one of \"\" \"none\" \"inconclusive\""));
     EXPECT_THAT(refused(between, [](json& c) { c["items"][0].erase("estimates"); }),
                 HasSubstr("/comparison/items/0/estimates — missing"));
     EXPECT_THAT(refused(between, [](json& c) { c["extra"] = 1; }), HasSubstr("/comparison/extra — unknown key"));
