@@ -233,12 +233,14 @@ std::vector<gum::Diagnostic> check_revocation(const std::string& where, const st
     }
     bool signer_checked = false;
     for (const Handle<X509_CRL>& list : lists_of(trusted.revocation_lists)) {
+        X509* spoken_of = nullptr;  // a certificate of the path that the list is for
         for (X509* const certificate : path) {
             if (!is_list_for(list.get(), certificate, issuers)) {
                 continue;
             }
             const std::string subject = subject_of(certificate);
             signer_checked = signer_checked || certificate == path.front();
+            spoken_of = certificate;
             X509_REVOKED* entry = nullptr;
             if (X509_CRL_get0_by_cert(list.get(), &entry, certificate) == 1) {
                 const std::optional<std::int64_t> since = seconds_of(X509_REVOKED_get0_revocationDate(entry));
@@ -251,16 +253,16 @@ std::vector<gum::Diagnostic> check_revocation(const std::string& where, const st
                                      "the signer's own statement",
                                  .action = "ask the laboratory for a document signed anew"});
             }
-            const std::optional<std::int64_t> next = seconds_of(X509_CRL_get0_nextUpdate(list.get()));
-            if (!next || *next < now) {
-                found.push_back({.code = "GC-SIGN-0138",
-                                 .where = where,
-                                 .what = "the list of revoked certificates of " + issuer_of(certificate) +
-                                         (next ? " was to be replaced by " + time_text(*next) : " has no end"),
-                                 .rule = "a list of revoked certificates speaks for the time until the next one",
-                                 .action = "get the present list",
-                                 .severity = gum::Severity::warning});
-            }
+        }
+        const std::optional<std::int64_t> next = seconds_of(X509_CRL_get0_nextUpdate(list.get()));
+        if (spoken_of != nullptr && (!next || *next < now)) {
+            found.push_back({.code = "GC-SIGN-0138",
+                             .where = where,
+                             .what = "the list of revoked certificates of " + issuer_of(spoken_of) +
+                                     (next ? " was to be replaced by " + time_text(*next) : " has no end"),
+                             .rule = "a list of revoked certificates speaks for the time until the next one",
+                             .action = "get the present list",
+                             .severity = gum::Severity::warning});
         }
     }
     ERR_clear_error();

@@ -147,7 +147,7 @@ ExitCode check_files(const std::vector<std::string>& files, bool certificates, c
                 check.findings = app::check_certificate(app::read_file(file), file, trust);
             } else {
                 ProgressLine progress(!common.quiet);
-                check = app::check_file(file, static_cast<unsigned>(common.threads), templates_if_any(share),
+                check = app::check_file(file, static_cast<unsigned>(common.threads), templates_folder(share),
                                         [&](const std::string& text) { progress(text); });
             }
             return print_check(file, check, common);

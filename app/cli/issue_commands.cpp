@@ -154,7 +154,7 @@ bool naming_job(const fs::path& job, const Work& work) {
 bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> inputs, Issuer& issuer,
              const DocumentOptions& options, const CommonOptions& common, ProgressLine& progress, bool several) {
     app::Evaluation evaluation =
-        app::evaluate_job(job, "covariance.csv", static_cast<unsigned>(common.threads), templates_if_any(options.share),
+        app::evaluate_job(job, "covariance.csv", static_cast<unsigned>(common.threads), templates_folder(options.share),
                           [&](const std::string& text) { progress(text); });
     const reports::EvaluationRecord& record = evaluation.record;
     const std::vector<fs::path> documents = document_files(record, folder);
@@ -246,7 +246,7 @@ ExitCode render_record(const std::string& name, const std::string& format, const
     reports::EvaluationRecord record = reports::record_from_json(app::read_file(name), name);
     ProgressLine progress(!common.quiet);
     const std::optional<gum::Diagnostic> unchecked =
-        app::recompute_record(record, name, static_cast<unsigned>(common.threads), templates_if_any(options.share),
+        app::recompute_record(record, name, static_cast<unsigned>(common.threads), templates_folder(options.share),
                               [&](const std::string& text) { progress("checking the record: " + text); });
     progress.clear();
     if (unchecked && !print_as_unchecked(record, *unchecked, options, common)) {
@@ -322,7 +322,7 @@ ExitCode evaluate_to_record(const fs::path& job, const std::string& output, cons
     }
     ProgressLine progress(!common.quiet);
     app::Evaluation evaluation =
-        app::evaluate_job(job, covariance_name, static_cast<unsigned>(common.threads), templates_if_any(share),
+        app::evaluate_job(job, covariance_name, static_cast<unsigned>(common.threads), templates_folder(share),
                           [&](const std::string& text) { progress(text); });
     const std::string text = reports::to_canonical_json(evaluation.record);
     look_at_the_day(evaluation.record);

@@ -62,25 +62,16 @@ fs::path share_folder(const std::string& given) {
                                             "name it with --share FOLDER", gum::Severity::error});
 }
 
-fs::path templates_if_any(const std::string& given) {
-    try {
-        return share_folder(given) / "templates";
-    } catch (const gum::StorageError&) {
-        if (!given.empty()) {
-            throw;
-        }
-        return {};
-    }
+fs::path templates_folder(const std::string& given) {
+    return share_folder(given) / "templates";
 }
 
 void add_program_files(std::vector<fs::path>& inputs, const std::string& share) {
     inputs.push_back(executable());
-    const fs::path templates = templates_if_any(share);
-    if (!templates.empty()) {
-        inputs.push_back(templates);
-        inputs.push_back(templates.parent_path() / "schemas");
-        inputs.push_back(templates.parent_path() / "node_modules");
-    }
+    const fs::path templates = templates_folder(share);
+    inputs.push_back(templates);
+    inputs.push_back(templates.parent_path() / "schemas");
+    inputs.push_back(templates.parent_path() / "node_modules");
 }
 
 reports::RenderAssets render_assets(const std::string& share, std::vector<std::string> languages) {

@@ -16,8 +16,9 @@ namespace gumcert::cli {
 /// \throws gum::StorageError  GC-STORE-0010
 [[nodiscard]] std::filesystem::path share_folder(const std::string& given);
 
-/// The folder of templates; empty where it is not found and --share does not name it: only certificate data need it.
-[[nodiscard]] std::filesystem::path templates_if_any(const std::string& given);
+/// The folder of templates: profiles, and the wording of every sentence that a record holds.
+/// \throws gum::StorageError  GC-STORE-0010
+[[nodiscard]] std::filesystem::path templates_folder(const std::string& given);
 
 /// Adds the folders that the program itself reads, templates and schemas, to the inputs that no output may overwrite.
 void add_program_files(std::vector<std::filesystem::path>& inputs, const std::string& share);

@@ -55,7 +55,8 @@ TEST_F(Output, MissingJobIsAFileTrouble) {
             trouble({command, (folder() / "missing.json").string(), "-o", (folder() / "out").string()});
         EXPECT_EQ(message.code, "GC-STORAGE-0001");
         EXPECT_NE(message.where.find("missing.json"), std::string::npos);
-        EXPECT_EQ(trouble({command, folder().string(), "-o", (folder() / "out").string()}).code, "GC-STORAGE-0001");
+        // A folder in place of a job: nothing is written into what is read.
+        EXPECT_EQ(trouble({command, folder().string(), "-o", (folder() / "out").string()}).code, "GC-STORE-0004");
     }
 }
 

@@ -90,7 +90,9 @@ TEST_F(RecordIntegrity, TheRecordHoldsTheFilesOfItsJob) {
     }
 }
 
-TEST(CheckCommand, LooksAtJobsAndDigitalCertificates) {
+class CheckCommand : public ProgramTest {};
+
+TEST_F(CheckCommand, LooksAtJobsAndDigitalCertificates) {
     TemporaryFolder folder;
     const std::string job = (shipped_example() / "job.json").string();
     EXPECT_EQ(gumcert({"check", job}).code, 0);

@@ -118,7 +118,7 @@ TEST(EvaluateJob, MakesACertificateOfAJobWithCertificateData) {
 }
 
 TEST(EvaluateJob, MakesNoCertificateWithoutCertificateData) {
-    const Evaluation evaluation = evaluate_job(k_tree / "examples/end_gauge/job.json", "", 1, "");
+    const Evaluation evaluation = evaluate_job(k_tree / "examples/end_gauge/job.json", "", 1, k_tree / "templates");
     EXPECT_FALSE(evaluation.record.certificate);
     EXPECT_FALSE(evaluation.blocked);
 }

@@ -19,7 +19,8 @@ std::string with_quantities(const std::string& quantities) {
            "</dcc:uniqueIdentifier><dcc:issueDate>2026-11-21</dcc:issueDate></dcc:coreData><dcc:calibrationLaboratory>"
            "<dcc:contact><dcc:name><dcc:content>Example Laboratory</dcc:content></dcc:name></dcc:contact>"
            "</dcc:calibrationLaboratory></dcc:administrativeData><dcc:measurementResults><dcc:measurementResult>"
-           "<dcc:results><dcc:result><dcc:data>" +
+           "<dcc:usedMethods>m</dcc:usedMethods><dcc:usedSoftware>s</dcc:usedSoftware>"
+           "<dcc:influenceConditions>c</dcc:influenceConditions><dcc:results><dcc:result><dcc:data>" +
            quantities +
            "</dcc:data></dcc:result></dcc:results></dcc:measurementResult></dcc:measurementResults>"
            "</dcc:digitalCalibrationCertificate>";
@@ -81,7 +82,7 @@ TEST(ImportCertificate, LeavesOutWhatCannotBeAnInput) {
     ASSERT_EQ(job["inputs"].size(), 1U);
     EXPECT_EQ(job["inputs"]["c"]["constant"], true);
     EXPECT_EQ(codes(imported.remarks),
-              (std::vector<std::string>{"GC-DCC-0021", "GC-DCC-0031", "GC-DCC-0031", "GC-DCC-0031", "GC-DCC-0034"}));
+              (std::vector<std::string>{"GC-DCC-0021", "GC-DCC-0031", "GC-DCC-0031", "GC-DCC-0031", "GC-DCC-0031"}));
 }
 
 /// What the reader of jobs would refuse is left out at the import, with the reason.
@@ -95,7 +96,7 @@ TEST(ImportCertificate, LeavesOutFactorsAndProbabilitiesThatAreNone) {
          {expanded("0.1", "0"), expanded("0.1", "-2"), expanded("-0.1", "2"), expanded("1e400", "2"), without_k("95"),
           without_k("0"), without_k("1"), without_k("NaN"), standard("-1"), standard("1e-400")}) {
         const ImportedJob imported = import_certificate(
-            with_quantities(quantity("good", "1", expanded("0.1", "1")) + quantity("bad", "1", uncertainty)), "a.xml");
+            with_quantities(quantity("good", "1", expanded("0.1", "2")) + quantity("bad", "1", uncertainty)), "a.xml");
         const nlohmann::json job = nlohmann::json::parse(imported.job);
         EXPECT_EQ(job["inputs"].size(), 1U) << uncertainty;
         EXPECT_EQ(codes(imported.remarks), std::vector<std::string>{"GC-DCC-0031"}) << uncertainty;

@@ -62,7 +62,7 @@ TEST(SideOfBudget, HasTheCoverageProbabilityOfTheComparison) {
 TEST(SideOfBudget, RefusesAValueWithoutUncertainty) {
     const BudgetJob certain = read_budget(R"("inputs": {"a": {"value": 1, "unit": "um", "constant": true}})");
     const gum::Diagnostic refused = refusal([&] { (void)side(certain); });
-    EXPECT_EQ(refused.code, "GC-COMPARE-0206");
+    EXPECT_EQ(refused.code, "GC-COMPARE-0205");
     EXPECT_EQ(refused.where, "budget.json");
 }
 

@@ -319,7 +319,9 @@ TEST(ReferenceComparison, UsesDegreesOfFreedomOfTheBudget) {
     const reports::Comparison comparison = reference_comparison(read(campaign_with_budget(budget)), displacement());
     const double nu = std::pow(0.38, 2) / (0.0016 / 4.0);  // Welch-Satterthwaite
     ASSERT_TRUE(comparison.points[0].reference_k);
-    EXPECT_NEAR(*comparison.points[0].reference_k, gum::coverage_factor(0.9545, nu), 1e-9);
+    // The convolution of a t-distribution with ν = 4 and the others has wider tails than t with their ν_eff.
+    EXPECT_GT(*comparison.points[0].reference_k, 1.01 * gum::coverage_factor(0.9545, nu));
+    EXPECT_LT(*comparison.points[0].reference_k, 1.1 * gum::coverage_factor(0.9545, nu));
 }
 
 TEST(ReferenceComparison, RefusesAReferenceValueWithoutUncertainty) {
@@ -332,7 +334,7 @@ TEST(ReferenceComparison, RefusesAReferenceValueWithoutUncertainty) {
         (void)reference_comparison(job, displacement());
         FAIL() << "a reference value without uncertainty was accepted";
     } catch (const gum::NoResultError& error) {
-        EXPECT_EQ(error.diagnostics().front().code, "GC-COMPARE-0206");
+        EXPECT_EQ(error.diagnostics().front().code, "GC-COMPARE-0205");
         EXPECT_THAT(gum::message(error.diagnostics().front()), HasSubstr("budgets/indicator.json, point x 45°"));
     }
 }

@@ -236,7 +236,11 @@ TEST(ReportedResult, HasTheIntervalAndTheVerdictsOfTheExactDistribution) {
         }();
         const Evaluated e = evaluated(job);
         const reports::ReportedResult& reported = e.reported();
-        ASSERT_TRUE(reported.interval);
+        if (!reported.interval) {  // all values are one: the uncertain inputs cancel
+            EXPECT_EQ(c.P(reported.value - 1e-9), 0.0);
+            EXPECT_EQ(c.P(reported.value + 1e-9), 1.0);
+            continue;
+        }
         const double low = (*reported.interval)[0];
         const double high = (*reported.interval)[1];
         const double tail = 0.5 * (1.0 - k_p);
@@ -328,11 +332,11 @@ TEST(ReportedResult, SaysWhyItIsThatOfMonteCarlo) {
     EXPECT_EQ(because("y = 2*x", x0, R"(, "coverage": "monte_carlo")"), "asked");
     EXPECT_EQ(because("y = 2*x", x0, R"(, "coverage": "monte_carlo", "outputs": {"y": {"coverage": "as_validated"}})"),
               "");
-    // Readings with ν = 3 and a normal contribution: Welch-Satterthwaite gives U = 0.138, right is 0.165.
+    // Readings with ν = 3 and a normal contribution: k of the convolution is what Monte Carlo finds.
     EXPECT_EQ(because("y = a", R"("a": {"components": [{"name": "r", "observations": [9.9, 10.0, 10.1, 10.0]},
                                                        {"name": "i", "u": 0.05}]})",
                       R"(, "monte_carlo": {"trials": 1000000})"),
-              "contradicted");
+              "");
     EXPECT_EQ(because("y = 2*x", x0, R"(, "monte_carlo": {"trials": 1000000})"), "");
 }
 
