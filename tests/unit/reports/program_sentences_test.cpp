@@ -114,7 +114,9 @@ TEST(ProgramSentences, AreEachFoundAgain) {
         }
         for (const auto& [language, sign] : {std::pair("de", ","), std::pair("es", ","), std::pair("zh-Hant", ".")}) {
             const std::string worded = all.worded(english, language, sign);
-            EXPECT_NE(worded, english) << id << " " << language;
+            if (id != "finding/P05") {  // it has no words of its own
+                EXPECT_NE(worded, english) << id << " " << language;
+            }
             for (const IdentifiedSentence::Argument& argument : arguments) {
                 EXPECT_THAT(worded, ::testing::HasSubstr(argument.value.starts_with("Qx")
                                                              ? argument.value
