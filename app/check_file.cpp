@@ -5,10 +5,8 @@
 
 #include "app/read_file.h"
 #include "app/recompute_record.h"
-#include "engine/job/budget_job.h"
-#include "engine/job/comparison_job.h"
+#include "engine/job/file_source.h"
 #include "engine/job/job_kind.h"
-#include "engine/job/rotary_table_job.h"
 
 namespace gumcert::app {
 
@@ -16,19 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<gum::Diagnostic> warnings_of_job(const std::string& kind, const fs::path& file) {
-    if (kind == "budget") {
-        return engine::read_budget_job(file).warnings;
-    }
-    return kind == "comparison" ? engine::read_comparison_job(file).warnings
-                                : engine::read_rotary_table_job(file).warnings;
-}
-
-FileCheck check_job(const fs::path& file) {
-    const std::string kind = engine::probable_job_kind(file).value_or("rotary_table");
+FileCheck check_job(const engine::FileSource& files, const std::string& name) {
+    const std::string kind = engine::probable_job_kind(files, name).value_or("rotary_table");
     FileCheck check{.kind = "job of kind " + kind, .findings = {}};
     try {
-        check.findings = warnings_of_job(kind, file);
+        check.findings = warnings_of_job(kind, files, name);
     } catch (const gum::InputError& refused) {
         check.findings = refused.diagnostics();
     }
@@ -69,9 +59,11 @@ FileCheck check_file(const fs::path& file, unsigned threads, const fs::path& tem
     const nlohmann::json document = nlohmann::json::parse(text, nullptr, false, /*ignore_comments=*/true);
     const bool says_record = document.is_object() && document.contains("schema") && document["schema"].is_string() &&
                              document["schema"].get<std::string>().starts_with("gumcert/record/");
-    return says_record || (document.is_discarded() && is_record)
-               ? check_record(text, file.string(), threads, templates, progress)
-               : check_job(file);
+    if (says_record || (document.is_discarded() && is_record)) {
+        return check_record(text, file.string(), threads, templates, progress);
+    }
+    const engine::DiskFileSource disk(file.parent_path());
+    return check_job(engine::ReadOnceSource(disk), file.filename().string());
 }
 
 }  // namespace gumcert::app

@@ -11,11 +11,11 @@
 #include "app/evaluate_comparison.h"
 #include "app/evaluate_rotary_table.h"
 #include "app/rotary_table_record.h"
+#include "encoding/sha2.h"
 #include "engine/job/budget_job.h"
 #include "engine/job/comparison_job.h"
 #include "engine/job/file_source.h"
 #include "engine/job/job_kind.h"
-#include "engine/job/read_once_source.h"
 #include "engine/job/rotary_table_job.h"
 #include "reports/record_sentences.h"
 
@@ -48,12 +48,24 @@ std::vector<reports::InputFile> held_files(const engine::ReadOnceSource& source,
 /// What is the same for jobs of all kinds.
 struct Task {
     const engine::ReadOnceSource& files;
-    const std::string& job_file;         ///< name in `files`
-    const std::string& covariance_file;  ///< name that it will have; "" when none will be written
+    const std::string& job_file;  ///< name in `files`
+    CovarianceFile covariance_file = CovarianceFile::none;
     unsigned threads = 0;
     const std::filesystem::path& templates;
     const Progress& progress;
 };
+
+/// The name of the covariance file of a job with these files.
+std::string covariance_name(CovarianceFile place, const std::vector<reports::InputFile>& files) {
+    if (place != CovarianceFile::with_others) {
+        return place == CovarianceFile::none ? "" : "covariance.csv";
+    }
+    std::string digests;
+    for (const reports::InputFile& file : files) {
+        digests += file.sha256;
+    }
+    return "covariance-" + encoding::sha256(digests).substr(0, 12) + ".csv";
+}
 
 /// The profile that certificate data ask for: found before the evaluation, which may take long.
 std::optional<certificate::Profile> profile_of(const std::optional<certificate::CertificateData>& data,
@@ -86,12 +98,12 @@ Evaluation evaluate_budget_job(const Task& task) {
                                 .severity = gum::Severity::note});
     }
     Evaluation evaluation;
-    const bool in_file = results > k_most_results_in_record && covariance.size() > 0 && !task.covariance_file.empty();
-    if (in_file) {
+    const std::vector<reports::InputFile> files = held_files(task.files, job.files);
+    if (results > k_most_results_in_record && covariance.size() > 0 && task.covariance_file != CovarianceFile::none) {
         evaluation.covariance_csv = budget_covariance_csv(job, result, covariance);
+        evaluation.covariance_file = covariance_name(task.covariance_file, files);
     }
-    evaluation.record =
-        budget_record(job, result, held_files(task.files, job.files), covariance, in_file ? task.covariance_file : "");
+    evaluation.record = budget_record(job, result, files, covariance, evaluation.covariance_file);
     evaluation.negative = result.validation_failed;
     if (job.certificate) {
         make_certificate(evaluation, job.certificate, profile, capability_inputs(job, result, task.threads));
@@ -104,8 +116,10 @@ Evaluation evaluate_rotary_table_job(const Task& task) {
     const std::optional<certificate::Profile> profile = profile_of(job.certificate, task.templates);
     const RotaryTableResult result = evaluate_rotary_table(job, task.threads, task.progress);
     Evaluation evaluation;
+    const std::vector<reports::InputFile> files = held_files(task.files, job.files);
     evaluation.covariance_csv = covariance_csv(job, result.solution.quantities, result.propagation.covariance);
-    evaluation.record = rotary_table_record(job, result, held_files(task.files, job.files), task.covariance_file);
+    evaluation.covariance_file = covariance_name(task.covariance_file, files);
+    evaluation.record = rotary_table_record(job, result, files, evaluation.covariance_file);
     evaluation.negative = result.validation_failed;
     make_certificate(evaluation, job.certificate, profile, {});
     return evaluation;
@@ -117,17 +131,6 @@ Evaluation evaluate_comparison_job(const Task& task) {
     evaluation.record = evaluate_comparison(job, held_files(task.files, job.files), task.progress);
     evaluation.negative = !evaluation.record.comparison->items_without_result.empty();
     return evaluation;
-}
-
-/// The reader of its kind tells all problems of a job whose kind cannot be read for sure.
-void read_as(const std::string& kind, const Task& task) {
-    if (kind == "budget") {
-        (void)engine::read_budget_job(task.files, task.job_file);
-    } else if (kind == "comparison") {
-        (void)engine::read_comparison_job(task.files, task.job_file);
-    } else {
-        (void)engine::read_rotary_table_job(task.files, task.job_file);
-    }
 }
 
 }  // namespace
@@ -144,6 +147,15 @@ void require_comparison_job(const std::filesystem::path& job_file) {
     }
 }
 
+std::vector<gum::Diagnostic> warnings_of_job(const std::string& kind, const engine::FileSource& source,
+                                             const std::string& job_file) {
+    if (kind == "budget") {
+        return engine::read_budget_job(source, job_file).warnings;
+    }
+    return kind == "comparison" ? engine::read_comparison_job(source, job_file).warnings
+                                : engine::read_rotary_table_job(source, job_file).warnings;
+}
+
 std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_file,
                                                const reports::EvaluationRecord& record) {
     std::vector<std::filesystem::path> files;
@@ -153,15 +165,14 @@ std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_
     return files;
 }
 
-Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string& covariance_file, unsigned threads,
+Evaluation evaluate_job(const std::filesystem::path& job_file, CovarianceFile covariance_file, unsigned threads,
                         const std::filesystem::path& templates, const Progress& progress) {
     return evaluate_job(engine::DiskFileSource(job_file.parent_path()), job_file.filename().string(), covariance_file,
                         threads, templates, progress);
 }
 
-Evaluation evaluate_job(const engine::FileSource& source, const std::string& job_file,
-                        const std::string& covariance_file, unsigned threads, const std::filesystem::path& templates,
-                        const Progress& progress) {
+Evaluation evaluate_job(const engine::FileSource& source, const std::string& job_file, CovarianceFile covariance_file,
+                        unsigned threads, const std::filesystem::path& templates, const Progress& progress) {
     const engine::ReadOnceSource files(source);
     const Task task{.files = files,
                     .job_file = job_file,
@@ -174,7 +185,7 @@ Evaluation evaluate_job(const engine::FileSource& source, const std::string& job
         kind = engine::job_kind(files, job_file);
     } catch (const gum::InputError&) {
         // The reader of its kind tells the other problems of the job together with this one.
-        read_as(engine::probable_job_kind(files, job_file).value_or(""), task);
+        (void)warnings_of_job(engine::probable_job_kind(files, job_file).value_or(""), files, job_file);
         throw;
     }
     Evaluation evaluation = kind == "budget"       ? evaluate_budget_job(task)

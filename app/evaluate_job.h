@@ -10,11 +10,20 @@
 
 namespace gumcert::app {
 
+/// Where the covariance file of a record will stand, which decides its name. The name never depends on that of the
+/// record: a job gives the same record wherever it is written.
+enum class CovarianceFile {
+    none,         ///< it will not be written
+    own_folder,   ///< alone in its folder: covariance.csv
+    with_others,  ///< beside those of other jobs: covariance-<digest of the files of the job>.csv
+};
+
 struct Evaluation {
     reports::EvaluationRecord record;
-    std::string covariance_csv;  ///< contents of the file that the record names; empty: there is none
-    bool negative = false;       ///< evaluated, and the answer is no: not validated where validation was demanded
-    bool blocked = false;        ///< critical findings block the issue of the certificate
+    std::string covariance_csv;   ///< contents of the file that the record names; empty: there is none
+    std::string covariance_file;  ///< its name; empty where `covariance_csv` is
+    bool negative = false;        ///< evaluated, and the answer is no: not validated where validation was demanded
+    bool blocked = false;         ///< critical findings block the issue of the certificate
 };
 
 /// The files that a record names as read, as paths beside the job.
@@ -25,23 +34,28 @@ struct Evaluation {
 /// \throws gum::InputError  GC-COMPARE-0140
 void require_comparison_job(const std::filesystem::path& job_file);
 
+/// Reads a job with all its files as one of a kind, any other word than "budget" and "comparison" as one of a rotary
+/// table. \return what the reader warns of
+/// \throws gum::InputError  with all that the reader refuses
+[[nodiscard]] std::vector<gum::Diagnostic> warnings_of_job(const std::string& kind, const engine::FileSource& source,
+                                                           const std::string& job_file);
+
 /// Called now and then with a sentence on what is being done.
 using Progress = std::function<void(const std::string&)>;
 
 /// Reads a job with all its files, evaluates it and makes its record. Writes nothing.
 ///
-/// \param covariance_file  name that the covariance file will have beside the record; "" when none will be written
-/// \param threads          of Monte Carlo; 0: as many as the machine has. Results do not depend on it
-/// \param templates        folder with profiles/<id>.json, for certificate data that name a profile by its id
+/// \param threads    of Monte Carlo; 0: as many as the machine has. Results do not depend on it
+/// \param templates  folder with profiles/<id>.json, for certificate data that name a profile by its id
 /// \throws gum::InputError  GC-CERT-0300 for a profile that is not in the folder, and those of the readers
 /// \throws gum::NoResultError, gum::StorageError
-[[nodiscard]] Evaluation evaluate_job(const std::filesystem::path& job_file, const std::string& covariance_file,
+[[nodiscard]] Evaluation evaluate_job(const std::filesystem::path& job_file, CovarianceFile covariance_file,
                                       unsigned threads, const std::filesystem::path& templates,
                                       const Progress& progress = {});
 /// The same of a job in any source of files, under its name there. Every file is read once, so that the digests in the
 /// record are those of the bytes that were evaluated.
 [[nodiscard]] Evaluation evaluate_job(const engine::FileSource& source, const std::string& job_file,
-                                      const std::string& covariance_file, unsigned threads,
+                                      CovarianceFile covariance_file, unsigned threads,
                                       const std::filesystem::path& templates, const Progress& progress = {});
 
 }  // namespace gumcert::app

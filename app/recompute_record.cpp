@@ -121,11 +121,14 @@ std::string made_by(const reports::Software& software) {
     return software.name + " " + software.version + " (commit " + software.commit + ")";
 }
 
-std::string covariance_file_of(const EvaluationRecord& record) {
-    if (record.rotary) {
-        return record.rotary->covariance_file.value_or("");
-    }
-    return record.covariance ? record.covariance->file : "";
+/// As the record was made; where its name is another one, the comparison of the two records tells it.
+CovarianceFile covariance_file_of(const EvaluationRecord& record) {
+    const std::string name = record.rotary       ? record.rotary->covariance_file.value_or("")
+                             : record.covariance ? record.covariance->file
+                                                 : "";
+    return name.empty()               ? CovarianceFile::none
+           : name == "covariance.csv" ? CovarianceFile::own_folder
+                                      : CovarianceFile::with_others;
 }
 
 gum::InputError refusal(const char* code, const std::string& where, std::string what, std::string rule) {

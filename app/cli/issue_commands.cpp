@@ -154,14 +154,14 @@ bool naming_job(const fs::path& job, const Work& work) {
 bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> inputs, Issuer& issuer,
              const DocumentOptions& options, const CommonOptions& common, ProgressLine& progress, bool several) {
     app::Evaluation evaluation =
-        app::evaluate_job(job, "covariance.csv", static_cast<unsigned>(common.threads), templates_folder(options.share),
-                          [&](const std::string& text) { progress(text); });
+        app::evaluate_job(job, app::CovarianceFile::own_folder, static_cast<unsigned>(common.threads),
+                          templates_folder(options.share), [&](const std::string& text) { progress(text); });
     const reports::EvaluationRecord& record = evaluation.record;
     const std::vector<fs::path> documents = document_files(record, folder);
     std::vector<app::OutputFile> files{{folder / "record.json", reports::to_canonical_json(record)}};
     look_at_the_day(evaluation.record);  // the record is written as it is on every day
     if (!evaluation.covariance_csv.empty()) {
-        files.push_back({folder / "covariance.csv", evaluation.covariance_csv});
+        files.push_back({folder / evaluation.covariance_file, evaluation.covariance_csv});
     }
     const bool held_back = withheld(record, options.draft);
     if (!held_back) {
@@ -312,8 +312,6 @@ ExitCode evaluate_to_record(const fs::path& job, const std::string& output, cons
     const bool to_stdout = output == "-";
     const fs::path record_file =
         output.empty() ? job.parent_path() / (job.stem().string() + "-record.json") : fs::path(output);
-    // The covariance stands beside the record under the record's own name, so that two records do not share it.
-    const std::string covariance_name = to_stdout ? "" : record_file.stem().string() + "-covariance.csv";
     std::vector<fs::path> inputs{job};
     add_program_files(inputs, share);
     if (!to_stdout) {
@@ -322,7 +320,8 @@ ExitCode evaluate_to_record(const fs::path& job, const std::string& output, cons
     }
     ProgressLine progress(!common.quiet);
     app::Evaluation evaluation =
-        app::evaluate_job(job, covariance_name, static_cast<unsigned>(common.threads), templates_folder(share),
+        app::evaluate_job(job, to_stdout ? app::CovarianceFile::none : app::CovarianceFile::with_others,
+                          static_cast<unsigned>(common.threads), templates_folder(share),
                           [&](const std::string& text) { progress(text); });
     const std::string text = reports::to_canonical_json(evaluation.record);
     look_at_the_day(evaluation.record);
@@ -338,7 +337,7 @@ ExitCode evaluate_to_record(const fs::path& job, const std::string& output, cons
     }
     std::vector<app::OutputFile> files{{record_file, text}};
     if (!evaluation.covariance_csv.empty()) {
-        files.push_back({record_file.parent_path() / covariance_name, evaluation.covariance_csv});
+        files.push_back({record_file.parent_path() / evaluation.covariance_file, evaluation.covariance_csv});
     }
     for (const fs::path& file : app::input_files(job, evaluation.record)) {
         inputs.push_back(file);

@@ -37,4 +37,10 @@ std::string MemoryFileSource::read(const std::string& name) const {
     return found->second.substr(0, k_file_limit + 1);
 }
 
+std::string ReadOnceSource::read(const std::string& name) const {
+    const std::lock_guard guard(lock_);
+    const auto found = read_.find(name);
+    return found != read_.end() ? found->second : read_.emplace(name, source_.read(name)).first->second;
+}
+
 }  // namespace gumcert::engine

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <mutex>
 #include <string>
 
 namespace gumcert::engine {
@@ -39,6 +40,19 @@ public:
 
 private:
     std::map<std::string, std::string> files_;
+};
+
+/// Another source of which every file is read once: what is parsed, parsed again and digested are the same bytes, also
+/// where a file changes meanwhile. Two spellings of a name ("a.csv", "x/../a.csv") are two names.
+class ReadOnceSource : public FileSource {
+public:
+    explicit ReadOnceSource(const FileSource& source) : source_(source) {}
+    [[nodiscard]] std::string read(const std::string& name) const override;
+
+private:
+    const FileSource& source_;
+    mutable std::mutex lock_;
+    mutable std::map<std::string, std::string> read_;
 };
 
 }  // namespace gumcert::engine

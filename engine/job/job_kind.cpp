@@ -4,7 +4,6 @@
 #include <array>
 
 #include "engine/job/json_document.h"
-#include "engine/job/read_once_source.h"
 
 namespace gumcert::engine {
 

@@ -32,5 +32,6 @@ struct JobKeys {
 /// The kind that a job seems to be of, also where its text has faults: which reader should tell what is wrong with it.
 /// \return nothing when that cannot be seen
 [[nodiscard]] std::optional<std::string> probable_job_kind(const std::filesystem::path& job_file);
+[[nodiscard]] std::optional<std::string> probable_job_kind(const FileSource& source, const std::string& job_file);
 
 }  // namespace gumcert::engine

@@ -15,15 +15,40 @@ protected:
     fs::path job_;
 };
 
-TEST_F(Evaluate, WritesRecordAndCovarianceUnderTheGivenName) {
+/// The name of the only covariance file among files.
+std::string covariance_among(const std::map<std::string, std::string>& files) {
+    std::string found;
+    for (const auto& [name, bytes] : files) {
+        if (name.starts_with("covariance-") && name.ends_with(".csv")) {
+            EXPECT_EQ(found, "") << "a second one: " << name;
+            found = name;
+        }
+    }
+    return found;
+}
+
+TEST_F(Evaluate, WritesRecordAndCovariance) {
     const fs::path record = folder() / "made" / "for it" / "table.json";
     const Ended ended = gumcert({"evaluate", job_.string(), "-o", record.string()});
     ASSERT_EQ(ended.code, 0) << ended.err;
     const auto files = contents_of(record.parent_path());
     EXPECT_EQ(files.size(), 2U);
     EXPECT_TRUE(files.contains("table.json"));
-    EXPECT_TRUE(files.contains("table-covariance.csv"));
-    EXPECT_EQ(json::parse(files.at("table.json"))["rotary"]["covariance"]["file"], "table-covariance.csv");
+    const std::string covariance = covariance_among(files);
+    EXPECT_NE(covariance, "");
+    EXPECT_EQ(json::parse(files.at("table.json"))["rotary"]["covariance"]["file"], covariance);
+}
+
+TEST_F(Evaluate, TheRecordIsTheSameWhereverItIsWritten) {
+    for (const char* name : {"a.json", "b.json", "deep/er/c"}) {
+        const Ended ended = gumcert({"evaluate", job_.string(), "-o", (folder() / "made" / name).string()});
+        ASSERT_EQ(ended.code, 0) << ended.err;
+    }
+    const auto files = contents_of(folder() / "made");
+    EXPECT_EQ(files.at("a.json"), files.at("b.json"));
+    EXPECT_EQ(files.at("a.json"), bytes_of(folder() / "made/deep/er/c"));
+    EXPECT_NE(covariance_among(files), "") << "both records name one file, which is that of both";
+    EXPECT_EQ(contents_of(folder() / "made/deep/er").count(covariance_among(files)), 1U);
 }
 
 TEST_F(Evaluate, WritesBesideTheJobByDefault) {
@@ -33,7 +58,7 @@ TEST_F(Evaluate, WritesBesideTheJobByDefault) {
     ASSERT_TRUE(after.contains("job-record.json"));
     EXPECT_EQ(json::parse(after["job-record.json"])["schema"], "gumcert/record/1");
     EXPECT_EQ(after.erase("job-record.json"), 1U);
-    EXPECT_EQ(after.erase("job-record-covariance.csv"), 1U);
+    EXPECT_EQ(after.erase(covariance_among(after)), 1U);
     EXPECT_EQ(after, before);
 }
 
@@ -45,7 +70,7 @@ TEST_F(Evaluate, WritesToStandardOutputAndNothingElseThere) {
     json piped = json::parse(ended.out);  // throws when there is anything beside the record
     EXPECT_TRUE(piped["rotary"]["covariance"]["file"].is_null()) << "no such file was written";
     json written = evaluate(job_);
-    EXPECT_EQ(written["rotary"]["covariance"]["file"], "record-covariance.csv");
+    EXPECT_TRUE(written["rotary"]["covariance"]["file"].get<std::string>().starts_with("covariance-"));
     for (json* record : {&piped, &written}) {
         (*record)["rotary"]["covariance"].erase("file");
         record->erase("digest");  // it follows from the rest

@@ -78,7 +78,9 @@ TEST_F(KeptPromises, EveryMessageHasARule) {
 }
 
 TEST_F(KeptPromises, CovarianceIsSymmetricToTheLastBit) {
-    const std::vector<std::string> lines = lines_of(bytes_of(folder() / "record-covariance.csv"));
+    const std::vector<std::string> lines =
+        lines_of(bytes_of(record_.parent_path() /
+                          nlohmann::json::parse(bytes_of(record_))["rotary"]["covariance"]["file"].get<std::string>()));
     std::vector<std::vector<std::string>> cells;
     for (const std::string& line : lines) {
         cells.emplace_back();

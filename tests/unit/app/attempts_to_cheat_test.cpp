@@ -80,7 +80,8 @@ protected:
         }
         std::ofstream(folder_ / "end_gauge_certificate.json") << data.dump();
         std::ofstream(folder_ / "end_gauge.json") << job.dump();
-        return *evaluate_job(folder_ / "end_gauge.json", "", 1, k_tree / "templates").record.certificate;
+        return *evaluate_job(folder_ / "end_gauge.json", CovarianceFile::none, 1, k_tree / "templates")
+                    .record.certificate;
     }
 
     void expect_told(const Attempt& attempt) const {

@@ -100,7 +100,7 @@ TEST(CapabilityInputs, HoldTheDistributionOfAConvolution) {
 
 TEST(EvaluateJob, MakesACertificateOfAJobWithCertificateData) {
     const Evaluation evaluation =
-        evaluate_job(k_tree / "examples/certificate/end_gauge.json", "", 1, k_tree / "templates");
+        evaluate_job(k_tree / "examples/certificate/end_gauge.json", CovarianceFile::none, 1, k_tree / "templates");
     ASSERT_TRUE(evaluation.record.certificate);
     const certificate::Certificate& c = *evaluation.record.certificate;
     EXPECT_FALSE(evaluation.blocked);
@@ -118,7 +118,8 @@ TEST(EvaluateJob, MakesACertificateOfAJobWithCertificateData) {
 }
 
 TEST(EvaluateJob, MakesNoCertificateWithoutCertificateData) {
-    const Evaluation evaluation = evaluate_job(k_tree / "examples/end_gauge/job.json", "", 1, k_tree / "templates");
+    const Evaluation evaluation =
+        evaluate_job(k_tree / "examples/end_gauge/job.json", CovarianceFile::none, 1, k_tree / "templates");
     EXPECT_FALSE(evaluation.record.certificate);
     EXPECT_FALSE(evaluation.blocked);
 }

@@ -65,8 +65,8 @@ TEST_F(CheckFile, WhatTheReaderRefusesIsToldAllTogether) {
 }
 
 TEST_F(CheckFile, RecordsAreEvaluatedAgain) {
-    const std::string text =
-        reports::to_canonical_json(evaluate_job(k_examples / "end_gauge/job.json", "", 1, k_templates).record);
+    const std::string text = reports::to_canonical_json(
+        evaluate_job(k_examples / "end_gauge/job.json", CovarianceFile::none, 1, k_templates).record);
     EXPECT_EQ(check_file(put(text), 1, k_templates).kind, "record of kind budget");
     EXPECT_EQ(errors(check_file(put(text), 1, k_templates)), Codes());
     nlohmann::json changed = nlohmann::json::parse(text);

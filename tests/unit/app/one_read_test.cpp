@@ -37,8 +37,8 @@ TEST(OneRead, OfEveryFileOfEveryExample) {
         SCOPED_TRACE(job);
         ASSERT_TRUE(fs::exists(examples / job));
         const ChangingSource source((examples / job).parent_path());
-        const Evaluation evaluation =
-            evaluate_job(source, fs::path(job).filename().string(), "", 1, fs::path(GUMCERT_SOURCE_DIR) / "templates");
+        const Evaluation evaluation = evaluate_job(source, fs::path(job).filename().string(), CovarianceFile::none, 1,
+                                                   fs::path(GUMCERT_SOURCE_DIR) / "templates");
         EXPECT_FALSE(evaluation.record.job_files.empty());
         for (const auto& [name, count] : source.readings_) {
             EXPECT_EQ(count, 1U) << name;
@@ -57,7 +57,7 @@ TEST(OneRead, AlsoOfAJobThatIsRefused) {
     fs::create_directories(folder);
     std::ofstream(folder / "job.json") << R"({"schema": "gumcert/job/1", "kind": "budgit", "inputs": {}})";
     const ChangingSource source(folder);
-    EXPECT_ANY_THROW((void)evaluate_job(source, "job.json", "", 1, {}));
+    EXPECT_ANY_THROW((void)evaluate_job(source, "job.json", CovarianceFile::none, 1, {}));
     EXPECT_EQ(source.readings_["job.json"], 1U);
     fs::remove_all(folder);
 }

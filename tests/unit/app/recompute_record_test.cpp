@@ -19,7 +19,8 @@ const std::filesystem::path k_examples = std::filesystem::path(GUMCERT_SOURCE_DI
 const std::filesystem::path k_templates = std::filesystem::path(GUMCERT_SOURCE_DIR) / "templates";
 
 std::string record_of(const std::string& job) {
-    return reports::to_canonical_json(evaluate_job(k_examples / job, "record-covariance.csv", 1, k_templates).record);
+    return reports::to_canonical_json(
+        evaluate_job(k_examples / job, CovarianceFile::with_others, 1, k_templates).record);
 }
 
 EvaluationRecord read(const std::string& text) {
@@ -245,7 +246,7 @@ TEST(RecomputeRecord, GatesAreThoseOfTheJob) {
         files.emplace(file.name, reports::bytes_of(file).value());
     }
     const std::string text = reports::to_canonical_json(
-        evaluate_job(engine::MemoryFileSource(files), "job.json", "", 1, k_templates).record);
+        evaluate_job(engine::MemoryFileSource(files), "job.json", CovarianceFile::none, 1, k_templates).record);
     ASSERT_TRUE(json::parse(text)["certificate"]["blocked"]);
     EXPECT_EQ(codes(edited(text, "/certificate/blocked", false)), std::vector<std::string>{"GC-RECORD-0022"});
 }
