@@ -102,7 +102,7 @@ struct Table {
         }
         return "\"model\": [\"y = " + names[0] + " + 2*" + names[1] + " - " + names[2] + "*" + names[3] +
                "\", \"z = " + names[0] + " - " + names[3] + "\"], \"inputs\": {" + inputs + "}, \"correlations\": [" +
-               correlations + "], \"points\": [" + points + "]";
+               correlations + "], \"coverage\": \"law_of_propagation\", \"points\": [" + points + "]";
     }
 };
 
