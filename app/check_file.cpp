@@ -29,7 +29,7 @@ FileCheck check_record(const std::string& text, const std::string& name, unsigne
                        const Progress& progress) {
     FileCheck check{.kind = "record", .findings = {}};
     try {
-        const reports::EvaluationRecord record = reports::record_from_json(text, name);
+        reports::EvaluationRecord record = reports::record_from_json(text, name);
         check.kind = "record of kind " + record.kind;
         if (const std::optional<gum::Diagnostic> why = recompute_record(record, name, threads, templates, progress)) {
             check.findings.push_back(*why);

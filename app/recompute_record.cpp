@@ -49,6 +49,16 @@ double largest_in(const json& list) {
     return largest;
 }
 
+/// A square matrix with a diagonal that is not negative: of covariances, whose rows have different units.
+bool is_covariance(const json& list) {
+    bool is = list.size() > 1;
+    for (std::size_t i = 0; is && i < list.size(); ++i) {
+        is = list[i].is_array() && list[i].size() == list.size() && list[i][i].is_number() &&
+             list[i][i].get<double>() >= 0.0;
+    }
+    return is;
+}
+
 /// Walks two JSON values side by side.
 class Comparison {
 public:
@@ -79,6 +89,10 @@ public:
                 }
             }
         } else if (stated.is_array() && evaluated.is_array() && stated.size() == evaluated.size()) {
+            if (is_covariance(evaluated)) {
+                compare_covariance(stated, evaluated, pointer);
+                return;
+            }
             const double within = largest_in(evaluated);
             for (std::size_t i = 0; i < stated.size(); ++i) {
                 compare(stated[i], evaluated[i], pointer + "/" + std::to_string(i), within);
@@ -103,6 +117,20 @@ private:
     std::string where_;
     std::vector<gum::Diagnostic> found_;
     std::size_t left_out_ = 0;
+
+    void compare_covariance(const json& stated, const json& evaluated, const std::string& pointer) {
+        for (std::size_t i = 0; i < stated.size(); ++i) {
+            const std::string row = pointer + "/" + std::to_string(i);
+            if (!stated[i].is_array() || stated[i].size() != stated.size()) {
+                differs(row, shown(stated[i]), shown(evaluated[i]));
+                continue;
+            }
+            for (std::size_t j = 0; j < stated.size(); ++j) {
+                const double u = std::sqrt(evaluated[i][i].get<double>() * evaluated[j][j].get<double>());
+                compare(stated[i][j], evaluated[i][j], row + "/" + std::to_string(j), u);
+            }
+        }
+    }
 
     void differs(const std::string& pointer, const std::string& stated, const std::string& evaluated) {
         if (found_.size() >= k_most_disagreements) {
@@ -228,17 +256,18 @@ EvaluationRecord evaluated_again(const EvaluationRecord& record, const std::stri
                   "a record comes from a job that can be evaluated");
 }
 
-std::optional<gum::Diagnostic> recompute_record(const EvaluationRecord& record, const std::string& where,
-                                                unsigned threads, const std::filesystem::path& templates,
-                                                const Progress& progress) {
+std::optional<gum::Diagnostic> recompute_record(EvaluationRecord& record, const std::string& where, unsigned threads,
+                                                const std::filesystem::path& templates, const Progress& progress) {
     if (std::optional<gum::Diagnostic> why = not_recomputable(record, where)) {
         return why;
     }
-    std::vector<gum::Diagnostic> found =
-        disagreements(record, evaluated_again(record, where, threads, templates, progress), where);
+    EvaluationRecord evaluated = evaluated_again(record, where, threads, templates, progress);
+    std::vector<gum::Diagnostic> found = disagreements(record, evaluated, where);
     if (!found.empty()) {
         throw gum::InputError(std::move(found));
     }
+    evaluated.digest = record.digest;
+    record = std::move(evaluated);
     return std::nullopt;
 }
 

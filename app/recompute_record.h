@@ -16,9 +16,9 @@ namespace gumcert::app {
 inline constexpr std::size_t k_most_disagreements = 20;
 
 /// Where a record says something else than the one that its job gives. The same numbers are those that agree within
-/// 1e-9 of their size, or of 1e-12 of the largest in their list: mathematical functions of two computers may differ in
-/// the last digit. Every text, every digit that is printed, every verdict is the same to the letter.
-/// \param where  name of the record, for messages
+/// 1e-9 of their size, or of 1e-12 of the largest in their list, in a matrix of covariances of the two standard
+/// uncertainties: mathematical functions of two computers may differ in the last digit. Every text, every digit that is
+/// printed, every verdict is the same to the letter. \param where  name of the record, for messages
 [[nodiscard]] std::vector<gum::Diagnostic> disagreements(const reports::EvaluationRecord& stated,
                                                          const reports::EvaluationRecord& evaluated,
                                                          const std::string& where);
@@ -36,9 +36,10 @@ inline constexpr std::size_t k_most_disagreements = 20;
                                                         const Progress& progress = {});
 
 /// Believes nothing that a record says: evaluates its job again and compares.
+/// \param record  becomes the one that its job gives: what is printed from it was computed here
 /// \return why it cannot be evaluated again, as a diagnostic; none where it was, and agrees in everything
 /// \throws gum::InputError  GC-RECORD-0022 with every place where it disagrees, and those of evaluated_again()
-[[nodiscard]] std::optional<gum::Diagnostic> recompute_record(const reports::EvaluationRecord& record,
+[[nodiscard]] std::optional<gum::Diagnostic> recompute_record(reports::EvaluationRecord& record,
                                                               const std::string& where, unsigned threads,
                                                               const std::filesystem::path& templates,
                                                               const Progress& progress = {});

@@ -19,7 +19,9 @@
 #include "app/read_file.h"
 #include "app/recompute_record.h"
 #include "certificate/day_of_issue.h"
+#include "certificate/printed_languages.h"
 #include "reports/record/evaluation_record.h"
+#include "reports/record_sentences.h"
 
 namespace gumcert::cli {
 
@@ -77,9 +79,16 @@ void print_written(const std::vector<app::OutputFile>& files) {
 
 /// A certificate that is dated later than today is not issued: told here, and not in the record, which is the same on
 /// every day.
-void look_at_the_day(reports::EvaluationRecord& record) {
-    if (record.certificate) {
-        (void)certificate::block_issue_ahead_of_time(*record.certificate, today());
+/// Judges what the record cannot know: the day, and the languages that are asked for.
+void judge_issue(reports::EvaluationRecord& record, const std::vector<std::string>& languages,
+                 const std::string& share) {
+    if (!record.certificate) {
+        return;
+    }
+    const bool too_early = certificate::block_issue_ahead_of_time(*record.certificate, today());
+    const bool lacking = certificate::judge_printed_languages(*record.certificate, languages);
+    if (too_early || lacking) {  // what was found now has to be worded, too
+        reports::identify_sentences(record, templates_folder(share));
     }
 }
 
@@ -159,7 +168,7 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
     const reports::EvaluationRecord& record = evaluation.record;
     const std::vector<fs::path> documents = document_files(record, folder);
     std::vector<app::OutputFile> files{{folder / "record.json", reports::to_canonical_json(record)}};
-    look_at_the_day(evaluation.record);  // the record is written as it is on every day
+    judge_issue(evaluation.record, options.languages, options.share);  // the record is written as it is on every day
     if (!evaluation.covariance_csv.empty()) {
         files.push_back({folder / evaluation.covariance_file, evaluation.covariance_csv});
     }
@@ -252,7 +261,7 @@ ExitCode render_record(const std::string& name, const std::string& format, const
     if (unchecked && !print_as_unchecked(record, *unchecked, options, common)) {
         return negative_answer;
     }
-    look_at_the_day(record);
+    judge_issue(record, options.languages, options.share);
     if (withheld(record, options.draft)) {
         report_findings(record, common);
         report_withheld(name, {file}, common);
@@ -324,7 +333,7 @@ ExitCode evaluate_to_record(const fs::path& job, const std::string& output, cons
                           static_cast<unsigned>(common.threads), templates_folder(share),
                           [&](const std::string& text) { progress(text); });
     const std::string text = reports::to_canonical_json(evaluation.record);
-    look_at_the_day(evaluation.record);
+    judge_issue(evaluation.record, {}, share);
     progress.clear();
     const bool blocked =
         evaluation.blocked || (evaluation.record.certificate && evaluation.record.certificate->blocked);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -29,7 +30,8 @@ EvaluationRecord read(const std::string& text) {
 
 std::vector<gum::Diagnostic> refusals(const std::string& text) {
     try {
-        if (const std::optional<gum::Diagnostic> why = recompute_record(read(text), "record.json", 1, k_templates)) {
+        EvaluationRecord record = read(text);
+        if (const std::optional<gum::Diagnostic> why = recompute_record(record, "record.json", 1, k_templates)) {
             return {*why};
         }
     } catch (const gum::InputError& error) {
@@ -310,8 +312,40 @@ TEST(RecomputeRecord, SaysWhyItCannot) {
 }
 
 TEST(RecomputeRecord, DoesNotDependOnTheNumberOfThreads) {
-    const EvaluationRecord record = read(record_of("gauge_block/job.json"));
+    EvaluationRecord record = read(record_of("gauge_block/job.json"));
     EXPECT_EQ(recompute_record(record, "record.json", 3, k_templates), std::nullopt);
+}
+
+// What is printed was computed here: a number that differs by less than two computers may differ is not taken over.
+TEST(RecomputeRecord, BecomesTheRecordThatTheJobGives) {
+    const std::string text = record_of("gauge_block/job.json");
+    EvaluationRecord record = read(text);
+    const double stated = record.results.front().budget.front().u;
+    record.results.front().budget.front().u *= 1.0 + 9e-10;
+    EXPECT_EQ(recompute_record(record, "record.json", 1, k_templates), std::nullopt);
+    EXPECT_EQ(record.results.front().budget.front().u, stated);
+    EXPECT_EQ(reports::to_canonical_json(record), text);
+}
+
+// Rows of a matrix of covariances have different units: a small variance is not nothing beside a large one.
+TEST(RecomputeRecord, ComparesCovariancesWithTheirOwnUncertainties) {
+    const std::map<std::string, std::string> files{{"job.json", R"({"schema": "gumcert/job/1", "kind": "budget",
+        "model": ["f = a", "C = b"], "inputs": {"a": {"value": 1e9, "u": 141, "unit": "Hz"},
+        "b": {"value": 1e-12, "u": 1.4e-16, "unit": "F"}}, "outputs": {"f": {"unit": "Hz"}, "C": {"unit": "F"}}})"}};
+    const std::string text = reports::to_canonical_json(
+        evaluate_job(engine::MemoryFileSource(files), "job.json", CovarianceFile::none, 1, k_templates).record);
+    EXPECT_EQ(codes(text), std::vector<std::string>());
+    json record = json::parse(text);
+    json& matrix = record["covariance"]["matrix"];
+    for (std::size_t i = 0; i < 2; ++i) {
+        for (std::size_t j = 0; j < 2; ++j) {
+            json changed = record;
+            json& element = changed["covariance"]["matrix"][i][j];
+            element = i == j ? matrix[i][j].get<double>() * 100.0
+                             : 0.1 * std::sqrt(matrix[0][0].get<double>() * matrix[1][1].get<double>());
+            EXPECT_EQ(codes(reports::with_digest(changed)).size(), 1U) << i << j;
+        }
+    }
 }
 
 }  // namespace
