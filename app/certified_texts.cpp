@@ -82,14 +82,6 @@ void take(reports::Result& result, const CertifiedValue* from) {
     }
 }
 
-/// The same number with the other sign, for the set-up as seen from the fixture.
-std::string negated(const std::string& printed) {
-    if (printed.find_first_of("123456789") == std::string::npos) {
-        return printed;
-    }
-    return printed.starts_with('-') ? printed.substr(1) : "-" + printed;
-}
-
 /// O_y → coordinate 1 of the offsets.
 void take_set_up(reports::RotaryTable& rotary, const std::string& name, const CertifiedValue* from) {
     if (from == nullptr || name.size() != 3 || name[1] != '_' || name[2] < 'x' || name[2] > 'z') {
@@ -99,7 +91,7 @@ void take_set_up(reports::RotaryTable& rotary, const std::string& name, const Ce
     const bool offset = name[0] == 'O';
     take((offset ? rotary.set_up.printed_O : rotary.set_up.printed_S)[coordinate], from);
     Printed& seen = (offset ? rotary.axis_in_fixture.printed_O : rotary.axis_in_fixture.printed_S)[coordinate];
-    seen.value = negated(from->printed_value);
+    seen.value = reports::negated(from->printed_value);
     seen.U = from->printed_U;
 }
 

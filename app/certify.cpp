@@ -13,6 +13,7 @@
 #include "app/certified_traceability.h"
 #include "app/record_parts.h"
 #include "app/reported_result.h"
+#include "app/rotary_findings.h"
 #include "certificate/gates.h"
 #include "certificate/result_names.h"
 #include "certificate/statement_of_uncertainty.h"
@@ -224,19 +225,18 @@ private:
                 continue;
             }
             value.verdict = verdict_of(specification, column, value,
-                                       value.external ? KnownDistribution() : known_distribution(result));
+                                       value.external ? KnownDistribution() : known_distribution(value, result));
         }
     }
 
-    [[nodiscard]] KnownDistribution known_distribution(const Result* result) const;
+    [[nodiscard]] KnownDistribution known_distribution(const CertifiedValue& value, const Result* result) const;
 };
 
-KnownDistribution Certifier::known_distribution(const Result* result) const {
-    if (result == nullptr) {
-        return {};
-    }
-    if (result->reported.method == "monte_carlo") {
-        if (const auto found = inputs_.trials.find(result->name); found != inputs_.trials.end()) {
+/// \param result  of a budget or of the set-up; none for another quantity of a rotary table
+KnownDistribution Certifier::known_distribution(const CertifiedValue& value, const Result* result) const {
+    if (value.coverage == "monte_carlo") {
+        const auto found = result != nullptr ? inputs_.trials.find(result->name) : inputs_.trials.end();
+        if (found != inputs_.trials.end()) {
             TrialDistribution trials = count_trials(found->second);
             return {.function = std::move(trials.function),
                     .note = "Probabilities are counted from " + std::to_string(trials.counted) + " Monte Carlo trials.",
@@ -247,7 +247,7 @@ KnownDistribution Certifier::known_distribution(const Result* result) const {
                     "Probabilities are those of a normal distribution with the stated U and k; the Monte Carlo "
                     "trials were not kept."};
     }
-    if (result->coverage == "convolution") {
+    if (result != nullptr && result->coverage == "convolution") {
         if (const auto found = inputs_.distributions.find(result->name); found != inputs_.distributions.end()) {
             return {.function = found->second,
                     .note = "Probabilities are those of the convolution of all input distributions."};
@@ -275,6 +275,12 @@ void add_s05(std::vector<Finding>& findings, const std::string& result, const st
     }
 }
 
+void add_against(std::vector<Finding>& findings, const std::string& result, const std::string& against) {
+    add_s05(findings, result,
+            "the law of propagation is reported because the job asks for it, although " + reason_in_words(against),
+            "Leave out \"coverage\": \"law_of_propagation\" in the job: then the result of Monte Carlo is reported.");
+}
+
 /// Results that Monte Carlo does not confirm, although ±U of the law of propagation is certified.
 void note_validation(std::vector<Finding>& findings, const std::string& result,
                      const std::optional<reports::MonteCarloSummary>& trials) {
@@ -285,17 +291,23 @@ void note_validation(std::vector<Finding>& findings, const std::string& result,
     }
 }
 
+/// The same of a quantity of a rotary table.
+template <class Quantity>
+void note_reported(std::vector<Finding>& findings, const std::string& result, const Quantity& quantity) {
+    if (!quantity.reported) {
+        note_validation(findings, result, quantity.monte_carlo);
+    } else if (!quantity.reported->against.empty()) {
+        add_against(findings, result, quantity.reported->against);
+    }
+}
+
 std::vector<Finding> validation_findings(const EvaluationRecord& record) {
     std::vector<Finding> findings;
     for (const Result& result : record.results) {
         const std::string name = result.quantity.empty() ? result.name : result.quantity;
         const reports::ReportedResult reported = reports::reported_result(result);
         if (!reported.against.empty()) {
-            add_s05(findings, name,
-                    "the law of propagation is reported because the job asks for it, although " +
-                        reason_in_words(reported.against),
-                    "Leave out \"coverage\": \"law_of_propagation\" in the job: then the result of Monte Carlo is "
-                    "reported.");
+            add_against(findings, name, reported.against);
         }
         if (reported.method == "law_of_propagation") {
             note_validation(findings, name, result.monte_carlo);
@@ -307,21 +319,21 @@ std::vector<Finding> validation_findings(const EvaluationRecord& record) {
     const reports::RotaryTable& rotary = *record.rotary;
     for (const reports::ErrorsAtAngle& at : rotary.errors) {
         for (std::size_t i = 0; i < at.errors.size(); ++i) {
-            note_validation(findings, rotary.error_names[i], at.errors[i].monte_carlo);
+            note_reported(findings, rotary.error_names[i], at.errors[i]);
         }
     }
     for (const reports::Reversal& reversal : rotary.reversal) {
-        note_validation(findings, "reversal_" + reversal.name, reversal.value.monte_carlo);
+        note_reported(findings, "reversal_" + reversal.name, reversal.value);
     }
     for (const reports::RangeRow& range : rotary.ranges) {
-        note_validation(findings, "range_" + range.name, range.monte_carlo);
+        note_reported(findings, "range_" + range.name, range);
     }
     for (const reports::TableParameter& parameter : rotary.location_errors) {
-        note_validation(findings, parameter.name, parameter.monte_carlo);
+        note_reported(findings, parameter.name, parameter);
     }
     if (rotary.iso230_2) {
         for (const reports::TableParameter& parameter : rotary.iso230_2->parameters) {
-            note_validation(findings, parameter.name, parameter.monte_carlo);
+            note_reported(findings, parameter.name, parameter);
         }
     }
     return findings;
@@ -351,6 +363,8 @@ void certify(EvaluationRecord& record, CertificateData data, Profile profile, co
     audit.insert(audit.end(), validation.begin(), validation.end());
     const std::vector<Finding> budget = budget_findings(record);
     audit.insert(audit.end(), budget.begin(), budget.end());
+    const std::vector<Finding> adjustment = rotary_findings(record);
+    audit.insert(audit.end(), adjustment.begin(), adjustment.end());
     const std::vector<Finding> traceability = traceability_findings(record);
     audit.insert(audit.end(), traceability.begin(), traceability.end());
     certificate::pass_gates(*record.certificate, audit);

@@ -10,7 +10,9 @@
 #include "app/document_units.h"
 #include "app/record_parts.h"
 #include "app/reference_comparison.h"
+#include "app/rotary_findings.h"
 #include "app/rotary_monte_carlo_record.h"
+#include "app/rotary_reported_results.h"
 #include "app/table_parameter_record.h"
 #include "gum/coverage.h"
 #include "gum/rounding.h"
@@ -130,6 +132,7 @@ nlohmann::json options_json(const RotaryTableJob& job, const engine::EvaluationO
                                                          : "stated"},
               {"distribution", shapes[static_cast<int>(measurement.fixture_shape)]}}},
             {"monte_carlo", monte_carlo_json(job.monte_carlo)},
+            {"coverage", engine::coverage_choice_name(job.coverage)},
             {"scale_model", scale_models[static_cast<int>(measurement.length_uncertainty.scale_model)]},
             {"outliers",
              {{"test", measurement.outliers.test == engine::OutlierTest::data_snooping ? "data_snooping" : "none"},
@@ -345,11 +348,14 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const R
     record.rotary = std::move(rotary);
     record.diagnostics.insert(record.diagnostics.end(), result.fixture.notes.begin(), result.fixture.notes.end());
     note_outliers(record, measurement.outliers);
+    const std::vector<gum::Diagnostic> remarks = rotary_remarks(record);
+    record.diagnostics.insert(record.diagnostics.end(), remarks.begin(), remarks.end());
     if (result.contact_point) {
         record.comparison = reference_comparison(job, *result.contact_point);
     }
     if (result.monte_carlo) {
         fill_monte_carlo(record, job, result);
+        report_rotary_results(record, job.coverage);
     }
     return record;
 }

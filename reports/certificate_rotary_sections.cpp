@@ -2,6 +2,7 @@
 
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
+#include "reports/reported_results.h"
 #include "reports/result_names.h"
 #include "reports/rotary_plots.h"
 
@@ -77,6 +78,17 @@ Text verdict_of(const std::optional<MonteCarloSummary>& m, const Wording& words)
                                                 : "not_validated");
 }
 
+bool by_monte_carlo(const TableParameter& p) {
+    return p.reported && p.reported->method == "monte_carlo";
+}
+
+std::string printed_k(const TableParameter& p) {
+    if (!by_monte_carlo(p)) {
+        return fixed(p.k, 2);
+    }
+    return p.reported->k ? fixed(*p.reported->k, 2) : "";
+}
+
 void parameter_table(CertificateBuilder& builder, const Wording& words, const std::string& id, const Text& caption,
                      const std::string& table, const std::vector<TableParameter>& parameters) {
     const bool compared = std::any_of(parameters.begin(), parameters.end(), [](const TableParameter& p) {
@@ -91,8 +103,9 @@ void parameter_table(CertificateBuilder& builder, const Wording& words, const st
     }
     Rows rows;
     for (const TableParameter& p : parameters) {
-        rows.push_back({p.name, result_meaning(table, p.name, p.description, words), p.printed.value, p.printed.U,
-                        p.printed.unit, fixed(p.k, 2), nu_text(p.nu_eff, words)});
+        rows.push_back({p.name, result_meaning(table, p.name, p.description, words), p.printed.value,
+                        stated_uncertainty(p.printed, p.reported, words), p.printed.unit, printed_k(p),
+                        by_monte_carlo(p) ? Text() : nu_text(p.nu_eff, words)});
         if (compared) {
             rows.back().push_back(verdict_of(p.monte_carlo, words));
         }
@@ -112,41 +125,54 @@ void layout_figure(CertificateBuilder& builder, const Wording& words, const Layo
 /// A quantity of the evaluation that Monte Carlo was compared for.
 struct Compared {
     Text group, name;
-    const Printed* printed;
+    Printed law;  ///< value and U of the law of propagation
     const MonteCarloSummary* trials;
 };
+
+/// Value and U of the law of propagation as printed, also where Monte Carlo is reported.
+template <class Quantity>
+Printed printed_law(const Quantity& q, const std::optional<ReportedResult>& reported) {
+    Printed law = q.printed;
+    if (reported && reported->method == "monte_carlo") {
+        const gum::RoundedPair pair = gum::round_to_uncertainty(q.value, q.U, 2);
+        law.value = pair.value;
+        law.U = pair.U;
+    }
+    return law;
+}
 
 std::vector<Compared> all_compared(const Wording& words, const EvaluationRecord& record) {
     std::vector<Compared> all;
     const RotaryTable& r = *record.rotary;
-    const auto add = [&](const Text& group, const Text& name, const Printed& printed,
-                         const std::optional<MonteCarloSummary>& m) {
+    const auto add_printed = [&](const Text& group, const Text& name, const Printed& law,
+                                 const std::optional<MonteCarloSummary>& m) {
         if (m) {
-            all.push_back({.group = group, .name = name, .printed = &printed, .trials = &*m});
+            all.push_back({.group = group, .name = name, .law = law, .trials = &*m});
         }
+    };
+    const auto add = [&](const Text& group, const Text& name, const auto& q) {
+        add_printed(group, name, printed_law(q, q.reported), q.monte_carlo);
     };
     for (std::size_t i = 0; i < 6; ++i) {
         for (const ErrorsAtAngle& at : r.errors) {
-            add(r.error_names[i], r.error_names[i] + " (" + words.number(at.printed_angle) + "°)", at.errors[i].printed,
-                at.errors[i].monte_carlo);
+            add(r.error_names[i], r.error_names[i] + " (" + words.number(at.printed_angle) + "°)", at.errors[i]);
         }
     }
     for (const Result& result : record.results) {
-        add(words("heading", "set_up"), result.name, result.printed, result.monte_carlo);
+        add_printed(words("heading", "set_up"), result.name, result.printed, result.monte_carlo);
     }
     for (const RangeRow& range : r.ranges) {
-        add(words("label", "range"), range.name + ", " + words("label", "range"), range.printed, range.monte_carlo);
+        add(words("label", "range"), range.name + ", " + words("label", "range"), range);
     }
     for (const Reversal& reversal : r.reversal) {
-        add(words("label", "reversal"), reversal.name + ", " + words("label", "reversal"), reversal.value.printed,
-            reversal.value.monte_carlo);
+        add(words("label", "reversal"), reversal.name + ", " + words("label", "reversal"), reversal.value);
     }
     for (const TableParameter& p : r.location_errors) {
-        add(words("label", "location_errors"), p.name, p.printed, p.monte_carlo);
+        add(words("label", "location_errors"), p.name, p);
     }
     if (r.iso230_2) {
         for (const TableParameter& p : r.iso230_2->parameters) {
-            add(words("heading", "positioning"), p.name, p.printed, p.monte_carlo);
+            add(words("heading", "positioning"), p.name, p);
         }
     }
     return all;
@@ -438,9 +464,9 @@ void rotary_monte_carlo(CertificateBuilder& builder, const Wording& words, const
             ++left_out;
             continue;
         }
-        exceptions.push_back({c.name, c.printed->value, c.printed->U, c.trials->printed.mean, c.trials->printed.u,
+        exceptions.push_back({c.name, c.law.value, c.law.U, c.trials->printed.mean, c.trials->printed.u,
                               c.trials->printed.symmetric[0], c.trials->printed.symmetric[1],
-                              c.trials->printed.shortest[0], c.trials->printed.shortest[1], c.printed->unit,
+                              c.trials->printed.shortest[0], c.trials->printed.shortest[1], c.law.unit,
                               verdict_of(*c.trials, words)});
     }
     if (groups.empty()) {

@@ -11,6 +11,7 @@
 #include "reports/comparison_identity.h"
 #include "reports/comparison_sections.h"
 #include "reports/record/canonical_json.h"
+#include "reports/reported_results.h"
 #include "reports/svg_plot.h"
 #include "reports/wording.h"
 
@@ -88,7 +89,21 @@ void conventions(CertificateBuilder& builder, const Wording& words, const Rotary
     builder.definitions(rows);
 }
 
-void set_up(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
+/// U and k of the set-up along a coordinate, "O_y". Those of Monte Carlo where its result is reported; an interval is
+/// that of the fixture seen from the table.
+std::pair<Text, Text> uncertainty_of_set_up(const EvaluationRecord& record, const std::string& name,
+                                            const Printed& printed, const Wording& words) {
+    for (const Result& result : record.results) {
+        if (result.name == name && result.reported.method == "monte_carlo") {
+            return {stated_uncertainty(result.reported.printed, result.reported, words),
+                    result.reported.k ? fixed(*result.reported.k, 2) : ""};
+        }
+    }
+    return {printed.U, fixed(record.rotary->set_up.k, 2)};
+}
+
+void set_up(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    const RotaryTable& r = *record.rotary;
     builder.section("set_up");
     builder.paragraph(words("sentence", "set_up_signs"));
     static constexpr std::array<const char*, 3> k_coordinates = {"x", "y", "z"};
@@ -97,8 +112,9 @@ void set_up(CertificateBuilder& builder, const Wording& words, const RotaryTable
         const auto& fixture = linear ? r.set_up.printed_O : r.set_up.printed_S;
         const auto& axis = linear ? r.axis_in_fixture.printed_O : r.axis_in_fixture.printed_S;
         for (std::size_t i = 0; i < 3; ++i) {
-            rows.push_back({std::string(linear ? "O_" : "S_") + k_coordinates[i], fixture[i].value, axis[i].value,
-                            fixture[i].U, fixture[i].unit, fixed(r.set_up.k, 2)});
+            const std::string name = std::string(linear ? "O_" : "S_") + k_coordinates[i];
+            const auto [U, k] = uncertainty_of_set_up(record, name, fixture[i], words);
+            rows.push_back({name, fixture[i].value, axis[i].value, U, fixture[i].unit, k});
         }
     }
     builder.table("set-up", words("heading", "set_up") + ".",
@@ -120,13 +136,13 @@ void ranges(CertificateBuilder& builder, const Wording& words, const RotaryTable
         for (const RangeRow& range : r.ranges) {
             if (range.name == r.error_names[i]) {
                 row[1] = range.printed.value;
-                row[2] = range.printed.U;
+                row[2] = stated_uncertainty(range.printed, range.reported, words);
             }
         }
         for (const Reversal& reversal : r.reversal) {
             if (reversal.name == r.error_names[i]) {
                 row[3] = reversal.value.printed.value;
-                row[4] = reversal.value.printed.U;
+                row[4] = stated_uncertainty(reversal.value.printed, reversal.value.reported, words);
             }
         }
         rows.push_back(std::move(row));
@@ -158,7 +174,7 @@ void error_motions(CertificateBuilder& builder, const Wording& words, const Rota
         std::vector<Text> row = {at.printed_angle};
         for (const ErrorValue& e : at.errors) {
             row.push_back(e.printed.value);
-            row.push_back(e.printed.U);
+            row.push_back(stated_uncertainty(e.printed, e.reported, words));
         }
         rows.push_back(std::move(row));
     }
@@ -193,14 +209,14 @@ void uncertainty_statement(CertificateBuilder& builder, const Wording& words, co
     if (record.rotary) {
         for (const ErrorsAtAngle& at : record.rotary->errors) {
             for (const ErrorValue& e : at.errors) {
-                if (!e.printed.U.empty()) {
+                if (!e.printed.U.empty() && (!e.reported || e.reported->method != "monte_carlo")) {
                     coverage.add(e.k, e.nu_eff);
                 }
             }
         }
     }
     for (const Result& r : record.results) {
-        if (r.k) {
+        if (r.k && r.reported.method != "monte_carlo") {
             coverage.add(*r.k, r.nu_eff);
         }
     }
@@ -220,6 +236,9 @@ void uncertainty_statement(CertificateBuilder& builder, const Wording& words, co
         const Text reason = coverage.nu_low ? words.fill("student", {{"nu_eff", nu_eff}}) : words("sentence", "normal");
         builder.paragraph(words.fill(
             "uncertainty", {{"k", k}, {"reason", reason}, {"coverage", words.number(record.printed_coverage)}}));
+    }
+    for (const Text& sentence : reasons_for_monte_carlo(record, words)) {
+        builder.paragraph(sentence);
     }
     builder.paragraph(words("sentence", "validity"));
 }
@@ -272,7 +291,7 @@ void specimen_sections(CertificateBuilder& builder, const Wording& words, const 
     identification(builder, words, record);
     if (record.rotary) {
         conventions(builder, words, *record.rotary);
-        set_up(builder, words, *record.rotary);
+        set_up(builder, words, record);
         location_errors(builder, words, *record.rotary);
         error_motions(builder, words, *record.rotary);
         positioning(builder, words, *record.rotary);

@@ -13,26 +13,29 @@ constexpr std::array<const char*, 7> k_reasons{"asked",      "second_order", "va
                                                "not_linear", "asymmetric",   "contradicted"};
 constexpr std::size_t k_most_names = 12;
 
+struct ReportedQuantity {
+    Text name;
+    const ReportedResult* reported;
+};
+
 /// "a, b and 3 more"
-Text names_of(const std::vector<std::string>& names, const Wording& words) {
-    std::string text;
+Text names_of(const std::vector<Text>& names, const Wording& words) {
+    Text text;
     for (std::size_t i = 0; i < std::min(names.size(), k_most_names); ++i) {
-        text += (i == 0 ? "" : ", ") + names[i];
+        text += (i == 0 ? Text() : Text(", ")) + names[i];
     }
     return names.size() <= k_most_names
-               ? Text(text)
+               ? text
                : words.fill("and_more", {{"names", text}, {"count", std::to_string(names.size() - k_most_names)}});
 }
 
-}  // namespace
-
-std::vector<Text> reasons_for_monte_carlo(const std::vector<Result>& results, const Wording& words) {
+std::vector<Text> sentences_of(const std::vector<ReportedQuantity>& quantities, const Wording& words) {
     std::vector<Text> sentences;
     const auto add = [&](const char* sentence, const char* reason, const std::string ReportedResult::*of) {
-        std::vector<std::string> names;
-        for (const Result& r : results) {
-            if (r.reported.*of == reason) {
-                names.push_back(r.name);
+        std::vector<Text> names;
+        for (const ReportedQuantity& q : quantities) {
+            if (q.reported->*of == reason) {
+                names.push_back(q.name);
             }
         }
         if (!names.empty()) {
@@ -47,8 +50,64 @@ std::vector<Text> reasons_for_monte_carlo(const std::vector<Result>& results, co
     return sentences;
 }
 
+/// What is reported of the quantities of a rotary table, where that has to be told.
+std::vector<ReportedQuantity> quantities_of(const RotaryTable& rotary, const Wording& words) {
+    std::vector<ReportedQuantity> all;
+    const auto add = [&](const Text& name, const std::optional<ReportedResult>& reported) {
+        if (reported) {
+            all.push_back({name, &*reported});
+        }
+    };
+    for (std::size_t i = 0; i < rotary.error_names.size(); ++i) {
+        for (const ErrorsAtAngle& at : rotary.errors) {
+            add(rotary.error_names[i] + Text(" (") + words.number(at.printed_angle) + "°)", at.errors[i].reported);
+        }
+    }
+    for (const Reversal& reversal : rotary.reversal) {
+        add(words("label", "reversal") + Text(" " + reversal.name), reversal.value.reported);
+    }
+    for (const RangeRow& range : rotary.ranges) {
+        add(words("label", "range") + Text(" " + range.name), range.reported);
+    }
+    for (const TableParameter& parameter : rotary.location_errors) {
+        add(parameter.name, parameter.reported);
+    }
+    if (rotary.iso230_2) {
+        for (const TableParameter& parameter : rotary.iso230_2->parameters) {
+            add(parameter.name, parameter.reported);
+        }
+    }
+    return all;
+}
+
+std::vector<ReportedQuantity> quantities_of(const std::vector<Result>& results) {
+    std::vector<ReportedQuantity> all;
+    for (const Result& result : results) {
+        all.push_back({result.name, &result.reported});
+    }
+    return all;
+}
+
+}  // namespace
+
+std::vector<Text> reasons_for_monte_carlo(const std::vector<Result>& results, const Wording& words) {
+    return sentences_of(quantities_of(results), words);
+}
+
 std::vector<Text> reasons_for_monte_carlo(const EvaluationRecord& record, const Wording& words) {
-    return reasons_for_monte_carlo(record.results, words);
+    std::vector<ReportedQuantity> all = quantities_of(record.results);
+    if (record.rotary) {
+        const std::vector<ReportedQuantity> of_table = quantities_of(*record.rotary, words);
+        all.insert(all.end(), of_table.begin(), of_table.end());
+    }
+    return sentences_of(all, words);
+}
+
+Text stated_uncertainty(const Printed& printed, const std::optional<ReportedResult>& reported, const Wording& words) {
+    if (!reported || reported->printed_low.empty()) {
+        return printed.U;
+    }
+    return words.number(reported->printed_low) + "\u00A0…\u00A0" + words.number(reported->printed_high);
 }
 
 }  // namespace gumcert::reports

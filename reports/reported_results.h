@@ -4,6 +4,7 @@
 #include "reports/record/evaluation_record.h"
 #include "reports/wording.h"
 
+#include <optional>
 #include <vector>
 
 namespace gumcert::reports {
@@ -12,5 +13,9 @@ namespace gumcert::reports {
 /// against the law of propagation where the job asked for it. Empty where nothing needs saying.
 [[nodiscard]] std::vector<Text> reasons_for_monte_carlo(const std::vector<Result>& results, const Wording& words);
 [[nodiscard]] std::vector<Text> reasons_for_monte_carlo(const EvaluationRecord& record, const Wording& words);
+
+/// U as printed, or "low … high" where only the coverage interval of Monte Carlo holds.
+[[nodiscard]] Text stated_uncertainty(const Printed& printed, const std::optional<ReportedResult>& reported,
+                                      const Wording& words);
 
 }  // namespace gumcert::reports

@@ -6,7 +6,7 @@
 
 namespace gumcert::engine {
 
-/// `coverage` of a budget job: which evaluation is reported.
+/// `coverage` of a budget or rotary-table job: which evaluation is reported.
 enum class CoverageChoice {
     as_validated,        ///< the law of propagation where it is adequate, Monte Carlo elsewhere
     law_of_propagation,  ///< whatever speaks against it

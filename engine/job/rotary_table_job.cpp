@@ -33,7 +33,7 @@ using Words = std::span<const std::string_view>;
 
 // ---- keys -----------------------------------------------------------------------------------------------------------
 
-constexpr std::array<std::string_view, 20> k_job_keys{"schema",
+constexpr std::array<std::string_view, 21> k_job_keys{"schema",
                                                       "kind",
                                                       "title",
                                                       "axis",
@@ -41,6 +41,7 @@ constexpr std::array<std::string_view, 20> k_job_keys{"schema",
                                                       "datum",
                                                       "method",
                                                       "coverage_probability",
+                                                      "coverage",
                                                       "observations",
                                                       "length_uncertainty",
                                                       "fixture",
@@ -130,6 +131,15 @@ constexpr double k_least_u = 1e-6;  // of a length, [µm]: a millionth of what t
 constexpr double k_most_u = 1e5;    // [µm] and [µm/m]
 // With two digits of u some of the hundreds of quantities would need millions of trials to be decided.
 constexpr int k_validated_digits = 1;
+constexpr std::uint64_t k_most_automatic_trials = 1'000'000;  // minutes
+
+/// The Monte Carlo of a job that asks for its result and says no more: adaptive, to the two digits that are printed.
+MonteCarloRequest automatic_monte_carlo(const std::string& where) {
+    MonteCarloRequest request;
+    request.most_trials = k_most_automatic_trials;
+    request.where = where;
+    return request;
+}
 constexpr std::size_t k_least_at_angle = 6;     // a pose has six unknowns
 constexpr std::size_t k_least_of_station = 4;   // a station has x, y, z and a dead path
 constexpr std::size_t k_least_reflectors = 3;   // three points fix a rigid body
@@ -351,6 +361,10 @@ private:
         job_.coverage_probability = root.optional_number("coverage_probability", probability).value_or(0.9545);
         (void)root.optional_string("notes");
         job_.monte_carlo = read_monte_carlo(root, job_.coverage_probability, k_validated_digits, *problems_);
+        job_.coverage = root.optional_choice("coverage", k_coverage_choices).value_or(CoverageChoice::as_validated);
+        if (job_.coverage == CoverageChoice::monte_carlo && !job_.monte_carlo && !root.has("monte_carlo")) {
+            job_.monte_carlo = automatic_monte_carlo(root.where("coverage"));
+        }
         job_.simulation = read_simulation(root, *problems_);
         job_.plan = read_plan(root, *problems_);
     }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "certificate/certificate_data.h"
+#include "engine/job/coverage_choice.h"
 #include "engine/job/file_source.h"
 #include "engine/job/job_kind.h"
 #include "engine/job/monte_carlo_request.h"
@@ -67,7 +68,9 @@ struct RotaryTableJob {
     double coverage_probability = 0.9545;  ///< [1]
     RotaryTableMeasurement measurement;
     std::optional<ReferenceMethod> reference;
+    /// Also where `coverage` asks for its result and nothing else is said of it.
     std::optional<MonteCarloRequest> monte_carlo;
+    CoverageChoice coverage = CoverageChoice::as_validated;
     /// Budget of the fixture coordinates, kind `budget`, with a point "<reflector>.x", "<reflector>.y", "<reflector>.z"
     /// for each coordinate. Its results give the fixture covariance; the application evaluates it.
     /// The fixture covariance is zero until then.

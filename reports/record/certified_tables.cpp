@@ -34,15 +34,12 @@ CertifiedValue value_of(double value, double u, std::optional<double> U, std::op
     return out;
 }
 
-CertifiedValue value_of(const ErrorValue& e) {
-    return value_of(e.value, e.u, e.U, e.k, e.nu_eff, e.printed);
-}
-
-CertifiedValue value_of(const Result& r) {
-    const ReportedResult reported = reported_result(r);
+/// \param coverage  of the law of propagation
+CertifiedValue value_of(const ReportedResult& reported, const std::optional<double>& nu_eff,
+                        const std::string& coverage) {
     CertifiedValue out =
-        value_of(reported.value, reported.u.value_or(0.0), reported.U, reported.k, r.nu_eff, reported.printed);
-    out.coverage = reported.method == "monte_carlo" ? "monte_carlo" : r.coverage;
+        value_of(reported.value, reported.u.value_or(0.0), reported.U, reported.k, nu_eff, reported.printed);
+    out.coverage = reported.method == "monte_carlo" ? "monte_carlo" : coverage;
     if (out.coverage == "monte_carlo" || out.coverage == "none") {
         out.nu_eff.reset();
         out.printed_nu_eff.clear();  // k does not rest on them
@@ -54,6 +51,17 @@ CertifiedValue value_of(const Result& r) {
         out.printed_high = reported.printed_high;
     }
     return out;
+}
+
+CertifiedValue value_of(const Result& r) {
+    return value_of(reported_result(r), r.nu_eff, r.coverage);
+}
+
+/// Of a quantity of a rotary table.
+template <class Quantity>
+CertifiedValue value_of(const Quantity& q, const std::optional<double>& k) {
+    return q.reported ? value_of(*q.reported, q.nu_eff, "student_t")
+                      : value_of(q.value, q.u, q.U, k, q.nu_eff, q.printed);
 }
 
 CertifiedColumn column(const std::string& result, const certificate::LocalisedText& name, const std::string& unit,
@@ -141,7 +149,7 @@ CertifiedTable error_motions(const RotaryTable& r) {
     for (std::size_t i = 0; i < r.error_names.size(); ++i) {
         std::vector<CertifiedValue> values;
         for (const ErrorsAtAngle& at : r.errors) {
-            values.push_back(value_of(at.errors[i]));
+            values.push_back(value_of(at.errors[i], at.errors[i].k));
         }
         table.columns.push_back(column(r.error_names[i], r.error_names[i], r.error_units[i], std::move(values)));
     }
@@ -156,8 +164,8 @@ std::string unit_of_motion(const RotaryTable& r, const std::string& name) {
 CertifiedTable reversal(const RotaryTable& r) {
     CertifiedTable table{.id = "reversal", .argument = {}, .columns = {}};
     for (const Reversal& mean : r.reversal) {
-        table.columns.push_back(
-            column("reversal_" + mean.name, mean.name, unit_of_motion(r, mean.name), {value_of(mean.value)}));
+        table.columns.push_back(column("reversal_" + mean.name, mean.name, unit_of_motion(r, mean.name),
+                                       {value_of(mean.value, mean.value.k)}));
     }
     return table;
 }
@@ -169,8 +177,8 @@ CertifiedTable ranges(const RotaryTable& r) {
         const std::optional<double> k = range.k         ? range.k
                                         : range.u > 0.0 ? std::optional(range.U / range.u)
                                                         : std::nullopt;
-        table.columns.push_back(column("range_" + range.name, range.name, unit_of_motion(r, range.name),
-                                       {value_of(range.value, range.u, range.U, k, range.nu_eff, range.printed)}));
+        table.columns.push_back(
+            column("range_" + range.name, range.name, unit_of_motion(r, range.name), {value_of(range, k)}));
     }
     return table;
 }
@@ -178,8 +186,8 @@ CertifiedTable ranges(const RotaryTable& r) {
 CertifiedTable parameters(const std::string& id, const std::vector<TableParameter>& from) {
     CertifiedTable table{.id = id, .argument = {}, .columns = {}};
     for (const TableParameter& p : from) {
-        table.columns.push_back(column(p.name, p.description.empty() ? p.name : p.description, p.unit,
-                                       {value_of(p.value, p.u, p.U, p.k, p.nu_eff, p.printed)}));
+        table.columns.push_back(
+            column(p.name, p.description.empty() ? p.name : p.description, p.unit, {value_of(p, p.k)}));
     }
     return table;
 }

@@ -441,6 +441,7 @@ void describe(Archive& a, Struct& r) {
     a("nu_eff", r.nu_eff, Range::positive);
     a("printed", r.printed);
     a.added("monte_carlo", r.monte_carlo);
+    a.added("reported", r.reported);
 }
 
 template <class Archive, Is<SetUp> Struct>
@@ -635,6 +636,7 @@ void describe(Archive& a, Struct& r) {
     a("nu_eff", r.nu_eff, Range::positive);
     a("printed", r.printed);
     a("monte_carlo", r.monte_carlo);
+    a.added("reported", r.reported);
 }
 
 template <class Archive, Is<PositioningTarget> Struct>
@@ -700,6 +702,7 @@ void describe(Archive& a, Struct& r) {
     a.added("k", r.k, Range::positive);
     a.added("nu_eff", r.nu_eff, Range::positive);
     a.added("monte_carlo", r.monte_carlo);
+    a.added("reported", r.reported);
 }
 
 template <class Archive, Is<InputFile> Struct>

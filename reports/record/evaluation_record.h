@@ -108,6 +108,7 @@ struct ErrorValue {
     std::optional<double> nu_eff;
     Printed printed;
     std::optional<MonteCarloSummary> monte_carlo = {};  ///< without histogram
+    std::optional<ReportedResult> reported = {};        ///< none: the law of propagation, nothing speaks against it
 };
 
 struct ErrorsAtAngle {
@@ -256,6 +257,7 @@ struct TableParameter {
     std::optional<double> nu_eff;
     Printed printed;
     std::optional<MonteCarloSummary> monte_carlo;
+    std::optional<ReportedResult> reported = {};  ///< as ErrorValue::reported
 };
 
 /// Deviations of the axial rotation at one target position (ISO 230-2), [arcsec].
@@ -301,7 +303,8 @@ struct RangeRow {
     Printed printed;
     double u = 0.0;
     std::optional<MonteCarloSummary> monte_carlo = {};
-    std::optional<double> k = {}, nu_eff = {};  ///< records of earlier releases hold no k; none of ν = infinite
+    std::optional<double> k = {}, nu_eff = {};    ///< records of earlier releases hold no k; none of ν = infinite
+    std::optional<ReportedResult> reported = {};  ///< as ErrorValue::reported
 };
 
 struct RotaryTable {

@@ -90,6 +90,13 @@ void print_reported(ReportedResult& result, const std::string& unit, const Repor
     result.printed.U = result.U ? "0" : "";
 }
 
+std::string negated(const std::string& printed) {
+    if (printed.find_first_of("123456789") == std::string::npos) {
+        return printed;
+    }
+    return printed.starts_with('-') ? printed.substr(1) : "-" + printed;
+}
+
 ReportedResult reported_result(const Result& result) {
     if (!result.reported.printed.value.empty()) {
         return result.reported;

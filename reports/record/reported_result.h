@@ -38,6 +38,9 @@ struct ReportedRounding {
 /// leaves it. \param unit  of the result, as UDUNITS-2 writes it
 void print_reported(ReportedResult& result, const std::string& unit, const ReportedRounding& rounding = {});
 
+/// A printed number with the other sign: the same quantity seen from the other side. Zero stays without one.
+[[nodiscard]] std::string negated(const std::string& printed);
+
 /// What is reported of a result. Records of releases that knew no `reported` state that of the law of propagation, or
 /// the interval of Monte Carlo where the law gave no U.
 [[nodiscard]] ReportedResult reported_result(const Result& result);

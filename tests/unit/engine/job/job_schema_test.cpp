@@ -44,8 +44,9 @@ Files complete_campaign(bool with_budget = false) {
     replace(job, "\"u\": 5e-7", R"("u": 5e-7, "distribution": "uniform")");
     replace(job, "\"environment\"", R"("temperature_distribution": "uniform", "environment")");
     replace(job, "{",
-            with_budget ? R"({ "monte_carlo": {"adaptive": {"digits": 1, "max_trials": 1e7}, "digits": 1},)"
-                        : R"({ "monte_carlo": {"trials": 1000000, "seed": 3, "validate": true},)");
+            with_budget
+                ? R"({ "monte_carlo": {"adaptive": {"digits": 1, "max_trials": 1e7}, "digits": 1},)"
+                : R"({ "coverage": "as_validated", "monte_carlo": {"trials": 1000000, "seed": 3, "validate": true},)");
     replace(job, "{", R"({ "home_angle_deg": 0, "datum": "home", "method": "joint", "coverage_probability": 0.95,
         "certificate": {"customer": {}}, "notes": "n", "variance_components": "estimate",
         "table_repeatability": {"mode": "given", "u_linear_um": 0.3, "u_axial_arcsec": 0.2, "u_tilt_arcsec": 0.1},

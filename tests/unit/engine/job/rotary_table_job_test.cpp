@@ -1017,6 +1017,21 @@ TEST(RotaryTableJob, ReadsMonteCarloResolutionAndShapes) {
     EXPECT_FALSE(read(small_campaign()).monte_carlo);
 }
 
+TEST(RotaryTableJob, ReadsWhichEvaluationIsReported) {
+    EXPECT_EQ(read(small_campaign()).coverage, CoverageChoice::as_validated);
+    Files files = small_campaign();
+    with_key("\"coverage\": \"law_of_propagation\"")(files);
+    EXPECT_EQ(read(files).coverage, CoverageChoice::law_of_propagation);
+    EXPECT_FALSE(read(files).monte_carlo);
+    files = small_campaign();
+    with_key("\"coverage\": \"monte_carlo\"")(files);
+    EXPECT_EQ(read(files).coverage, CoverageChoice::monte_carlo);
+    ASSERT_TRUE(read(files).monte_carlo) << "nothing else asks for trials";
+    EXPECT_EQ(read(files).monte_carlo->most_trials, 1'000'000U);
+    with_key("\"monte_carlo\": {\"trials\": 300000}")(files);
+    EXPECT_EQ(read(files).monte_carlo->trials, 300'000U);
+}
+
 TEST(RotaryTableJob, ReadsTheFixtureBudgetWithItsFiles) {
     Files files = small_campaign();
     with_fixture_budget(files);

@@ -1,0 +1,127 @@
+#include "app/rotary_findings.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "gum/coverage.h"
+#include "gum/rounding.h"
+
+namespace gumcert::app {
+
+namespace {
+
+using certificate::FindingSeverity;
+using reports::AdjustmentSummary;
+using reports::EvaluationRecord;
+using reports::RotaryTable;
+
+constexpr double k_refuted = 0.001;       // p-value below which nobody takes the residuals for chance
+constexpr double k_most_left_out = 0.05;  // of all distances: a twentieth is no longer single gross errors
+
+/// One thing to say, in both forms.
+struct Remark {
+    gum::Diagnostic message;
+    std::string id, clause;
+    FindingSeverity severity = FindingSeverity::major;
+    FindingSeverity accredited = FindingSeverity::critical;
+};
+
+std::string chi_square_of(const AdjustmentSummary& a) {
+    return "chi-square is " + a.printed.chi_square + " with " + std::to_string(a.degrees_of_freedom) +
+           " degrees of freedom";
+}
+
+Remark refuted(const AdjustmentSummary& a) {
+    return {.message = {.code = "GC-ADJUST-0010",
+                        .where = "adjustment",
+                        .what = chi_square_of(a) + " (p-value " + a.printed.p_value +
+                                "): the residuals of the distances refute the stated uncertainties",
+                        .rule = "results are certified when the residuals do not refute the uncertainties that they "
+                                "rest on: the p-value of the global test is at least 0.001",
+                        .action = "Correct the uncertainties of the distances, or look for what the model leaves out: "
+                                  "drift, a moved station, a table that does not come back. "
+                                  "\"variance_components\": \"estimate\" takes the uncertainty from the residuals.",
+                        .severity = gum::Severity::warning},
+            .id = "G01",
+            .clause = "ISO/IEC 17025:2017, 7.7.1"};
+}
+
+Remark overstated(const AdjustmentSummary& a) {
+    return {.message = {.code = "GC-ADJUST-0011",
+                        .where = "adjustment",
+                        .what = chi_square_of(a) +
+                                ": the residuals of the distances are far smaller than the stated uncertainties",
+                        .rule = "by chance alone this happens less than once in a thousand adjustments",
+                        .action = "See whether the uncertainties hold what all distances have in common; such a part "
+                                  "is no scatter.",
+                        .severity = gum::Severity::note},
+            .id = "G02",
+            .clause = "ISO/IEC 17025:2017, 7.7.1",
+            .severity = FindingSeverity::information,
+            .accredited = FindingSeverity::information};
+}
+
+Remark left_out(std::size_t count, std::int64_t all) {
+    const double share = static_cast<double>(count) / static_cast<double>(all);
+    return {.message = {.code = "GC-ADJUST-0012",
+                        .where = "outlying distances",
+                        .what = std::to_string(count) + " of " + std::to_string(all) + " distances, " +
+                                gum::percent(share) + " %, are left out as outlying",
+                        .rule = "so many are no single gross errors: what is left out belongs to the measurement, and "
+                                "to its uncertainty",
+                        .action = "Look for the cause that they have in common, or correct the uncertainty of the "
+                                  "distances that makes them outlying.",
+                        .severity = gum::Severity::warning},
+            .id = "G03",
+            .clause = "ISO/IEC 17025:2017, 7.7.1"};
+}
+
+std::vector<Remark> remarks_of(const EvaluationRecord& record) {
+    std::vector<Remark> remarks;
+    if (!record.rotary) {
+        return remarks;
+    }
+    const RotaryTable& rotary = *record.rotary;
+    const AdjustmentSummary& a = rotary.adjustment;
+    const auto degrees = static_cast<double>(a.degrees_of_freedom);
+    if (a.degrees_of_freedom > 0 && a.p_value < k_refuted) {
+        remarks.push_back(refuted(a));
+    } else if (a.degrees_of_freedom > 0 && 1.0 - gum::chi_square_upper_tail(a.chi_square, degrees) < k_refuted) {
+        remarks.push_back(overstated(a));
+    }
+    const auto removed = static_cast<std::size_t>(std::count_if(
+        rotary.flagged.begin(), rotary.flagged.end(), [](const reports::FlaggedDistance& d) { return d.removed; }));
+    const std::int64_t distances = static_cast<std::int64_t>(rotary.reliability.size());
+    if (distances > 0 && static_cast<double>(removed) > k_most_left_out * static_cast<double>(distances)) {
+        remarks.push_back(left_out(removed, distances));
+    }
+    return remarks;
+}
+
+}  // namespace
+
+std::vector<gum::Diagnostic> rotary_remarks(const EvaluationRecord& record) {
+    std::vector<gum::Diagnostic> messages;
+    for (Remark& remark : remarks_of(record)) {
+        messages.push_back(std::move(remark.message));
+    }
+    return messages;
+}
+
+std::vector<certificate::Finding> rotary_findings(const EvaluationRecord& record) {
+    const bool accredited = record.certificate && record.certificate->data.status == "accredited";
+    std::vector<certificate::Finding> findings;
+    for (const Remark& remark : remarks_of(record)) {
+        findings.push_back({.id = remark.id,
+                            .clause = remark.clause,
+                            .severity = accredited ? remark.accredited : remark.severity,
+                            .where = remark.message.where,
+                            .what = remark.message.what,
+                            .action = remark.message.action});
+    }
+    return findings;
+}
+
+}  // namespace gumcert::app
