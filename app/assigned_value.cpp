@@ -139,7 +139,10 @@ void add_scatter(const LaboratoryData& data, gum::SpreadUncertainty of_value,
             scatter.others[at].u = std::hypot(of_inside[i].u, common);
         } else {  // of two results one is all the others
             const std::size_t other = data.contributing[data.contributing.size() - 1 - i];
-            scatter.others[at] = {.u = data.u[static_cast<Eigen::Index>(other)]};
+            if (data.has_u(other)) {
+                scatter.others[at] = {.u = data.u[static_cast<Eigen::Index>(other)],
+                                      .degrees_of_freedom = data.results[other]->uncertainty->degrees_of_freedom};
+            }
         }
     }
     for (Eigen::Index i = 0; data.covariance.size() > 0 && i < size_of(data); ++i) {
@@ -157,11 +160,12 @@ void add_scatter(const LaboratoryData& data, gum::SpreadUncertainty of_value,
 }
 
 /// A mean whose weights allow for a scatter between laboratories.
-AssignedValue scattered_value(const LaboratoryData& data, const gum::ReferenceValue& reference) {
+AssignedValue scattered_value(const LaboratoryData& data, const gum::ReferenceValue& reference,
+                              double coverage_probability) {
     AssignedValue assigned = linear_value(data, data.contributing, reference);
     const Eigen::VectorXd x = data.values(data.contributing);
-    add_scatter(data, gum::weighted_spread(x, reference), gum::spread_of_others(x, reference.weights),
-                reference.weights / reference.weights.sum(), assigned);
+    add_scatter(data, gum::weighted_spread(x, reference, coverage_probability),
+                gum::spread_of_others(x, reference.weights), reference.weights / reference.weights.sum(), assigned);
     return assigned;
 }
 
@@ -301,24 +305,26 @@ AssignedValue given_value(const engine::ComparisonJob& job, const LaboratoryData
     return assigned;
 }
 
-AssignedValue mean_of_replicates(const LaboratoryData& data) {
+AssignedValue mean_of_replicates(const LaboratoryData& data, double coverage_probability) {
     const std::optional<Replicates> stated = replicates(data);
     if (!stated) {
         gum::refuse("GC-COMPARE-0105", data.where,
                     "not every result states the standard deviation s and the number n of its observations",
                     "vangel_rukhin is computed from them", "State s and n ≥ 2 of every result, or take mandel_paule.");
     }
-    return scattered_value(data, gum::vangel_rukhin({stated->x, stated->s, stated->observations}));
+    return scattered_value(data, gum::vangel_rukhin({stated->x, stated->s, stated->observations}),
+                           coverage_probability);
 }
 
 AssignedValue consensus(const engine::ComparisonJob& job, const LaboratoryData& data) {
     const engine::AssignedValueRequest& request = data.item->assigned_value;
     const std::vector<std::size_t>& chosen = data.contributing;
+    const double p = job.coverage_probability;
     const Eigen::VectorXd x = data.values(chosen);
     const std::span<const double> values(x.data(), static_cast<std::size_t>(x.size()));
     switch (request.method) {
         case AssignedValueMethod::arithmetic_mean: {
-            AssignedValue mean = scattered_value(data, gum::arithmetic_mean(x));
+            AssignedValue mean = scattered_value(data, gum::arithmetic_mean(x), p);
             mean.degrees_of_freedom = static_cast<double>(chosen.size() - 1);
             if (!(*mean.u > 0.0)) {
                 // Equal results say that digits are missing, not that the value is exactly known.
@@ -341,15 +347,17 @@ AssignedValue consensus(const engine::ComparisonJob& job, const LaboratoryData& 
         case AssignedValueMethod::largest_consistent_subset:
             return largest_subset(data, request.alpha);
         case AssignedValueMethod::dersimonian_laird:
-            return scattered_value(data, gum::dersimonian_laird(data.at(chosen)));
+            return scattered_value(data, gum::dersimonian_laird(data.at(chosen)), p);
         case AssignedValueMethod::mandel_paule:
-            return scattered_value(data, gum::mandel_paule(data.at(chosen)));
+            return scattered_value(data, gum::mandel_paule(data.at(chosen)), p);
         case AssignedValueMethod::vangel_rukhin:
-            return mean_of_replicates(data);
+            return mean_of_replicates(data, p);
         case AssignedValueMethod::power_moderated_mean: {
             AssignedValue mean =
-                scattered_value(data, request.power ? gum::power_moderated_mean(data.at(chosen), *request.power)
-                                                    : gum::power_moderated_mean(data.at(chosen)));
+                scattered_value(data,
+                                request.power ? gum::power_moderated_mean(data.at(chosen), *request.power)
+                                              : gum::power_moderated_mean(data.at(chosen)),
+                                p);
             mean.scatter->others.clear();  // degrees of equivalence as in the comparisons that this mean is made for
             return mean;
         }

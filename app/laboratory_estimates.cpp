@@ -70,6 +70,7 @@ public:
     }
 
     [[nodiscard]] std::vector<ReferenceEstimate> take() { return std::move(all_); }
+    [[nodiscard]] double coverage_probability() const { return coverage_probability_; }
 
 private:
     const LaboratoryData& data_;
@@ -115,7 +116,7 @@ void add_by_uncertainty(Estimates& estimates, const LaboratoryData& data, const 
             estimates.add(method, [&](ReferenceEstimate& estimate) {
                 const gum::ReferenceValue mean = evaluate(results);
                 take_random_effects(estimate, mean);
-                estimates.expand(estimate, gum::weighted_spread(results.x, mean));
+                estimates.expand(estimate, gum::weighted_spread(results.x, mean, estimates.coverage_probability()));
                 estimate.u_hartung_knapp = gum::hartung_knapp_u(results, mean);
             });
         };
@@ -165,7 +166,7 @@ std::vector<ReferenceEstimate> reference_estimates(const LaboratoryData& data, c
         estimate.scale = mean.u * std::sqrt(static_cast<double>(x.size()));  // exactly 0 for equal results
         if (mean.u > 0.0) {
             estimate.u = mean.u;
-            estimates.expand(estimate, gum::weighted_spread(x, mean));
+            estimates.expand(estimate, gum::weighted_spread(x, mean, estimates.coverage_probability()));
         }
     });
     const auto add_robust = [&](AssignedValueMethod method, gum::RobustMean kind, const auto& evaluate) {
@@ -191,7 +192,7 @@ std::vector<ReferenceEstimate> reference_estimates(const LaboratoryData& data, c
         estimates.add(AssignedValueMethod::vangel_rukhin, [&](ReferenceEstimate& estimate) {
             const gum::ReferenceValue mean = gum::vangel_rukhin({stated->x, stated->s, stated->observations});
             take_random_effects(estimate, mean);
-            estimates.expand(estimate, gum::weighted_spread(stated->x, mean));
+            estimates.expand(estimate, gum::weighted_spread(stated->x, mean, estimates.coverage_probability()));
         });
     }
     if (weighed && results.covariance.size() == 0) {
@@ -199,7 +200,7 @@ std::vector<ReferenceEstimate> reference_estimates(const LaboratoryData& data, c
             const gum::ReferenceValue mean =
                 request.power ? gum::power_moderated_mean(results, *request.power) : gum::power_moderated_mean(results);
             take_random_effects(estimate, mean);
-            estimates.expand(estimate, gum::weighted_spread(results.x, mean));
+            estimates.expand(estimate, gum::weighted_spread(results.x, mean, estimates.coverage_probability()));
         });
     }
     if (data.item->kernel_bandwidth) {

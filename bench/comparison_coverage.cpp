@@ -33,7 +33,8 @@ using namespace gumcert::gum;
 constexpr double k_probability = 0.9545;
 const std::vector<int> k_numbers = {3, 4, 5, 7, 10, 20};
 const std::vector<double> k_taus = {0.0, 0.5, 1.0, 2.0, 3.0};
-const std::vector<double> k_spreads_of_u = {1.0, 2.0};  // u from 1/s to s, evenly in its logarithm
+// s ≥ 1: u from 1/s to s, evenly in its logarithm; s < 1: one laboratory with u = s beside others with u = 1.
+const std::vector<double> k_spreads_of_u = {1.0, 2.0, 0.1};
 const std::vector<std::string> k_methods = {
     "arithmetic_mean",   "median",       "algorithm_a",          "q_hampel",
     "dersimonian_laird", "mandel_paule", "power_moderated_mean", "weighted_mean"};
@@ -59,7 +60,9 @@ private:
 LaboratoryResults drawn(Normal& normal, int n, double tau, double spread_of_u) {
     LaboratoryResults results{.x = Eigen::VectorXd(n), .u = Eigen::VectorXd(n)};
     for (Eigen::Index i = 0; i < n; ++i) {
-        results.u(i) = std::pow(spread_of_u, 2.0 * normal.uniform() - 1.0);
+        const bool one_is_better = spread_of_u < 1.0;
+        results.u(i) =
+            one_is_better ? (i == 0 ? spread_of_u : 1.0) : std::pow(spread_of_u, 2.0 * normal.uniform() - 1.0);
         results.x(i) = results.u(i) * normal() + tau * normal();
     }
     return results;
@@ -93,7 +96,7 @@ Statement robust(RobustMean kind, const LaboratoryResults& results, bool scores)
 
 Statement scattered(const ReferenceValue& mean, const LaboratoryResults& results, bool scores) {
     Statement statement{.value = mean.value, .U = 0.0, .En = {}};
-    const SpreadUncertainty spread = weighted_spread(results.x, mean);
+    const SpreadUncertainty spread = weighted_spread(results.x, mean, k_probability);
     statement.U = factor(spread.degrees_of_freedom) * spread.u;
     if (scores) {
         const std::vector<SpreadUncertainty> others = spread_of_others(results.x, mean.weights);

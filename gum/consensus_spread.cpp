@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <string>
 
@@ -17,8 +16,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double k_location_factor = 1.25;  // u(x*) = 1.25 s*/√p
-constexpr double k_chance_of_small_spread = 0.025;
+constexpr double k_location_factor = 1.25;         // u(x*) = 1.25 s*/√p
 constexpr Index k_most_results_one_by_one = 2000;  // of more, a sum is taken from all results and corrected
 
 /// Factors for 2, 3 … results, then the limit for many. scripts/comparison_coverage finds them again.
@@ -113,7 +111,7 @@ SpreadUncertainty robust_spread(RobustMean kind, std::span<const double> results
             .degrees_of_freedom = n - 1.0};
 }
 
-SpreadUncertainty weighted_spread(const VectorXd& x, const ReferenceValue& mean) {
+SpreadUncertainty weighted_spread(const VectorXd& x, const ReferenceValue& mean, double coverage_probability) {
     require_same_size(x, mean.weights);
     const Index n = x.size();
     if (n < 2) {
@@ -124,16 +122,25 @@ SpreadUncertainty weighted_spread(const VectorXd& x, const ReferenceValue& mean)
     const double nu = static_cast<double>(n - 1);
     double hartung_knapp = 0.0;
     double by_leverage = 0.0;
+    double unweighted = 0.0;
+    double sum_of_squares = 0.0;  // Σ w²: 1/n for equal weights, 1 where one result decides
     for (Index i = 0; i < n; ++i) {
         const double w = mean.weights(i) / total;
         const double e = x(i) - mean.value;
         hartung_knapp += w * e * e / nu;
         // A weight of 1 leaves no scatter to be seen.
         by_leverage += w < 1.0 ? w * w * e * e / (1.0 - w) : 0.0;
+        unweighted += e * e / nu / static_cast<double>(n);
+        sum_of_squares += w * w;
     }
-    const boost::math::chi_squared_distribution<double> chance(nu);
-    const double least = boost::math::quantile(chance, k_chance_of_small_spread) / nu * mean.u * mean.u;
-    return {.u = std::sqrt(std::max({hartung_knapp, by_leverage, least})), .degrees_of_freedom = nu};
+    const double inequality = std::sqrt(std::max(0.0, 1.0 - 1.0 / (sum_of_squares * static_cast<double>(n))));
+    const SpreadUncertainty by_scatter{.u = std::sqrt(std::max({hartung_knapp, by_leverage, inequality * unweighted})),
+                                       .degrees_of_freedom = nu};
+    const SpreadUncertainty stated{.u = mean.u};
+    const auto expanded = [&](const SpreadUncertainty& spread) {
+        return coverage_factor(coverage_probability, spread.degrees_of_freedom) * spread.u;
+    };
+    return expanded(by_scatter) < expanded(stated) ? stated : by_scatter;
 }
 
 std::vector<SpreadUncertainty> spread_of_others(const VectorXd& x, const VectorXd& weights) {
@@ -169,10 +176,17 @@ std::vector<SpreadUncertainty> robust_spread_of_others(RobustMean kind, const st
     if (results.size() > k_most_results_left_out) {
         return {results.size(), robust_spread(kind, results)};
     }
+    const double of_others = spread_factor(kind, results.size() - 1) * k_location_factor /
+                             std::sqrt(static_cast<double>(results.size() - 1));
+    const double by_scale_of_all = of_others * scale_of(kind, results);
     std::vector<SpreadUncertainty> spreads;
     std::vector<double> others(results.begin() + 1, results.end());
     for (std::size_t i = 0; i < results.size(); ++i) {
-        spreads.push_back(robust_spread(kind, others));
+        SpreadUncertainty spread = robust_spread(kind, others);
+        if (by_scale_of_all > 0.0) {
+            spread.u = std::min(spread.u, by_scale_of_all);
+        }
+        spreads.push_back(spread);
         if (i < others.size()) {
             others[i] = results[i];
         }

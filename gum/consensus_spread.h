@@ -32,22 +32,27 @@ enum class RobustMean { median, algorithm_a, q_hampel };
 [[nodiscard]] SpreadUncertainty robust_spread(RobustMean kind, std::span<const double> results);
 
 /// Uncertainty of a mean with weights that have a variance between laboratories in them, about the mean itself:
-/// u² = max(Σ w e²/(n − 1), Σ w² e²/(1 − w), q u²(y)) with w the weights, e = x − y, ν = n − 1.
+/// u² = max(Σ w e²/(n − 1), Σ w² e²/(1 − w), √(1 − n_eff/n) Σ e²/(n (n − 1))) with w the weights, e = x − y, ν = n − 1,
+/// n_eff = 1/Σ w².
 ///
 /// The first is that of Hartung and Knapp, exact for equal uncertainties; the second does not rest on the weights being
-/// right. The third keeps results that agree by chance, or by the rounding of their last digit, from claiming what they
-/// do not know: q = χ²_0.025(n − 1)/(n − 1), a scatter that 2.5 % of all comparisons fall below.
-/// \param mean  linear in the results, Σ w = 1, its u by the weights
-/// \throws InputError  GC-GUM-0131 fewer than 2 results, -0135 sizes that do not fit
-[[nodiscard]] SpreadUncertainty weighted_spread(const Eigen::VectorXd& x, const ReferenceValue& mean);
+/// right. The third is for weights that differ much: a laboratory with a small uncertainty decides the value, a
+/// variance between laboratories that is as large as the uncertainties of the others is often estimated as 0, and then
+/// only the plain scatter of all results shows how far off that one laboratory may be. Where k_p u(y) is larger than
+/// t_p(ν) u, it is u(y) with ν = ∞: results that agree by chance, or by the rounding of their last digit, take nothing
+/// away from what the stated uncertainties leave open. \param mean  linear in the results, Σ w = 1, its u by the
+/// weights \throws InputError  GC-GUM-0131 fewer than 2 results, -0135 sizes that do not fit
+[[nodiscard]] SpreadUncertainty weighted_spread(const Eigen::VectorXd& x, const ReferenceValue& mean,
+                                                double coverage_probability);
 
-/// The same without the third part for each result apart, from all others alone: y without result i, its weights scaled
-/// to 1, ν = n − 2. A result far away does not widen the limit that it is held against.
-/// \return one a result; empty for fewer than 3 results
+/// Σ w e²/(n − 2) for each result apart, from all others alone: y without result i, its weights scaled to 1, ν = n − 2.
+/// A result far away does not widen the limit that it is held against. \return one a result; empty for fewer than 3
+/// results
 [[nodiscard]] std::vector<SpreadUncertainty> spread_of_others(const Eigen::VectorXd& x, const Eigen::VectorXd& weights);
 
 /// The same for robust means, up to k_most_results_left_out results. Of more, one hardly moves the scale, and all of
-/// them get that of all.
+/// them get that of all. The scale is the smaller one of that of the others and of that of all results: without a good
+/// one, a single gross outlier can be a quarter of what is left, which no robust scale withstands.
 [[nodiscard]] std::vector<SpreadUncertainty> robust_spread_of_others(RobustMean kind,
                                                                      const std::vector<double>& results);
 inline constexpr std::size_t k_most_results_left_out = 200;

@@ -494,8 +494,8 @@ Consensus robust_consensus(RobustMean kind, const LaboratoryResults& labs) {
 }
 
 Consensus weighted_consensus(const LaboratoryResults& labs, const ReferenceValue& mean) {
-    return by_scatter(labs, mean.value, weighted_spread(labs.x, mean), spread_of_others(labs.x, mean.weights),
-                      mean.weights, 1.0);
+    return by_scatter(labs, mean.value, weighted_spread(labs.x, mean, k_coverage_probability),
+                      spread_of_others(labs.x, mean.weights), mean.weights, 1.0);
 }
 
 /// 94 % to 97 %, and 3 % to 6 % of alarms, are what the long study holds; four standard deviations of a share of 1000

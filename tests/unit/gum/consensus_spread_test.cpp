@@ -28,7 +28,7 @@ LaboratoryResults five() {
 TEST(WeightedSpread, IsThatOfTheMeanForEqualWeights) {
     const LaboratoryResults results = five();
     const ReferenceValue mean = arithmetic_mean(results.x);
-    const SpreadUncertainty spread = weighted_spread(results.x, mean);
+    const SpreadUncertainty spread = weighted_spread(results.x, mean, k_p);
     EXPECT_NEAR(spread.u, mean.u, 1e-14);
     EXPECT_EQ(spread.degrees_of_freedom, 4.0);
 }
@@ -36,22 +36,36 @@ TEST(WeightedSpread, IsThatOfTheMeanForEqualWeights) {
 TEST(WeightedSpread, IsNotBelowHartungAndKnapp) {
     const LaboratoryResults results = five();
     for (const ReferenceValue& mean : {dersimonian_laird(results), mandel_paule(results)}) {
-        EXPECT_GE(weighted_spread(results.x, mean).u, hartung_knapp_u(results, mean) * (1.0 - 1e-12));
+        EXPECT_GE(weighted_spread(results.x, mean, k_p).u, hartung_knapp_u(results, mean) * (1.0 - 1e-12));
     }
 }
 
 TEST(WeightedSpread, ResultsThatAgreeByChanceDoNotClaimToKnow) {
-    const LaboratoryResults equal{.x = VectorXd::Constant(3, 5.0), .u = VectorXd::Constant(3, 0.3)};
-    const ReferenceValue mean = mandel_paule(equal);
-    // chi-square with 2 degrees of freedom: -2 ln 0.975 = 0.0506356
-    EXPECT_NEAR(weighted_spread(equal.x, mean).u, mean.u * std::sqrt(0.0506356 / 2.0), 1e-6);
+    const double k = coverage_factor(k_p, std::numeric_limits<double>::infinity());
+    for (const Index n : {2, 3, 20}) {
+        const LaboratoryResults equal{.x = VectorXd::Constant(n, 5.0), .u = VectorXd::Constant(n, 0.3)};
+        const ReferenceValue mean = mandel_paule(equal);
+        const SpreadUncertainty spread = weighted_spread(equal.x, mean, k_p);
+        EXPECT_NEAR(coverage_factor(k_p, spread.degrees_of_freedom) * spread.u, k * mean.u, 1e-12);
+    }
+}
+
+TEST(WeightedSpread, OneGoodLaboratoryDoesNotHideTheScatter) {
+    // The weights leave 0.99 to the first result, and the two others lie as their uncertainties let expect.
+    const LaboratoryResults results{.x = VectorXd{{10.0, 11.0, 9.2}}, .u = VectorXd{{0.1, 1.0, 1.0}}};
+    const ReferenceValue mean = mandel_paule(results);
+    EXPECT_EQ(mean.between_standard_deviation, 0.0);
+    const VectorXd w = mean.weights / mean.weights.sum();
+    const double plain = std::sqrt((results.x.array() - mean.value).square().sum() / 6.0);
+    const double inequality = std::sqrt(1.0 - 1.0 / (3.0 * w.squaredNorm()));
+    EXPECT_NEAR(weighted_spread(results.x, mean, k_p).u, std::sqrt(inequality) * plain, 1e-12);
 }
 
 TEST(WeightedSpread, RefusesWhatDoesNotFit) {
     ReferenceValue mean = mandel_paule(five());
-    EXPECT_EQ(code_of<InputError>([&] { (void)weighted_spread(VectorXd::Ones(3), mean); }), "GC-GUM-0135");
+    EXPECT_EQ(code_of<InputError>([&] { (void)weighted_spread(VectorXd::Ones(3), mean, k_p); }), "GC-GUM-0135");
     mean.weights = VectorXd::Ones(1);
-    EXPECT_EQ(code_of<InputError>([&] { (void)weighted_spread(VectorXd::Ones(1), mean); }), "GC-GUM-0131");
+    EXPECT_EQ(code_of<InputError>([&] { (void)weighted_spread(VectorXd::Ones(1), mean, k_p); }), "GC-GUM-0131");
 }
 
 TEST(SpreadOfOthers, DoesNotSeeTheResultItself) {
@@ -113,10 +127,15 @@ TEST(RobustSpread, LeavesOutOneByOne) {
     const std::vector<double> x{1.0, 1.2, 0.9, 1.1, 30.0};
     const std::vector<SpreadUncertainty> others = robust_spread_of_others(RobustMean::algorithm_a, x);
     const std::vector<double> without_last{1.0, 1.2, 0.9, 1.1};
-    const std::vector<double> without_second{1.0, 0.9, 1.1, 30.0};
     ASSERT_EQ(others.size(), 5U);
     EXPECT_EQ(others[4].u, robust_spread(RobustMean::algorithm_a, without_last).u);
-    EXPECT_EQ(others[1].u, robust_spread(RobustMean::algorithm_a, without_second).u);
+    // Without a good one, the gross outlier is one of four: its scale would be that of the outlier.
+    EXPECT_GT(robust_spread(RobustMean::algorithm_a, std::vector<double>{1.0, 0.9, 1.1, 30.0}).u, 1.0);
+    for (const RobustMean kind : {RobustMean::median, RobustMean::algorithm_a}) {
+        for (const SpreadUncertainty& spread : robust_spread_of_others(kind, x)) {
+            EXPECT_LT(spread.u, 0.3);
+        }
+    }
     EXPECT_EQ(robust_spread(RobustMean::algorithm_a, std::vector<double>{2.0, 2.0, 2.0}).u, 0.0);
     EXPECT_EQ(code_of<InputError>([] {
                   (void)robust_spread(RobustMean::median, std::vector<double>{1.0, std::nan("")});
