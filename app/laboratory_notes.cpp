@@ -150,7 +150,9 @@ void add_assigned_value(ItemMessages& messages) {
              "Take an assigned value with a smaller uncertainty: a reference laboratory, a reference material, or "
              "more results.",
          .severity = gum::Severity::warning},
-        [&](const ComparisonItemEvaluation& item) { return comparison_has_inconclusive(messages.comparison(), item); },
+        [&](const ComparisonItemEvaluation& item) {
+            return item.u && comparison_has_inconclusive(messages.comparison(), item);
+        },
         [](const ComparisonItemEvaluation& item) {
             return "the assigned value, " + item.printed.value +
                    (item.printed.U.empty() ? "" : " with U = " + with_unit(item.printed.U, item)) +

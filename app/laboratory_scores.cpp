@@ -193,13 +193,28 @@ std::vector<std::pair<std::string, gum::Signal>> signals_of(const Scene& scene, 
     return signals;
 }
 
+/// U(X) for the probability of the scores.
+double expanded_value_of_scores(const Scene& scene) {
+    if (!scene.assigned.scatter) {
+        return scene.item.U_of_scores.value_or(*scene.item.U);
+    }
+    const double of_item = std::hypot(scene.item.u_homogeneity.value_or(0.0), scene.item.u_stability.value_or(0.0));
+    return gum::spread_difference({}, scene.assigned.scatter->of_value, of_item, 0.0, 0.0, 1.0,
+                                  scene.score_probability())
+        .U;
+}
+
 /// Whether the score that decides could not have found a fault of the size that it is to find: a small score clears
-/// nobody then.
+/// nobody then. Nor does one where it is not known how uncertain the assigned value is.
 bool is_too_uncertain_to_clear(const Scene& scene, const ComparisonPoint& point) {
     constexpr double k_rounding = 1.0 + 1e-9;
     const std::string& score = scene.item.score;
     if (score == "En") {
-        return point.u && point.u_others.value_or(*scene.item.u) > *point.u * k_rounding;
+        return point.u && (point.u_others.value_or(*scene.item.u) > *point.u * k_rounding ||
+                           expanded_value_of_scores(scene) > point.U_of_scores.value_or(*point.U) * k_rounding);
+    }
+    if (!scene.item.u) {
+        return true;
     }
     if (score == "z_prime") {
         return *scene.item.u > *scene.item.sigma_pt * k_rounding;
@@ -298,7 +313,7 @@ ComparisonPoint point_of(const Scene& scene, std::size_t position) {
             point.k_of_scores = taken.k;
         }
         if (const std::optional<double>& cmc = scene.job.participants[result.participant].cmc_U; cmc && *cmc > 0.0) {
-            point.U_over_CMC = *point.U / *cmc;
+            point.U_over_CMC = point.U_of_scores.value_or(*point.U) / *cmc;
         }
     }
     if (is_reference) {
@@ -314,12 +329,12 @@ ComparisonPoint point_of(const Scene& scene, std::size_t position) {
     return point;
 }
 
-/// U of every result over the median of the U of all others.
+/// U of every result over the median of the U of all others, all of them for the probability of the scores.
 void hold_against_others(std::vector<ComparisonPoint>& points) {
     std::vector<double> sorted;
     for (const ComparisonPoint& point : points) {
         if (point.U) {
-            sorted.push_back(*point.U);
+            sorted.push_back(point.U_of_scores.value_or(*point.U));
         }
     }
     if (sorted.size() < 2) {
@@ -331,11 +346,11 @@ void hold_against_others(std::vector<ComparisonPoint>& points) {
         if (!point.U) {
             continue;
         }
-        const auto own =
-            static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), *point.U) - sorted.begin());
+        const double U = point.U_of_scores.value_or(*point.U);
+        const auto own = static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), U) - sorted.begin());
         const auto other = [&](std::size_t i) { return sorted[i < own ? i : i + 1]; };
         const double median = 0.5 * (other((others - 1) / 2) + other(others / 2));
-        point.U_over_median = *point.U / median;
+        point.U_over_median = U / median;
     }
 }
 
