@@ -69,10 +69,18 @@ reports::ItemWithoutResult without_result(const engine::ComparisonItem& item, co
 /// Items for which reading the job has found that nothing can be computed.
 void add_refused_items(const engine::ComparisonJob& job, reports::Comparison& comparison,
                        std::vector<gum::Diagnostic>& problems) {
-    for (const auto& [item, because] : job.refused_items) {
-        comparison.items_without_result.push_back(without_result(job.items[item], "", because));
+    for (const auto& [part, because] : job.refused_items) {
+        comparison.items_without_result.push_back(
+            without_result(job.items[part.first], part.second ? job.rounds[*part.second] : "", because));
         problems.push_back(because);
     }
+}
+
+bool is_refused(const engine::ComparisonJob& job, const LaboratoryData& data) {
+    const auto item = static_cast<std::size_t>(data.item - job.items.data());
+    const auto round =
+        static_cast<std::size_t>(std::find(job.rounds.begin(), job.rounds.end(), data.round) - job.rounds.begin());
+    return job.refused_items.contains({item, std::nullopt}) || job.refused_items.contains({item, round});
 }
 
 /// The names of all sources that results and assigned values state.
@@ -144,7 +152,7 @@ reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, cons
     bool is_input = false;
     add_refused_items(job, comparison, problems);
     for (const LaboratoryData& of_item : data) {
-        if (job.refused_items.contains(static_cast<std::size_t>(of_item.item - job.items.data()))) {
+        if (is_refused(job, of_item)) {
             continue;
         }
         if (progress && items.size() % k_items_between_messages == 0 && data.size() > 1) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -40,6 +41,12 @@ public:
         : reading_(reading), participants_(participants), job_(reading.job), of_item_(job_.items.size()) {
         for (std::size_t i = 0; i < job_.results.size(); ++i) {
             of_item_[job_.results[i].item].push_back(i);
+            parts_.emplace(job_.results[i].item, job_.results[i].round);
+        }
+        for (std::size_t item = 0; item < of_item_.size(); ++item) {
+            if (of_item_[item].empty()) {
+                parts_.emplace(item, 0);
+            }
         }
     }
 
@@ -65,19 +72,25 @@ public:
     }
 
 private:
-    /// What keeps one of several items from being evaluated is told in the place of the item, and the others go on.
-    void refuse_item(std::size_t item, ProblemList& problems, const InputCode& code, const std::string& where,
-                     const std::string& what, const std::string& rule, const std::string& action) {
-        if (job_.items.size() == 1) {
+    /// What keeps one of several items, or one of its rounds, from being evaluated is told in its place, and the others
+    /// go on.
+    /// \param round  none: it holds for all rounds of the item
+    void refuse_item(std::size_t item, std::optional<std::size_t> round, ProblemList& problems, const InputCode& code,
+                     const std::string& where, const std::string& what, const std::string& rule,
+                     const std::string& action) {
+        if (parts_.size() == 1) {
             problems.refuse(code, where, what, rule, action);
             return;
         }
         refusals_.push_back({&problems, &code, {std::string(code.code), where, what, rule, action}});
-        reading_.job.refused_items.emplace(item, refusals_.back().diagnostic);
+        reading_.job.refused_items.emplace(std::pair(item, round), refusals_.back().diagnostic);
     }
 
     void refuse_where_nothing_is_left() {
-        if (refusals_.empty() || job_.refused_items.size() < job_.items.size()) {
+        const auto& refused = job_.refused_items;
+        if (std::any_of(parts_.begin(), parts_.end(), [&](const auto& part) {
+                return !refused.contains({part.first, part.second}) && !refused.contains({part.first, std::nullopt});
+            })) {
             return;
         }
         for (const Refusal& refusal : refusals_) {
@@ -102,7 +115,7 @@ private:
 
     void refuse_too_few(std::size_t item) {
         refuse_item(
-            item, reading_.problems, k_too_few_results, where_of(item),
+            item, std::nullopt, reading_.problems, k_too_few_results, where_of(item),
             std::to_string(of_item_[item].size()) + " result" + (of_item_[item].size() == 1 ? "" : "s") + of_item(item),
             "an item is compared between at least 2 results", "add the results that are missing, or remove the item");
     }
@@ -183,7 +196,7 @@ private:
         }
         for (const auto& [round, is_there] : rounds) {
             if (!is_there) {
-                refuse_item(item, reading_.problems, k_reference_without_result, request.where,
+                refuse_item(item, round, reading_.problems, k_reference_without_result, request.where,
                             "the reference " + in_quotes(request.participant) + " has no result with an uncertainty" +
                                 of_item(item) + in_round(round),
                             "the assigned value and its uncertainty are those of the reference",
@@ -199,7 +212,7 @@ private:
         }
         for (const auto& [round, count] : rounds) {
             if (count < 2) {
-                refuse_item(item, reading_.problems, k_too_few_results, where_of(item),
+                refuse_item(item, round, reading_.problems, k_too_few_results, where_of(item),
                             std::to_string(count) + " result" + (count == 1 ? " contributes" : "s contribute") +
                                 " to the assigned value" + of_item(item) + in_round(round),
                             "a consensus has at least 2 results",
@@ -211,19 +224,20 @@ private:
     template <typename Holds>
     void check_contributions(std::size_t item, const InputCode& code, const std::string& what, const std::string& rule,
                              const std::string& action, const Holds& holds) {
-        std::vector<std::string> without;
-        std::size_t first = 0;
+        std::map<std::size_t, std::vector<std::size_t>> without;  // round → results
         for (const std::size_t i : of_item_[item]) {
-            const ComparisonResult& result = job_.results[i];
-            if (result.contributes && !holds(result)) {
-                first = without.empty() ? i : first;
-                without.push_back(job_.participants[result.participant].id);
+            if (job_.results[i].contributes && !holds(job_.results[i])) {
+                without[job_.results[i].round].push_back(i);
             }
         }
-        if (!without.empty()) {
+        for (const auto& [round, results] : without) {
+            std::vector<std::string> names;
+            for (const std::size_t i : results) {
+                names.push_back(job_.participants[job_.results[i].participant].id);
+            }
             refuse_item(
-                item, participants_.problems_of(first), code, job_.results[first].where,
-                list_of(without) + (without.size() == 1 ? " states " : " state ") + what + of_item(item) +
+                item, round, participants_.problems_of(results.front()), code, job_.results[results.front()].where,
+                list_of(names) + (names.size() == 1 ? " states " : " state ") + what + of_item(item) + in_round(round) +
                     ", and the assigned value is " +
                     in_quotes(assigned_value_words()[static_cast<std::size_t>(job_.items[item].assigned_value.method)]),
                 rule, action);
@@ -255,7 +269,8 @@ private:
     const ComparisonReading& reading_;
     const ParticipantsReader& participants_;
     const ComparisonJob& job_;
-    std::vector<std::vector<std::size_t>> of_item_;  ///< positions of its results
+    std::vector<std::vector<std::size_t>> of_item_;        ///< positions of its results
+    std::set<std::pair<std::size_t, std::size_t>> parts_;  ///< items and rounds with results
     std::set<std::string> told_;
     struct Refusal {
         ProblemList* problems;

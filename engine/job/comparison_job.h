@@ -208,8 +208,9 @@ struct ComparisonJob {
     std::optional<MethodComparisonRequest> methods;
 
     bool names_released = false;  ///< names of participants may stand on documents, beside their ids
-    /// Items of several for which nothing can be computed, by position, and why.
-    std::map<std::size_t, gum::Diagnostic> refused_items = {};
+    /// Items, or rounds of them, of several for which nothing can be computed, by their positions, and why. Without a
+    /// round: in none of them.
+    std::map<std::pair<std::size_t, std::optional<std::size_t>>, gum::Diagnostic> refused_items = {};
     std::string organiser;  ///< of the comparison, for the report; "" without
     nlohmann::json document;
     std::optional<certificate::CertificateData> certificate;

@@ -124,6 +124,24 @@ TEST(ComparisonJob, MakesItemsAndRoundsOfTheResults) {
     EXPECT_THAT(job.rounds, ElementsAre("2", "1"));
 }
 
+TEST(ComparisonJob, OneRoundDoesNotLoseTheOthers) {
+    const auto refused = [](const std::string& assigned, const std::string& table) {
+        return read_comparison(R"("participants": {"file": "r.csv"}, "unit": "mm", "assigned_value": )" + assigned,
+                               {{"r.csv", table}})
+            .refused_items;
+    };
+    const auto weights = refused(R"("mandel_paule")",
+                                 "participant,round,value,u\nA,1,1,1\nB,1,1,1\nC,1,1,1\nA,2,1,1\nB,2,1,\nC,2,1,1\n");
+    ASSERT_EQ(weights.size(), 1U);
+    EXPECT_EQ(weights.begin()->first.second, std::optional<std::size_t>(1));
+    EXPECT_EQ(weights.begin()->second.code, k_result_without_uncertainty.code);
+    EXPECT_THAT(weights.begin()->second.what, testing::HasSubstr("in the round \"2\""));
+    const auto reference = refused(R"({"method": "reference", "participant": "A"})",
+                                   "participant,round,value,u\nA,1,1,1\nB,1,1,1\nB,2,1,1\nC,2,1,1\n");
+    ASSERT_EQ(reference.size(), 1U);
+    EXPECT_EQ(reference.begin()->second.code, k_reference_without_result.code);
+}
+
 TEST(ComparisonJob, ReadsEveryWayToStateTheAssignedValue) {
     const auto method_of = [](const std::string& value) {
         return read_comparison(k_three_laboratories + ", \"assigned_value\": " + value).items[0].assigned_value;
