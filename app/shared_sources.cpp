@@ -5,6 +5,7 @@
 #include <map>
 
 #include "app/budget_model.h"
+#include "app/name_spelling.h"
 
 namespace gumcert::app {
 
@@ -35,24 +36,6 @@ double root_sum_of_squares(const Contributions& contributions) {
         sum += contribution * contribution;
     }
     return std::sqrt(sum);
-}
-
-/// A name in small letters, with its letters and digits alone; zeros before a number count for nothing. Bytes beyond
-/// ASCII stay as they are.
-std::string without_spelling(const std::string& name) {
-    std::string plain;
-    for (const char c : name) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (c >= 'A' && c <= 'Z') {
-            plain += static_cast<char>(c - 'A' + 'a');
-        } else if ((c >= 'a' && c <= 'z') || byte >= 0x80U) {
-            plain += c;
-        } else if (c >= '0' && c <= '9') {
-            const bool leading = c == '0' && (plain.empty() || plain.back() < '0' || plain.back() > '9');
-            plain += leading ? "" : std::string(1, c);
-        }
-    }
-    return plain;
 }
 
 /// Where both sides have one contribution, these two; else by name, and the largest that the others can have.
