@@ -52,10 +52,17 @@ Text signal_name(const Wording& words, const std::string& signal) {
     return signal.empty() ? Text() : words("comparison_signal", signal);
 }
 
-/// How much the signal of a result matters: 0 without one; an action more than any warning.
+/// A result that nothing clears and nothing accuses.
+bool is_open(const ComparisonPoint& p) {
+    return p.signal == "inconclusive" || agreement_is_open(p);
+}
+
+/// How much the signal of a result matters: 0 without one; an action more than any warning, a warning more than an
+/// open judgement.
 double weight_of(const ComparisonPoint& p, const std::string& score) {
+    constexpr double k_open = 0.5;
     if (!has_signal(p)) {
-        return 0.0;
+        return is_open(p) ? k_open : 0.0;
     }
     const double magnitude = std::abs(score_of(p, score).value_or(0.0));
     return (p.signal == "action" ? 2.0 : 1.0) + magnitude / (1.0 + magnitude);
@@ -77,6 +84,15 @@ Points shown_points(CertificateBuilder& builder, const Wording& words, const Com
 
 bool is_refuted(const ComparisonItemEvaluation& item) {
     return item.consistency && !item.consistency->consistent;
+}
+
+/// How much an item matters: 0 where its results agree and its scores judge all of them.
+double weight_of(const ComparedItem& compared) {
+    double weight = is_refuted(*compared.item) ? 1.0 : 0.0;
+    for (const ComparisonPoint* p : compared.points) {
+        weight += p->signal == "action" ? 2.0 : p->signal == "warning" || is_open(*p) ? 1.0 : 0.0;
+    }
+    return weight;
 }
 
 /// The name of a score that gives a signal.
@@ -201,8 +217,76 @@ void what_scores_cannot_say(CertificateBuilder& builder, const Wording& words, c
     const std::vector<std::string> names = with_signal(compared.points, "inconclusive");
     if (!names.empty()) {
         builder.paragraph(
-            words.filled("comparison_scores", "cannot_clear",
+            words.filled("comparison_scores", item.u ? "cannot_clear" : "cannot_clear_unknown",
                          {{"item", compared.name}, {"count", count(names.size())}, {"names", some_of(words, names)}}));
+    }
+}
+
+bool any_point(const ComparedItem& compared, bool (*holds)(const ComparisonPoint&)) {
+    return std::any_of(compared.points.begin(), compared.points.end(),
+                       [&](const ComparisonPoint* p) { return holds(*p); });
+}
+
+/// One sentence with the names of those of many items that something holds for; false where it holds for none.
+template <typename Holds>
+bool sentence_of_items(CertificateBuilder& builder, const Wording& words, const std::vector<ComparedItem>& items,
+                       const char* name, const Holds& holds) {
+    constexpr std::size_t k_most_names = 12;
+    Text names;
+    std::size_t found = 0;
+    for (const ComparedItem& compared : items) {
+        if (holds(compared) && ++found <= k_most_names) {
+            names = names.empty() ? compared.name : names + "; " + compared.name;
+        }
+    }
+    if (found == 0) {
+        return false;
+    }
+    if (found > k_most_names) {
+        names = words.fill("and_more", {{"names", names}, {"count", count(found - k_most_names)}});
+    }
+    builder.paragraph(words.filled("comparison_scores", name,
+                                   {{"count", count(found)}, {"items", count(items.size())}, {"names", names}}));
+    return true;
+}
+
+/// What holds of items that are too many for sentences of their own: every item that contradicts itself, or that
+/// leaves a judgement open, is named or counted.
+void answer_of_many_items(CertificateBuilder& builder, const Wording& words, const std::vector<ComparedItem>& items) {
+    sentence_of_items(builder, words, items, "inconsistent_items",
+                      [](const ComparedItem& i) { return is_refuted(*i.item); });
+    sentence_of_items(builder, words, items, "contradicted_U_items", [](const ComparedItem& i) {
+        return is_refuted(*i.item) && i.item->U_rests_on == "uncertainties";
+    });
+    sentence_of_items(builder, words, items, "inconclusive_items", [](const ComparedItem& i) {
+        return any_point(i, [](const ComparisonPoint& p) { return p.signal == "inconclusive"; });
+    });
+    sentence_of_items(builder, words, items, "open_items",
+                      [](const ComparedItem& i) { return any_point(i, agreement_is_open); });
+    sentence_of_items(builder, words, items, "no_score_items",
+                      [](const ComparedItem& i) { return i.item->score.empty(); });
+    const bool scored = std::any_of(items.begin(), items.end(), [](const ComparedItem& i) {
+        return any_point(i, [](const ComparisonPoint& p) { return p.signal == "none"; });
+    });
+    if (!sentence_of_items(builder, words, items, "signal_items",
+                           [](const ComparedItem& i) { return any_point(i, has_signal); }) &&
+        scored) {
+        builder.paragraph(words.filled("comparison_scores", "no_signal_items", {{"items", count(items.size())}}));
+    }
+}
+
+/// What the scores say, item by item where there are few.
+void answer_of_items(CertificateBuilder& builder, const Wording& words, const std::vector<ComparedItem>& items) {
+    if (items.size() > k_most_side_by_side) {
+        answer_of_many_items(builder, words, items);
+        return;
+    }
+    for (const ComparedItem& compared : items) {
+        what_scores_cannot_say(builder, words, compared);
+        if (const Text sentence = scores_sentence(words, compared); !sentence.empty()) {
+            builder.paragraph(sentence);
+        }
+        open_results(builder, words, compared);
     }
 }
 
@@ -227,13 +311,14 @@ void items_without_result(CertificateBuilder& builder, const Wording& words, con
     constexpr std::size_t k_most_items = 10;
     for (std::size_t i = 0; i < std::min(c.items_without_result.size(), k_most_items); ++i) {
         const ItemWithoutResult& item = c.items_without_result[i];
-        const Text name = item.name.empty() ? item.id : item.name;
+        Text name = item.name.empty() ? item.id : item.name;
+        name = name.empty() ? words("comparison", "the_item") : name;
         builder.paragraph(words.filled(
             "comparison_scores", "without_result",
             {{"item", item.round.empty()
                           ? name
                           : words.filled("comparison", "item_in_round", {{"item", name}, {"round", item.round}})},
-             {"what", item.what}}));
+             {"what", words.sentence(item.what)}}));
     }
     if (c.items_without_result.size() > k_most_items) {
         builder.paragraph(words.filled("comparison_scores", "more_without_result",
@@ -349,21 +434,34 @@ void scores_side_by_side(CertificateBuilder& builder, const Wording& words, cons
     }
 }
 
-/// Items with the numbers of signals, where there are too many for one column each.
-void items_table(CertificateBuilder& builder, const Wording& words, const std::vector<ComparedItem>& items) {
+std::vector<double> weights_of(const std::vector<ComparedItem>& items) {
     std::vector<double> weights;
     for (const ComparedItem& compared : items) {
-        weights.push_back(2.0 * static_cast<double>(with_signal(compared.points, "action").size()) +
-                          static_cast<double>(with_signal(compared.points, "warning").size()));
+        weights.push_back(weight_of(compared));
     }
+    return weights;
+}
+
+/// Items with the numbers of signals, where there are too many for one column each; those that matter first.
+void items_table(CertificateBuilder& builder, const Wording& words, const std::vector<ComparedItem>& items) {
+    const std::vector<double> weights = weights_of(items);
+    std::vector<std::size_t> shown = shown_rows(weights, k_most_rows);
+    std::stable_sort(shown.begin(), shown.end(), [&](std::size_t a, std::size_t b) { return weights[a] > weights[b]; });
+    const auto open = [](const ComparedItem& compared) {
+        return std::count_if(compared.points.begin(), compared.points.end(),
+                             [](const ComparisonPoint* p) { return is_open(*p); });
+    };
+    const bool any_open = std::any_of(items.begin(), items.end(), [&](const auto& item) { return open(item) > 0; });
     Rows rows;
-    for (const std::size_t i : shown_rows(weights, k_most_rows)) {
+    for (const std::size_t i : shown) {
         const ComparisonItemEvaluation& item = *items[i].item;
         const std::vector<std::string> action = with_signal(items[i].points, "action");
         rows.push_back({items[i].name, printed_quantity(words, item.printed.value, item.unit),
                         printed_quantity(words, item.printed.U, item.difference_unit), score_name(words, item.score),
                         count(items[i].points.size()), count(with_signal(items[i].points, "warning").size()),
-                        count(action.size()), some_of(words, action)});
+                        count(action.size()), some_of(words, action),
+                        any_open ? count(static_cast<std::size_t>(open(items[i]))) : Text(),
+                        is_refuted(item) ? "p = " + words.number(item.consistency->printed.p_value) : Text()});
     }
     say_what_is_shown(builder, words, weights, rows.size());
     table_of_filled_columns(builder, "items", words("comparison", "items_table"),
@@ -374,7 +472,9 @@ void items_table(CertificateBuilder& builder, const Wording& words, const std::v
                              {words("comparison", "results"), "", true},
                              {words("comparison", "warnings"), "", true},
                              {words("comparison", "actions"), "", true},
-                             {words("comparison", "laboratories_with_action"), ""}},
+                             {words("comparison", "laboratories_with_action"), ""},
+                             {words("comparison", "inconclusive"), "", true},
+                             {words("comparison", "contradiction"), ""}},
                             rows);
 }
 
@@ -467,15 +567,9 @@ void realism_table(CertificateBuilder& builder, const Wording& words, const Comp
 
 void item_sections(CertificateBuilder& builder, const Wording& words, const Comparison& c,
                    const std::vector<ComparedItem>& items) {
-    std::size_t detailed = 0;
-    for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::vector<std::size_t> shown = shown_rows(weights_of(items), k_most_detailed);
+    for (const std::size_t i : shown) {
         const ComparedItem& compared = items[i];
-        const bool notable = std::any_of(compared.points.begin(), compared.points.end(),
-                                         [](const ComparisonPoint* p) { return has_signal(*p); });
-        if (items.size() > k_most_detailed && (!notable || detailed == k_most_detailed)) {
-            continue;
-        }
-        ++detailed;
         const std::string id = count(i + 1);
         builder.section("item-" + id, items.size() == 1
                                           ? words("heading", "assigned_value")
@@ -502,10 +596,10 @@ void item_sections(CertificateBuilder& builder, const Wording& words, const Comp
         pairs_of_item(builder, words, compared, id);
         realism_table(builder, words, compared, id);
     }
-    if (detailed < items.size()) {
+    if (shown.size() < items.size()) {
         builder.section("further_items");
         builder.paragraph(words.filled("comparison", "items_in_record",
-                                       {{"shown", count(detailed)}, {"count", count(items.size())}}));
+                                       {{"shown", count(shown.size())}, {"count", count(items.size())}}));
     }
 }
 
@@ -522,7 +616,7 @@ void participants_section(CertificateBuilder& builder, const Wording& words, con
     builder.section("participants");
     std::vector<double> weights;
     for (const ParticipantSummary& p : c.participants) {
-        weights.push_back(2.0 * static_cast<double>(p.actions) + static_cast<double>(p.warnings));
+        weights.push_back(2.0 * static_cast<double>(p.actions) + static_cast<double>(p.warnings + p.inconclusive));
     }
     Rows names;
     Rows rows;
@@ -711,12 +805,8 @@ void laboratory_answer(CertificateBuilder& builder, const Wording& words, const 
     const std::vector<ComparedItem> items = compared_items(words, c);
     builder.section("answer");
     Text compared;
+    answer_of_items(builder, words, items);
     for (std::size_t i = 0; i < std::min(items.size(), k_most_side_by_side); ++i) {
-        what_scores_cannot_say(builder, words, items[i]);
-        if (const Text sentence = scores_sentence(words, items[i]); !sentence.empty()) {
-            builder.paragraph(sentence);
-        }
-        open_results(builder, words, items[i]);
         compared = compared.empty() ? items[i].name : compared + "; " + items[i].name;
     }
     factors_in_brief(builder, words, c);

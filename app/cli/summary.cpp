@@ -187,11 +187,19 @@ void print_laboratories(const reports::Comparison& comparison, const std::string
     fmt::print("\n{} results: {} with an action signal, {} with a warning signal\n", comparison.points.size(), actions,
                warnings);
     if (inconclusive > 0) {
-        fmt::print("{} cannot be judged: the assigned value is too uncertain for them\n", inconclusive);
+        fmt::print("{} cannot be judged: the assigned value is too uncertain for them, or of unknown uncertainty\n",
+                   inconclusive);
+    }
+    const auto inconsistent = std::count_if(
+        comparison.items.begin(), comparison.items.end(),
+        [](const reports::ComparisonItemEvaluation& i) { return i.consistency && !i.consistency->consistent; });
+    if (inconsistent > 0 && comparison.items.size() > k_most_items) {
+        fmt::print("{} of {} items: the results contradict each other\n", inconsistent, comparison.items.size());
     }
     for (const reports::ItemWithoutResult& item : comparison.items_without_result) {
-        fmt::print("{}{}{}: no result: {} [{}]\n", item.name.empty() ? item.id : item.name,
-                   item.round.empty() ? "" : ", round ", item.round, item.what, item.code);
+        const std::string name = item.name.empty() ? item.id : item.name;
+        const std::string round = item.round.empty() ? "" : (name.empty() ? "round " : ", round ") + item.round;
+        fmt::print("{}{}: no result: {} [{}]\n", name, round, item.what, item.code);
     }
 }
 

@@ -1001,6 +1001,85 @@ TEST(WhatScoresSay, ManySpellingsOfOneNameAreOneQuestion) {
     EXPECT_EQ(similar_source_names({"Std 17", "Std 017"}, {}).size(), 1U);
 }
 
+TEST(WhatScoresSay, SpellingsBeyondAsciiAreAskedAbout) {
+    for (const std::set<std::string>& names :
+         std::vector<std::set<std::string>>{{"Std 17", "Std\u00a017"},                 // no-break space
+                                            {"Std 17", "Std\u201317", "Std\u221217"},  // en dash, minus sign
+                                            {"Normal \u00c4", "normal \u00e4", "Normal A\u0308"},
+                                            {"Stra\u00dfe 3", "STRASSE 3", "STRA\u1e9eE 3"},
+                                            {"\u03a3 1", "\u03c3 1", "\u03c2 1"},              // sigma
+                                            {"\u041d\u0418\u0418 1", "\u043d\u0438\u0438 1"},  // Cyrillic
+                                            {"Std 17", "\u0405td 17"},            // a Cyrillic letter that looks like S
+                                            {"\uff33\uff54\uff44 17", "Std 17"},  // full width
+                                            {"Std \u246017", "Std 117"}}) {
+        EXPECT_EQ(similar_source_names(names, {}).size(), 1U) << *names.begin();
+    }
+    EXPECT_THAT(similar_source_names({"\u5206\u9285 1", "\u7802\u78bc 1", "\u03a3 1", "\u03a9 1"}, {}), IsEmpty());
+}
+
+TEST(WhatScoresSay, AnAssignedValueWithALargerUClearsNobody) {
+    ComparisonJob job = job_of({10.0, 10.1, 10.9}, {0.1, 0.1, 0.1});
+    ResultUncertainty poor{.u = 0.09, .U = 13.97 * 0.09, .k = 13.97};
+    poor.degrees_of_freedom = 1.0;
+    job.items[0].assigned_value = given(10.05, poor);
+    const reports::Comparison of_given = evaluated(job);
+    EXPECT_EQ(of_given.points[0].signal, "inconclusive");
+    EXPECT_EQ(of_given.points[1].signal, "inconclusive");
+    EXPECT_EQ(of_given.points[2].signal, "action");  // a signal stays one
+    ComparisonJob consensus = job_of({10.0, 10.1, 10.2}, {0.1, 0.1, 0.1});
+    consensus.items[0].assigned_value.method = AssignedValueMethod::mandel_paule;
+    const reports::Comparison three = evaluated(consensus);
+    ASSERT_GT(*three.items[0].U, *three.points[0].U);
+    for (const reports::ComparisonPoint& point : three.points) {
+        EXPECT_EQ(point.signal, "inconclusive");
+    }
+}
+
+TEST(WhatScoresSay, AnUnknownUncertaintyOfTheAssignedValueClearsNobody) {
+    ComparisonJob job = job_of({10.0, 10.0, 10.0, 10.2}, {});
+    job.items[0].assigned_value.method = AssignedValueMethod::median;
+    job.items[0].delta_E = 0.15;
+    const reports::Comparison by_D = evaluated(job);
+    ASSERT_FALSE(by_D.items[0].u);
+    EXPECT_EQ(by_D.points[0].signal, "inconclusive");
+    EXPECT_EQ(by_D.points[3].signal, "action");
+}
+
+TEST(WhatScoresSay, TwoResultsKeepTheirDegreesOfFreedom) {
+    ComparisonJob job = job_of({10.0, 10.36}, {0.1, 0.1});
+    job.items[0].assigned_value.method = AssignedValueMethod::mandel_paule;
+    for (ComparisonResult& result : job.results) {
+        result.uncertainty->degrees_of_freedom = 2.0;
+        result.uncertainty->k = 4.5266;  // t with 2 degrees of freedom
+        result.uncertainty->U = 4.5266 * 0.1;
+    }
+    // 0.36/(t(4) 0.1 sqrt(2)), t(4) = 2.8693 for 95.45 %
+    EXPECT_NEAR(*evaluated(job).points[1].En, 0.36 / (2.8693 * 0.1 * std::numbers::sqrt2), 1e-4);
+}
+
+TEST(WhatScoresSay, OneGrossOutlierLeavesTheOthersJudged) {
+    for (const AssignedValueMethod method : {AssignedValueMethod::median, AssignedValueMethod::algorithm_a}) {
+        ComparisonJob job = job_of({10.0, 10.01, 10.02, 10.01, 99.0}, {0.1, 0.1, 0.1, 0.1, 0.1});
+        job.items[0].assigned_value.method = method;
+        const reports::Comparison comparison = evaluated(job);
+        EXPECT_EQ(comparison.points[4].signal, "action");
+        for (std::size_t i = 0; i < 4; ++i) {
+            EXPECT_EQ(comparison.points[i].signal, "none");
+            EXPECT_LT(*comparison.points[i].U_D, 0.3);
+        }
+    }
+}
+
+TEST(WhatScoresSay, UncertaintiesAreHeldAgainstEachOtherWithOneFactor) {
+    ComparisonJob job = job_of({10.0, 10.1, 10.05}, {0.3, 0.1, 0.1});
+    job.results[0].uncertainty->k = 1.0;
+    job.results[0].uncertainty->U = 0.3;
+    job.participants[0].cmc_U = 0.25;
+    const reports::Comparison comparison = evaluated(job);
+    EXPECT_NEAR(*comparison.points[0].U_over_CMC, 2.0 * 0.3 / 0.25, 1e-3);
+    EXPECT_NEAR(*comparison.points[0].U_over_median, 3.0, 1e-3);
+}
+
 TEST(EvaluateComparison, RecordOfAComparison) {
     ComparisonJob job = key_comparison();
     job.title = "Key comparison";

@@ -588,15 +588,17 @@ TEST(ComparisonReport, OfManyLaboratoriesItShowsThoseWithSignals) {
             EXPECT_EQ(rows.at(at++)[0], p.participant);
         }
     }
-    EXPECT_THAT(text_of(record), HasSubstr("Of 499 rows 330 have a warning or action signal; the table shows the 200"));
+    EXPECT_THAT(text_of(record),
+                HasSubstr("Of 499 rows 357 have a signal or an open judgement; the table shows the 200"));
     for (std::size_t i = 0; i < points.size(); ++i) {
         points[i].signal = i == 17 || i == 230 ? "action" : "none";
+        points[i].En_worst = std::nullopt;  // an open judgement is shown as well
     }
     EXPECT_EQ(rows_of(view_of(record), "results-1").size(), 2U);
-    EXPECT_THAT(text_of(record), HasSubstr("Of 499 rows the table shows 2 with a warning or action signal."));
+    EXPECT_THAT(text_of(record), HasSubstr("Of 499 rows the table shows 2 with a signal or an open judgement."));
     points[17].signal = points[230].signal = "none";
     EXPECT_TRUE(block(view_of(record), "table", "scores").is_null());
-    EXPECT_THAT(text_of(record), HasSubstr("none of them has a warning or action signal"));
+    EXPECT_THAT(text_of(record), HasSubstr("none of them has a signal or an open judgement"));
 }
 
 TEST(ComparisonReport, ItsSizeHasALimit) {
@@ -616,7 +618,7 @@ TEST(ComparisonReport, ItsSizeHasALimit) {
         }
     }
     const json view = view_of(items);
-    EXPECT_THAT(text_of(items), HasSubstr("Of 1001 items the first 24 with signals are described here."));
+    EXPECT_THAT(text_of(items), HasSubstr("Of 1001 items the 24 that matter most"));
     EXPECT_EQ(rows_of(view, "items").size(), 200U);
 }
 
