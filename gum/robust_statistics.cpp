@@ -32,7 +32,8 @@ constexpr double k_vanished = 1e-12;  // of the scale that algorithm A began wit
 
 [[noreturn]] void refuse_scale(const std::string& method, const std::string& what, const std::string& other = "") {
     refuse("GC-GUM-0102", method, what, "a robust standard deviation greater than 0 is needed",
-           "Report the median, " + other + "or give the results with more digits.");
+           "Take a value and a limit that need no such scale (sigma_pt or delta_E), " + other +
+               "or give the results with more digits.");
 }
 
 [[noreturn]] void refuse_no_scale_of_algorithm_a(std::size_t results) {

@@ -493,10 +493,12 @@ TEST(RobustStatistics, EqualResultsHaveNoScale) {
     EXPECT_TRUE(agrees(algorithm_a(Results{10.0, 10.0, 10.0, 10.1, 9.9}).scale, 0.0801859089865542, 1e-12));
     // One of ten that is off is drawn in to the others, and no scale is left.
     const Results all_but_one{5.0, 5.0, 5.0, 5.0, 5.0, 5.0, 5.0, 5.0, 5.0, 6.0};
-    EXPECT_EQ(message_of<InputError>([&] { return algorithm_a(all_but_one); }),
-              "algorithm A — more than half of 10 results are equal, and the others too few or too far away to make a "
-              "scale — a robust standard deviation greater than 0 is needed — Report the median, use the Q method with "
-              "Hampel's estimator, or give the results with more digits.");
+    EXPECT_EQ(
+        message_of<InputError>([&] { return algorithm_a(all_but_one); }),
+        "algorithm A — more than half of 10 results are equal, and the others too few or too far away to make a "
+        "scale — a robust standard deviation greater than 0 is needed — Take a value and a limit that need no such "
+        "scale (sigma_pt or delta_E), use the Q method with "
+        "Hampel's estimator, or give the results with more digits.");
     EXPECT_EQ(code_of<InputError>([] { return algorithm_a(Results{5.0, 5.0, 5.0}); }), "GC-GUM-0102");
     EXPECT_EQ(code_of<InputError>([] { return algorithm_a(Results{0.3, 0.1 + 0.2, 0.3}); }), "GC-GUM-0102");
     // The Q method has a scale as long as not all results are equal.
