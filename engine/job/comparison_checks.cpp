@@ -108,6 +108,16 @@ private:
     [[nodiscard]] std::string in_round(std::size_t round) const {
         return job_.rounds[round].empty() ? "" : " in the round " + in_quotes(job_.rounds[round]);
     }
+    /// " (item "low", round "2")", as messages of the evaluation name places; "" where the job has one item.
+    [[nodiscard]] std::string place_of(std::size_t item, std::size_t round) const {
+        const std::string& id = job_.items[item].id;
+        const std::string& name = job_.rounds[round];
+        if (id.empty() && name.empty()) {
+            return "";
+        }
+        return " (item" + (id.empty() ? "" : " " + in_quotes(id)) + (name.empty() ? "" : ", round " + in_quotes(name)) +
+               ")";
+    }
     [[nodiscard]] std::string where_of(std::size_t item) const {
         const std::string pointer = child_pointer("/items", item);
         return where(reading_.document.places.contains(pointer) ? pointer : "/participants");
@@ -231,14 +241,13 @@ private:
             }
         }
         for (const auto& [round, results] : without) {
-            std::vector<std::string> names;
+            std::string names;
             for (const std::size_t i : results) {
-                names.push_back(job_.participants[job_.results[i].participant].id);
+                names += (names.empty() ? "" : ", ") + in_quotes(job_.participants[job_.results[i].participant].id);
             }
             refuse_item(
                 item, round, participants_.problems_of(results.front()), code, job_.results[results.front()].where,
-                list_of(names) + (names.size() == 1 ? " states " : " state ") + what + of_item(item) + in_round(round) +
-                    ", and the assigned value is " +
+                what + " is stated by " + names + place_of(item, round) + ", and the assigned value is " +
                     in_quotes(assigned_value_words()[static_cast<std::size_t>(job_.items[item].assigned_value.method)]),
                 rule, action);
         }

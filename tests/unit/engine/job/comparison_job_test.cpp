@@ -135,7 +135,7 @@ TEST(ComparisonJob, OneRoundDoesNotLoseTheOthers) {
     ASSERT_EQ(weights.size(), 1U);
     EXPECT_EQ(weights.begin()->first.second, std::optional<std::size_t>(1));
     EXPECT_EQ(weights.begin()->second.code, k_result_without_uncertainty.code);
-    EXPECT_THAT(weights.begin()->second.what, testing::HasSubstr("in the round \"2\""));
+    EXPECT_THAT(weights.begin()->second.what, testing::HasSubstr("stated by \"B\" (item, round \"2\")"));
     const auto reference = refused(R"({"method": "reference", "participant": "A"})",
                                    "participant,round,value,u\nA,1,1,1\nB,1,1,1\nB,2,1,1\nC,2,1,1\n");
     ASSERT_EQ(reference.size(), 1U);
