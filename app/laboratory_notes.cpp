@@ -273,6 +273,13 @@ void add_remarks_on_coverage(const engine::ComparisonJob& job, const reports::Co
             break;
         }
     }
+    if (any_item(comparison, [](const ComparisonItemEvaluation& item) {
+            return item.U_rests_on == "uncertainties" && item.nu && !item.weights.empty();
+        })) {
+        remarks.emplace_back(
+            "Weights that come from uncertainties with few degrees of freedom are uncertain themselves: U(X) of a "
+            "weighted mean then covers less than it claims.");
+    }
     const bool by_default = std::any_of(job.items.begin(), job.items.end(), [](const engine::ComparisonItem& item) {
         return item.assigned_value.by_default;
     });
