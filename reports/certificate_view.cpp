@@ -23,6 +23,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -276,11 +277,59 @@ void messages(CertificateBuilder& builder, const Wording& words, const std::vect
     builder.definitions(rows);
 }
 
+/// The codes of the laboratories whose budgets are files, by the names of these files, where documents must not name
+/// laboratories: the name of a file tells whose it is.
+std::map<std::string, std::string> confidential_budgets(const EvaluationRecord& record) {
+    std::map<std::string, std::string> codes;
+    if (!record.comparison || record.comparison->form != "laboratories" || record.comparison->names_released) {
+        return codes;
+    }
+    const nlohmann::json job = nlohmann::json::parse(record.job_json, nullptr, false);
+    for (const auto& [list, code] : {std::pair("participants", "id"), std::pair("results", "participant")}) {
+        if (!job.is_object() || !job.contains(list) || !job[list].is_array()) {
+            continue;
+        }
+        for (const nlohmann::json& one : job[list]) {
+            const bool named = one.is_object() && one.contains(code) && one[code].is_string();
+            if (named && one.contains("budget") && one["budget"].is_string()) {
+                codes.emplace(one["budget"].get<std::string>(), one[code].get<std::string>());
+            }
+        }
+    }
+    return codes;
+}
+
+/// The messages, with the code of a laboratory in place of the name of its budget.
+std::vector<gum::Diagnostic> without_file_names(const EvaluationRecord& record) {
+    std::vector<gum::Diagnostic> diagnostics = record.diagnostics;
+    for (const auto& [file, code] : confidential_budgets(record)) {
+        for (gum::Diagnostic& d : diagnostics) {
+            for (std::string* text : {&d.where, &d.what, &d.rule, &d.action}) {
+                for (std::size_t at = text->find(file); !file.empty() && at != std::string::npos;
+                     at = text->find(file, at + code.size())) {
+                    text->replace(at, file.size(), code);
+                }
+            }
+        }
+    }
+    return diagnostics;
+}
+
+/// Files by their names, but budgets by the codes of their laboratories, and what they read in turn by its number.
 void input(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     builder.section("input");
+    const std::map<std::string, std::string> codes = confidential_budgets(record);
     Rows rows;
     for (const InputFile& file : record.job_files) {
-        rows.push_back({file.name, file.sha256});
+        const auto code = codes.find(file.name);
+        const bool is_job = rows.empty();
+        Text name = file.name;
+        if (code != codes.end()) {
+            name = words.filled("comparison", "budget_file_of", {{"participant", code->second}});
+        } else if (!codes.empty() && !is_job) {
+            name = words.filled("comparison", "file_number", {{"number", std::to_string(rows.size() + 1)}});
+        }
+        rows.push_back({name, file.sha256});
     }
     builder.table("files", words("sentence", "files"), {{words("label", "file"), ""}, {words("label", "sha256"), ""}},
                   rows);
@@ -459,7 +508,7 @@ nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::
         certificate_sections(builder, words, record, view["identity"]);
     }
     if (!record.diagnostics.empty()) {
-        messages(builder, words, record.diagnostics);
+        messages(builder, words, without_file_names(record));
     }
     input(builder, words, record);
 

@@ -71,12 +71,18 @@ void laboratory_numbers(CertificateBuilder& builder, const Wording& words, const
                                     [&](const auto& item) { return item.round != c.items.front().round; });
     const auto item_of = [&](const std::string& id) { return c.items.size() > 1 ? name_of_item(c, id) : ""; };
     Rows rows;
-    Rows ties;  // a table of its own: so many digits do not fit side by side
+    Rows ties;  // tables of their own: so many digits do not fit side by side
+    Rows others;
     for (const ComparisonPoint& p : c.points) {
         const auto weight = weights.find({p.item, p.round, p.participant});
         const Text item = item_of(p.item);
         const Text round = rounds ? p.round : "";
-        rows.push_back({item, round, p.participant, number(p.value), number(p.u), number(p.k), number(p.nu)});
+        rows.push_back({item, round, p.participant, number(p.value), number(p.u), number(p.k), number(p.nu),
+                        number(p.U_of_scores)});
+        if (p.u_others) {
+            others.push_back({item, round, p.participant, number(p.u_others), number(p.nu_others), number(p.share),
+                              number(p.covariance_others), number(p.factor_D)});
+        }
         if (p.correlation || weight != weights.end()) {
             ties.push_back({item, round, p.participant, number(p.correlation),
                             weight == weights.end() ? Text() : number(weight->second)});
@@ -87,18 +93,23 @@ void laboratory_numbers(CertificateBuilder& builder, const Wording& words, const
     const Column laboratory = digits(words("comparison", "participant"));
     table_of_filled_columns(
         builder, "unrounded", words("comparison", "unrounded_table"),
-        {item, round, laboratory, digits("x", c.unit), digits("u(x)", difference_unit_of(c)), digits("k"), digits("ν")},
+        {item, round, laboratory, digits("x", c.unit), digits("u(x)", difference_unit_of(c)), digits("k"), digits("ν"),
+         digits(words("comparison", "U_of_scores"), difference_unit_of(c))},
         rows);
+    table_of_filled_columns(builder, "unrounded-others", words("comparison", "unrounded_others_table"),
+                            {item, round, laboratory, digits("u_others", difference_unit_of(c)), digits("ν_others"),
+                             digits("w"), digits("c"), digits("f")},
+                            others);
     table_of_filled_columns(builder, "unrounded-weights", words("comparison", "unrounded_weights_table"),
                             {item, round, laboratory, digits("r"), digits(words("comparison", "weight"))}, ties);
     Rows items;
     for (const ComparisonItemEvaluation& i : c.items) {
         items.push_back({item_of(i.id), rounds ? i.round : "", gum::unit_for_people(i.unit), number(i.value),
-                         number(i.u), number(i.k), number(i.sigma_pt), number(i.delta_E)});
+                         number(i.u), number(i.k), number(i.sigma_pt), number(i.delta_E), number(i.U_of_scores)});
     }
     table_of_filled_columns(builder, "unrounded-items", words("comparison", "unrounded_items_table"),
                             {item, round, digits(words("label", "unit")), digits("X"), digits("u(X)"), digits("k"),
-                             digits("σ_pt"), digits("δ_E")},
+                             digits("σ_pt"), digits("δ_E"), digits(words("comparison", "U_of_scores"))},
                             items);
 }
 
@@ -107,10 +118,10 @@ void method_numbers(CertificateBuilder& builder, const Wording& words, const Com
     Rows method;
     Rows reference;  // a table of its own: so many digits do not fit side by side
     for (const ComparisonPoint& p : c.points) {
-        method.push_back(
-            {p.name, p.direction, number(p.position), number(p.value), number(p.u), number(p.k), number(p.nu)});
+        method.push_back({p.name, p.direction, number(p.position), number(p.value), number(p.u), number(p.k),
+                          number(p.nu), number(p.U_of_scores)});
         reference.push_back({p.name, p.direction, number(p.position), number(p.reference_value), number(p.reference_u),
-                             number(p.reference_k), number(p.correlation)});
+                             number(p.reference_k), number(p.correlation), number(p.reference_U_of_scores)});
     }
     const std::string difference_unit = c.unit.empty() ? "" : gum::unit_of_difference(c.unit);
     const Column point = digits(words("label", "point"));
@@ -120,14 +131,14 @@ void method_numbers(CertificateBuilder& builder, const Wording& words, const Com
     const auto caption = [&](const std::string& name) {
         return words.filled("comparison", "unrounded_side_table", {{"name", name}});
     };
-    table_of_filled_columns(
-        builder, "unrounded", caption(c.method_name),
-        {point, direction, position, digits("x", c.unit), digits("u(x)", difference_unit), digits("k"), digits("ν")},
-        method);
-    table_of_filled_columns(
-        builder, "unrounded-reference", caption(c.reference_name),
-        {point, direction, position, digits("X", c.unit), digits("u(X)", difference_unit), digits("k"), digits("r")},
-        reference);
+    table_of_filled_columns(builder, "unrounded", caption(c.method_name),
+                            {point, direction, position, digits("x", c.unit), digits("u(x)", difference_unit),
+                             digits("k"), digits("ν"), digits(words("comparison", "U_of_scores"), difference_unit)},
+                            method);
+    table_of_filled_columns(builder, "unrounded-reference", caption(c.reference_name),
+                            {point, direction, position, digits("X", c.unit), digits("u(X)", difference_unit),
+                             digits("k"), digits("r"), digits(words("comparison", "U_of_scores"), difference_unit)},
+                            reference);
 }
 
 void numbers_to_recompute(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
