@@ -32,7 +32,7 @@ public:
     void expand(ReferenceEstimate& estimate, const gum::SpreadUncertainty& spread) const {
         if (estimate.u && spread.u > 0.0) {
             estimate.U = gum::coverage_factor(coverage_probability_, spread.degrees_of_freedom) * spread.u;
-            estimate.nu = spread.degrees_of_freedom;
+            estimate.nu = finite_or_none(spread.degrees_of_freedom);
         }
     }
 

@@ -1035,6 +1035,17 @@ TEST(WhatScoresSay, AnAssignedValueWithALargerUClearsNobody) {
     }
 }
 
+TEST(WhatScoresSay, EqualResultsClaimNoLessThanTheyState) {
+    ComparisonJob job = job_of({10.0, 10.0, 10.0}, {0.1, 0.1, 0.1});
+    job.items[0].assigned_value.method = AssignedValueMethod::mandel_paule;
+    const reports::Comparison comparison = evaluated(job);
+    EXPECT_NEAR(*comparison.items[0].k, 2.0, 1e-4);
+    EXPECT_FALSE(comparison.items[0].nu);
+    for (const reports::ReferenceEstimate& estimate : comparison.items[0].estimates) {
+        EXPECT_TRUE(std::isfinite(estimate.nu.value_or(1.0))) << estimate.method;
+    }
+}
+
 TEST(WhatScoresSay, AnUnknownUncertaintyOfTheAssignedValueClearsNobody) {
     ComparisonJob job = job_of({10.0, 10.0, 10.0, 10.2}, {});
     job.items[0].assigned_value.method = AssignedValueMethod::median;
