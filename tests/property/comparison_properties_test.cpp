@@ -529,7 +529,8 @@ TEST(Comparison, UOfAnAssignedValueCoversWhatItClaimsAndEnAlarmsAsOftenAsItSays)
                 }
                 const double share = 100.0 * covered / k_runs;
                 EXPECT_GT(share, 94.0 - 2.6) << name << ", n = " << n << ", tau = " << tau;
-                EXPECT_LT(share, 97.0 + 2.0) << name << ", n = " << n << ", tau = " << tau;
+                // Without τ a U(X) that is never below k u(X) covers up to 99 %.
+                EXPECT_LT(share, tau > 0.0 ? 97.0 + 2.0 : 99.0 + 0.9) << name << ", n = " << n << ", tau = " << tau;
                 if (tau == 0.0) {
                     const double alarms = 100.0 * above / (k_runs * static_cast<double>(n));
                     EXPECT_GT(alarms, 2.4) << name << ", n = " << n;
