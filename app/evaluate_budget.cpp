@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/budget_coverage.h"
+#include "app/fit_scatter.h"
 #include "app/record_parts.h"
 #include "app/reported_result.h"
 #include "app/zero_uncertainty.h"
@@ -99,13 +100,21 @@ engine::CurveFit evaluate_fit(const BudgetFit& fit) {
     const gum::OutputSymbol output{.name = fit.ordinate, .unit = fit.ordinate_unit, .where = fit.where};
     const EquationCurve curve(gum::EquationSystem::compile({&fit.equation, 1}, symbols, {}, {&output, 1}),
                               fit.parameters.size());
-    const engine::CurveData data{.x = fit.x,
-                                 .y = fit.y,
-                                 .y_uncertainty = fit.y_uncertainty,
-                                 .x_uncertainty = fit.x_uncertainty,
-                                 .scale_by_residuals = fit.scale_by_residuals};
-    return engine::fit_curve(curve, data, start, names,
-                             has_intercept(curve, data, static_cast<Eigen::Index>(names.size())));
+    engine::CurveData data{.x = fit.x,
+                           .y = fit.y,
+                           .y_uncertainty = fit.y_uncertainty,
+                           .x_uncertainty = fit.x_uncertainty,
+                           .scale_by_residuals = fit.scale_by_residuals};
+    const bool intercept = has_intercept(curve, data, static_cast<Eigen::Index>(names.size()));
+    engine::CurveFit solved = engine::fit_curve(curve, data, start, names, intercept);
+    if (is_without_scatter(fit, solved)) {
+        throw gum::InputError(no_scatter_message(fit));
+    }
+    if (keeps_stated_uncertainties(fit, solved)) {
+        data.scale_by_residuals = false;
+        solved = engine::fit_curve(curve, data, start, names, intercept);
+    }
+    return solved;
 }
 
 std::optional<gum::EquationSystem> compile_model(const BudgetJob& job) {
@@ -279,6 +288,16 @@ std::optional<gum::SecondOrderPropagation> second_order_of(const BudgetPointResu
     }
 }
 
+/// Where the law gives u = 0, and the trials differ by no more than rounding does.
+bool trials_do_not_vary(const BudgetPointResult& point, Eigen::Index index) {
+    constexpr double k_roundings = 64.0;
+    const BudgetOutputResult& output = point.outputs[static_cast<std::size_t>(index)];
+    const double rounding =
+        k_roundings * std::numeric_limits<double>::epsilon() * std::abs(point.propagation.value(index));
+    return output.standard_uncertainty == 0.0 && output.by_monte_carlo && output.has_u &&
+           output.monte_carlo->standard_uncertainty <= rounding;
+}
+
 /// Which result of each output is reported, with the Monte Carlo that this takes.
 void report(const BudgetJob& job, const std::optional<gum::EquationSystem>& system, const std::string& where,
             unsigned threads, const Progress& progress, BudgetPointResult& point, BudgetResult& result) {
@@ -307,6 +326,10 @@ void report(const BudgetJob& job, const std::optional<gum::EquationSystem>& syst
         }
         decide_reported(choices[i], evidence[i], result.output_units[i], point.propagation.value(index),
                         job.monte_carlo ? job.monte_carlo->digits : 2, output);
+        if (trials_do_not_vary(point, index)) {
+            output.by_monte_carlo = false;  // what the law says of u = 0 holds for the trials too
+            output.because.clear();
+        }
         if (i < point.without_derivative.size() && point.without_derivative[i] && output.monte_carlo && output.has_u) {
             output.standard_uncertainty = output.monte_carlo->standard_uncertainty;
         }
@@ -360,6 +383,9 @@ BudgetResult evaluate_budget(const BudgetJob& job, unsigned threads,
             progress("fit of " + fit.name);
         }
         result.fits.push_back(evaluate_fit(fit));
+        if (fit.scale_by_residuals && !result.fits.back().covariance_scaled) {
+            result.notes.push_back(kept_uncertainties_message(fit));
+        }
     }
     const std::optional<gum::EquationSystem> system = compile_model(job);
     if (system) {

@@ -43,11 +43,16 @@ std::set<std::string> names_behind(const engine::BudgetJob& job, const std::stri
 
 bool is_exact_by_definition(const engine::BudgetJob& job, const BudgetPointResult& point, const std::string& output) {
     const std::set<std::string> names = names_behind(job, output);
+    const std::vector<BudgetSymbol> symbols = budget_symbols(job);
+    std::size_t quantity = 0;
     for (const gum::InputGroup& group : point.model->inputs()) {
-        const bool uncertain = (group.covariance.array() != 0.0).any();
-        // A group of several quantities, such as correlated inputs or the parameters of a fit, is named after all.
-        if (uncertain && (group.size() > 1 || names.contains(gum::canonical_name(group.name)))) {
-            return false;
+        for (Eigen::Index i = 0; i < group.size(); ++i, ++quantity) {
+            const std::size_t symbol = point.model->quantities()[quantity].symbol;
+            const bool is_fitted = symbol >= job.inputs.size();  // no constant, whatever its covariance
+            const double variance = group.covariance.cols() == 1 ? group.covariance(i, 0) : group.covariance(i, i);
+            if ((is_fitted || variance != 0.0) && names.contains(gum::canonical_name(symbols[symbol].name))) {
+                return false;
+            }
         }
     }
     return true;
