@@ -481,6 +481,7 @@ private:
             const QuantityKind& kind = equation_kinds_[symbol.index];
             outputs.push_back({name, output_unit(name, kind, declared, where, problems_)});
             if (!declared && kind.known) {
+                check_default_unit(name, temperatures_[symbol.index], kind, where, problems_);
                 outputs.back().unit = preferred_unit(outputs.back().unit, units_used_by(symbol.index));
             }
             check_result(temperatures_[symbol.index], kind, warnings_);

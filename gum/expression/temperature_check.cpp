@@ -12,12 +12,31 @@ namespace {
 constexpr int k_highest_power = 30;
 
 /// The two ways out, both for the same expression.
-std::string cure_of(const std::string& temperature) {
+std::string cure_of(const std::string& temperature, const std::string& zero) {
     const bool single = temperature.find_first_of("+-*/^ ") == std::string::npos;
     const std::string difference = single ? temperature : "(" + temperature + ")";
     return "Write kelvin(" + temperature + ") for \"" + temperature +
            "\" where the thermodynamic temperature is meant; where the difference from 0 degC is meant, write (" +
-           difference + " - t_0) with the input \"t_0\": {\"value\": 0, \"unit\": \"degC\", \"constant\": true}.";
+           difference + " - " + zero + ") with the input \"" + zero +
+           "\": {\"value\": 0, \"unit\": \"degC\", \"constant\": true}.";
+}
+
+/// A name for 0 degC that an equation does not use for something else.
+std::string free_name(const SyntaxTree& tree) {
+    std::string name = "t_0";
+    while (std::find(tree.names.begin(), tree.names.end(), name) != tree.names.end()) {
+        name += "C";
+    }
+    return name;
+}
+
+/// A constant that moves the zero of the scale: to absolute zero, or as the constants of the formulas of Magnus and
+/// Antoine do (some 200 K). A correction of a reading does not, whatever it is declared as.
+bool is_shift(const QuantityKind& kind) {
+    constexpr double k_least = 150.0;
+    constexpr double k_most = 350.0;
+    return kind.constant && std::fabs(kind.celsius) < 1e-9 && std::fabs(*kind.constant) >= k_least &&
+           std::fabs(*kind.constant) <= k_most;
 }
 
 /// A sub-expression without the parentheses around it.
@@ -59,6 +78,10 @@ public:
 private:
     [[nodiscard]] bool is_celsius(std::size_t node) const { return std::fabs(kinds_[node].celsius) > 1e-9; }
 
+    [[nodiscard]] bool is_zero(std::size_t node) const {
+        return kinds_[node].zero || (kinds_[node].constant && *kinds_[node].constant == 0.0);
+    }
+
     [[nodiscard]] std::string text(std::size_t node) const { return bare(tree_.excerpt(tree_.nodes[node])); }
 
     /// A Celsius temperature itself.
@@ -67,6 +90,7 @@ private:
         content.powers = 2;
         content.where = place(tree_.where, tree_.nodes[node].column);
         content.product = content.temperature = text(node);
+        content.zero = free_name(tree_);
         return content;
     }
 
@@ -78,6 +102,7 @@ private:
             content.where = place(tree_.where, tree_.nodes[node].column);
             content.product = text(node);
             content.temperature = to.temperature;
+            content.zero = to.zero;
         }
         return content;
     }
@@ -92,7 +117,7 @@ private:
                              : ", which is proportional to the Celsius temperature \"" + content.temperature + "\""),
              .rule = "a quotient, a root, a logarithm or a power holds for the thermodynamic "
                      "temperature; the number in degC is a difference from 0 degC",
-             .action = cure_of(content.temperature),
+             .action = cure_of(content.temperature, content.zero),
              .severity = Severity::warning});
     }
 
@@ -102,17 +127,17 @@ private:
         const TemperatureContent& b = contents_[right];
         if (is_celsius(node)) {
             TemperatureContent content = temperature(node);
-            const auto is_shift = [&](std::size_t of) {
-                return kinds_[of].constant.has_value() && *kinds_[of].constant != 0.0;
-            };
-            content.shifted = a.shifted || b.shifted || is_shift(left) || is_shift(right);
+            content.shifted = a.shifted || b.shifted || is_shift(kinds_[left]) || is_shift(kinds_[right]);
             return content;
         }
         if (is_celsius(left) && is_celsius(right)) {
             return {};  // a difference of temperatures
         }
-        if (a.powers == 2 && b.powers == 2) {
-            return {};  // a linear combination: a mean with weights, heat that is exchanged
+        if (a.powers == 2 && b.powers == 2 && tree_.nodes[node].operation == Operation::subtract) {
+            return {};  // a difference that is written out: heat that is exchanged
+        }
+        if (is_zero(left) || is_zero(right)) {
+            return is_zero(left) ? b : a;
         }
         TemperatureContent content = a.lone_power() >= b.lone_power() ? a : b;
         content.shifted = false;
@@ -244,8 +269,27 @@ void check_result(const TemperatureContent& content, const QuantityKind& kind, s
                                 "the Celsius temperature \"" + content.temperature + "\"",
                         .rule = "what is proportional to a temperature holds for the thermodynamic temperature; the "
                                 "number in degC is a difference from 0 degC",
-                        .action = cure_of(content.temperature),
+                        .action = cure_of(content.temperature, content.zero),
                         .severity = Severity::warning});
+}
+
+void check_default_unit(const std::string& name, const TemperatureContent& content, const QuantityKind& kind,
+                        const std::string& where, std::vector<Diagnostic>& problems) {
+    const bool enters = content.powers != 1 && !content.shifted;
+    if (!enters || !kind.known || !(kind.dimension == Dimension::temperature()) || std::fabs(kind.celsius) > 1e-9) {
+        return;
+    }
+    const std::string zero = content.zero.empty() ? "t_0" : content.zero;
+    problems.push_back(
+        {.code = "GC-MODEL-0036",
+         .where = where,
+         .what = name + " has no unit declared, and depends on the Celsius temperature \"" + content.temperature +
+                 "\" with a weight that is not known",
+         .rule = "a Celsius temperature is a sum of one Celsius temperature and differences",
+         .action = "If it is a difference from 0 degC (a formula or a mean of t in degC), add the input \"" + zero +
+                   "\": {\"value\": 0, \"unit\": \"degC\", \"constant\": true} and \" + " + zero +
+                   "\" to the right side, which gives degC. If a difference is asked for, declare " + name +
+                   " in K. If it is a thermodynamic temperature, write kelvin(t) for each Celsius temperature t."});
 }
 
 }  // namespace gumcert::gum

@@ -20,10 +20,11 @@ namespace gumcert::gum {
 struct TemperatureContent {
     /// Bit n: a term with tⁿ; bit 0: a term without.
     std::uint32_t powers = 1;
-    bool shifted = false;     ///< a Celsius temperature plus a constant: the zero of the scale was moved on purpose
+    bool shifted = false;     ///< plus a constant of some 273.15 K: the zero of the scale was moved on purpose
     std::string where;        ///< of the product
     std::string product;      ///< "Rg*t"
     std::string temperature;  ///< "t"
+    std::string zero;         ///< a free name for an input of 0 °C, in the cures
 
     /// The highest power that stands without lower ones beside it, which would make it a polynomial; 0: none.
     [[nodiscard]] int lone_power() const;
@@ -41,5 +42,10 @@ struct TemperatureContent {
 
 /// GC-MODEL-0041 where a result is proportional to a power of a Celsius temperature.
 void check_result(const TemperatureContent& content, const QuantityKind& kind, std::vector<Diagnostic>& warnings);
+
+/// Where no unit is declared for a result with the dimension of temperature that Celsius temperatures enter with a weight
+/// that is not known, e.g. w*t + (1 - w)*t2: "K" would be a guess. Adds GC-MODEL-0036.
+void check_default_unit(const std::string& name, const TemperatureContent& content, const QuantityKind& kind,
+                        const std::string& where, std::vector<Diagnostic>& problems);
 
 }  // namespace gumcert::gum

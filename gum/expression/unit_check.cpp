@@ -1,5 +1,6 @@
 #include "gum/expression/unit_check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -29,6 +30,28 @@ std::string angle_cure(const Dimension& a, const Dimension& b) {
         }
     }
     return {};
+}
+
+/// True where turns or cycles are what a quantity counts, so that 1 of it is 2 pi rad: rpm and turn, or a frequency.
+bool counts_turns(const QuantityKind& a, const QuantityKind& b) {
+    const auto is_turns = [](const QuantityKind& kind) {
+        return kind.unit.find("rpm") != std::string::npos || kind.unit.find("turn") != std::string::npos ||
+               kind.unit.find("rev") != std::string::npos;
+    };
+    static const Dimension rate = Unit::parse("Hz").dimension();
+    return is_turns(a) || is_turns(b) || a.dimension == rate || b.dimension == rate;
+}
+
+/// angle_cure() for a sum of turns, or of cycles, and a number of them: "/rad" alone would be wrong by 2 pi.
+std::string turns_cure(const QuantityKind& a, const QuantityKind& b) {
+    const bool first = a.dimension / b.dimension == Dimension::angle();
+    if ((!first && !(b.dimension / a.dimension == Dimension::angle())) || !counts_turns(a, b)) {
+        return {};
+    }
+    const std::string with_angle = first ? "first" : "second";
+    return "They differ by the unit of angle: divide the " + with_angle +
+           " by a turn (\"/(2*pi*rad)\") where turns or cycles are counted (60 rpm are 1 Hz), or by the radian "
+           "(\"/rad\") where radians are.";
 }
 
 class UnitCheck {
@@ -117,6 +140,7 @@ private:
             case Operation::negate:
                 kind.dimension = a.dimension;
                 kind.celsius = -a.celsius;
+                kind.fahrenheit = a.fahrenheit;
                 kind.zero = a.zero;
                 return kind;
             case Operation::absolute:
@@ -191,6 +215,7 @@ private:
                 kind.dimension = a.zero ? b.dimension : a.dimension;
                 kind.celsius = node.operation == Operation::add ? a.celsius + b.celsius : a.celsius - b.celsius;
                 kind.zero = a.zero && b.zero;
+                kind.fahrenheit = (a.fahrenheit || b.fahrenheit) && !is_same_weight(kind.celsius, 0.0);
                 return kind;
             }
             case Operation::multiply:
@@ -198,11 +223,11 @@ private:
                 kind.celsius = a.constant && a.dimension.is_one()   ? *a.constant * b.celsius
                                : b.constant && b.dimension.is_one() ? *b.constant * a.celsius
                                                                     : 0.0;
-                return kind;
+                return of_product(node, a, b, kind);
             case Operation::divide:
                 kind.dimension = a.dimension / b.dimension;
                 kind.celsius = b.constant && b.dimension.is_one() && *b.constant != 0.0 ? a.celsius / *b.constant : 0.0;
-                return kind;
+                return of_product(node, a, b, kind);
             case Operation::power:
                 return of_power(node, a, b);
             default:
@@ -238,6 +263,25 @@ private:
         }
     }
 
+    /// A product, unless a Fahrenheit temperature is a factor: its number there would be counted from 0 degC.
+    QuantityKind of_product(const SyntaxNode& node, const QuantityKind& a, const QuantityKind& b, QuantityKind kind) {
+        kind.fahrenheit = a.fahrenheit || b.fahrenheit;
+        if (!kind.fahrenheit || !is_same_weight(kind.celsius, 0.0)) {
+            return kind;
+        }
+        const std::int32_t index = a.fahrenheit ? node.left : node.right;
+        const std::string t = tree_.excerpt(operand(index));
+        const std::string zero =
+            std::find(tree_.names.begin(), tree_.names.end(), "t_0") == tree_.names.end() ? "t_0" : "t_0F";
+        return refuse(node, "GC-MODEL-0043", "\"" + t + "\", a Fahrenheit temperature, is a factor of a product",
+                      "a formula for a number of degF means the difference from 0 degF; the number in SI is counted from "
+                      "0 degC",
+                      "Write (" + t + " - " + zero + ") for \"" + t + "\" with the input \"" + zero +
+                          "\": {\"value\": 0, \"unit\": \"degF\", \"constant\": true}, state the temperature in degC "
+                          "where the formula is for degC, or write kelvin(" +
+                          t + ") where the thermodynamic temperature is meant.");
+    }
+
     bool balance(const SyntaxNode& node, const QuantityKind& a, const QuantityKind& b) {
         if (a.zero || b.zero || a.dimension == b.dimension) {
             return true;
@@ -248,7 +292,10 @@ private:
         const std::string function(function_name(node.operation));
         const std::string both = function.empty() ? a.unit_text() + sign + b.unit_text()
                                                   : function + "(" + a.unit_text() + sign + b.unit_text() + ")";
-        std::string cure = angle_cure(a.dimension, b.dimension);
+        std::string cure = turns_cure(a, b);
+        if (cure.empty()) {
+            cure = angle_cure(a.dimension, b.dimension);
+        }
         refuse(node, "GC-MODEL-0030",
                both + ": " + is_in(node.left) + " (dimension " + a.dimension.text() + "), " + is_in(node.right) +
                    " (dimension " + b.dimension.text() + ")",
@@ -312,6 +359,7 @@ QuantityKind QuantityKind::of(const Unit& unit, std::optional<double> constant) 
     QuantityKind kind;
     kind.dimension = unit.dimension();
     kind.celsius = unit.is_celsius_temperature() ? 1.0 : 0.0;
+    kind.fahrenheit = unit.is_celsius_temperature() && unit.difference_from_si(1.0) > 1.5;
     kind.constant = constant;
     kind.unit = unit.text();
     return kind;
@@ -362,7 +410,11 @@ Unit output_unit(const std::string& name, const QuantityKind& kind, const std::o
             if (!cure.empty()) {
                 const bool has_angle_more = kind.dimension / declared->dimension() == Dimension::angle();
                 cure = std::string("They differ by the unit of angle: ") +
-                       (has_angle_more ? "divide the right side by it (\"/rad\")."
+                       (has_angle_more ? counts_turns(kind, QuantityKind::of(*declared))
+                                             ? "divide the right side by a turn (\"/(2*pi*rad)\") where turns or "
+                                               "cycles are counted (60 rpm are 1 Hz), or by the radian (\"/rad\") "
+                                               "where radians are."
+                                             : "divide the right side by it (\"/rad\")."
                                        : "write \"*rad\" or \"/rad\" where it belongs.");
             }
             return refuse("GC-MODEL-0035",

@@ -23,6 +23,9 @@ std::vector<InputSymbol> quantities() {
             input("T", "K"),
             input("dt", "K"),
             input("t_0", "degC", 0.0),
+            input("t_0C", "degC", 0.0),
+            input("t_0F", "degF", 255.37222222222223),
+            input("d_c", "K", 0.05),
             input("T_0", "K", 273.15),
             input("b_m", "K", 243.12),
             input("s", "W/(m2 K4)", 5.67e-8),
@@ -54,7 +57,6 @@ TEST(TemperatureCheck, WarnsOfQuotientsRootsAndPowers) {
     EXPECT_EQ(warned({"rho = p*M/(R*t)"}), "0040 m/0, column 10");
     EXPECT_EQ(warned({"y = p/t"}), "0040 m/0, column 6");
     EXPECT_EQ(warned({"y = t/t2"}), "0040 m/0, column 6");
-    EXPECT_EQ(warned({"y = p*M/R/t_F"}), "0040 m/0, column 10");
     EXPECT_EQ(warned({"rho = p*M/(R*(t + dt))"}), "0040 m/0, column 10");
     EXPECT_EQ(warned({"q = s*t^4"}), "0041 m/0, column 6");
     EXPECT_EQ(warned({"q = s*(t^4 - t2^4)"}), "0041 m/0, column 6");
@@ -66,6 +68,52 @@ TEST(TemperatureCheck, WarnsOfQuotientsRootsAndPowers) {
     EXPECT_EQ(warned({"y = exp(-E_a/(R*t))"}), "0040 m/0, column 13");
     EXPECT_EQ(warned({"V = n*R*t/p"}), "0041 m/0, column 10");
     EXPECT_EQ(warned({"y = w*t"}, {output("y", "K")}), "0041 m/0, column 6");
+}
+
+TEST(TemperatureCheck, ACorrectionMovesNoZero) {
+    EXPECT_EQ(warned({"rho = p*M/(R*(t + d_c))"}), "0040 m/0, column 10");
+    EXPECT_EQ(warned({"v = sqrt(R*(t + d_c)/M)"}), "0040 m/0, column 5");
+    EXPECT_EQ(warned({"V = n*R*t/p + 0"}), "0041 m/0, column 10");
+    EXPECT_EQ(warned({"V = n*R*t/p + n*R*t/p"}), "0041 m/0, column 10");
+    EXPECT_EQ(warned({"rho = p*M/(R*T_m)", "T_m = w*t + (1 - w)*t2"}, {output("rho", "kg/m3")}), "0040 m/0, column 10");
+}
+
+/// Without a declared unit "K" would be a guess; the cure gives the value in degC.
+TEST(TemperatureCheck, StatesNoKelvinWhereTheWeightOfATemperatureIsNotKnown) {
+    for (const char* equation : {"y = w*t + (1 - w)*t2", "y = (1 + w)*t + dt", "y = (w*t + w2*t2)/(w + w2)"}) {
+        try {
+            (void)warned({equation});
+            ADD_FAILURE() << equation;
+        } catch (const InputError& error) {
+            EXPECT_EQ(error.diagnostics().front().code, "GC-MODEL-0036") << equation;
+            EXPECT_THAT(error.diagnostics().front().action, HasSubstr("\" + t_0\""));
+        }
+        const EquationSystem cured = system_of({std::string(equation) + " + t_0"}, quantities(), {}, {});
+        EXPECT_TRUE(cured.output_unit(0).is_celsius_temperature()) << equation;
+        EXPECT_TRUE(cured.warnings().empty()) << equation;
+    }
+}
+
+TEST(TemperatureCheck, RefusesFahrenheitInProducts) {
+    for (const char* equation : {"y = R_0*(1 + A*t_F)", "y = p*M/R/t_F", "y = A*(t_F + dt)", "y = w*t_F"}) {
+        try {
+            (void)warned({equation});
+            ADD_FAILURE() << equation;
+        } catch (const InputError& error) {
+            EXPECT_EQ(error.diagnostics().front().code, "GC-MODEL-0043") << equation;
+            EXPECT_THAT(error.diagnostics().front().action, HasSubstr("kelvin("));
+        }
+    }
+    EXPECT_EQ(warned({"y = (t_F + t2)/2"}), "");
+    EXPECT_EQ(warned({"y = R_0*(1 + A*(t_F - t_0F))"}), "") << "the first cure";
+    EXPECT_EQ(warned({"y = R_0*(1 + A*t)"}), "") << "the second";
+    EXPECT_EQ(warned({"y = p*M/(R*kelvin(t_F))"}), "") << "the third";
+}
+
+TEST(TemperatureCheck, TheNameOfTheCureIsFree) {
+    const EquationSystem system = system_of({"y = p*M/(R*t)*(t2 - t_0)/dt"}, quantities(), {}, {});
+    ASSERT_FALSE(system.warnings().empty());
+    EXPECT_THAT(system.warnings().front().action, HasSubstr("(t - t_0C)"));
 }
 
 TEST(TemperatureCheck, FollowsIntermediateQuantities) {
@@ -93,7 +141,8 @@ TEST(TemperatureCheck, IsSilentWhereADifferenceFromZeroIsMeant) {
              "y = (t + t2)/2",                                  //
              "y = t + dt",                                      //
              "y = 0.5*t + 0.5*t2",                              //
-             "y = (w*t + w2*t2)/(w + w2)",                      // a mean with weights
+             "y = log10(p/p) + w/(t + b_m)*dt",                 // Antoine
+             "y = (w*t + w2*t2)/(w + w2) + t_0",                // a mean with weights
              "y = 1/(t - t2)*dt",                               //
              "y = sqrt(T/dt)",
              "y = s*T^4",

@@ -198,12 +198,20 @@ TEST(UnitCheck, CuresLeadToTheRightNumber) {
         {"y = x^n", "", "0034", "declare the exponent as \"constant\"", "y = x^two", "", 1e-6 * 4.0},
         {"y = asin(x/l)*l", "m", "0035", "divide the right side by it", "y = asin(x/l)*l/rad", "m",
          2.0 * std::asin(1e-3)},
-        {"y = cos(n*pi)", "", "0032", "write cos((n*pi)*rad)", "y = cos((n*pi)*rad)", "", std::cos(3.0 * pi)}};
+        {"y = cos(n*pi)", "", "0032", "write cos((n*pi)*rad)", "y = cos((n*pi)*rad)", "", std::cos(3.0 * pi)},
+        {"y = v", "Hz", "0035", "by a turn (\"/(2*pi*rad)\")", "y = v/(2*pi*rad)", "Hz", 1.0},
+        {"y = v", "Hz", "0035", "by the radian (\"/rad\")", "y = v/rad", "Hz", 2.0 * pi},
+        {"y = f_v - v", "", "0030", "divide the second by a turn (\"/(2*pi*rad)\")", "y = f_v - v/(2*pi*rad)", "", 2.0},
+        {"y = N_v", "1", "0035", "by a turn (\"/(2*pi*rad)\")", "y = N_v/(2*pi*rad)", "1", 3.0}};
     std::vector<InputSymbol> inputs = quantities();
+    inputs.push_back(input("v", "rpm"));
+    inputs.push_back(input("f_v", "Hz"));
+    inputs.push_back(input("N_v", "turn"));
     inputs.push_back(input("t_0", "degC", 0.0));
     const std::map<std::string, double> values{{"x", 2e-3},  {"l", 2.0},   {"T", 300.0}, {"t", 20.0},
                                                {"t2", 30.0}, {"phi", 0.5}, {"n", 3.0},   {"two", 2.0},
-                                               {"A", 4e-3},  {"R", 100.0}, {"dT", 1.0},  {"t_0", 0.0}};
+                                               {"A", 4e-3},  {"R", 100.0}, {"dT", 1.0},  {"t_0", 0.0},
+                                               {"v", 2.0 * pi}, {"f_v", 3.0}, {"N_v", 6.0 * pi}};
     for (const Cure& cure : cures) {
         SCOPED_TRACE(cure.equation);
         const auto outputs = [](const std::string& unit) {
