@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdint>
 #include <exception>
 #include <new>
@@ -318,6 +319,10 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
+#ifdef SIGXFSZ
+    // A write beyond the limit of file sizes fails as one to a full disk does, and is told and cleaned up as that is.
+    (void)std::signal(SIGXFSZ, SIG_IGN);
+#endif
     Arguments arguments;
     // Also a command line that cannot be read to its end is told in the form that it asks for.
     arguments.common.json_messages = std::any_of(
