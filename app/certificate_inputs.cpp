@@ -40,6 +40,23 @@ std::string known_profiles(const fs::path& folder) {
     return names.empty() ? "none" : listed(names);
 }
 
+/// A certificate names its profile: a file of the laboratory that is called as one of the program is the same as it.
+void refuse_a_name_of_the_program(const certificate::Profile& own, const fs::path& folder) {
+    const fs::path file = folder / (own.id + ".json");
+    std::error_code error;
+    if (!is_file_stem(own.id) || !fs::exists(file, error)) {
+        return;
+    }
+    if (!(engine::parse_profile(read_file(file), file.filename().string()) == own)) {
+        throw gum::InputError(
+            gum::Diagnostic{.code = "GC-CERT-0301",
+                            .where = "certificate/profile",
+                            .what = "a profile of your own has the id \"" + own.id + "\" of one of the program",
+                            .rule = "a document names its profile, and the two are not the same",
+                            .action = "give it an id of its own, or name the profile of the program"});
+    }
+}
+
 InputValues values_of(const engine::BudgetJob& job, std::size_t input) {
     InputValues out{.unit = job.inputs[input].unit.text(), .values = {}};
     const auto add = [&](std::optional<std::size_t> point) {
@@ -68,10 +85,11 @@ std::function<double(double)> convolution_of(const BudgetPointResult& point, Eig
 }  // namespace
 
 certificate::Profile certificate_profile(const certificate::CertificateData& data, const fs::path& templates) {
+    const fs::path folder = templates / "profiles";
     if (data.own_profile) {
+        refuse_a_name_of_the_program(*data.own_profile, folder);
         return *data.own_profile;
     }
-    const fs::path folder = templates / "profiles";
     const fs::path file = folder / (data.profile + ".json");
     std::error_code error;
     if (!is_file_stem(data.profile) || !fs::exists(file, error)) {

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 
+#include "certificate/text_words.h"
 #include "reports/certificate_view.h"
 #include "reports/dcc/dcc_reader.h"
 
@@ -33,27 +36,35 @@ std::optional<DocumentIdentity> identity_of(const signing::Bytes& xml, const std
     }
 }
 
-/// Letters and digits, small: how names are compared. Bytes of other scripts stay as they are.
-std::string comparable(const std::string& name) {
-    std::string text;
-    for (const char c : name) {
-        const bool capital = c >= 'A' && c <= 'Z';
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || (static_cast<unsigned char>(c) & 0x80U);
-        if (capital || plain) {
-            text += capital ? static_cast<char>(c - 'A' + 'a') : c;
-        }
+/// Words that say what kind of company it is, or what the certificate is for: they make no other name of it.
+constexpr std::u32string_view k_additions =
+    U" ltd limited inc incorporated llc corp corporation co company plc gmbh ag kg ohg mbh ev ggmbh se sa sas sarl sl "
+    U"slu srl spa bv nv oy ab as kk pte pty seal siegel sello stamp signature signing signatur signer the der die das "
+    U"el la los las of and und y ";
+
+/// The words of a name without such additions and without numbers behind it ("seal 3").
+std::u32string comparable(const std::string& name) {
+    std::vector<std::u32string> words = certificate::words_of(name);
+    const bool sealed = std::any_of(words.begin(), words.end(), [](const std::u32string& word) {
+        return word == U"seal" || word == U"siegel" || word == U"sello" || word == U"stamp";
+    });
+    while (sealed && !words.empty() && words.back().find_first_not_of(U"0123456789") == std::u32string::npos) {
+        words.pop_back();
+    }
+    std::u32string text;
+    for (const std::u32string& word : words) {
+        const bool addition = k_additions.find(U' ' + word + U' ') != std::u32string_view::npos;
+        text += addition ? std::u32string() : word;
     }
     return text;
 }
 
+/// The whole name, as CN, O or OU: "Example Laboratory" has not signed for "Another Example Laboratory", and neither
+/// has somebody called "Example".
 bool is_of(const SignatureReport& signature, const std::string& laboratory) {
-    constexpr std::size_t k_says_something = 4;  // letters: "LAB" is in many names
-    const std::string whole = comparable(laboratory);
-    return std::any_of(signature.signer_names.begin(), signature.signer_names.end(), [&](const std::string& one) {
-        const std::string name = comparable(one);
-        return name == whole || (std::min(name.size(), whole.size()) >= k_says_something &&
-                                 (name.find(whole) != std::string::npos || whole.find(name) != std::string::npos));
-    });
+    const std::u32string whole = comparable(laboratory);
+    return !whole.empty() && std::any_of(signature.signer_names.begin(), signature.signer_names.end(),
+                                         [&](const std::string& one) { return comparable(one) == whole; });
 }
 
 class Doubts {

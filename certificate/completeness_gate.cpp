@@ -5,6 +5,7 @@
 #include "certificate/finding_list.h"
 #include "certificate/gates.h"
 #include "certificate/stated_text.h"
+#include "certificate/text_words.h"
 
 namespace gumcert::certificate {
 
@@ -25,7 +26,7 @@ void laboratory_and_customer(FindingList& found, const CertificateData& data) {
         found.item(k_critical, 'c', "/place/address", "the place where the work was done is missing",
                    "State its address: the work was not done in the laboratory.");
     }
-    if (!is_identification(data.number)) {
+    if (!is_document_number(data.number)) {
         found.item(k_critical, 'd', "/number", "the number of the certificate is missing",
                    "Give it a number that no other certificate has.");
     }
@@ -42,7 +43,7 @@ void laboratory_and_customer(FindingList& found, const CertificateData& data) {
 
 void method(FindingList& found, const CertificateData& data) {
     const Method& m = data.method;
-    if (!is_identification(m.identification)) {
+    if (!is_method_identification(m.identification)) {
         found.item(k_critical, 'f', "/method/identification", "the method is not identified",
                    "State the identification of the procedure.");
     }
@@ -124,7 +125,10 @@ void persons(FindingList& found, const CertificateData& data, const Profile& pro
         }
     };
     const std::string& authorised = data.dates.authorised.empty() ? data.dates.issued : data.dates.authorised;
-    check(performed_by, "performed_by", data.dates.performed_from);
+    const bool first_day =
+        !performed_by || data.dates.performed_from.empty() ||
+        is_within(data.dates.performed_from, performed_by->authorised_from, performed_by->authorised_to);
+    check(performed_by, "performed_by", first_day ? last_day(data.dates) : data.dates.performed_from);
     check(reviewed_by, "reviewed_by", authorised);
     check(authorised_by, "authorised_by", authorised);
     if (profile.reviewer_may_be_performer) {
@@ -211,11 +215,17 @@ void conditions(FindingList& found, const CertificateData& data) {
     }
 }
 
+/// A reference with a number ("Table 2"), or a sentence.
+bool says_where(const LocalisedText& text) {
+    const bool numbered = text.in("en").find_first_of("0123456789") != std::string::npos;
+    return is_stated(text) && (numbered || is_statement(text));
+}
+
 void adjustment(FindingList& found, const CertificateData& data) {
     if (!data.adjustment) {
         found.critical("R07-4d", iso_17025("7.8.4.1 d"), "/adjustment", "it is not said whether the item was adjusted",
                        "State \"adjusted\": true or false.");
-    } else if (data.adjustment->adjusted && !is_stated(data.adjustment->as_found)) {
+    } else if (data.adjustment->adjusted && !says_where(data.adjustment->as_found)) {
         found.critical("R07-4d", iso_17025("7.8.4.1 d"), "/adjustment/as_found",
                        "the item was adjusted, and it is not said where the results before the adjustment are",
                        "Say where they stand, or why there are none.");
@@ -250,7 +260,7 @@ void amendment(FindingList& found, const CertificateData& data) {
     if (!is_identification(a.number)) {
         found.critical("R12", iso_17025(replaced ? "7.8.8.3" : "7.8.8.2"), "/amendment/number",
                        "the certificate that this one amends or replaces is not named", "State its number.");
-    } else if (a.number == data.number) {
+    } else if (letters_of(a.number) == letters_of(data.number)) {
         found.critical("R12", iso_17025(replaced ? "7.8.8.3" : "7.8.8.2"), "/amendment/number",
                        "the certificate has the number of the one that it amends or replaces",
                        "Give it a number of its own.");

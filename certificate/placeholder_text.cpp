@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,10 @@ constexpr std::u32string_view k_nothing =
     U"ditto idem same dito nobody noone someone somebody anyone anybody something anything whatever whoever any some "
     U"various several misc miscellaneous anonymous anon confidential secret private redacted removed deleted hidden "
     U"omitted withheld test testing tests tester demo dummy fake mock placeholder filler foo bar baz foobar qux quux "
+    U"idea who knows please fill insert enter known unknowable nowhere somewhere moved invoice internet planet earth "
+    U"order "
+    U"cover letter page copy refer per as before checked inspected examined looked received receipt internal walkin "
+    U"temp tmp changeme default qwe asd nk tbf doe us yours stamped legible illegible readable unreadable found today "
     U"lorem ipsum dolor sit amet asdf asdfg asdfgh asdfghjkl sdf jkl hjkl qwerty qwert qwertz azerty yxcv zxcv abc "
     U"abcd "
     U"abcde xyz bla blah blub blabla blahblah yada etc false true undefined error ref nr no yes yep nope "
@@ -34,21 +40,32 @@ constexpr std::u32string_view k_nothing =
     U"beigefugt "
     U"wie zuvor gleich dasselbe angabe angaben anwendbar zutreffend verfugbar verfuegbar bekannt angegeben "
     U"vorhanden festgelegt benannt erfasst jemand niemand irgendwer irgendwas irgendetwas diverse verschiedene anonym "
-    U"vertraulich geheim probe platzhalter muster leer ja nein "
+    U"vertraulich geheim probe platzhalter muster leer ja nein genannt ungenannter nachgereicht nachzureichen "
+    U"nachreichen "
+    U"bitte ausfullen ausfuellen auszufullen eintragen erganzt ergaenzt kommt mustermann musterfirma musterstrasse "
+    U"musterstadt musterhausen musterort intern hausintern barkunde privatperson namenlos namen auftrag laut gemass "
+    U"gemaess anfrage rechnung verzogen gepruft geprueft prufung pruefung kontrolliert erhalten eingegangen "
+    U"unleserlich "
+    U"lesbar heute morgen irgendwo nirgendwo "
     // Spanish
     U"desconocido desconocida desconocidos desconocidas ninguno ninguna ningun nada nadie vacio vacia falta faltante "
     U"pendiente aplica aplicable disponible especificado especificada especificar indicar indicado indicada conocido "
     U"conocida "
     U"proporcionado definido definida determinar definir confirmar consta datos dato sd vease ver arriba abajo adjunto "
     U"anexo anterior idem mismo misma alguien algo cualquiera varios varias anonimo anonima confidencial secreto "
-    U"prueba pruebas si sin ";
+    U"prueba pruebas si sin blanco rellenar completar ilegible legible conoce sabe pedido solicitud factura "
+    U"inspeccionado inspeccionada revisado revisada recibido recibida fulano interno hoy manana "
+    // French, Italian: what is filled in by neighbours
+    U"neant inconnu inconnue sconosciuto sconosciuta ";
 /// Words that do not change that: articles, particles.
 constexpr std::u32string_view k_particles =
     U" a an the of to be is are was were it its in on at for from by with and or as not see this that yet still been "
     U"will our my your their his her all "
     U"der die das des dem den ein eine einer und oder von zu zur zum im am mit ist sind wird werden nicht noch als fur "
     U"fuer nach "
-    U"el la los las un una de del en por para con es son no se lo al como ";
+    U"auf an bei vom es gab war waren wurde wurden ihr ihre unser unsere "
+    U"el la los las un una de del en por para con es son no se lo al como hubo tal su "
+    U"only on request here up out to ltd inc llc corp co gmbh ag kg sl srl mr mrs ms herr frau senor senora ";
 /// Names of fields, which tell nothing of their own.
 constexpr std::u32string_view k_fields =
     U" customer client name names address street city town country number serial serialnumber sn id identification "
@@ -61,7 +78,38 @@ constexpr std::u32string_view k_fields =
     U"cliente nombre direccion calle ciudad pais numero serie objeto cosa equipo instrumento laboratorio metodo "
     U"procedimiento patron certificado emisor texto valor campo motivo descripcion estado desviacion observacion "
     U"informacion documento contrato site premises plant factory office facility house home werk halle planta "
-    U"instalaciones ";
+    U"instalaciones company firma empresa deviations conditions remarks abweichungen bemerkungen "
+    U"desviaciones particular page seite pagina folder ordner procedures ";
+/// Whole texts that look like names and are those of nobody.
+constexpr std::u32string_view k_of_nobody =
+    U" johndoe janedoe maxmustermann erikamustermann acme sample example beispiel ejemplo privateperson walkincustomer "
+    U"commonpractice fulanodetal 例 "
+    U"範例 "
+    U"范例 ";
+/// Words of a sentence that tell nothing by themselves.
+constexpr std::u32string_view k_talk =
+    U" we i you he she they do did does done want wants say says said care thing things way ways different differently "
+    U"because reason boss letter separate separately follow follows following describe described later else there were "
+    U"was have has had must may can could would should only just also very much more most other others "
+    U"wir ich sie weil wollen will sagen gesagt sache sachen anders art weise folgen brief gesondert beschrieben "
+    U"auch sehr mehr andere anderen habe haben hatte kann konnen soll sollen mussen "
+    U"nosotros porque queremos quiere decir dicho cosa cosas manera forma otra otro siguiente carta aparte descrito "
+    U"tambien muy mas puede debe ";
+/// Words in the number of a document that is not issued yet.
+constexpr std::u32string_view k_of_a_draft =
+    U" draft drafts entwurf vorabzug vorlaufig vorlaeufig borrador preliminar provisional preliminary preview sample "
+    U"specimen muster muestra ejemplo example beispiel espcimen especimen new neu nuevo nueva next copy kopie copia "
+    U"test testing prueba probe ";
+/// Words in an identification that say that it is still to come, wherever they stand.
+constexpr std::u32string_view k_to_come =
+    U" tbd tba tbc tbs tbn tbf todo fixme unknown unbekannt desconocido desconocida pending ausstehend pendiente "
+    U"placeholder platzhalter dummy ";
+/// Words that describe how it is usually done, which identify no method.
+constexpr std::u32string_view k_usual =
+    U" in house own usual usually common practice hand manual self made like last time always normal ordinary general "
+    U"haus hausverfahren hauseigen eigen eigenes ublich uebliches ubliches wie letztes mal gefuhl gefuehl "
+    U"ublicherweise "
+    U"propio propia habitual comun siempre casa ultima vez mano inhouse selfmade ";
 /// Chinese, traditional and simplified; longer ones first, because they are taken out of a text one after the other.
 constexpr auto k_ideographs = std::to_array<std::u32string_view>(
     {U"沒有資料", U"没有资料", U"無此資料", U"无此资料", U"尚未提供", U"未提供", U"未填寫", U"未填写", U"未指定",
@@ -73,6 +121,15 @@ constexpr auto k_ideographs = std::to_array<std::u32string_view>(
      U"机密",     U"空白",     U"某人",     U"某某",     U"某",       U"任何",   U"其他",   U"客戶",   U"客户",
      U"顧客",     U"名稱",     U"名称",     U"地址",     U"編號",     U"编号",   U"序號",   U"序号",   U"資料",
      U"资料",     U"無",       U"无",       U"否",       U"是",       U"的"});
+/// The same, of two and more signs that other words contain or that were thought of later: taken out first.
+constexpr auto k_ideographs_first = std::to_array<std::u32string_view>(
+    {U"尚未提供", U"無法得知", U"无法得知", U"無法辨識", U"无法辨识", U"待確認", U"待确认", U"待確定", U"待确定",
+     U"待填寫",   U"待填写",   U"請填寫",   U"请填写",   U"未檢查",   U"未检查", U"未檢驗", U"未检验", U"自訂方法",
+     U"自订方法", U"詳附件",   U"详附件",   U"不提供",   U"不公開",   U"不公开", U"甲公司", U"某公司", U"暫缺",
+     U"暂缺",     U"不知",     U"未有",     U"如附",     U"後補",     U"后补",   U"稍後",   U"稍后",   U"空"});
+/// Signs of a number of a document that is not issued yet.
+constexpr auto k_draft_ideographs = std::to_array<std::u32string_view>(
+    {U"草稿", U"草案", U"樣本", U"样本", U"範例", U"范例", U"測試", U"测试", U"待定"});
 
 bool stands_in(std::u32string_view list, const std::u32string& word) {
     return list.find(U' ' + word + U' ') != std::u32string_view::npos;
@@ -90,17 +147,58 @@ bool is_empty_run(std::u32string word) {
     if (!std::all_of(word.begin(), word.end(), is_ideograph)) {
         return false;
     }
-    for (const std::u32string_view nothing : k_ideographs) {
+    const auto take_out = [&](std::u32string_view nothing) {
         for (std::size_t at = word.find(nothing); at != std::u32string::npos; at = word.find(nothing)) {
             word.erase(at, nothing.size());
         }
-    }
+    };
+    std::for_each(k_ideographs_first.begin(), k_ideographs_first.end(), take_out);
+    std::for_each(k_ideographs.begin(), k_ideographs.end(), take_out);
     return word.empty();
 }
 
+bool is_digit(char32_t c) {
+    return c >= U'0' && c <= U'9';
+}
+
+/// "abcd", "efgh": letters in the order of the alphabet, four or more.
+bool is_run_of_alphabet(const std::u32string& word) {
+    constexpr std::size_t k_least = 4;
+    for (std::size_t i = 1; i < word.size(); ++i) {
+        if (word[i] != word[i - 1] + 1 || word[i] > U'z' || word[i - 1] < U'a') {
+            return false;
+        }
+    }
+    return word.size() >= k_least;
+}
+
+/// "xyxyxy": five letters or more, and only two different ones.
+bool is_keys_pressed(const std::u32string& word) {
+    constexpr std::size_t k_least = 5;
+    const std::set<char32_t> different(word.begin(), word.end());
+    return word.size() >= k_least && different.size() <= 2 && std::none_of(word.begin(), word.end(), is_digit) &&
+           std::none_of(word.begin(), word.end(), is_ideograph);
+}
+
+/// "unknown1" is "unknown".
+std::u32string without_digits_behind(const std::u32string& word) {
+    const std::size_t last = word.find_last_not_of(U"0123456789");
+    return last == std::u32string::npos ? word : word.substr(0, last + 1);
+}
+
 bool says_nothing(const std::u32string& word) {
-    return !word.empty() &&
-           (stands_in(k_nothing, word) || is_repeated(word) || word == U"x" || word == U"xx" || is_empty_run(word));
+    return !word.empty() && (stands_in(k_nothing, word) || is_repeated(word) || word == U"x" || word == U"xx" ||
+                             is_empty_run(word) || is_run_of_alphabet(word) || is_keys_pressed(word));
+}
+
+bool is_particle_or_field(const std::u32string& word) {
+    return word.size() > 1 && (stands_in(k_particles, word) || stands_in(k_fields, word));
+}
+
+template <class List>
+bool any_within(const std::u32string& letters, const List& parts) {
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](std::u32string_view part) { return letters.find(part) != std::u32string::npos; });
 }
 
 }  // namespace
@@ -117,10 +215,66 @@ bool names_only_a_field(std::string_view text) {
     const std::vector<std::u32string> words = words_of(text);
     const std::u32string letters = letters_of(text);
     return says_nothing(letters) || (letters.size() > 1 && stands_in(k_fields, letters)) ||
-           std::all_of(words.begin(), words.end(), [](const std::u32string& word) {
-               return says_nothing(word) ||
-                      (word.size() > 1 && (stands_in(k_particles, word) || stands_in(k_fields, word)));
+           std::all_of(words.begin(), words.end(),
+                       [](const std::u32string& word) { return says_nothing(word) || is_particle_or_field(word); });
+}
+
+bool names_nobody(std::string_view text) {
+    const std::vector<std::u32string> words = words_of(text);
+    bool any = false;
+    for (const std::u32string& word : words) {
+        const std::u32string bare = without_digits_behind(word);
+        const bool number = std::all_of(word.begin(), word.end(), is_digit);
+        const bool says = !number && !(word.size() == 1 && !is_ideograph(word.front())) && !says_nothing(bare) &&
+                          !is_particle_or_field(bare);
+        if (says) {
+            return stands_in(k_of_nobody, letters_of(text));
+        }
+        any = any || says_nothing(bare) || is_particle_or_field(bare);
+    }
+    return any || stands_in(k_of_nobody, letters_of(text));
+}
+
+bool is_still_to_come(std::string_view text) {
+    const std::vector<std::u32string> words = words_of(text);
+    const bool asked = text.find("??") != std::string_view::npos;
+    return asked || std::any_of(words.begin(), words.end(), [](const std::u32string& word) {
+               const bool crossed_out = word.size() > 2 && word.find_first_not_of(U'x') == std::u32string::npos;
+               return crossed_out || stands_in(k_to_come, without_digits_behind(word));
            });
+}
+
+bool has_empty_parts_only(std::string_view text) {
+    const std::vector<std::u32string> words = words_of(text);
+    return std::all_of(words.begin(), words.end(), [](const std::u32string& word) {
+        return says_nothing(word) || word.find_first_not_of(U'0') == std::u32string::npos || is_particle_or_field(word);
+    });
+}
+
+bool is_of_a_draft(std::string_view text) {
+    const std::vector<std::u32string> words = words_of(text);
+    return any_within(letters_of(text), k_draft_ideographs) ||
+           std::any_of(words.begin(), words.end(),
+                       [](const std::u32string& word) { return stands_in(k_of_a_draft, without_digits_behind(word)); });
+}
+
+bool describes_the_usual(std::string_view text) {
+    const std::vector<std::u32string> words = words_of(text);
+    return std::all_of(words.begin(), words.end(), [](const std::u32string& word) {
+        return stands_in(k_usual, word) || says_nothing(word) || is_particle_or_field(word);
+    });
+}
+
+std::size_t telling_words(std::string_view text) {
+    std::set<std::u32string> telling;
+    for (const std::u32string& word : words_of(text)) {
+        const bool number = std::all_of(word.begin(), word.end(), is_digit);
+        if (word.size() > 1 && !number && !says_nothing(word) && !is_particle_or_field(word) &&
+            !stands_in(k_talk, word)) {
+            telling.insert(word);
+        }
+    }
+    return telling.size();
 }
 
 }  // namespace gumcert::certificate

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 
 namespace gumcert::certificate {
@@ -13,5 +14,24 @@ namespace gumcert::certificate {
 
 /// The same for what names or identifies: "customer", "the device" and "serial number" are the names of fields, too.
 [[nodiscard]] bool names_only_a_field(std::string_view text);
+
+/// The same for names: digits and single letters beside such words tell nothing ("Customer A", "Kunde 1", "Mr. X"), nor
+/// do the names of nobody ("John Doe", "Sample").
+[[nodiscard]] bool names_nobody(std::string_view text);
+
+/// Whether an identification is still to come in part: "EX-2026-tbd", "SN-XXXX", "CP-??".
+[[nodiscard]] bool is_still_to_come(std::string_view text);
+
+/// Whether every part of an identification is nothing, zeros or the name of a field: "XX-00-00", "none/none".
+[[nodiscard]] bool has_empty_parts_only(std::string_view text);
+
+/// Whether a number says that its document is a draft, a sample or new: "EX-2026-0042 DRAFT", "草稿-0042".
+[[nodiscard]] bool is_of_a_draft(std::string_view text);
+
+/// Whether the identification of a method describes what is usual only: "in-house", "wie üblich", "by hand".
+[[nodiscard]] bool describes_the_usual(std::string_view text);
+
+/// How many different words of a text tell something: "because because of" has none.
+[[nodiscard]] std::size_t telling_words(std::string_view text);
 
 }  // namespace gumcert::certificate

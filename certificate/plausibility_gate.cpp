@@ -111,6 +111,20 @@ void persons(FindingList& found, const CertificateData& data, const Profile& pro
     }
 }
 
+/// Nobody certifies something to himself.
+void customers(FindingList& found, const CertificateData& data) {
+    const auto check = [&](const std::optional<Person>& person, const char* key, FindingSeverity severity) {
+        if (person && is_stated(person->name) && letters_of(person->name) == letters_of(data.customer.name.in("en"))) {
+            found.add(severity, "P13", iso_17025("4.1"), "/persons/" + std::string(key),
+                      person->name + " acts for the laboratory and is the customer",
+                      "Let a person of the laboratory do it, or correct the name of the customer.");
+        }
+    };
+    check(data.persons.performed_by, "performed_by", FindingSeverity::major);
+    check(data.persons.reviewed_by, "reviewed_by", FindingSeverity::major);
+    check(data.persons.authorised_by, "authorised_by", FindingSeverity::critical);
+}
+
 // --- dates ---
 
 constexpr long k_days_of_a_year = 366;
@@ -138,6 +152,13 @@ void periods(FindingList& found, const CertificateData& data) {
                        "the certificate was issued on " + d.issued + ", before ISO/IEC 17025:2017 was published",
                        "Correct the date.");
     }
+    constexpr long k_longest_interval_in_days = 20 * 366;
+    if (days_between(d.issued, data.recalibration_date).value_or(0) > k_longest_interval_in_days) {
+        found.major(
+            "R08", iso_17025("7.8.4.3"), "/recalibration_date",
+            "the date of recalibration, " + data.recalibration_date + ", is more than twenty years after the issue",
+            "Correct the date, or leave it out.");
+    }
     if (!data.recalibration_date.empty() && !d.issued.empty() && !is_after(data.recalibration_date, d.issued)) {
         found.critical(
             "R08", iso_17025("7.8.4.3"), "/recalibration_date",
@@ -164,6 +185,28 @@ bool is_of(const Condition& c, const char* kind, const std::vector<std::u32strin
     });
 }
 
+bool has_word(const Condition& c, const std::vector<std::u32string>& words) {
+    Condition named = c;
+    named.kind.clear();
+    return is_of(named, "", words);
+}
+
+/// A temperature itself, not how it changes or differs.
+bool is_temperature(const Condition& c) {
+    return c.kind == "temperature" ||
+           (c.kind.empty() && has_word(c, {U"temperatur", U"溫度", U"温度"}) &&
+            !has_word(c, {U"differ",  U"differenz", U"diferencia", U"gradient",   U"gradiente", U"change",
+                          U"variat",  U"variac",    U"stabil",     U"estabil",    U"deviat",    U"abweichung",
+                          U"desviac", U"drift",     U"deriva",     U"schwankung", U"anderung",  U"spread",
+                          U"差",      U"變",        U"变",         U"梯"}));
+}
+
+/// "RH", "r. F.", "HR": what a humidity is called in short.
+bool is_short_for_humidity(const Condition& c) {
+    const std::u32string letters = letters_of(c.quantity.in("en"));
+    return c.kind.empty() && (letters == U"rh" || letters == U"rf" || letters == U"hr" || letters == U"relh");
+}
+
 /// Why a condition cannot have been observed; "" where it can.
 std::string impossible(const Condition& c) {
     constexpr double k_absolute_zero = -273.15;  // in degrees Celsius
@@ -182,10 +225,11 @@ std::string impossible(const Condition& c) {
     if (thermal && unit.is_celsius_temperature() && low < k_absolute_zero) {
         return number_text(c.minimum) + " " + c.unit + " is below absolute zero";
     }
-    if (thermal && !unit.is_celsius_temperature() && c.kind == "temperature" && low <= 0.0) {
+    if (thermal && !unit.is_celsius_temperature() && is_temperature(c) && low <= 0.0) {
         return number_text(c.minimum) + " " + c.unit + " is not above absolute zero";
     }
-    if (is_of(c, "humidity", {U"humidity", U"feuchte", U"feuchtigkeit", U"humedad", U"濕度", U"湿度"})) {
+    if (is_short_for_humidity(c) ||
+        is_of(c, "humidity", {U"humidity", U"feuchte", U"feuchtigkeit", U"humedad", U"濕度", U"湿度"})) {
         if (c.kind == "humidity" && !unit.dimension().is_one() && low < 0.0) {
             return number_text(c.minimum) + " " + c.unit + " of water are less than none";
         }
@@ -193,7 +237,11 @@ std::string impossible(const Condition& c) {
             return "a relative humidity is between 0 % and 100 %";
         }
     }
-    if (is_of(c, "pressure", {U"airpressure", U"luftdruck", U"presionatmosferica", U"大氣壓", U"气压", U"氣壓"})) {
+    if (is_of(c, "pressure",
+              {U"airpressure", U"atmosphericpressure", U"barometric", U"ambientpressure", U"pressureofair",
+               U"pressureoftheair", U"luftdruck", U"umgebungsdruck", U"atmospharendruck", U"atmospharischerdruck",
+               U"presionatmosferica", U"presiondelaire", U"presionbarometrica", U"presionambiente", U"大氣壓",
+               U"大气压", U"气压", U"氣壓"})) {
         if (!(unit.dimension() == gum::Unit::parse("Pa").dimension())) {
             return c.kind == "pressure" ? "a pressure has no unit \"" + c.unit + "\"" : "";
         }
@@ -202,7 +250,52 @@ std::string impossible(const Condition& c) {
     return {};
 }
 
+/// Limits and sensors so wide that a condition tells nothing, in the SI unit of its kind.
+void wide_condition(FindingList& found, const Condition& c, std::size_t i) {
+    gum::Unit unit;
+    try {
+        unit = gum::Unit::parse(c.unit);
+    } catch (const gum::InputError&) {
+        return;
+    }
+    const bool thermal = unit.dimension() == gum::Dimension::temperature();
+    const bool pressure = unit.dimension() == gum::Unit::parse("Pa").dimension();
+    const double widest = thermal ? 100.0 : pressure ? 50000.0 : 0.0;  // of the surroundings of a measurement
+    const double largest_U = thermal ? 10.0 : pressure ? 5000.0 : 0.0;
+    const double allowed = c.lower_limit && c.upper_limit ? *c.upper_limit - *c.lower_limit : 0.0;
+    if (widest > 0.0 && unit.difference_to_si(c.maximum - c.minimum) > widest) {
+        found.major("E03", iso_17025("7.8.4.1 b"), place_in("/conditions", i),
+                    "\"" + c.quantity.in("en") + "\" is stated from " + number_text(c.minimum) + " " + c.unit + " to " +
+                        number_text(c.maximum) + " " + c.unit + ", which is too wide to tell anything",
+                    "Correct number, unit or kind.");
+    }
+    const bool beside_limits = allowed > 0.0 && c.U && *c.U > allowed;
+    if (c.U && (beside_limits || (largest_U > 0.0 && unit.difference_to_si(*c.U) > largest_U))) {
+        found.major("E03", iso_17025("7.8.4.1 b"), place_in("/conditions", i, "U"),
+                    "\"" + c.quantity.in("en") + "\" was measured with an uncertainty of " + number_text(*c.U) + " " +
+                        c.unit + ", which is too large to tell anything",
+                    "Correct number, unit or kind.");
+    }
+}
+
+/// At least one condition is a physical quantity: numbers of dimension one, humidity apart, describe no surroundings.
+void physical(FindingList& found, const CertificateData& data) {
+    const auto of_nature = [](const Condition& c) {
+        try {
+            return !c.kind.empty() || !gum::Unit::parse(c.unit).dimension().is_one() || is_short_for_humidity(c) ||
+                   has_word(c, {U"humid", U"feucht", U"humedad", U"濕度", U"湿度"});
+        } catch (const gum::InputError&) {
+            return true;
+        }
+    };
+    if (!data.conditions.empty() && std::none_of(data.conditions.begin(), data.conditions.end(), of_nature)) {
+        found.major("R07-4b", iso_17025("7.8.4.1 b"), "/conditions", "none of the conditions has a physical unit",
+                    "State them as observed.");
+    }
+}
+
 void conditions(FindingList& found, const CertificateData& data) {
+    physical(found, data);
     for (std::size_t i = 0; i < data.conditions.size(); ++i) {
         const Condition& c = data.conditions[i];
         if (!is_name(c.quantity)) {
@@ -213,6 +306,8 @@ void conditions(FindingList& found, const CertificateData& data) {
             found.critical("E02", iso_17025("7.8.4.1 b"), place_in("/conditions", i),
                            "\"" + c.quantity.in("en") + "\" cannot have been observed: " + why,
                            "Correct number, unit or kind.");
+        } else {
+            wide_condition(found, c, i);
         }
     }
 }
@@ -241,6 +336,7 @@ std::vector<Finding> plausibility_findings(const Certificate& certificate) {
     same_texts(found, data);
     own_customer(found, data);
     persons(found, data, certificate.profile);
+    customers(found, data);
     periods(found, data);
     conditions(found, data);
     agreements(found, data);

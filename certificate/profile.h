@@ -26,7 +26,9 @@ struct Profile {
     bool reviewer_may_be_performer = true;
     std::vector<std::string> required_languages;      ///< at least these
     std::vector<LocalisedText> first_page_sentences;  ///< permanent sentences at the foot of the first page
-    LocalisedText uncertainty_sentence;  ///< "" = the sentence of the record's case; may use {k} {coverage}
+    LocalisedText uncertainty_sentence;  ///< "" = the sentence of the record's case; has {k} and {coverage}
+
+    friend bool operator==(const Profile&, const Profile&) = default;
 };
 
 }  // namespace gumcert::certificate

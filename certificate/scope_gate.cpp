@@ -10,6 +10,7 @@
 #include "certificate/dates.h"
 #include "certificate/finding_list.h"
 #include "certificate/gates.h"
+#include "certificate/held_against.h"
 #include "certificate/stated_text.h"
 #include "certificate/text_words.h"
 #include "gum/argument_check.h"
@@ -85,20 +86,21 @@ const Parameter* parameter_of(const CertificateData& data, const std::string& na
     return found == data.parameters.end() ? nullptr : &*found;
 }
 
-bool of_one_kind(const Unit& a, const Unit& b) {
-    return a.dimension() == b.dimension() && a.is_celsius_temperature() == b.is_celsius_temperature();
-}
-
 /// Whether the certificate itself states the number that a range is held against, and no result or input does.
 bool is_stated_by_author(const CertificateData& data, const CapabilityArgument& argument) {
     return argument.of != "value" && argument.of != "argument" && parameter_of(data, argument.of) != nullptr;
 }
 
 /// Whether a range, or the points of a capability, limit the measurand itself.
-bool limits_the_measurand(const CertificateData& data, const ScopeEntry& entry, const CertifiedColumn& column) {
+/// \param inputs  whether an input of another kind does: that of a relative error, or of a ratio
+bool limits_the_measurand(const CertificateData& data, const ScopeEntry& entry, const CertifiedColumn& column,
+                          bool inputs) {
     const auto limits = [&](const CapabilityArgument& argument) {
-        return !is_stated_by_author(data, argument) ||
-               of_one_kind(Unit::parse(argument.unit), Unit::parse(column.unit));
+        const bool input = argument.of != "value" && argument.of != "argument" && !is_stated_by_author(data, argument);
+        const gum::Unit of = Unit::parse(argument.unit);
+        const gum::Unit result = Unit::parse(column.unit);
+        return argument.of == "value" || argument.of == "argument" || of_one_kind(of, result) ||
+               (input && (inputs || of.dimension() == result.dimension() || result.dimension().is_one()));
     };
     const bool points =
         entry.capability.form == "range" || entry.capability.form == "table" || entry.capability.form == "matrix";
@@ -110,10 +112,11 @@ bool limits_the_measurand(const CertificateData& data, const ScopeEntry& entry, 
 void ranges(FindingList& found, const Certificate& certificate, const ScopeEntry& entry, std::size_t i,
             const Covered& covered) {
     const std::string where = place_in("/accreditation/scope", i, "ranges");
-    if (!limits_the_measurand(certificate.data, entry, *covered.columns.front())) {
-        found.major("X11", k_p14, where,
-                    "the scope entry \"" + entry.id + "\" has no range of the quantity that was measured",
-                    "State between which values the scope holds, as it is worded there.");
+    if (!limits_the_measurand(certificate.data, entry, *covered.columns.front(), false)) {
+        const bool by_input = limits_the_measurand(certificate.data, entry, *covered.columns.front(), true);
+        found.add(by_input ? FindingSeverity::minor : FindingSeverity::major, "X11", k_p14, where,
+                  "the scope entry \"" + entry.id + "\" has no range of the quantity that was measured",
+                  "State between which values the scope holds, as it is worded there.");
     }
     for (const ScopeEntry::Range& range : entry.ranges) {
         if (!is_stated_by_author(certificate.data, range.argument)) {
@@ -127,13 +130,13 @@ void ranges(FindingList& found, const Certificate& certificate, const ScopeEntry
             if (!of_one_kind(column, unit) || !of_one_kind(stated, unit)) {
                 continue;
             }
-            constexpr double k_same = 0.1;  // relative: a nominal value and what was measured
-            const double value = unit.from_si(column.to_si(std::abs(covered.values[v]->value)));
+            const double value = value_for_scope(*covered.values[v], column, unit);
             const double claimed = unit.from_si(stated.to_si(parameter.value));
-            if (std::abs(value - claimed) <= k_same * std::max(std::abs(value), std::abs(claimed))) {
+            const double low = unit.is_celsius_temperature() ? range.low : 0.0;
+            if (is_nominal_of(claimed, value) && !is_beyond(value, low, range.high)) {
                 continue;
             }
-            const bool beyond = value > range.high;  // a deviation from a nominal value is far below of it
+            const bool beyond = is_beyond(value, low, range.high);
             found.add(beyond ? FindingSeverity::critical : FindingSeverity::minor, "X12", k_p14, where,
                       "the range of \"" + entry.id + "\" is held against the parameter \"" + parameter.name +
                           "\" = " + number_text(parameter.value) + " " + parameter.unit + ", and the result \"" +
@@ -142,6 +145,22 @@ void ranges(FindingList& found, const Certificate& certificate, const ScopeEntry
                       beyond ? "Hold the range against the result (\"of\": \"value\"), or state the true parameter."
                              : "See whether the parameter is the nominal value of what was measured.");
             break;
+        }
+    }
+}
+
+void parameters_of_capability(FindingList& found, const Certificate& certificate, const ScopeEntry& entry,
+                              std::size_t i, const Covered& covered) {
+    for (const CapabilityArgument& argument : entry.capability.arguments) {
+        if (!is_stated_by_author(certificate.data, argument)) {
+            continue;
+        }
+        const Parameter& parameter = *parameter_of(certificate.data, argument.of);
+        for (std::size_t v = 0; v < covered.values.size(); ++v) {
+            const HeldAgainst held{.name = parameter.name, .value = parameter.value, .unit = parameter.unit};
+            if (capability_taken_elsewhere(found, entry, i, argument, held, *covered.columns[v], *covered.values[v])) {
+                break;
+            }
         }
     }
 }
@@ -171,12 +190,22 @@ std::vector<std::vector<ArgumentValue>> places_of(const ScopeEntry& entry) {
     return places;
 }
 
-/// A binary minus of an expression: capabilities add up, they do not subtract. Exponents ("1E-3", "L^-1") and signs at
-/// the beginning do not count.
+/// Whether the bracket before a sign follows an operator: "+(-45)", "*(-1)", not "^(-1)".
+bool is_behind_operator(const std::string& expression, std::size_t sign) {
+    const std::size_t bracket = expression.rfind('(', sign);
+    const std::size_t before = bracket == 0 ? std::string::npos : expression.find_last_not_of(" \t", bracket - 1);
+    return before != std::string::npos && std::string("+-*/").find(expression[before]) != std::string::npos;
+}
+
+/// A minus of an expression that takes away: capabilities add up, they do not subtract. Exponents ("1E-3", "L^-1",
+/// "L^(-1)") and signs at the beginning of a term of Q do not count; those of a factor or of a term in brackets do.
 bool subtracts(const std::string& expression) {
     char before = '(';
     for (std::size_t at = 0; at < expression.size(); ++at) {
         const char c = expression[at];
+        if (c == '-' && before == '(' && at > 0 && is_behind_operator(expression, at)) {
+            return true;
+        }
         if (c == '-' && std::string("([,+-*/^").find(before) == std::string::npos) {
             const bool of_exponent =
                 (before == 'e' || before == 'E') && at >= 2 && expression[at - 2] >= '0' && expression[at - 2] <= '9';
@@ -190,10 +219,13 @@ bool subtracts(const std::string& expression) {
 }
 
 /// The smallest expanded uncertainty (k = 2) of a reference standard of the dimension of a capability, in SI units.
+/// Where none is called one, of every standard.
 std::optional<double> best_reference(const CertificateData& data, const Unit& unit) {
     std::optional<double> best;
+    const bool any = std::any_of(data.standards.begin(), data.standards.end(),
+                                 [](const StandardUsed& s) { return s.role == "reference"; });
     for (const StandardUsed& s : data.standards) {
-        if (!s.U || s.unit.empty() || s.role != "reference") {
+        if (!s.U || s.unit.empty() || (any && s.role != "reference")) {
             continue;
         }
         const Unit of = Unit::parse(s.unit);
@@ -210,6 +242,7 @@ std::optional<double> best_reference(const CertificateData& data, const Unit& un
 void capability_against_reference(FindingList& found, const ScopeEntry& entry, const std::string& where,
                                   const Covered& covered, double best) {
     constexpr double k_far_below = 0.1;
+    constexpr double k_below = 0.5;
     for (std::size_t v = 0; v < covered.values.size(); ++v) {
         const CertifiedValue& value = *covered.values[v];
         const Unit unit = Unit::parse(covered.columns[v]->unit);
@@ -224,7 +257,37 @@ void capability_against_reference(FindingList& found, const ScopeEntry& entry, c
                         "Correct the capability as the scope states it, or name the standard that allows it.");
             return;
         }
+        if (comparable && unit.difference_to_si(*value.capability) < k_below * best) {
+            found.add(FindingSeverity::minor, "X14", k_p14, where,
+                      "the capability of \"" + entry.id + "\" is " + value.printed_capability + " " +
+                          covered.columns[v]->unit + " for \"" + covered.columns[v]->result +
+                          "\", less than half of the uncertainty of every reference standard",
+                      "Correct the capability as the scope states it, or name the standard that allows it.");
+            return;
+        }
     }
+}
+
+/// A capability is what the laboratory reaches: a result with a hundred times its uncertainty is of another kind of
+/// item, or the capability is none.
+bool capability_against_results(FindingList& found, const std::string& where, const ScopeEntry& entry,
+                                const Covered& covered) {
+    constexpr double k_far_below = 0.01;
+    constexpr double k_never = 0.001;
+    for (std::size_t v = 0; v < covered.values.size(); ++v) {
+        const CertifiedValue& value = *covered.values[v];
+        if (!value.U || !value.capability || *value.capability >= k_far_below * *value.U) {
+            continue;
+        }
+        found.add(*value.capability < k_never * *value.U ? FindingSeverity::major : FindingSeverity::minor, "X14",
+                  k_p14, where,
+                  "the capability of \"" + entry.id + "\" is " + value.printed_capability + " " +
+                      covered.columns[v]->unit + " for \"" + covered.columns[v]->result +
+                      "\", less than a hundredth of the expanded uncertainty that was evaluated",
+                  "Correct the capability as the scope states it, or name the standard that allows it.");
+        return true;
+    }
+    return false;
 }
 
 void capability(FindingList& found, const Certificate& certificate, const ScopeEntry& entry, std::size_t i,
@@ -251,6 +314,9 @@ void capability(FindingList& found, const Certificate& certificate, const ScopeE
                       "the capability of \"" + entry.id + "\" is a difference: " + c.expression,
                       "See whether it is the expression of the scope: contributions to an uncertainty add up.");
         }
+    }
+    if (capability_against_results(found, where, entry, covered)) {
+        return;
     }
     if (const auto best = best_reference(certificate.data, Unit::parse(c.unit))) {
         capability_against_reference(found, entry, where, covered, *best);
@@ -292,6 +358,7 @@ std::vector<Finding> scope_findings(const Certificate& certificate) {
         const Covered covered = covered_by(certificate, a.scope[i]);
         if (!covered.values.empty()) {
             ranges(found, certificate, a.scope[i], i, covered);
+            parameters_of_capability(found, certificate, a.scope[i], i, covered);
             capability(found, certificate, a.scope[i], i, covered);
         }
     }

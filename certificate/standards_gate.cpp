@@ -8,6 +8,7 @@
 #include "certificate/gates.h"
 #include "certificate/stated_text.h"
 #include "certificate/text_words.h"
+#include "gum/argument_check.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 
@@ -45,6 +46,12 @@ void uncertainty(FindingList& found, const StandardUsed& s, std::size_t i) {
         found.major("T04", iso_17025("6.5"), where("k"), "the coverage factor of " + named(s) + " is missing",
                     "State it.");
     }
+    constexpr double k_largest_factor = 14.0;  // of 95 % with one degree of freedom
+    if (s.U && s.k && *s.k > k_largest_factor) {
+        found.major("T04", iso_17025("6.5"), where("k"),
+                    "the coverage factor of " + named(s) + " is " + gum::number_text(*s.k),
+                    "State U and k as the certificate of the standard does.");
+    }
 }
 
 void validity(FindingList& found, const StandardUsed& s, std::size_t i, const Dates& dates) {
@@ -81,6 +88,36 @@ void validity(FindingList& found, const StandardUsed& s, std::size_t i, const Da
     }
 }
 
+/// Texts of a standard that belong to something else of the certificate.
+void same_texts(FindingList& found, const CertificateData& data, const StandardUsed& s, std::size_t i) {
+    const std::string issuer = s.issuer.in("en");
+    const std::string body = data.accreditation ? data.accreditation->body.in("en") : std::string();
+    const struct {
+        const char* key;
+        const std::string& text;
+        std::string other;
+        const char* what;
+        FindingSeverity severity;
+    } all[] = {
+        {"certificate", s.certificate, data.item.serial_number, "the serial number of the item",
+         FindingSeverity::critical},
+        {"certificate", s.certificate, data.item.identification, "the serial number of the item",
+         FindingSeverity::critical},
+        {"certificate", s.certificate, data.customer.order, "the order of the customer", FindingSeverity::critical},
+        {"issuer", issuer, data.customer.name.in("en"), "the name of the customer", FindingSeverity::major},
+        {"issuer", issuer, body, "the accreditation body", FindingSeverity::major},
+        {"name", s.name.in("en"), data.item.description.in("en"), "the description of the item",
+         FindingSeverity::minor},
+    };
+    for (const auto& one : all) {
+        if (is_stated(one.text) && letters_of(one.text) == letters_of(one.other)) {
+            found.add(one.severity, "T08", iso_17025("6.5"), place_in("/standards", i, one.key),
+                      named(s) + " has in " + one.key + " the same text as " + one.what,
+                      "State each of them as it is.");
+        }
+    }
+}
+
 /// What cannot be the certificate of another body about another thing.
 void independence(FindingList& found, const CertificateData& data, const StandardUsed& s, std::size_t i) {
     const auto same = [](const std::string& a, const std::string& b) {
@@ -96,7 +133,20 @@ void independence(FindingList& found, const CertificateData& data, const Standar
                        named(s) + " has the identification of the item itself, " + s.identification,
                        "State the standard to which the item was compared.");
     }
+    same_texts(found, data, s, i);
     const bool own = is_stated(s.issuer) && letters_of(s.issuer.in("en")) == letters_of(data.laboratory.name.in("en"));
+    const std::string accreditation = data.accreditation ? data.accreditation->number : std::string();
+    if (!own && same(s.issuer_accreditation, accreditation)) {
+        found.major("T08", iso_17025("6.5"), place_in("/standards", i, "issuer_accreditation"),
+                    named(s) + " was calibrated under the accreditation of this laboratory by another one",
+                    "State it as it is.");
+    }
+    if (!own && s.route == "in_house" && is_stated(s.issuer)) {
+        found.major(
+            "T08", iso_17025("6.5"), place_in("/standards", i, "route"),
+            named(s) + " is traceable by route in_house, and another laboratory calibrated it: " + s.issuer.in("en"),
+            "State the route by which the other laboratory is competent.");
+    }
     if (own && s.route != "in_house" && s.route != "2") {
         found.major(
             "T08", iso_17025("6.5"), place_in("/standards", i, "issuer"),

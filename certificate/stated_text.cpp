@@ -96,7 +96,8 @@ bool is_stated(const LocalisedText& text) {
 bool is_name(const std::string& text) {
     const std::u32string letters = letters_of(text);
     const bool long_enough = letters.size() > 1 || (!letters.empty() && is_ideograph(letters.front()));
-    return !names_only_a_field(text) && !is_email(text) && !is_web_address(text) && long_enough && weight(letters) > 0;
+    return !names_only_a_field(text) && !names_nobody(text) && !is_email(text) && !is_web_address(text) &&
+           long_enough && weight(letters) > 0;
 }
 
 bool is_name(const LocalisedText& text) {
@@ -109,17 +110,28 @@ bool is_identification(const std::string& text) {
     const bool zeros = letters.find_first_not_of(U'0') == std::u32string::npos;
     const bool repeated =
         letters.size() >= k_least_repeated && letters.find_first_not_of(letters.front()) == std::u32string::npos;
-    return !names_only_a_field(text) && !zeros && !repeated && !is_run_of_digits(letters) && !is_email(text);
+    return !names_only_a_field(text) && !zeros && !repeated && !is_run_of_digits(letters) && !is_email(text) &&
+           !is_still_to_come(text) && !has_empty_parts_only(text);
+}
+
+bool is_document_number(const std::string& text) {
+    return is_identification(text) && !is_of_a_draft(text);
+}
+
+bool is_method_identification(const std::string& text) {
+    return is_identification(text) && !describes_the_usual(text);
 }
 
 bool is_statement(const std::string& text) {
     constexpr std::size_t k_least_weight = 12;
     constexpr std::size_t k_least_different = 4;
+    constexpr std::size_t k_least_telling = 2;
     const std::u32string letters = letters_of(text);
     const std::set<char32_t> different(letters.begin(), letters.end());
+    const bool without_spaces = std::any_of(letters.begin(), letters.end(), is_ideograph);
     const bool several_words = words_of(text).size() > 1 || std::all_of(letters.begin(), letters.end(), is_ideograph);
     return is_stated(text) && several_words && weight(letters) >= k_least_weight &&
-           different.size() >= k_least_different;
+           different.size() >= k_least_different && (without_spaces || telling_words(text) >= k_least_telling);
 }
 
 bool is_statement(const LocalisedText& text) {
@@ -135,17 +147,21 @@ bool is_email(const std::string& text) {
 bool is_postal_address(const std::vector<std::string>& lines) {
     constexpr std::size_t k_least_weight = 6;
     constexpr std::size_t k_least_weight_of_ideographs = 15;  // five of them: more than the name of a country
+    constexpr std::size_t k_least_words_without_number = 5;
     std::size_t words = 0;
     std::u32string letters;
     for (const std::string& line : lines) {
-        if (!names_only_a_field(line) && !is_email(line) && !is_web_address(line)) {
+        if (!names_nobody(line) && !is_email(line) && !is_web_address(line)) {
             words += words_of(line).size();
             letters += letters_of(line);
         }
     }
     const bool without_spaces = std::any_of(letters.begin(), letters.end(), is_ideograph);
+    const bool numbered = std::any_of(letters.begin(), letters.end(), is_digit) ||
+                          letters.find_first_of(U"路街號号巷道段村里一二三四五六七八九十") != std::u32string::npos;
     return (words > 1 || without_spaces) &&
            weight(letters) >= (without_spaces ? k_least_weight_of_ideographs : k_least_weight) &&
+           (numbered || (!without_spaces && words >= k_least_words_without_number)) &&
            !is_country_of_several_words(letters);
 }
 

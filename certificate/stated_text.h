@@ -26,11 +26,17 @@ template <class Text>
 [[nodiscard]] bool is_name(const std::string& text);
 [[nodiscard]] bool is_name(const LocalisedText& text);
 
-/// A number or a mark by which something is told from others: stated, and not "0", "0000", "9999" or "123456".
+/// A number or a mark by which something is told from others: stated in all of its parts, and not "0", "0000", "9999",
+/// "123456", "EX-XXXX" or "SN-tbd".
 [[nodiscard]] bool is_identification(const std::string& text);
+/// The same of a certificate: no draft, sample or copy.
+[[nodiscard]] bool is_document_number(const std::string& text);
+/// The same of a method: no words for what is usual.
+[[nodiscard]] bool is_method_identification(const std::string& text);
 
 /// A sentence that says something, as a reason has to: stated, of several words and of twelve letters or four
-/// ideographs at least. "x", "n/a" and "see above" are none.
+/// ideographs at least, two of the words telling something. "x", "n/a", "see above" and "there were no deviations" are
+/// none.
 [[nodiscard]] bool is_statement(const std::string& text);
 [[nodiscard]] bool is_statement(const LocalisedText& text);
 template <class Text>
@@ -41,7 +47,8 @@ template <class Text>
 /// name@domain.country
 [[nodiscard]] bool is_email(const std::string& text);
 
-/// Lines of an address to which a letter could be sent: more than a country or one word.
+/// Lines of an address to which a letter could be sent: more than a country or one word, with a number or
+/// of five words at least.
 [[nodiscard]] bool is_postal_address(const std::vector<std::string>& lines);
 
 }  // namespace gumcert::certificate

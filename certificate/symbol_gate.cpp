@@ -2,11 +2,13 @@
 #include <cstddef>
 #include <string>
 
+#include "certificate/accreditation_standard.h"
 #include "certificate/dates.h"
 #include "certificate/finding_list.h"
 #include "certificate/gates.h"
 #include "certificate/stated_text.h"
 #include "certificate/statement_of_uncertainty.h"
+#include "certificate/text_words.h"
 
 namespace gumcert::certificate {
 
@@ -61,7 +63,7 @@ void accreditation(FindingList& found, const CertificateData& data) {
         found.critical("X08", k_p8, is_identification(a.number) ? "/accreditation/body" : "/accreditation/number",
                        "the accreditation has no number or no body", "State both.");
     }
-    if (a.standard.find("17025") == std::string::npos) {
+    if (!is_of_calibration_laboratories(a.standard)) {
         found.critical(
             "X08", k_p8, "/accreditation/standard",
             "the accreditation is one by \"" + a.standard + "\", which is not one of a calibration laboratory",
@@ -96,23 +98,38 @@ void accreditation(FindingList& found, const CertificateData& data) {
     }
 }
 
+bool is_institute(const std::string& accreditation) {
+    return letters_of(accreditation) == U"nmi";
+}
+
+/// Documents that show competence have a number, or are described in a sentence.
+bool is_evidence(const std::string& text) {
+    return is_name(text) && (text.find_first_of("0123456789") != std::string::npos || is_statement(text));
+}
+
 void routes(FindingList& found, const CertificateData& data) {
     for (std::size_t i = 0; i < data.standards.size(); ++i) {
         const StandardUsed& s = data.standards[i];
         const std::string name = "the standard \"" + s.name.in("en") + "\"";
-        const bool by_evidence = s.route == "3a" || s.route == "3b" || s.route == "in_house";
+        const bool accredited = is_identification(s.issuer_accreditation) && !is_institute(s.issuer_accreditation);
+        const bool by_evidence =
+            s.route == "3a" || s.route == "3b" || s.route == "in_house" || (s.route == "crm" && !accredited);
         if (s.route.empty()) {
             found.critical("T03", k_p10, place_in("/standards", i, "route"),
                            "it is not said by which route " + name + " is traceable",
                            "State 1 (national institute), 2 (accredited laboratory), 3a, 3b, in_house or crm.");
-        } else if (by_evidence && !is_name(s.evidence)) {
+        } else if (by_evidence && !is_evidence(s.evidence)) {
             found.critical("T03", k_p10, place_in("/standards", i, "evidence"),
                            name + " is traceable by route " + s.route + ", and no evidence of competence is named",
                            "Name the documents that show the competence of who calibrated it.");
-        } else if (s.route == "2" && !is_identification(s.issuer_accreditation)) {
+        } else if (s.route == "2" && !accredited) {
             found.critical("T03", k_p10, place_in("/standards", i, "issuer_accreditation"),
                            "the accreditation of the laboratory that calibrated " + name + " is missing",
                            "State its number.");
+        } else if (s.route == "1" && !is_identification(s.issuer_accreditation)) {
+            found.major("T03", k_p10, place_in("/standards", i, "issuer_accreditation"),
+                        name + " is traceable by route 1, and it is not said that a national institute calibrated it",
+                        "State \"issuer_accreditation\": \"NMI\", or the route that it is.");
         }
     }
 }
@@ -201,6 +218,12 @@ std::vector<Finding> symbol_findings(const Certificate& certificate) {
     routes(found, data);
     scope(found, certificate);
     found.append(scope_findings(certificate));
+    if (!data.opinions.empty() && certificate.profile.opinions_with_symbol && data.own_profile) {
+        found.major("X07", k_p8, "/opinions",
+                    "opinions stand on a certificate with the symbol, because a profile of the laboratory itself, " +
+                        certificate.profile.id + ", allows them",
+                    "Give them in a document of their own, or show that the accreditation covers them.");
+    }
     if (!data.opinions.empty() && !certificate.profile.opinions_with_symbol) {
         found.critical("X07", k_p8, "/opinions",
                        "opinions stand on a certificate with the symbol, which the profile " + certificate.profile.id +

@@ -47,12 +47,25 @@ void digits(FindingList& found, const std::string& where, const CertifiedValue& 
     }
 }
 
-/// Rules without a guard band accept whatever lies inside of the limits, however poor the measurement.
-void poor_measurement(FindingList& found, const std::string& where, const Verdict& v) {
+/// Whether a value lies outside of the limits, and the rule does not publish that it may accept such ones (DR-10 of
+/// ASME B89.7.3.1 and DR-11 do).
+bool is_outside(const CertifiedValue& value, const Verdict& v) {
+    const bool outside = (v.lower && value.value < *v.lower) || (v.upper && value.value > *v.upper);
+    return outside && v.rule != "DR-10" && v.rule != "DR-11";
+}
+
+/// Judged by the numbers, whatever the rule is called: its parameters may leave nothing of its guard band.
+void poor_measurement(FindingList& found, const std::string& where, const CertifiedValue& value, const Verdict& v) {
     constexpr double k_even = 0.5 - 1e-9;
+    constexpr double k_proven = 0.05 + 1e-9;  // a specific risk that nobody need be told of
     const bool passes = v.verdict == "pass" || v.verdict == "conditional_pass";
-    const bool unguarded = v.rule == "DR-01" || v.rule == "DR-12";
-    if (passes && v.conformance_probability < k_even) {
+    const bool unguarded = v.rule == "DR-01" || v.rule == "DR-12" || (passes && v.specific_risk > k_proven);
+    if (passes && is_outside(value, v)) {
+        found.critical("D08", iso_17025("7.8.6.1"), where,
+                       "the value lies outside of the limits of \"" + v.specification + "\", and " + v.rule +
+                           " passes it with a probability of conformity of " + v.printed.conformance_probability + " %",
+                       "Tell the customer; agree on a rule with a guard band, or measure with a smaller uncertainty.");
+    } else if (passes && v.conformance_probability < k_even) {
         found.major("D08", iso_17025("7.8.6.1"), where,
                     "the value passes \"" + v.specification + "\" by " + v.rule +
                         " with a probability of conformity of " + v.printed.conformance_probability +
@@ -61,7 +74,7 @@ void poor_measurement(FindingList& found, const std::string& where, const Verdic
     } else if (unguarded && v.test_uncertainty_ratio && *v.test_uncertainty_ratio < 1.0) {
         found.major("D08", iso_17025("7.8.6.1"), where,
                     "U is larger than half of the tolerance of \"" + v.specification + "\" (test uncertainty ratio " +
-                        v.printed.test_uncertainty_ratio + "), and " + v.rule + " takes no account of it",
+                        v.printed.test_uncertainty_ratio + "), and " + v.rule + " accepts the value all the same",
                     "Tell the customer; agree on a rule with a guard band, or measure with a smaller uncertainty.");
     }
 }
@@ -74,7 +87,7 @@ void verdict(FindingList& found, const std::string& where, const CertifiedValue&
                   "conformity with \"" + v.specification + "\" by " + v.rule + " cannot be decided: " + v.note,
                   "Agree with the customer on another rule, or leave the statement out.");
     }
-    poor_measurement(found, where, v);
+    poor_measurement(found, where, value, v);
     if (v.verdict != v.verdict_from_printed) {
         found.critical("D04", iso_17025("7.8.6.1"), where,
                        "the verdict is \"" + v.verdict + "\" with the unrounded numbers and \"" +

@@ -339,6 +339,53 @@ Bytes checked_signature(const Signer& signer, const Bytes& digest) {
     return signature;
 }
 
+namespace {
+
+/// The certificates of a chain from the signer's upwards: each has issued the one before. Where two have, an
+/// intermediate and its renewal, the first of the file.
+std::vector<std::size_t> path_of(const std::vector<CertificateHandle>& chain) {
+    std::vector<std::size_t> path = {0};
+    for (bool longer = true; longer;) {
+        longer = false;
+        for (std::size_t i = 1; i < chain.size() && !longer; ++i) {
+            const bool passed = std::find(path.begin(), path.end(), i) != path.end();
+            if (!passed && X509_check_issued(chain[i].get(), chain[path.back()].get()) == X509_V_OK) {
+                path.push_back(i);
+                longer = true;
+            }
+        }
+    }
+    return path;
+}
+
+/// What whoever gets a document does with it, as far as it can be done without his trust store: the signer's
+/// certificate has to lead to the last one of its own file. A signature that can never verify is not made.
+void require_a_chain(const Signer& signer, std::int64_t signing_time) {
+    std::vector<CertificateHandle> chain;
+    for (const Bytes& der : signer.certificates()) {
+        chain.push_back(certificate_from_der(der));
+    }
+    const std::vector<std::size_t> path = path_of(chain);
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+        if (std::find(path.begin(), path.end(), i) == path.end()) {
+            refuse("GC-SIGN-0023", "signer",
+                   "the certificate of " + subject_of(chain[i].get()) + " has not issued that of " +
+                       subject_of(chain[path.back()].get()) + ", nor any below it",
+                   "the file holds the signer's certificate and those of its issuers, and no others",
+                   "take it out, or put in the one that has issued it");
+        }
+    }
+    const std::vector<gum::Diagnostic> problems =
+        check_chain("signer", chain, {signer.certificates().at(path.back())}, signing_time);
+    if (!problems.empty()) {
+        refuse("GC-SIGN-0023", "signer", "no verification will accept it: " + problems.front().what,
+               "a signature is made with a certificate that leads to the last one of its file",
+               "have a certificate made for signing documents, by an authority that may issue it (docs/signing.md)");
+    }
+}
+
+}  // namespace
+
 void require_in_force(const Signer& signer, std::int64_t signing_time) {
     const CertificateHandle certificate = certificate_from_der(signer.certificates().at(0));
     const std::optional<std::int64_t> from = certificate ? start_of_validity(certificate.get()) : std::nullopt;
@@ -353,6 +400,7 @@ void require_in_force(const Signer& signer, std::int64_t signing_time) {
                    " to " + time_text(*to) + ", not at " + time_text(signing_time),
                "a signature is made while the certificate is in force", "renew the certificate, or correct the clock");
     }
+    require_a_chain(signer, signing_time);
 }
 
 }  // namespace gumcert::signing

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include "certificate/capability.h"
@@ -148,6 +149,24 @@ void check_entry(const certificate::ExternalResults& external, const Certificate
     demand_some(external.results, "results", place);
 }
 
+/// A word of a sentence that begins with a digit and is no part of the name of a document: "1", "99.9", not "JCGM
+/// 100:2008" or "DIN 1319". "" where there is none.
+std::string number_of_its_own(const std::string& text) {
+    const auto is_capital = [](char c) { return (c >= 'A' && c <= 'Z') || c == '/' || c == '-'; };
+    std::istringstream words(text);
+    std::string before;
+    for (std::string word; words >> word; before = word) {
+        const std::size_t first = word.find_first_not_of("(\"'+-.,<>=~");
+        const bool digit = first != std::string::npos && word[first] >= '0' && word[first] <= '9';
+        const bool of_document = word.find(':') != std::string::npos ||
+                                 (before.size() > 1 && std::all_of(before.begin(), before.end(), is_capital));
+        if (digit && !of_document) {
+            return word;
+        }
+    }
+    return {};
+}
+
 void check_entry(const certificate::Profile& profile, const CertificatePlace& place) {
     const auto check = [&](const std::string& text, const CertificatePlace& at) {
         for (std::size_t open = text.find('{'); open != std::string::npos; open = text.find('{', open + 1)) {
@@ -156,7 +175,24 @@ void check_entry(const certificate::Profile& profile, const CertificatePlace& pl
             if (name != "{k}" && name != "{coverage}") {
                 at.refuse(k_certificate_placeholder, "the placeholder " + in_quotes(name),
                           "the sentence on uncertainty may use {k} and {coverage}", "use one of these, or none");
+                return;
             }
+        }
+        if (text.empty()) {
+            return;
+        }
+        for (const char* needed : {"{k}", "{coverage}"}) {
+            if (text.find(needed) == std::string::npos) {
+                at.refuse(k_certificate_placeholder, "a sentence without " + std::string(needed),
+                          "the sentence on uncertainty says k and the coverage probability of the result",
+                          "add {k} and {coverage}, or leave the sentence of the program");
+                return;
+            }
+        }
+        if (const std::string number = number_of_its_own(text); !number.empty()) {
+            at.refuse(k_certificate_placeholder, "the number " + in_quotes(number),
+                      "the sentence on uncertainty states the numbers of the result only, as {k} and {coverage}",
+                      "take the number out; a document is written as \"GUM:2008\" or \"EA-4/02\"");
         }
     };
     const CertificatePlace sentence = place.below("/uncertainty_sentence");

@@ -28,7 +28,8 @@ inline constexpr InputCode k_certificate_capability{"GC-CERT-0118", "a capabilit
 inline constexpr InputCode k_certificate_file{"GC-CERT-0119", "a file name is not a path relative to the job file"};
 inline constexpr InputCode k_certificate_symbol{"GC-CERT-0120", "the symbol is not a PNG or JPEG image"};
 inline constexpr InputCode k_certificate_profile{"GC-CERT-0121", "not the name of a profile"};
-inline constexpr InputCode k_certificate_placeholder{"GC-CERT-0122", "a sentence has a placeholder that is not known"};
+inline constexpr InputCode k_certificate_placeholder{
+    "GC-CERT-0122", "a sentence has a placeholder that is not known, lacks one, or has a number"};
 inline constexpr InputCode k_certificate_contradiction{"GC-CERT-0123", "two statements exclude each other"};
 inline constexpr InputCode k_certificate_any_result{"GC-CERT-0124", "a line of the scope that covers any result"};
 

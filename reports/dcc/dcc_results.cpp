@@ -7,6 +7,7 @@
 #include "reports/dcc/dcc_joint_results.h"
 #include "reports/dcc/dcc_quantity.h"
 #include "reports/dcc/dcc_writer.h"
+#include "reports/decision_formula.h"
 #include "reports/result_names.h"
 
 namespace gumcert::reports {
@@ -208,7 +209,7 @@ void conformity(DccWriter& w, const Column& c, const std::string& specification)
     const Text name = words.filled("dcc", "verdicts", {{"name", c.column.result}});
     w.xml.open("dcc:metaData",
                {{"refId", w.specification_id(specification)}, {"refType", w.ref_types()("conformity")}});
-    Text declaration = Text(first->formula);
+    Text declaration = decision_formula(first->formula, words);
     if (std::find(verdicts.begin(), verdicts.end(), "noPass") != verdicts.end()) {
         append_line(declaration, words.filled("dcc", "conformity_words", {{"name", name}}));
     }

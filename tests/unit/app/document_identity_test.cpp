@@ -60,7 +60,8 @@ TEST(DocumentIdentity, TheSignerIsTheLaboratory) {
         EXPECT_EQ(codes(identity, signed_by({signer})), Codes()) << signer.signer;
     }
     for (const SignatureReport& signer :
-         {by("another company"), by("A. Person"), by("Lab"), by("A. Person", "Another Laboratory")}) {
+         {by("another company"), by("A. Person"), by("Lab"), by("A. Person", "Another Laboratory"), by("Example"),
+          by("Other Example Calibration Laboratory"), by("Example Calibration"), by("Calibration Laboratory")}) {
         EXPECT_EQ(codes(identity, signed_by({signer})), Codes{"GC-SIGN-0150"}) << signer.signer;
     }
     EXPECT_EQ(codes(of(""), signed_by({by("A. Person")})), Codes());  // it does not say whose it is

@@ -89,7 +89,7 @@ TEST(PlausibilityGate, FindsConditionsThatNatureDoesNotHave) {
         double minimum, maximum;
         bool possible;
     };
-    for (const Case& c : std::vector<Case>{{"Air temperature", "temperature", "degC", -273.0, 20.0, true},
+    for (const Case& c : std::vector<Case>{{"Air temperature", "temperature", "degC", -273.0, -200.0, true},
                                            {"Air temperature", "temperature", "degC", -274.0, 20.0, false},
                                            {"Gradient", "", "K", -0.2, 0.2, true},
                                            {"Bath", "temperature", "K", -0.2, 0.2, false},
