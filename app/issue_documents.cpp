@@ -22,12 +22,20 @@ std::string digital_certificate(const reports::EvaluationRecord& record, const I
                             .action = "use --format html, pdf, text or csv; its record (JSON) is what programs read"});
     }
     std::string dcc = reports::render_dcc(record, options.assets);
-    return options.signer == nullptr ? dcc : signing::sign_dcc(dcc, *options.signer, options.signing_time);
+    if (options.signer == nullptr) {
+        return dcc;
+    }
+    signing::require_a_chain(*options.signer, options.signing_time);
+    return signing::sign_dcc(dcc, *options.signer, options.signing_time);
 }
 
 std::string pdf_with(const std::string& dcc, const reports::EvaluationRecord& record, const IssueOptions& options) {
     std::string pdf = reports::render_pdf(record, options.assets, dcc, options.worker);
-    return options.signer == nullptr ? pdf : signing::sign_pdf(pdf, *options.signer, options.signing_time);
+    if (options.signer == nullptr) {
+        return pdf;
+    }
+    signing::require_a_chain(*options.signer, options.signing_time);
+    return signing::sign_pdf(pdf, *options.signer, options.signing_time);
 }
 
 }  // namespace

@@ -10,8 +10,7 @@ namespace gumcert::signing {
 /// customer. \throws gum::StorageError  GC-SIGN-0022 if it does not fit, and what the signer throws
 [[nodiscard]] Bytes checked_signature(const Signer& signer, const Bytes& digest);
 
-/// \throws gum::InputError  GC-SIGN-0017 if the signer's certificate is not in force at the time, -0023 if it does not
-///                          lead to the last one of its file by the rules of verification, or the file holds others
+/// \throws gum::InputError  GC-SIGN-0017 if the signer's certificate is not in force at the time
 void require_in_force(const Signer& signer, std::int64_t signing_time);
 
 }  // namespace gumcert::signing

@@ -358,8 +358,8 @@ std::vector<std::size_t> path_of(const std::vector<CertificateHandle>& chain) {
     return path;
 }
 
-/// What whoever gets a document does with it, as far as it can be done without his trust store: the signer's
-/// certificate has to lead to the last one of its own file. A signature that can never verify is not made.
+}  // namespace
+
 void require_a_chain(const Signer& signer, std::int64_t signing_time) {
     std::vector<CertificateHandle> chain;
     for (const Bytes& der : signer.certificates()) {
@@ -384,8 +384,6 @@ void require_a_chain(const Signer& signer, std::int64_t signing_time) {
     }
 }
 
-}  // namespace
-
 void require_in_force(const Signer& signer, std::int64_t signing_time) {
     const CertificateHandle certificate = certificate_from_der(signer.certificates().at(0));
     const std::optional<std::int64_t> from = certificate ? start_of_validity(certificate.get()) : std::nullopt;
@@ -400,7 +398,6 @@ void require_in_force(const Signer& signer, std::int64_t signing_time) {
                    " to " + time_text(*to) + ", not at " + time_text(signing_time),
                "a signature is made while the certificate is in force", "renew the certificate, or correct the clock");
     }
-    require_a_chain(signer, signing_time);
 }
 
 }  // namespace gumcert::signing

@@ -51,6 +51,12 @@ struct DescribedSigner {
 };
 [[nodiscard]] DescribedSigner described_signer(const std::filesystem::path& file);
 
+/// What whoever gets a document does with it, as far as it can be done without his trust store: the signer's
+/// certificate leads to the last one of its own file by the rules of verification, at the time of signing, and the file
+/// holds no others. Asked before a document is signed: a signature that can never verify is not made. \throws
+/// gum::InputError  GC-SIGN-0023
+void require_a_chain(const Signer& signer, std::int64_t signing_time);
+
 /// Signs a DCC: XAdES-BASELINE-B, enveloped, exclusive canonicalisation, SHA-256 (ETSI EN 319 132-1).
 /// \param signing_time  seconds since 1970-01-01 UTC; the caller reads the clock
 /// \throws gum::InputError  if the bytes are not a DCC of 3.2 or later, or are signed already

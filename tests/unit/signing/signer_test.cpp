@@ -51,6 +51,45 @@ TEST(SignerFromFiles, SignsWithRsaAndEcdsa) {
     EXPECT_TRUE(fits(ec.own, ec.signer->sign_sha256(k_digest)));
 }
 
+TEST(SignerFromFiles, LeadsToTheLastCertificateOfItsFile) {
+    constexpr std::int64_t k_march_2026 = 1774958400;
+    const Laboratory good(ec_key());
+    EXPECT_EQ(code_of([&] {
+                  require_a_chain(*good.signer, k_march_2026);
+                  return 0;
+              }),
+              "");
+    const CertificateOptions authority = {.name = "Root", .key_usage = "critical,keyCertSign", .authority = true};
+    const Identity root = make_identity(ec_key(), authority);
+    const Identity other =
+        make_identity(ec_key(), {.name = "Other", .key_usage = "critical,keyCertSign", .authority = true});
+    // Issued by a certificate that is no authority, or one that may not issue.
+    const Identity person = make_identity(ec_key(), {.name = "Person"}, &root);
+    const Identity keyless = make_identity(
+        ec_key(), {.name = "No issuer", .key_usage = "critical,digitalSignature", .authority = true}, &root);
+    for (const Identity* issuer : {&person, &keyless}) {
+        Identity own = make_identity(ec_key(), {}, issuer);
+        const std::string all = pem(own) + pem(*issuer) + pem(root);
+        const Folder folder;
+        const auto signer = signer_from_files(folder.put("key.pem", key_pem(own)), folder.put("chain.pem", all));
+        EXPECT_EQ(code_of([&] {
+                      require_a_chain(*signer, k_march_2026);
+                      return 0;
+                  }),
+                  "GC-SIGN-0023");
+    }
+    // Beside one that has nothing to do with it.
+    const Identity own = make_identity(ec_key(), {}, &root);
+    const Folder folder;
+    const auto signer = signer_from_files(folder.put("key.pem", key_pem(own)),
+                                          folder.put("chain.pem", pem(own) + pem(root) + pem(other)));
+    EXPECT_EQ(code_of([&] {
+                  require_a_chain(*signer, k_march_2026);
+                  return 0;
+              }),
+              "GC-SIGN-0023");
+}
+
 TEST(SignerFromFiles, RefusesWhatDoesNotFit) {
     const Laboratory one(ec_key());
     const Laboratory other(ec_key());
