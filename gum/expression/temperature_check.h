@@ -43,8 +43,8 @@ struct TemperatureContent {
 /// GC-MODEL-0041 where a result is proportional to a power of a Celsius temperature.
 void check_result(const TemperatureContent& content, const QuantityKind& kind, std::vector<Diagnostic>& warnings);
 
-/// Where no unit is declared for a result with the dimension of temperature that Celsius temperatures enter with a weight
-/// that is not known, e.g. w*t + (1 - w)*t2: "K" would be a guess. Adds GC-MODEL-0036.
+/// Where no unit is declared for a result with the dimension of temperature that Celsius temperatures enter with a
+/// weight that is not known, e.g. w*t + (1 - w)*t2: "K" would be a guess. Adds GC-MODEL-0036.
 void check_default_unit(const std::string& name, const TemperatureContent& content, const QuantityKind& kind,
                         const std::string& where, std::vector<Diagnostic>& problems);
 

@@ -273,13 +273,14 @@ private:
         const std::string t = tree_.excerpt(operand(index));
         const std::string zero =
             std::find(tree_.names.begin(), tree_.names.end(), "t_0") == tree_.names.end() ? "t_0" : "t_0F";
-        return refuse(node, "GC-MODEL-0043", "\"" + t + "\", a Fahrenheit temperature, is a factor of a product",
-                      "a formula for a number of degF means the difference from 0 degF; the number in SI is counted from "
-                      "0 degC",
-                      "Write (" + t + " - " + zero + ") for \"" + t + "\" with the input \"" + zero +
-                          "\": {\"value\": 0, \"unit\": \"degF\", \"constant\": true}, state the temperature in degC "
-                          "where the formula is for degC, or write kelvin(" +
-                          t + ") where the thermodynamic temperature is meant.");
+        return refuse(
+            node, "GC-MODEL-0043", "\"" + t + "\", a Fahrenheit temperature, is a factor of a product",
+            "a formula for a number of degF means the difference from 0 degF; the number in SI is counted from "
+            "0 degC",
+            "Write (" + t + " - " + zero + ") for \"" + t + "\" with the input \"" + zero +
+                "\": {\"value\": 0, \"unit\": \"degF\", \"constant\": true}, state the temperature in degC "
+                "where the formula is for degC, or write kelvin(" +
+                t + ") where the thermodynamic temperature is meant.");
     }
 
     bool balance(const SyntaxNode& node, const QuantityKind& a, const QuantityKind& b) {

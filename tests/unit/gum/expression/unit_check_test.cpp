@@ -208,9 +208,9 @@ TEST(UnitCheck, CuresLeadToTheRightNumber) {
     inputs.push_back(input("f_v", "Hz"));
     inputs.push_back(input("N_v", "turn"));
     inputs.push_back(input("t_0", "degC", 0.0));
-    const std::map<std::string, double> values{{"x", 2e-3},  {"l", 2.0},   {"T", 300.0}, {"t", 20.0},
-                                               {"t2", 30.0}, {"phi", 0.5}, {"n", 3.0},   {"two", 2.0},
-                                               {"A", 4e-3},  {"R", 100.0}, {"dT", 1.0},  {"t_0", 0.0},
+    const std::map<std::string, double> values{{"x", 2e-3},     {"l", 2.0},   {"T", 300.0},     {"t", 20.0},
+                                               {"t2", 30.0},    {"phi", 0.5}, {"n", 3.0},       {"two", 2.0},
+                                               {"A", 4e-3},     {"R", 100.0}, {"dT", 1.0},      {"t_0", 0.0},
                                                {"v", 2.0 * pi}, {"f_v", 3.0}, {"N_v", 6.0 * pi}};
     for (const Cure& cure : cures) {
         SCOPED_TRACE(cure.equation);
