@@ -48,10 +48,14 @@ void expand_by_propagation(const engine::BudgetJob& job, const BudgetPointResult
             "terms, and the distribution of the result is not known from them";
         return;
     }
-    double nu = result.degrees_of_freedom;
-    const double k = gum::coverage_factor(result.coverage_probability, nu);
+    // One number of degrees of freedom for k, for what is printed and for a decision on conformity.
+    double& nu = result.degrees_of_freedom;
+    double k = gum::coverage_factor(result.coverage_probability, nu);
     if (!gum::convolution_changes_little(*point.model, point.propagation, output)) {
         const auto convolved = gum::expand_by_convolution(*point.model, point.propagation, output);
+        if (convolved) {
+            result.asymmetry = convolved->asymmetry;
+        }
         if (convolved && std::abs(convolved->coverage_factor - k) > k_noticed_change * k) {
             result.coverage = "convolution";
             result.coverage_note = "k is taken from the convolution of all distributions; that of the " +
@@ -59,16 +63,16 @@ void expand_by_propagation(const engine::BudgetJob& job, const BudgetPointResult
                                    gum::round_to_quantum(k, 2);
             result.coverage_factor = convolved->coverage_factor;
             result.expanded_uncertainty = convolved->expanded_uncertainty;
-            result.asymmetry = convolved->asymmetry;
             return;
         }
     }
-    result.coverage = std::isinf(result.degrees_of_freedom) ? "normal" : "student_t";
+    result.coverage = std::isinf(nu) ? "normal" : "student_t";
     if (job.truncate_degrees_of_freedom && std::isfinite(nu) && nu >= 1.0) {
         nu = std::floor(nu * (1.0 + k_rounding_of_degrees_of_freedom));
+        k = gum::coverage_factor(result.coverage_probability, nu);
         result.coverage_note = "k is taken for the next lower whole number of degrees of freedom";
     }
-    result.coverage_factor = std::isfinite(nu) ? gum::coverage_factor(result.coverage_probability, nu) : k;
+    result.coverage_factor = k;
     result.expanded_uncertainty = *result.coverage_factor * u;
 }
 

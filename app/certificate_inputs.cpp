@@ -1,6 +1,8 @@
 #include "app/certificate_inputs.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -71,15 +73,28 @@ InputValues values_of(const engine::BudgetJob& job, std::size_t input) {
     return out;
 }
 
-/// P(Y ≤ x) of an output whose k comes from the convolution, x in its unit.
-std::function<double(double)> convolution_of(const BudgetPointResult& point, Eigen::Index output,
-                                             const gum::Unit& unit) {
+/// P(Y ≤ x) and P(Y < x) of an output whose k comes from the convolution, x in its unit.
+void add_convolution(const BudgetPointResult& point, Eigen::Index output, const gum::Unit& unit,
+                     const std::string& name, CapabilityInputs& inputs) {
     const auto terms = gum::convolution_terms(*point.model, point.propagation, output);
     if (!terms) {
-        return {};
+        return;
     }
-    return [distribution = gum::ConvolutionDistribution(*terms), centre = point.propagation.value(output),
-            unit](double x) { return distribution(unit.to_si(x) - centre); };
+    const gum::ConvolutionDistribution distribution(*terms);
+    const double centre = point.propagation.value(output);
+    // A limit that is a possible value differs from it by roundings alone.
+    constexpr double k_roundings = 8.0;
+    const auto rounding = [centre](double x) {
+        return k_roundings * std::numeric_limits<double>::epsilon() * std::max(std::abs(x), std::abs(centre));
+    };
+    inputs.distributions.emplace(name, [=](double x) {
+        const double at = unit.to_si(x);
+        return distribution(at - centre + rounding(at));
+    });
+    inputs.distributions_below.emplace(name, [=](double x) {
+        const double at = unit.to_si(x);
+        return distribution.below(at - centre - rounding(at));
+    });
 }
 
 }  // namespace
@@ -127,9 +142,7 @@ CapabilityInputs capability_inputs(const engine::BudgetJob& job, const BudgetRes
                                                            .trials = point.outputs[i].trials,
                                                            .threads = threads});
             } else if (point.outputs[i].coverage == "convolution") {
-                if (auto function = convolution_of(point, output, unit)) {
-                    inputs.distributions.emplace(name, std::move(function));
-                }
+                add_convolution(point, output, unit, name, inputs);
             }
         }
     }

@@ -106,7 +106,17 @@ std::optional<double> half_width(std::optional<double> U, double y, std::optiona
     return low && high ? std::optional(std::max(y - *low, *high - y)) : std::nullopt;
 }
 
-std::optional<DecisionNumbers> numbers_of(const CertifiedValue& from, const KnownDistribution& known) {
+/// Whether a limit is a value that the quantity takes with a probability of its own, not by the chance of one trial.
+bool has_probability_at(const KnownDistribution& known, const gum::ToleranceLimits& limits) {
+    constexpr double k_no_chance = 1e-3;
+    const auto at = [&](const std::optional<double>& limit) {
+        return limit && known.below && known.function(*limit) - known.below(*limit) > k_no_chance;
+    };
+    return at(limits.lower) || at(limits.upper);
+}
+
+std::optional<DecisionNumbers> numbers_of(const CertifiedValue& from, const KnownDistribution& known,
+                                          const gum::ToleranceLimits& limits) {
     constexpr double k_usual_factor = 2.0;
     const std::optional<double> y = certificate::number_of(from.printed_value);
     const bool by_interval = !from.U && from.interval && known.function;
@@ -138,14 +148,20 @@ std::optional<DecisionNumbers> numbers_of(const CertifiedValue& from, const Know
     out.printed.standard_uncertainty = *U_printed / *k_printed;
     if (known.function && *U > 0.0) {
         // The same shape about the value, as wide as the stated U: k and p hold for it as they do for the evaluated U.
-        const auto stretched = [&](double value, double stated_U) {
-            return [function = known.function, stretch = *U / stated_U, centre = from.value, value](double x) {
-                return function(centre + (x - value) * stretch);
+        const auto place = [&](gum::MeasuredValue& numbers, bool as_it_is, double stated_U) {
+            const auto stretched = [&](const std::function<double(double)>& function) {
+                return [function, stretch = *U / stated_U, centre = from.value, value = numbers.value](double x) {
+                    return function(centre + (x - value) * stretch);
+                };
             };
+            numbers.distribution = as_it_is ? known.function : stretched(known.function);
+            if (known.below) {
+                numbers.distribution_below = as_it_is ? known.below : stretched(known.below);
+            }
         };
-        out.unrounded.distribution =
-            out.raised ? stretched(from.value, out.unrounded.expanded_uncertainty) : known.function;
-        out.printed.distribution = stretched(*y, *U_printed);
+        place(out.unrounded, !out.raised, out.unrounded.expanded_uncertainty);
+        // A limit that the quantity itself cannot pass stays where it is when y is rounded.
+        place(out.printed, !out.raised && has_probability_at(known, limits), *U_printed);
     }
     return out;
 }
@@ -237,7 +253,7 @@ Verdict verdict_of(const AgreedSpecification& specification, const certificate::
         return not_applicable(verdict,
                               "another laboratory provided the result, and its conformity is not decided here");
     }
-    const std::optional<DecisionNumbers> numbers = numbers_of(value, known);
+    const std::optional<DecisionNumbers> numbers = numbers_of(value, known, rule.limits);
     if (!numbers) {
         return not_applicable(verdict, !value.U && value.u == 0.0
                                            ? "the value is defined, not measured: it has no uncertainty"

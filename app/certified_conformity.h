@@ -11,6 +11,7 @@ namespace gumcert::app {
 /// Knowledge of the distribution of one value, where it is neither normal nor a t-distribution.
 struct KnownDistribution {
     std::function<double(double)> function;  ///< P(Y ≤ x), x in the unit of the column; empty: normal or t
+    std::function<double(double)> below;     ///< P(Y < x), where single values have a probability; empty: P(Y ≤ x)
     std::string note;                        ///< English sentence for the verdict; "" without
     std::uint64_t trials = 0;                ///< of Monte Carlo, that the function counts; 0: it is not from trials
 };

@@ -239,20 +239,25 @@ KnownDistribution Certifier::known_distribution(const CertifiedValue& value, con
         if (found != inputs_.trials.end()) {
             TrialDistribution trials = count_trials(found->second);
             return {.function = std::move(trials.function),
+                    .below = std::move(trials.below),
                     .note = "Probabilities are counted from " + std::to_string(trials.counted) + " Monte Carlo trials.",
                     .trials = trials.counted};
         }
         return {.function = {},
+                .below = {},
                 .note =
                     "Probabilities are those of a normal distribution with the stated U and k; the Monte Carlo "
                     "trials were not kept."};
     }
     if (result != nullptr && result->coverage == "convolution") {
         if (const auto found = inputs_.distributions.find(result->name); found != inputs_.distributions.end()) {
+            const auto below = inputs_.distributions_below.find(result->name);
             return {.function = found->second,
+                    .below = below != inputs_.distributions_below.end() ? below->second : found->second,
                     .note = "Probabilities are those of the convolution of all input distributions."};
         }
         return {.function = {},
+                .below = {},
                 .note =
                     "Probabilities are those of a normal distribution with the stated U and k; the result itself "
                     "is not normally distributed."};

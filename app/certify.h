@@ -22,6 +22,8 @@ struct CapabilityInputs {
     std::map<std::string, InputValues> values;  ///< by the name of the input
     /// P(Y ≤ x) of results whose k comes from a convolution, by Result::name; x in the unit of the result.
     std::map<std::string, std::function<double(double)>> distributions;
+    /// P(Y < x) of the same results, where it differs: where single values have a probability of their own.
+    std::map<std::string, std::function<double(double)>> distributions_below;
     /// Trials of results whose U comes from Monte Carlo, by Result::name. Counted where a decision needs them, one
     /// result after the other: they take memory.
     std::map<std::string, TrialsOfOutput> trials = {};

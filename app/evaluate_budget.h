@@ -22,13 +22,14 @@ struct BudgetOutputResult {
     double coverage_probability = 0.9545;
     /// u(y) of the law of propagation: of the first order, and where that vanishes, with the second-order terms.
     double standard_uncertainty = 0.0;
-    double degrees_of_freedom = 0.0;        ///< ν_eff; NaN: none can be stated
+    double degrees_of_freedom = 0.0;        ///< ν_eff, truncated where the job asks for it; NaN: none can be stated
     std::optional<double> coverage_factor;  ///< none: no expanded uncertainty can be stated
     std::optional<double> expanded_uncertainty;
     std::string coverage;  ///< as reports::Result::coverage
     std::string coverage_note;
-    /// Where k comes from the convolution: how far the middle of its interval lies from the estimate, in parts of U.
-    double asymmetry = 0.0;
+    /// How far the middle of the interval of the convolution lies from the estimate, in parts of its U; none where
+    /// there is no convolution, or it certainly changes little.
+    std::optional<double> asymmetry;
     bool second_order_matters = false;
     std::optional<gum::MonteCarloOutput> monte_carlo;
     std::uint64_t trials = 0;

@@ -66,6 +66,23 @@ double tail_exponent(const BudgetPointResult& point, Eigen::Index output, unsign
 
 }  // namespace
 
+namespace {
+
+/// How far the ends of the interval lie aside, in parts of U: from the convolution of all distributions, correlated
+/// ones among them. Where it is not known the ends move by γ (k² − 1)/6 u, the first term of the expansion of Cornish
+/// and Fisher (1938).
+double asymmetry_of(const BudgetPointResult& point, std::size_t output) {
+    const BudgetOutputResult& of = point.outputs[output];
+    if (of.asymmetry) {
+        return std::abs(*of.asymmetry);
+    }
+    const double k = of.coverage_factor.value_or(2.0);
+    const double skewness = gum::linear_skewness(*point.model, point.propagation, static_cast<Eigen::Index>(output));
+    return std::abs(skewness) * std::abs(k * k - 1.0) / (6.0 * k);
+}
+
+}  // namespace
+
 CoverageChoice coverage_choice_of(const BudgetJob& job, const std::string& output) {
     for (const engine::BudgetOutput& stated : job.outputs) {
         if (stated.name == output && stated.coverage) {
@@ -155,10 +172,7 @@ std::vector<std::string> evidence_against_law(const BudgetPointResult& point, bo
             evidence[i] = u < k_vanishing * checks[i].spread ? "vanishing" : "not_linear";
             continue;
         }
-        // The ends move by γ (k² − 1)/6 u: the first term of the expansion of Cornish and Fisher (1938).
-        const double k = point.outputs[i].coverage_factor.value_or(2.0);
-        const double skewness = gum::linear_skewness(*point.model, point.propagation, index);
-        if (std::abs(skewness) * std::abs(k * k - 1.0) / 6.0 > k_largest_asymmetry * k) {
+        if (asymmetry_of(point, i) > k_largest_asymmetry) {
             evidence[i] = "asymmetric";
         }
     }

@@ -41,15 +41,36 @@ std::vector<double> drawn_trials(const TrialsOfOutput& of) {
     return values;
 }
 
+/// How large sorted trials usually are: the largest and the smallest of them may be of another order of magnitude.
+double usual_size(const std::vector<double>& sorted) {
+    const std::size_t hundredth = sorted.size() / 100;
+    return std::max(std::abs(sorted[hundredth]), std::abs(sorted[sorted.size() - 1 - hundredth]));
+}
+
+/// Values that differ by less are one: a limit has been converted to another unit, and a trial has been computed.
+double rounding_at(double x, double size) {
+    constexpr double k_roundings = 4.0;
+    return k_roundings * std::numeric_limits<double>::epsilon() * std::max(std::abs(x), size);
+}
+
 }  // namespace
 
 TrialDistribution count_trials(const TrialsOfOutput& of) {
     auto values = std::make_shared<std::vector<double>>(drawn_trials(of));
     std::sort(values->begin(), values->end());
+    const double size = usual_size(*values);
+    const auto share = [values](auto end) {
+        return static_cast<double>(end - values->begin()) / static_cast<double>(values->size());
+    };
     return {.function =
-                [values, unit = of.unit](double x) {
-                    const auto end = std::upper_bound(values->begin(), values->end(), unit.to_si(x));
-                    return static_cast<double>(end - values->begin()) / static_cast<double>(values->size());
+                [values, share, size, unit = of.unit](double x) {
+                    const double at = unit.to_si(x);
+                    return share(std::upper_bound(values->begin(), values->end(), at + rounding_at(at, size)));
+                },
+            .below =
+                [values, share, size, unit = of.unit](double x) {
+                    const double at = unit.to_si(x);
+                    return share(std::lower_bound(values->begin(), values->end(), at - rounding_at(at, size)));
                 },
             .counted = values->size()};
 }

@@ -25,6 +25,7 @@ struct TrialsOfOutput {
 /// Distribution of an output as its trials give it.
 struct TrialDistribution {
     std::function<double(double)> function;  ///< share of the trials with y ≤ x, x in the unit of the result
+    std::function<double(double)> below;     ///< with y < x; trials that differ from x by roundings alone are at x
     std::uint64_t counted = 0;               ///< trials
 };
 

@@ -21,13 +21,21 @@ public:
     explicit Dispersion(const MeasuredValue& y)
         : y_(y), standard_(Distribution::student_t(0.0, y.standard_uncertainty, y.degrees_of_freedom)) {}
 
+    /// P(Y − y ≤ d)
     [[nodiscard]] double below(double d) const {
         return y_.distribution ? std::clamp(y_.distribution(y_.value + d), 0.0, 1.0)
                                : lower_tail_probability(standard_, d);
     }
+    /// P(Y − y < d)
+    [[nodiscard]] double under(double d) const {
+        return y_.distribution && y_.distribution_below ? std::clamp(y_.distribution_below(y_.value + d), 0.0, 1.0)
+                                                        : below(d);
+    }
     [[nodiscard]] double above(double d) const {
         return y_.distribution ? 1.0 - below(d) : upper_tail_probability(standard_, d);
     }
+    /// P(Y − y ≥ d)
+    [[nodiscard]] double from(double d) const { return y_.distribution ? 1.0 - under(d) : above(d); }
     /// The d with P(Y − y > d) = q.
     [[nodiscard]] double upper(double q) const {
         return y_.distribution ? solve(1.0 - q) : upper_quantile(standard_, q);
@@ -36,7 +44,7 @@ public:
     [[nodiscard]] double lower(double q) const { return y_.distribution ? solve(q) : quantile(standard_, q); }
     /// The probability of nonconformity of a value s.
     [[nodiscard]] double risk(double s, const ToleranceLimits& limits) const {
-        return (limits.lower ? below(*limits.lower - s) : 0.0) + (limits.upper ? above(*limits.upper - s) : 0.0);
+        return (limits.lower ? under(*limits.lower - s) : 0.0) + (limits.upper ? above(*limits.upper - s) : 0.0);
     }
 
 private:
@@ -116,6 +124,11 @@ double distribution_function(const MeasuredValue& y, double x) {
     return Dispersion(y).below(x - y.value);
 }
 
+double probability_below(const MeasuredValue& y, double x) {
+    require_measured_value(y);
+    return Dispersion(y).under(x - y.value);
+}
+
 double nonconformance_probability_at(double value, const MeasuredValue& y, const ToleranceLimits& limits) {
     require_limits(limits);
     require_measured_value(y);
@@ -135,11 +148,11 @@ double conformance_probability(const MeasuredValue& y, const ToleranceLimits& li
     // A difference of the smaller tails: p_c keeps its digits when it is small, too.
     double probability = 0.0;
     if (!limits.two_sided()) {
-        probability = limits.lower ? dispersion.above(low) : dispersion.below(high);
+        probability = limits.lower ? dispersion.from(low) : dispersion.below(high);
     } else if (low > 0.0) {
-        probability = dispersion.above(low) - dispersion.above(high);
+        probability = dispersion.from(low) - dispersion.above(high);
     } else if (high < 0.0) {
-        probability = dispersion.below(high) - dispersion.below(low);
+        probability = dispersion.below(high) - dispersion.under(low);
     } else {
         probability = 1.0 - dispersion.risk(y.value, limits);
     }
@@ -177,7 +190,7 @@ std::optional<ToleranceLimits> acceptance_limits_for_risk(const MeasuredValue& y
     if (dispersion.above(*limits.upper - low) > k_negligible_tail * risk) {
         accepted.lower = crossing(dispersion, limits, risk, low, best);
     }
-    if (dispersion.below(*limits.lower - high) > k_negligible_tail * risk) {
+    if (dispersion.under(*limits.lower - high) > k_negligible_tail * risk) {
         accepted.upper = crossing(dispersion, limits, risk, best, high);
     }
     return accepted;
@@ -205,7 +218,7 @@ ToleranceLimits rejection_limits_for_probability(const MeasuredValue& y, const T
         if (dispersion.above(*limits.upper - lower) > k_negligible_tail) {
             rejected.lower = crossing(dispersion, limits, probability, lower, *limits.lower);
         }
-        if (dispersion.below(*limits.lower - upper) > k_negligible_tail) {
+        if (dispersion.under(*limits.lower - upper) > k_negligible_tail) {
             rejected.upper = crossing(dispersion, limits, probability, *limits.upper, upper);
         }
     }

@@ -16,6 +16,8 @@ struct MeasuredValue {
     double degrees_of_freedom = std::numeric_limits<double>::infinity();  ///< ν > 0
     /// P(Y ≤ x) where Y is neither normal nor t-distributed, e.g. from a convolution or from Monte Carlo; empty else
     std::function<double(double)> distribution = {};
+    /// P(Y < x) where single values have a probability of their own, as those of trials and samples; empty: P(Y ≤ x)
+    std::function<double(double)> distribution_below = {};
 };
 
 /// \throws InputError  GC-GUM-0081 if a number is out of range
@@ -24,6 +26,9 @@ void require_measured_value(const MeasuredValue& y);
 /// P(Y ≤ x): `distribution` where there is one, else the t-distribution scaled by u and shifted to y, or the normal one
 /// for infinite degrees of freedom.
 [[nodiscard]] double distribution_function(const MeasuredValue& y, double x);
+
+/// P(Y < x): less than P(Y ≤ x) by the probability of x itself. A limit belongs to the tolerance.
+[[nodiscard]] double probability_below(const MeasuredValue& y, double x);
 
 /// p_c = P(T_L ≤ Y ≤ T_U)                                                        (JCGM 106:2012, 7.1 and 7.2)
 /// \throws InputError  GC-GUM-0080 limits, GC-GUM-0081 measured value

@@ -363,7 +363,7 @@ void Application::probabilities() {
 /// tolerance is narrow: each value has a small probability of conformity then, also the best one.
 bool Application::proven_on_one_side(const MeasuredValue& y, double probability) const {
     const double least = probability * (1.0 - k_noise_of_a_risk);
-    return (limits_.lower && distribution_function(y, *limits_.lower) >= least) ||
+    return (limits_.lower && probability_below(y, *limits_.lower) >= least) ||
            (limits_.upper && 1.0 - distribution_function(y, *limits_.upper) >= least);
 }
 

@@ -30,9 +30,11 @@ using BesselPolicy =
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t k_cells = std::size_t{1} << 15U;
+// A margin of cells, so that the probability at the last ones does not wrap around to the other side of the grid.
+constexpr std::size_t k_last_cell = k_cells / 2 * 10 / 11;
 constexpr double k_tail_beyond_grid = 1e-9;  // probability of a term outside the grid, of those without limits
 constexpr double k_negligible_cell = 1e-15;  // of a probability; what Fourier transforms leave behind is smaller
-constexpr double k_widest_grid = 60.0;       // in standard deviations of the sum
+constexpr double k_widest_grid = 60.0;       // in standard deviations of the sum; wider where the tails ask for it
 
 /// A distribution about 0: X − E[X], or E[X] − X.
 struct Centred {
@@ -48,29 +50,28 @@ double width(const Distribution& distribution) {
 }
 
 /// Probabilities of the cells (k ± ½) h of a symmetric distribution, k = 0 … n/2, then mirrored at the end of the array
-/// as a Fourier transform wants it. What lies beyond the grid goes to the last cell.
+/// as a Fourier transform wants it. What lies beyond the last cell goes there.
 std::vector<double> cell_probabilities(const Distribution& distribution, double h) {
     std::vector<double> cells(k_cells, 0.0);
-    const std::size_t half = k_cells / 2;
     double outside = 0.5;  // P(X > lower edge of cell k); symmetric about 0
     double above = upper_tail_probability(distribution, 0.5 * h);
     cells[0] = 2.0 * (outside - above);
-    for (std::size_t k = 1; k < half; ++k) {
+    for (std::size_t k = 1; k <= k_last_cell; ++k) {
         outside = above;
-        above = outside > 0.0 ? upper_tail_probability(distribution, (static_cast<double>(k) + 0.5) * h) : 0.0;
+        const bool more = k < k_last_cell && outside > 0.0;
+        above = more ? upper_tail_probability(distribution, (static_cast<double>(k) + 0.5) * h) : 0.0;
         cells[k] = outside - above;
         cells[k_cells - k] = cells[k];
     }
-    cells[half] = 2.0 * above;
     return cells;
 }
 
 /// Probabilities of the same cells of any distribution.
 std::vector<double> asymmetric_cells(const Centred& centred, double h) {
     std::vector<double> cells(k_cells, 0.0);
-    const auto half = static_cast<std::ptrdiff_t>(k_cells / 2);
+    const auto last = static_cast<std::ptrdiff_t>(k_last_cell);
     const auto place = [&](std::ptrdiff_t k) {
-        const std::ptrdiff_t inside = std::clamp(centred.mirrored ? -k : k, 1 - half, half);
+        const std::ptrdiff_t inside = std::clamp(centred.mirrored ? -k : k, -last, last);
         return static_cast<std::size_t>(inside < 0 ? inside + static_cast<std::ptrdiff_t>(k_cells) : inside);
     };
     const Distribution& d = centred.distribution;
@@ -83,12 +84,12 @@ std::vector<double> asymmetric_cells(const Centred& centred, double h) {
         return cells;
     }
     double below = 0.0;
-    for (std::ptrdiff_t k = 1 - half; k < half; ++k) {
+    for (std::ptrdiff_t k = -last; k < last; ++k) {
         const double upto = lower_tail_probability(d, (static_cast<double>(k) + 0.5) * h);
         cells[place(k)] += upto - below;
         below = upto;
     }
-    cells[place(half)] += 1.0 - below;
+    cells[place(last)] += 1.0 - below;
     return cells;
 }
 
@@ -134,9 +135,9 @@ std::vector<Centred> centred_distributions(std::span<const ConvolutionTerm> term
 }
 
 /// How far from 0 a distribution reaches, but for tails without limits.
-double reach_of(const Centred& centred) {
+double reach_of(const Centred& centred, double beyond) {
     const Distribution& d = centred.distribution;
-    const double tail = is_bounded(d) ? 0.0 : k_tail_beyond_grid;
+    const double tail = is_bounded(d) ? 0.0 : beyond;
     const double up = upper_quantile(d, tail);
     return centred.symmetric ? up : std::max(std::abs(up), std::abs(quantile(d, tail)));
 }
@@ -145,18 +146,22 @@ double reach_of(const Centred& centred) {
 struct CellSum {
     double h = 0.0;
     std::vector<double> cells;
+    bool cut = false;  // tails go on beyond the grid: their probability is at its ends
 };
 
-CellSum convolve(std::span<const Centred> distributions) {
+/// \param widest_grid  in standard deviations of the sum: cells grow with it
+/// \param tail         probability of a term that may be left outside of the widest grid of all
+CellSum convolve(std::span<const Centred> distributions, double widest_grid, double tail = k_tail_beyond_grid) {
     double variance = 0.0;
     double reach = 0.0;  // nothing lies further out, but for the tails of the terms without limits
     for (const Centred& centred : distributions) {
         variance += width(centred.distribution) * width(centred.distribution);
-        reach += reach_of(centred);
+        reach += reach_of(centred, tail);
     }
-    const double deviation = std::sqrt(variance);
-    reach = std::min(reach, k_widest_grid * deviation);
-    const double h = 2.2 * reach / static_cast<double>(k_cells);  // a margin against terms that wrap around
+    const double widest = widest_grid * std::sqrt(variance);
+    const bool cut = reach > widest;
+    reach = std::min(reach, widest);
+    const double h = reach / static_cast<double>(k_last_cell);
 
     Eigen::FFT<double> transform;
     std::vector<std::complex<double>> product;
@@ -174,7 +179,7 @@ CellSum convolve(std::span<const Centred> distributions) {
     }
     std::vector<double> sum;
     transform.inv(sum, product);
-    return {h, std::move(sum)};
+    return {h, std::move(sum), cut};
 }
 
 }  // namespace
@@ -428,6 +433,53 @@ std::optional<double> fourier_half_width(std::span<const Centred> terms, double 
 
 }  // namespace
 
+namespace {
+
+ConvolutionInterval symmetric_interval(const CellSum& convolved, double coverage_probability) {
+    // Probability inside ±(k + ½) h grows by two cells a step; inside a cell it is taken as linear.
+    const double h = convolved.h;
+    const std::vector<double>& sum = convolved.cells;
+    double inside = sum[0];
+    double edge = 0.5 * h;
+    if (inside >= coverage_probability) {
+        edge *= coverage_probability / inside;
+        return {-edge, edge};
+    }
+    for (std::size_t k = 1; k < k_cells / 2; ++k) {
+        const double next = inside + sum[k] + sum[k_cells - k];
+        if (next >= coverage_probability) {
+            edge += h * (coverage_probability - inside) / (next - inside);
+            break;
+        }
+        inside = next;
+        edge += h;
+    }
+    return {-edge, edge};
+}
+
+/// The same tail on either side, counted from its own end.
+ConvolutionInterval interval_with_equal_tails(const CellSum& convolved, double coverage_probability) {
+    const double tail = 0.5 * (1.0 - coverage_probability);
+    const auto half = static_cast<std::ptrdiff_t>(k_cells / 2);
+    const auto end = [&](std::ptrdiff_t direction) {
+        double outside = 0.0;
+        for (std::ptrdiff_t k = half - 1; k > -half; --k) {
+            const std::ptrdiff_t at = direction * k;
+            const double here = std::max(
+                0.0,
+                convolved.cells[static_cast<std::size_t>(at < 0 ? at + static_cast<std::ptrdiff_t>(k_cells) : at)]);
+            if (outside + here >= tail) {
+                return convolved.h * (static_cast<double>(k) + 0.5 - (tail - outside) / here);
+            }
+            outside += here;
+        }
+        return 0.0;
+    };
+    return {-end(-1), end(1)};
+}
+
+}  // namespace
+
 ConvolutionInterval convolution_interval(std::span<const ConvolutionTerm> terms, double coverage_probability) {
     require_probability(coverage_probability, "coverage probability");
     const std::vector<Centred> distributions = centred_distributions(terms);
@@ -442,45 +494,20 @@ ConvolutionInterval convolution_interval(std::span<const ConvolutionTerm> terms,
             return {-*U, *U};
         }
     }
-    const CellSum convolved = convolve(distributions);
-    const double h = convolved.h;
-    const std::vector<double>& sum = convolved.cells;
-    if (symmetric) {
-        // Probability inside ±(k + ½) h grows by two cells a step; inside a cell it is taken as linear.
-        double inside = sum[0];
-        double edge = 0.5 * h;
-        if (inside >= coverage_probability) {
-            edge *= coverage_probability / inside;
-            return {-edge, edge};
+    // Where an end lies far out in a tail, a wider grid has it well inside: probability that is put at the ends of a
+    // grid must lie far from where it counts.
+    constexpr double k_trusted = 0.125;
+    constexpr double k_wider = 8.0;
+    const double tail = std::min(k_tail_beyond_grid, 1e-3 * (1.0 - coverage_probability));
+    for (double widest_grid = k_widest_grid;; widest_grid *= k_wider) {
+        const CellSum sum = convolve(distributions, widest_grid, tail);
+        const ConvolutionInterval interval = symmetric ? symmetric_interval(sum, coverage_probability)
+                                                       : interval_with_equal_tails(sum, coverage_probability);
+        const double reach = 0.5 * static_cast<double>(k_cells) * sum.h;
+        if (!sum.cut || std::max(-interval.low, interval.high) <= k_trusted * reach) {
+            return interval;
         }
-        for (std::size_t k = 1; k < k_cells / 2; ++k) {
-            const double next = inside + sum[k] + sum[k_cells - k];
-            if (next >= coverage_probability) {
-                edge += h * (coverage_probability - inside) / (next - inside);
-                break;
-            }
-            inside = next;
-            edge += h;
-        }
-        return {-edge, edge};
     }
-    // The same tail on either side, counted from its own end.
-    const double tail = 0.5 * (1.0 - coverage_probability);
-    const auto half = static_cast<std::ptrdiff_t>(k_cells / 2);
-    const auto end = [&](std::ptrdiff_t direction) {
-        double outside = 0.0;
-        for (std::ptrdiff_t k = half - 1; k > -half; --k) {
-            const std::ptrdiff_t at = direction * k;
-            const double here =
-                std::max(0.0, sum[static_cast<std::size_t>(at < 0 ? at + static_cast<std::ptrdiff_t>(k_cells) : at)]);
-            if (outside + here >= tail) {
-                return h * (static_cast<double>(k) + 0.5 - (tail - outside) / here);
-            }
-            outside += here;
-        }
-        return 0.0;
-    };
-    return {-end(-1), end(1)};
 }
 
 double convolution_half_width(std::span<const ConvolutionTerm> terms, double coverage_probability) {
@@ -488,13 +515,89 @@ double convolution_half_width(std::span<const ConvolutionTerm> terms, double cov
     return 0.5 * (interval.high - interval.low);
 }
 
+namespace {
+
+/// P(Y ≤ x) at the edges of the cells of a sum.
+struct CumulativeCells {
+    double h = 0.0;
+    std::vector<double> upto;  // P(Y ≤ (i + 1 + ½ − n/2) h)
+
+    [[nodiscard]] double reach() const { return 0.5 * static_cast<double>(k_cells) * h; }
+    [[nodiscard]] double at(double x) const {
+        const double place = x / h - 1.5 + 0.5 * static_cast<double>(k_cells);
+        if (!(place > 0.0)) {
+            return place <= -1.0 ? 0.0 : upto.front() * std::max(0.0, place + 1.0);
+        }
+        const auto i = static_cast<std::size_t>(std::min(place, static_cast<double>(k_cells)));
+        if (i + 1 >= k_cells) {
+            return 1.0;
+        }
+        const double part = place - static_cast<double>(i);
+        return upto[i] + part * (upto[i + 1] - upto[i]);
+    }
+};
+
+CumulativeCells cumulative(const CellSum& sum) {
+    CumulativeCells result{.h = sum.h, .upto = {}};
+    double total = 0.0;
+    for (std::size_t i = 0; i < k_cells; ++i) {  // from k = 1 − n/2 on
+        total += std::max(0.0, sum.cells[(i + 1 + k_cells / 2) % k_cells]);
+        result.upto.push_back(total);
+    }
+    for (double& value : result.upto) {
+        value /= total;
+    }
+    return result;
+}
+
+/// The possible values of a sum of samples and nothing else, in rising order, where they are few enough to be listed.
+std::vector<double> possible_sums(std::span<const Centred> distributions) {
+    constexpr std::size_t k_most_sums = std::size_t{1} << 20U;
+    std::vector<double> sums{0.0};
+    for (const Centred& centred : distributions) {
+        const Distribution& d = centred.distribution;
+        if (d.kind != DistributionKind::empirical || d.samples->size() > k_most_sums / sums.size()) {
+            return {};
+        }
+        std::vector<double> next;
+        next.reserve(sums.size() * d.samples->size());
+        for (const double before : sums) {
+            for (const double sample : *d.samples) {
+                const double deviation = d.location + d.scale * sample;
+                next.push_back(before + (centred.mirrored ? -deviation : deviation));
+            }
+        }
+        sums = std::move(next);
+    }
+    std::sort(sums.begin(), sums.end());
+    return sums;
+}
+
+}  // namespace
+
 struct ConvolutionDistribution::Table {
     Centred widest;
     std::vector<std::pair<double, double>> others;  // where the sum of the other terms is, and how probably
-    // Where the widest term costs too much to be asked for each of them: P(Y ≤ (k + ½ − n/2) h) of the sum of all.
-    std::vector<double> cumulative;
-    double h = 0.0;
+    // Where the widest term costs too much to be asked for each of them: the sum of all on grids that are wider and
+    // wider, as far as tails without limits reach.
+    std::vector<CumulativeCells> grids;
+    bool symmetric = false;
+    std::vector<double> sums;  // of samples alone
+
+    [[nodiscard]] double on_grids(double x) const;
 };
+
+double ConvolutionDistribution::Table::on_grids(double x) const {
+    constexpr double k_trusted = 0.25;  // of the reach of a grid: what lies beyond it is put at its ends
+    const CumulativeCells* grid = &grids.back();
+    for (const CumulativeCells& finer : grids) {
+        if (std::abs(x) <= k_trusted * finer.reach()) {
+            grid = &finer;
+            break;
+        }
+    }
+    return symmetric ? 0.5 * (grid->at(x) + 1.0 - grid->at(-x)) : grid->at(x);
+}
 
 ConvolutionDistribution::ConvolutionDistribution(std::span<const ConvolutionTerm> terms) {
     std::vector<Centred> distributions = centred_distributions(terms);
@@ -505,19 +608,23 @@ ConvolutionDistribution::ConvolutionDistribution(std::span<const ConvolutionTerm
     const auto widest = std::max_element(distributions.begin(), distributions.end(),
                                          [&](const Centred& a, const Centred& b) { return rank(a) < rank(b); });
     Table table;
+    table.sums = possible_sums(distributions);
     const DistributionKind kind = widest->distribution.kind;
-    if (distributions.size() > 1 &&
-        (kind == DistributionKind::student_t || kind == DistributionKind::gamma || kind == DistributionKind::beta)) {
-        const CellSum sum = convolve(distributions);
-        double total = 0.0;
-        for (std::size_t i = 0; i < k_cells; ++i) {  // from k = 1 − n/2 on
-            total += std::max(0.0, sum.cells[(i + 1 + k_cells / 2) % k_cells]);
-            table.cumulative.push_back(total);
+    if (!table.sums.empty() ||
+        (distributions.size() > 1 &&
+         (kind == DistributionKind::student_t || kind == DistributionKind::gamma || kind == DistributionKind::beta))) {
+        if (table.sums.empty()) {
+            table.symmetric = std::all_of(distributions.begin(), distributions.end(),
+                                          [](const Centred& term) { return term.symmetric; });
+            constexpr double k_wider = 64.0;
+            double widest_grid = k_widest_grid;
+            CellSum sum;
+            do {
+                sum = convolve(distributions, widest_grid);
+                table.grids.push_back(cumulative(sum));
+                widest_grid *= k_wider;
+            } while (sum.cut);
         }
-        for (double& value : table.cumulative) {
-            value /= total;
-        }
-        table.h = sum.h;
         table_ = std::make_shared<const Table>(std::move(table));
         return;
     }
@@ -528,7 +635,7 @@ ConvolutionDistribution::ConvolutionDistribution(std::span<const ConvolutionTerm
     if (distributions.empty()) {
         table.others.emplace_back(0.0, 1.0);
     } else {
-        const CellSum sum = convolve(distributions);
+        const CellSum sum = convolve(distributions, k_widest_grid);
         double total = 0.0;
         for (std::size_t i = 0; i < k_cells; ++i) {
             if (sum.cells[i] > k_negligible_cell) {
@@ -544,19 +651,21 @@ ConvolutionDistribution::ConvolutionDistribution(std::span<const ConvolutionTerm
     table_ = std::make_shared<const Table>(std::move(table));
 }
 
+double ConvolutionDistribution::below(double x) const {
+    if (table_->sums.empty()) {
+        return (*this)(x);
+    }
+    const auto end = std::lower_bound(table_->sums.begin(), table_->sums.end(), x);
+    return static_cast<double>(end - table_->sums.begin()) / static_cast<double>(table_->sums.size());
+}
+
 double ConvolutionDistribution::operator()(double x) const {
-    if (!table_->cumulative.empty()) {
-        // Edges lie at (i + 1 + ½ − n/2) h.
-        const double place = x / table_->h - 1.5 + 0.5 * static_cast<double>(k_cells);
-        if (!(place > 0.0)) {
-            return place <= -1.0 ? 0.0 : table_->cumulative.front() * std::max(0.0, place + 1.0);
-        }
-        const auto i = static_cast<std::size_t>(std::min(place, static_cast<double>(k_cells)));
-        if (i + 1 >= k_cells) {
-            return 1.0;
-        }
-        const double part = place - static_cast<double>(i);
-        return table_->cumulative[i] + part * (table_->cumulative[i + 1] - table_->cumulative[i]);
+    if (!table_->sums.empty()) {
+        const auto end = std::upper_bound(table_->sums.begin(), table_->sums.end(), x);
+        return static_cast<double>(end - table_->sums.begin()) / static_cast<double>(table_->sums.size());
+    }
+    if (!table_->grids.empty()) {
+        return table_->on_grids(x);
     }
     double probability = 0.0;
     const Distribution& widest = table_->widest.distribution;

@@ -55,6 +55,9 @@ public:
     /// samples.
     [[nodiscard]] double operator()(double x) const;
 
+    /// P(… < x), which differs where samples are the only term: each of them has a probability of its own.
+    [[nodiscard]] double below(double x) const;
+
 private:
     struct Table;
     std::shared_ptr<const Table> table_;

@@ -321,6 +321,35 @@ TEST(ConformityProperties, OnePlaceOneScaleAndOneSideAreAsGoodAsAnother) {
     });
 }
 
+// A limit belongs to the tolerance: what lies exactly on it conforms, at the lower limit as at the upper one.
+TEST(ConformityProperties, ValuesOnALimitConform) {
+    Random random(98);
+    for (int i = 0; i < 200; ++i) {
+        std::vector<double> values(1 + random.whole(50));
+        for (double& value : values) {
+            value = static_cast<double>(random.whole(7));
+        }
+        const auto share = [&](const std::function<bool(double)>& counts) {
+            return static_cast<double>(std::count_if(values.begin(), values.end(), counts)) /
+                   static_cast<double>(values.size());
+        };
+        MeasuredValue y{.value = random.uniform(0.0, 6.0), .standard_uncertainty = 2.0, .expanded_uncertainty = 4.0};
+        const auto nearest = [](double x) { return std::round(x * 1e9) * 1e-9; };  // the limit, whatever was rounded
+        y.distribution = [=](double x) { return share([=](double v) { return v <= nearest(x); }); };
+        y.distribution_below = [=](double x) { return share([=](double v) { return v < nearest(x); }); };
+        const auto low = static_cast<double>(random.whole(6));
+        const double high = low + 1.0 + static_cast<double>(random.whole(6));
+        const double within = share([=](double v) { return v >= low && v <= high; });
+        ASSERT_NEAR(conformance_probability(y, {.lower = low, .upper = high}), within, 1e-12);
+        ASSERT_NEAR(nonconformance_probability(y, {.lower = low, .upper = high}), 1.0 - within, 1e-12);
+        ASSERT_NEAR(conformance_probability(y, {.lower = low}), share([=](double v) { return v >= low; }), 1e-12);
+        ASSERT_NEAR(conformance_probability(y, {.upper = high}), share([=](double v) { return v <= high; }), 1e-12);
+        const ConformityDecision decision =
+            decide_conformity(DecisionRule::simple_acceptance, {}, {.lower = low, .upper = high}, y);
+        ASSERT_NEAR(decision.conformance_probability, within, 1e-12);
+    }
+}
+
 TEST(ConformityProperties, NothingIsLeftOpenWithoutAReason) {
     for_all(13, 2, [](Random& random, const Rule& rule, const ToleranceLimits& limits, const Shape& shape) {
         const double y = middle_of(limits) + random.uniform(-3.0, 3.0) * (1.0 + shape.U);

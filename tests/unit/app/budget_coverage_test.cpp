@@ -97,12 +97,38 @@ TEST(ExpandByPropagation, KeepsTheShapeOfCorrelatedComponents) {
     EXPECT_NEAR(*result.expanded_uncertainty, 95.6, 0.6);
 }
 
+// ν that k is taken for is the one that is reported and decided with.
+TEST(ExpandByPropagation, TruncatesDegreesOfFreedomEverywhere) {
+    const BudgetOutputResult result = evaluate(R"("x": {"value": 0, "u": 1, "nu": 2.9})", "x",
+                                               R"(, "reporting": {"degrees_of_freedom": "truncated"})");
+    EXPECT_EQ(result.coverage, "student_t");
+    EXPECT_EQ(result.degrees_of_freedom, 2.0);
+    EXPECT_EQ(*result.coverage_factor, gum::coverage_factor(0.9545, 2.0));
+}
+
+TEST(ExpandByPropagation, SeesTheAsymmetryOfCorrelatedInputs) {
+    const BudgetOutputResult together = evaluate(
+        R"("a": {"distribution": {"kind": "exponential", "mean": 1}}, "b": {"distribution": {"kind": "exponential", "mean": 1}})",
+        "a + b", R"(, "correlations": [["a", "b", 0.5]])");
+    EXPECT_GT(together.asymmetry.value(), 0.3);
+    EXPECT_TRUE(together.by_monte_carlo);
+    EXPECT_EQ(together.because, "asymmetric");
+    // No skewness, and ends that are not equally far away: P(−1) = 1/4, P(0) = 5/8, P(2) = 1/8.
+    std::string samples;
+    for (int i = 0; i < 16; ++i) {
+        samples += std::string(i == 0 ? "" : ", ") + "-1, -1, 0, 0, 0, 0, 0, 2";
+    }
+    const BudgetOutputResult counted = evaluate(R"("a": {"samples": [)" + samples + "]}", "a");
+    EXPECT_GT(std::abs(counted.asymmetry.value()), 0.1);
+    EXPECT_TRUE(counted.by_monte_carlo);
+}
+
 TEST(ExpandByPropagation, TellsWhereTheResultIsNotSymmetric) {
     const BudgetOutputResult skewed =
         evaluate(R"("x": {"distribution": {"kind": "exponential", "mean": 1}}, "b": {"value": 0, "u": 1})", "x + b");
     EXPECT_EQ(skewed.coverage, "convolution");
-    EXPECT_GT(skewed.asymmetry, 0.1);
-    EXPECT_EQ(evaluate(rectangular("a"), "a").asymmetry, 0.0);
+    EXPECT_GT(skewed.asymmetry.value(), 0.1);
+    EXPECT_EQ(evaluate(rectangular("a"), "a").asymmetry.value(), 0.0);
 }
 
 }  // namespace

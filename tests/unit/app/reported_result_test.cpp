@@ -263,8 +263,9 @@ TEST(ReportedResult, HasTheIntervalAndTheVerdictsOfTheExactDistribution) {
         const certificate::CertifiedTable table = reports::certified_tables(e.record).front();
         const certificate::CertifiedValue& value = table.columns.front().values.front();
         const TrialDistribution trials = count_trials(capability_inputs(job, e.result).trials.at("y"));
-        const KnownDistribution counted{.function = trials.function, .note = "counted", .trials = trials.counted};
-        const KnownDistribution exact{.function = c.P, .note = "exact", .trials = 0};
+        const KnownDistribution counted{
+            .function = trials.function, .below = trials.below, .note = "counted", .trials = trials.counted};
+        const KnownDistribution exact{.function = c.P, .below = {}, .note = "exact", .trials = 0};
         std::uniform_real_distribution<double> place(-2.0, 4.0);
         const double limit = reported.value + place(random) * half;
         for (const char* rule : k_rules) {

@@ -4,11 +4,13 @@
 
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <utility>
 #include <vector>
 
 #include "gum/coverage.h"
+#include "gum/distribution_quantile.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/unit/gum/printed.h"
 
@@ -175,6 +177,54 @@ TEST(ConvolutionDistribution, OfWideStudentTerms) {
     EXPECT_NEAR(distribution(0.0), 0.5, 1e-9);
     EXPECT_EQ(distribution(-1e9), 0.0);
     EXPECT_EQ(distribution(1e9), 1.0);
+}
+
+// A Cauchy distribution beside a little of something else: ends far out, where only the tail of the first counts.
+TEST(ConvolutionInterval, ReachesFarIntoTailsWithoutLimits) {
+    const Distribution cauchy = Distribution::student_t(0.0, 1.0, 1.0);
+    const Distribution small{.kind = DistributionKind::exponential, .location = 0.0, .scale = 0.1};
+    for (const double p : {0.9545, 0.9973, 0.9999}) {
+        const double exact = std::tan(0.5 * std::numbers::pi * p);
+        EXPECT_TRUE(agrees(convolution_half_width(std::vector<ConvolutionTerm>{{1.0, cauchy}, {1.0, small}}, p), exact,
+                           p > 0.99 ? 1e-4 : 2e-3))
+            << p;
+        EXPECT_TRUE(agrees(convolution_half_width(std::vector<ConvolutionTerm>{{1.0, cauchy}, {2.0, cauchy}}, p),
+                           3.0 * exact, 1e-3))
+            << p;
+    }
+    const Distribution half = Distribution::student_t(0.0, 1.0, 0.5);
+    EXPECT_TRUE(agrees(
+        convolution_half_width(std::vector<ConvolutionTerm>{{1.0, half}, {0.1, Distribution::normal(0.0, 1.0)}}, 0.95),
+        upper_quantile(half, 0.025), 1e-3));
+}
+
+TEST(ConvolutionDistribution, ReachesFarIntoTailsWithoutLimits) {
+    const Distribution cauchy = Distribution::student_t(0.0, 1.0, 1.0);
+    const ConvolutionDistribution two(std::vector<ConvolutionTerm>{{1.0, cauchy}, {2.0, cauchy}});
+    const Distribution small{.kind = DistributionKind::exponential, .location = 0.0, .scale = 0.001};
+    const ConvolutionDistribution skewed(std::vector<ConvolutionTerm>{{3.0, cauchy}, {1.0, small}});
+    for (const double x : {1.0, 10.0, 100.0, 1e3, 1e4, 1e5}) {
+        const double beyond = 0.5 - std::atan(x / 3.0) / std::numbers::pi;
+        EXPECT_TRUE(agrees(1.0 - two(x), beyond, 5e-3)) << x;
+        EXPECT_TRUE(agrees(two(-x), beyond, 5e-3)) << x;
+        EXPECT_TRUE(agrees(1.0 - skewed(x), beyond, 2e-2)) << x;
+        EXPECT_TRUE(agrees(skewed(-x), beyond, 2e-2)) << x;
+    }
+}
+
+// Samples alone: each possible value has a probability of its own.
+TEST(ConvolutionDistribution, CountsSamples) {
+    const auto samples = std::make_shared<std::vector<double>>(std::vector<double>{-2.0, 0.0, 0.0, 2.0});
+    const Distribution d{.kind = DistributionKind::empirical, .location = 0.0, .scale = 1.0, .samples = samples};
+    const ConvolutionDistribution one(std::vector<ConvolutionTerm>{{1.0, d}});
+    EXPECT_EQ(one(-2.0), 0.25);
+    EXPECT_EQ(one.below(-2.0), 0.0);
+    EXPECT_EQ(one.below(0.0), 0.25);
+    EXPECT_EQ(one(0.0), 0.75);
+    const ConvolutionDistribution two(std::vector<ConvolutionTerm>{{1.0, d}, {-1.0, d}});
+    EXPECT_EQ(two.below(-4.0), 0.0);
+    EXPECT_EQ(two(-4.0), 1.0 / 16.0);
+    EXPECT_EQ(two(0.0) - two.below(0.0), 6.0 / 16.0);
 }
 
 TEST(ConvolutionDistribution, RefusesWhatItCannotAdd) {
