@@ -107,9 +107,6 @@ engine::CurveFit evaluate_fit(const BudgetFit& fit) {
                            .scale_by_residuals = fit.scale_by_residuals};
     const bool intercept = has_intercept(curve, data, static_cast<Eigen::Index>(names.size()));
     engine::CurveFit solved = engine::fit_curve(curve, data, start, names, intercept);
-    if (is_without_scatter(fit, solved)) {
-        throw gum::InputError(no_scatter_message(fit));
-    }
     if (keeps_stated_uncertainties(fit, solved)) {
         data.scale_by_residuals = false;
         solved = engine::fit_curve(curve, data, start, names, intercept);
@@ -385,6 +382,9 @@ BudgetResult evaluate_budget(const BudgetJob& job, unsigned threads,
         result.fits.push_back(evaluate_fit(fit));
         if (fit.scale_by_residuals && !result.fits.back().covariance_scaled) {
             result.notes.push_back(kept_uncertainties_message(fit));
+        }
+        if (is_without_scatter(fit, result.fits.back())) {
+            result.notes.push_back(no_scatter_message(fit));
         }
     }
     const std::optional<gum::EquationSystem> system = compile_model(job);

@@ -18,12 +18,13 @@ bool is_without_scatter(const engine::BudgetFit& fit, const engine::CurveFit& so
 }
 
 gum::Diagnostic no_scatter_message(const engine::BudgetFit& fit) {
-    return {.code = "GC-BUDGET-0004",
+    return {.code = "GC-BUDGET-0036",
             .where = fit.where.empty() ? "fit " + fit.name : fit.where,
-            .what = "all residuals of fit " + fit.name + " are 0: the uncertainty of its parameters would be 0",
+            .what = "all residuals are 0: the parameters have no uncertainty that could be found from them",
             .rule = "residuals of 0 say that the scatter is below the resolution, not that there is none",
             .action = "State the standard uncertainty of the data, with the resolution in it: \"u_" + fit.ordinate +
-                      "\" in \"data\"."};
+                      "\" in \"data\".",
+            .severity = gum::Severity::warning};
 }
 
 bool keeps_stated_uncertainties(const engine::BudgetFit& fit, const engine::CurveFit& solved) {

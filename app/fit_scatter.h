@@ -10,7 +10,7 @@ namespace gumcert::app {
 /// equal, they say that the scatter is below the resolution, not that there is none.
 [[nodiscard]] bool is_without_scatter(const engine::BudgetFit& fit, const engine::CurveFit& solved);
 
-/// The refusal of such a fit, GC-BUDGET-0004.
+/// The warning of such a fit, GC-BUDGET-0036. On a certificate it is the finding F03.
 [[nodiscard]] gum::Diagnostic no_scatter_message(const engine::BudgetFit& fit);
 
 /// True where a fit was to be scaled by residuals that are far smaller than the stated uncertainties (by chance less

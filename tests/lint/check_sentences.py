@@ -26,6 +26,7 @@ SOURCES = (
     "app/certified_scope.cpp",
     "app/certify.cpp",
     "app/evaluate_budget.cpp",
+    "app/fit_scatter.cpp",
     "app/rotary_findings.cpp",
     "app/rotary_monte_carlo_record.cpp",
     "app/table_parameter_record.cpp",

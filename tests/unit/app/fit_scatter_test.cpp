@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "app/budget_covariance.h"
@@ -25,15 +26,6 @@ std::string line(const std::string& y, const std::string& data, const std::strin
 
 const std::string k_perfect = "[1, 3, 5, 7, 9]";
 const std::string k_nearly = "[1.0001, 3, 5.0001, 7, 9.0001]";
-
-std::string refusal(const std::string& keys) {
-    try {
-        (void)evaluate_budget(engine::test::read_budget(keys), 1);
-    } catch (const gum::InputError& refused) {
-        return refused.diagnostics().front().code + ": " + refused.diagnostics().front().action;
-    }
-    return "";
-}
 
 bool has_note(const BudgetResult& result, const std::string& code) {
     for (const gum::Diagnostic& note : result.notes) {
@@ -72,13 +64,24 @@ TEST(FitScatter, ResidualsThatChanceExplainsStillScale) {
 }
 
 /// The cure that the message names is followed.
-TEST(FitScatter, RefusesResidualsOfZeroAsEqualReadings) {
-    const std::string refused = refusal(line(k_perfect, ""));
-    EXPECT_THAT(refused, HasSubstr("GC-BUDGET-0004"));
-    EXPECT_THAT(refused, HasSubstr("\"u_V\""));
-    EXPECT_THAT(refusal(line("[0.1, 0.3, 0.5, 0.7, 0.9]", "")), HasSubstr("GC-BUDGET-0004")) << "rounding only";
-    EXPECT_EQ(refusal(line(k_perfect, R"(, "u_V": 0.01)")), "");
-    EXPECT_EQ(refusal(line(k_nearly, "")), "");
+TEST(FitScatter, ResidualsOfZeroAreNoUncertainty) {
+    const auto warns = [](const std::string& keys) {
+        return has_note(evaluate_budget(engine::test::read_budget(keys), 1), "GC-BUDGET-0036");
+    };
+    EXPECT_TRUE(warns(line(k_perfect, "")));
+    EXPECT_TRUE(warns(line("[0.1, 0.3, 0.5, 0.7, 0.9]", ""))) << "rounding only";
+    EXPECT_FALSE(warns(line(k_perfect, R"(, "u_V": 0.01)")));
+    EXPECT_FALSE(warns(line(k_nearly, "")));
+    const BudgetResult perfect = evaluate_budget(engine::test::read_budget(line(k_perfect, "")), 1);
+    const auto note = std::find_if(perfect.notes.begin(), perfect.notes.end(),
+                                   [](const gum::Diagnostic& n) { return n.code == "GC-BUDGET-0036"; });
+    ASSERT_NE(note, perfect.notes.end());
+    EXPECT_THAT(note->action, HasSubstr("\"u_V\""));
+    reports::EvaluationRecord record;
+    record.diagnostics = {*note};
+    ASSERT_EQ(budget_findings(record).size(), 1U);
+    EXPECT_EQ(budget_findings(record).front().id, "F03");
+    EXPECT_EQ(budget_findings(record).front().severity, certificate::FindingSeverity::critical);
 }
 
 /// The cures of the warning: uncertainties that the data have, or none.
