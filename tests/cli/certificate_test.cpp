@@ -125,6 +125,9 @@ TEST_F(Certificate, IsNotIssuedBeforeItsDateAndItsRecordDoesNotKnowTheDay) {
             standard["calibrated"] = "2198-01-01";
             standard["valid_to"] = "2199-12-31";
         }
+        for (json& specification : certificate["specifications"]) {
+            specification["agreed_on"] = "2198-12-01";
+        }
     });
     const Ended ended = run(job(), output());
     EXPECT_EQ(ended.code, 1);

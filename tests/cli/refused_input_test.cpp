@@ -328,7 +328,7 @@ void expect_same(const json& a, const json& b, const std::string& at) {
 
 /// Line ends and byte order mark of another system change nothing but the digests.
 TEST_F(RefusedInput, WindowsFilesGiveTheSameNumbers) {
-    const json original = evaluate(job_);
+    json original = evaluate(job_);
     for (const fs::directory_entry& file : fs::directory_iterator(job_.parent_path())) {
         std::string text = "\xEF\xBB\xBF";
         for (const char character : bytes_of(file.path())) {
@@ -336,7 +336,10 @@ TEST_F(RefusedInput, WindowsFilesGiveTheSameNumbers) {
         }
         write_bytes(file.path(), text);
     }
-    const json windows = evaluate(job_);
+    json windows = evaluate(job_);
+    for (json* record : {&original, &windows}) {
+        (*record)["rotary"]["covariance"].erase("file");  // its name has a digest in it
+    }
     for (const char* const part : {"results", "rotary", "comparison", "options"}) {
         expect_same(windows[part], original[part], part);
     }

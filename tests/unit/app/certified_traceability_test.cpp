@@ -20,6 +20,8 @@ reports::EvaluationRecord record_with(const std::string& source) {
     row.input = "d";
     reports::BudgetRow part;
     part.source = source;
+    part.unit = test::sample_standard().unit;
+    part.u = 0.5 * test::sample_standard().U.value_or(0.0);
     row.components = {part};
     result.budget = {row};
     record.results = {result};
