@@ -15,6 +15,7 @@
 #include "app/budget_readings.h"
 #include "app/budget_texts.h"
 #include "app/record_parts.h"
+#include "app/reported_covariance.h"
 #include "app/reported_result.h"
 #include "gum/coverage.h"
 #include "gum/quantity/decimal_rounding.h"
@@ -219,15 +220,39 @@ std::vector<Unit> result_units(const BudgetResult& result) {
     return units;
 }
 
-reports::ResultCovariance covariance_of(const BudgetJob& job, const BudgetResult& result,
-                                        const Eigen::MatrixXd& covariance, const std::string& file) {
-    reports::ResultCovariance out;
-    out.names = budget_result_names(job, result);
+/// Covariance of the results that have one, with their names and units.
+struct NamedCovariance {
+    std::vector<std::string> names;
+    std::vector<Unit> units;
+    Eigen::MatrixXd matrix;
+};
+
+NamedCovariance named(const BudgetJob& job, const BudgetResult& result, const Eigen::MatrixXd& covariance) {
+    const std::vector<std::string> names = budget_result_names(job, result);
     const std::vector<Unit> units = result_units(result);
+    NamedCovariance all;
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
+        if (!std::isnan(covariance(i, i))) {
+            rows.push_back(i);
+            all.names.push_back(names[static_cast<std::size_t>(i)]);
+            all.units.push_back(units[static_cast<std::size_t>(i)]);
+        }
+    }
+    all.matrix = covariance(rows, rows);
+    return all;
+}
+
+reports::ResultCovariance covariance_of(const BudgetJob& job, const BudgetResult& result, const Eigen::MatrixXd& all,
+                                        const std::string& file) {
+    const auto [names, units, covariance] = named(job, result, all);
+    reports::ResultCovariance out;
+    out.names = names;
     for (const Unit& unit : units) {
         out.units.push_back(unit.text());
     }
     out.file = file;
+    out.method = has_result_of_trials(result) ? "monte_carlo" : "law_of_propagation";
     if (!file.empty()) {
         return out;
     }
@@ -477,8 +502,14 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
     }
     if (record.results.size() > 1 && covariance.size() > 0) {
         record.covariance = covariance_of(job, result, covariance, covariance_file);
+        if (record.covariance->names.size() < 2) {
+            record.covariance.reset();
+        }
     }
-    if (result.output_names.size() > 1 && job.points.empty() && !job.model.empty()) {
+    // Trials without a variance have no region that is measured by it.
+    const bool any_without = std::any_of(result.points.front().outputs.begin(), result.points.front().outputs.end(),
+                                         [](const BudgetOutputResult& output) { return !output.has_u; });
+    if (result.output_names.size() > 1 && job.points.empty() && !job.model.empty() && !any_without) {
         record.region = region_of(job, result.points.front(), result.output_units);
     }
     for (std::size_t f = 0; f < job.fits.size(); ++f) {
@@ -492,8 +523,8 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
 }
 
 std::string budget_covariance_csv(const BudgetJob& job, const BudgetResult& result, const Eigen::MatrixXd& covariance) {
-    const std::vector<std::string> names = budget_result_names(job, result);
-    const Eigen::MatrixXd scaled = in_units(covariance, result_units(result));
+    const auto [names, units, matrix] = named(job, result, covariance);
+    const Eigen::MatrixXd scaled = in_units(matrix, units);
     const auto quoted = [](const std::string& name) {
         std::string text = "\"";
         for (const char c : name) {

@@ -3,13 +3,13 @@
 #include <optional>
 #include <utility>
 
-#include "app/budget_covariance.h"
 #include "app/budget_record.h"
 #include "app/certificate_inputs.h"
 #include "app/certify.h"
 #include "app/evaluate_budget.h"
 #include "app/evaluate_comparison.h"
 #include "app/evaluate_rotary_table.h"
+#include "app/reported_covariance.h"
 #include "app/rotary_table_record.h"
 #include "encoding/sha2.h"
 #include "engine/job/budget_job.h"
@@ -88,7 +88,8 @@ Evaluation evaluate_budget_job(const Task& task) {
     const std::size_t results = result.points.size() * result.output_names.size();
     Eigen::MatrixXd covariance;
     if (results > 1 && results <= k_most_correlated_results) {
-        covariance = budget_covariance(result);
+        covariance = reported_covariance(job, result);
+        note_covariance(job, covariance, result);
     } else if (results > 1) {
         result.notes.push_back({.code = "GC-BUDGET-0040",
                                 .where = "covariance of the results",

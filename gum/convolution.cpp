@@ -689,7 +689,8 @@ double convolution_distribution(std::span<const ConvolutionTerm> terms, double x
 
 namespace {
 
-constexpr std::uint64_t k_draws_of_group = std::uint64_t{1} << 16U;
+constexpr Eigen::Index k_draws_of_group = Eigen::Index{1} << 16;
+constexpr double k_most_times = 32.0;       // of them, where the tails are small
 constexpr double k_certainly_less = 0.005;  // of k: half of what would be noticed
 constexpr double k_negligible_share = 1e-3;
 
@@ -704,50 +705,130 @@ bool is_elliptical(const InputGroup& group) {
             }));
 }
 
-/// Contribution of a group that is drawn by a copula or by rows, as the distribution of many draws. Quantities are
-/// drawn in an order that follows from what they are, so that the result does not depend on the order of the inputs.
-Distribution drawn_contribution(const InputGroup& group, const Eigen::RowVectorXd& c) {
+/// The quantities of a group that have an effect, as a group of their own: others change nothing.
+struct EffectiveGroup {
+    InputGroup group;
+    Eigen::RowVectorXd c;
+};
+
+EffectiveGroup taken_from(const InputGroup& group, const Eigen::RowVectorXd& c,
+                          const std::vector<Eigen::Index>& quantities) {
+    EffectiveGroup taken{group, c(quantities)};
+    InputGroup& to = taken.group;
+    to.own_streams.clear();
+    to.value = group.value(quantities);
+    to.covariance = group.covariance(quantities, quantities);
+    if (group.normal_correlation.size() > 0) {
+        to.normal_correlation = group.normal_correlation(quantities, quantities);
+    }
+    if (group.samples) {
+        to.samples = std::make_shared<const Eigen::MatrixXd>((*group.samples)(Eigen::all, quantities));
+    }
+    for (std::size_t i = 0; i < quantities.size() && !group.marginals.empty(); ++i) {
+        to.marginals[i] = group.marginals[static_cast<std::size_t>(quantities[i])];
+    }
+    to.marginals.resize(group.marginals.empty() ? 0 : quantities.size());
+    return taken;
+}
+
+EffectiveGroup with_effect(const InputGroup& group, const Eigen::RowVectorXd& c) {
+    std::vector<Eigen::Index> quantities;
+    for (Eigen::Index i = 0; i < group.size(); ++i) {
+        if (c(i) != 0.0 && group.covariance(i, i) > 0.0) {
+            quantities.push_back(i);
+        }
+    }
+    return taken_from(group, c, quantities);
+}
+
+/// An order of the quantities of a group that follows from what they are: their distributions, contributions with their
+/// signs and correlations. Quantities that are ranked equal may change places, so that the order of the inputs does not
+/// matter.
+std::vector<Eigen::Index> canonical_order(const InputGroup& group, const Eigen::RowVectorXd& c) {
     const Eigen::Index n = group.size();
-    auto values = std::make_shared<std::vector<double>>();
-    if (group.dependence == Dependence::joint_samples) {
-        const Eigen::VectorXd sums = (group.samples->rowwise() - group.value.transpose()) * c.transpose();
-        values->assign(sums.data(), sums.data() + sums.size());
-    } else {
-        std::vector<Eigen::Index> order(static_cast<std::size_t>(n));
-        std::iota(order.begin(), order.end(), Eigen::Index{0});
-        const auto rank = [&](Eigen::Index i) {
-            const Distribution& d = group.marginals[static_cast<std::size_t>(i)];
-            return std::tuple(d.kind, d.shape, d.second_shape, -std::abs(c(i)) * std::sqrt(group.covariance(i, i)));
-        };
-        std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return rank(a) < rank(b); });
-        InputGroup sorted = group;
-        sorted.own_streams.clear();
-        Eigen::RowVectorXd sensitivity(n);
-        const auto permuted = [&](const Eigen::MatrixXd& from) {
-            Eigen::MatrixXd to(n, n);
-            for (Eigen::Index j = 0; j < n; ++j) {
-                for (Eigen::Index i = 0; i < n; ++i) {
-                    to(i, j) = from(order[static_cast<std::size_t>(i)], order[static_cast<std::size_t>(j)]);
+    const Eigen::MatrixXd R = correlation_matrix(group.covariance);
+    const auto number = [](Eigen::Index i) { return static_cast<std::size_t>(i); };
+    using Key = std::vector<double>;
+    std::vector<Key> keys;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const Distribution& d = group.marginals[number(i)];
+        const double contribution = c(i) * std::sqrt(group.covariance(i, i));
+        keys.push_back({static_cast<double>(d.kind), d.shape, d.second_shape, -std::abs(contribution), -contribution});
+    }
+    std::vector<double> rank(number(n));
+    const auto place = [&] {  // how many are before each
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            rank[i] = static_cast<double>(
+                std::count_if(keys.begin(), keys.end(), [&](const Key& key) { return key < keys[i]; }));
+        }
+    };
+    const auto refine = [&] {
+        place();
+        for (Eigen::Index round = 0; round < n; ++round) {
+            for (Eigen::Index i = 0; i < n; ++i) {
+                std::vector<std::pair<double, double>> others;
+                for (Eigen::Index j = 0; j < n; ++j) {
+                    if (j != i) {
+                        others.emplace_back(rank[number(j)], R(i, j));
+                    }
+                }
+                std::sort(others.begin(), others.end());
+                keys[number(i)] = {rank[number(i)]};
+                for (const auto& [of, r] : others) {
+                    keys[number(i)].insert(keys[number(i)].end(), {of, r});
                 }
             }
-            return to;
-        };
-        sorted.covariance = permuted(group.covariance);
-        if (group.normal_correlation.size() > 0) {
-            sorted.normal_correlation = permuted(group.normal_correlation);
+            const std::vector<double> before = rank;
+            place();
+            if (rank == before) {
+                return;
+            }
         }
-        for (Eigen::Index i = 0; i < n; ++i) {
-            const Eigen::Index from = order[static_cast<std::size_t>(i)];
-            sorted.marginals[static_cast<std::size_t>(i)] = group.marginals[static_cast<std::size_t>(from)];
-            sorted.value(i) = group.value(from);
-            sensitivity(i) = c(from);
+    };
+    refine();
+    for (std::size_t at = 0; at < keys.size(); ++at) {  // one of several that are equal is taken as the first of them
+        const auto same = [&](double value) { return value == static_cast<double>(at); };
+        if (std::count_if(rank.begin(), rank.end(), same) > 1) {
+            const auto first = std::find_if(rank.begin(), rank.end(), same) - rank.begin();
+            for (std::size_t i = 0; i < keys.size(); ++i) {
+                keys[i] = {rank[i] + (same(rank[i]) && static_cast<std::ptrdiff_t>(i) != first ? 0.5 : 0.0)};
+            }
+            refine();
         }
+    }
+    std::vector<Eigen::Index> order(keys.size());
+    std::iota(order.begin(), order.end(), Eigen::Index{0});
+    std::sort(order.begin(), order.end(),
+              [&](Eigen::Index a, Eigen::Index b) { return rank[number(a)] < rank[number(b)]; });
+    return order;
+}
+
+/// How many draws a group gets: more where the tails are small.
+Eigen::Index draws_of_group(double coverage_probability) {
+    constexpr double k_usual_tail = 0.0455;
+    const double more = std::max(1.0, k_usual_tail / (1.0 - coverage_probability));
+    return static_cast<Eigen::Index>(k_draws_of_group * std::min(std::ceil(more), k_most_times));
+}
+
+/// Contribution of a group that is drawn by a copula or by rows, as the distribution of many draws.
+Distribution drawn_contribution(const InputGroup& group, const Eigen::RowVectorXd& c, double coverage_probability) {
+    auto values = std::make_shared<std::vector<double>>();
+    const auto add = [&](const Eigen::MatrixXd& x, const EffectiveGroup& of) {
+        const Eigen::VectorXd sums = (x.rowwise() - of.group.value.transpose()) * of.c.transpose();
+        values->insert(values->end(), sums.data(), sums.data() + sums.size());
+    };
+    if (group.dependence == Dependence::joint_samples) {
+        add(*group.samples, {group, c});
+    } else {
+        const EffectiveGroup sorted = taken_from(group, c, canonical_order(group, c));
         constexpr std::uint64_t k_seed = 1;
-        const InputDraws draws({sorted}, k_seed, {});
-        Eigen::MatrixXd x(static_cast<Eigen::Index>(k_draws_of_group), n);
-        draws.draw(0, x);
-        const Eigen::VectorXd sums = (x.rowwise() - sorted.value.transpose()) * sensitivity.transpose();
-        values->assign(sums.data(), sums.data() + sums.size());
+        const InputDraws draws({sorted.group}, k_seed, {});
+        Eigen::MatrixXd x(k_draws_of_group, group.size());
+        const Eigen::Index count = draws_of_group(coverage_probability);
+        for (Eigen::Index first = 0; first < count; first += k_draws_of_group) {
+            draws.draw(static_cast<std::uint64_t>(first), x);
+            add(x, sorted);
+        }
     }
     std::sort(values->begin(), values->end());
     return {.kind = DistributionKind::empirical, .location = 0.0, .scale = 1.0, .samples = std::move(values)};
@@ -838,7 +919,11 @@ std::optional<std::vector<ConvolutionTerm>> convolution_terms(const MeasurementM
             }
             terms.push_back({1.0, Distribution::student_t(0.0, std::sqrt(variance), group.degrees_of_freedom)});
         } else {
-            terms.push_back({1.0, drawn_contribution(group, c)});
+            const EffectiveGroup of = with_effect(group, c);
+            const bool single = of.group.size() == 1 && of.group.marginals.size() == 1;
+            terms.push_back(
+                single ? ConvolutionTerm{of.c(0), of.group.marginals.front()}
+                       : ConvolutionTerm{1.0, drawn_contribution(of.group, of.c, propagation.coverage_probability)});
         }
     }
     if (terms.empty()) {

@@ -59,6 +59,7 @@ struct ResultCovariance {
     std::vector<std::vector<double>> matrix, correlation;
     std::vector<std::vector<std::string>> printed_correlation;
     std::string file;  ///< CSV beside the record, where the matrices are too large for it and left out here; else ""
+    std::string method = {};  ///< "law_of_propagation", "monte_carlo"; "" in records before it was stated
 };
 
 /// Joint coverage region of all outputs (JCGM 102:2011, 6.5 and 7.7).

@@ -245,6 +245,7 @@ void describe(Archive& a, Struct& r) {
     a("matrix", r.matrix);
     a("correlation", r.correlation);
     a("file", r.file);
+    a.added("method", r.method);
     a.group("printed", [&](auto& b) { b("correlation", r.printed_correlation); });
 }
 

@@ -123,6 +123,22 @@ TEST(ExpandByPropagation, SeesTheAsymmetryOfCorrelatedInputs) {
     EXPECT_TRUE(counted.by_monte_carlo);
 }
 
+// k follows from what the inputs are, not from their order; one without an effect changes nothing.
+TEST(ExpandByPropagation, DoesNotDependOnTheOrderOfCorrelatedInputs) {
+    const std::string a = rectangular("a");
+    const std::string b = rectangular("b");
+    const std::string c = R"("c": {"value": 0, "half_width": 1.2, "distribution": "triangular"})";
+    const auto factor = [](const std::string& inputs, const std::string& model) {
+        return evaluate(inputs, model, R"(, "correlations": [["a", "c", 0.5], ["b", "c", 0.3]])")
+            .coverage_factor.value();
+    };
+    for (const char* model : {"a + b + c", "a - b + c", "c - b"}) {
+        EXPECT_EQ(factor(a + ", " + b + ", " + c, model), factor(b + ", " + a + ", " + c, model)) << model;
+        EXPECT_EQ(factor(a + ", " + b + ", " + c, model), factor(c + ", " + b + ", " + a, model)) << model;
+    }
+    EXPECT_EQ(factor(a + ", " + b + ", " + c, "c"), evaluate(c, "c").coverage_factor.value());
+}
+
 TEST(ExpandByPropagation, TellsWhereTheResultIsNotSymmetric) {
     const BudgetOutputResult skewed =
         evaluate(R"("x": {"distribution": {"kind": "exponential", "mean": 1}}, "b": {"value": 0, "u": 1})", "x + b");
