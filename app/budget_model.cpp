@@ -312,7 +312,12 @@ void set_dependence(const BudgetJob& job, const std::vector<Member>& members,
     } else {
         group.dependence = Dependence::gaussian_copula;
         set_copula(members, group, result);
-        if (job.monte_carlo) {
+        // k by convolution takes the copula too, but for normal and t-distributions.
+        const bool for_k = !std::all_of(group.marginals.begin(), group.marginals.end(), [](const Distribution& m) {
+            return m.kind == DistributionKind::normal || m.kind == DistributionKind::student_t ||
+                   m.kind == DistributionKind::constant;
+        });
+        if (job.monte_carlo || for_k) {
             add_note(result, "GC-BUDGET-0011", group.name,
                      "correlated, and not all normal or all t with one number of degrees of freedom",
                      "Monte Carlo joins them by a Gaussian copula that gives them the stated coefficients of "

@@ -47,7 +47,7 @@ TEST(ReportedCovariance, DrawsPointsTogether) {
 TEST(ReportedCovariance, IsNoneWithoutAVariance) {
     const engine::BudgetJob job = engine::test::read_budget(
         R"("model": ["y = a", "z = b^2", "w = a + b"], "inputs": {"a": {"value": 0, "u": 1, "nu": 1}, "b": {"value": 0, "u": 1}},
-           "outputs": {"y": {}, "z": {}, "w": {}}, "coverage": "monte_carlo")");
+           "outputs": {"y": {}, "z": {}, "w": {}}, "coverage": "monte_carlo", "monte_carlo": {"trials": 20000})");
     BudgetResult result = evaluate_budget(job, 1);
     const Eigen::MatrixXd V = reported_covariance(job, result);
     ASSERT_EQ(V.rows(), 3);
