@@ -133,8 +133,9 @@ TEST(ExpandByPropagation, DoesNotDependOnTheOrderOfCorrelatedInputs) {
             .coverage_factor.value();
     };
     for (const char* model : {"a + b + c", "a - b + c", "c - b"}) {
-        EXPECT_EQ(factor(a + ", " + b + ", " + c, model), factor(b + ", " + a + ", " + c, model)) << model;
-        EXPECT_EQ(factor(a + ", " + b + ", " + c, model), factor(c + ", " + b + ", " + a, model)) << model;
+        // But for the last bit, in which sums of another order differ.
+        EXPECT_NEAR(factor(a + ", " + b + ", " + c, model), factor(b + ", " + a + ", " + c, model), 1e-13) << model;
+        EXPECT_NEAR(factor(a + ", " + b + ", " + c, model), factor(c + ", " + b + ", " + a, model), 1e-13) << model;
     }
     EXPECT_EQ(factor(a + ", " + b + ", " + c, "c"), evaluate(c, "c").coverage_factor.value());
 }
