@@ -10,6 +10,7 @@
 #include "app/budget_fit_record.h"
 #include "app/budget_texts.h"
 #include "app/record_parts.h"
+#include "app/remark.h"
 #include "gum/outlying_readings.h"
 #include "gum/quantity/unit.h"
 
@@ -25,14 +26,6 @@ using reports::ReadingsSummary;
 
 constexpr double k_gross_outlier = 0.001;  // p-value below which nobody takes a reading for chance
 constexpr std::size_t k_most_points = 5;
-
-/// One thing to say, in both forms. All sentences stand here.
-struct Remark {
-    gum::Diagnostic message;
-    std::string id, clause;
-    FindingSeverity severity = FindingSeverity::major;
-    FindingSeverity accredited = FindingSeverity::major;  ///< where the certificate is accredited
-};
 
 std::string with_unit(const std::string& number, const std::string& unit) {
     const std::string people = gum::unit_for_people(unit);
@@ -194,11 +187,7 @@ std::vector<Remark> remarks_of(const EvaluationRecord& record) {
 }  // namespace
 
 std::vector<gum::Diagnostic> budget_remarks(const EvaluationRecord& record) {
-    std::vector<gum::Diagnostic> messages;
-    for (Remark& remark : remarks_of(record)) {
-        messages.push_back(std::move(remark.message));
-    }
-    return messages;
+    return messages_of(remarks_of(record));
 }
 
 namespace {
@@ -217,7 +206,6 @@ constexpr std::array<MessageFinding, 4> k_message_findings{
 }  // namespace
 
 std::vector<certificate::Finding> budget_findings(const EvaluationRecord& record) {
-    const bool accredited = record.certificate && record.certificate->data.status == "accredited";
     std::vector<certificate::Finding> findings;
     for (const gum::Diagnostic& message : record.diagnostics) {
         for (const MessageFinding& known : k_message_findings) {
@@ -231,13 +219,8 @@ std::vector<certificate::Finding> budget_findings(const EvaluationRecord& record
             }
         }
     }
-    for (Remark& remark : remarks_of(record)) {
-        findings.push_back({.id = std::move(remark.id),
-                            .clause = std::move(remark.clause),
-                            .severity = accredited ? remark.accredited : remark.severity,
-                            .where = std::move(remark.message.where),
-                            .what = std::move(remark.message.what),
-                            .action = std::move(remark.message.action)});
+    for (certificate::Finding& finding : findings_of(remarks_of(record), record)) {
+        findings.push_back(std::move(finding));
     }
     return findings;
 }

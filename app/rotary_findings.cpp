@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
-#include <utility>
 
+#include "app/remark.h"
 #include "gum/coverage.h"
 #include "gum/rounding.h"
 
@@ -19,14 +19,6 @@ using reports::RotaryTable;
 
 constexpr double k_refuted = 0.001;       // p-value below which nobody takes the residuals for chance
 constexpr double k_most_left_out = 0.05;  // of all distances: a twentieth is no longer single gross errors
-
-/// One thing to say, in both forms.
-struct Remark {
-    gum::Diagnostic message;
-    std::string id, clause;
-    FindingSeverity severity = FindingSeverity::major;
-    FindingSeverity accredited = FindingSeverity::critical;
-};
 
 std::string chi_square_of(const AdjustmentSummary& a) {
     return "chi-square is " + a.printed.chi_square + " with " + std::to_string(a.degrees_of_freedom) +
@@ -45,7 +37,8 @@ Remark refuted(const AdjustmentSummary& a) {
                                   "\"variance_components\": \"estimate\" takes the uncertainty from the residuals.",
                         .severity = gum::Severity::warning},
             .id = "G01",
-            .clause = "ISO/IEC 17025:2017, 7.7.1"};
+            .clause = "ISO/IEC 17025:2017, 7.7.1",
+            .accredited = FindingSeverity::critical};
 }
 
 Remark overstated(const AdjustmentSummary& a) {
@@ -75,7 +68,8 @@ Remark left_out(std::size_t count, std::int64_t all) {
                                   "distances that makes them outlying.",
                         .severity = gum::Severity::warning},
             .id = "G03",
-            .clause = "ISO/IEC 17025:2017, 7.7.1"};
+            .clause = "ISO/IEC 17025:2017, 7.7.1",
+            .accredited = FindingSeverity::critical};
 }
 
 std::vector<Remark> remarks_of(const EvaluationRecord& record) {
@@ -103,25 +97,11 @@ std::vector<Remark> remarks_of(const EvaluationRecord& record) {
 }  // namespace
 
 std::vector<gum::Diagnostic> rotary_remarks(const EvaluationRecord& record) {
-    std::vector<gum::Diagnostic> messages;
-    for (Remark& remark : remarks_of(record)) {
-        messages.push_back(std::move(remark.message));
-    }
-    return messages;
+    return messages_of(remarks_of(record));
 }
 
 std::vector<certificate::Finding> rotary_findings(const EvaluationRecord& record) {
-    const bool accredited = record.certificate && record.certificate->data.status == "accredited";
-    std::vector<certificate::Finding> findings;
-    for (const Remark& remark : remarks_of(record)) {
-        findings.push_back({.id = remark.id,
-                            .clause = remark.clause,
-                            .severity = accredited ? remark.accredited : remark.severity,
-                            .where = remark.message.where,
-                            .what = remark.message.what,
-                            .action = remark.message.action});
-    }
-    return findings;
+    return findings_of(remarks_of(record), record);
 }
 
 }  // namespace gumcert::app
