@@ -8,6 +8,7 @@
 #include "certificate/held_against.h"
 #include "gum/argument_check.h"
 #include "gum/quantity/unit.h"
+#include "reports/record/certified_tables.h"
 
 namespace gumcert::app {
 
@@ -35,13 +36,8 @@ std::vector<Budgeted> values_in_scope(const reports::EvaluationRecord& record, c
     for (const CertifiedTable& table : record.certificate->tables) {
         for (const CertifiedColumn& column : table.columns) {
             for (std::size_t row = 0; table.id == "results" && row < column.values.size(); ++row) {
-                const std::string point =
-                    table.argument && row < table.argument->printed.size() ? table.argument->printed[row] : "";
-                const auto result =
-                    std::find_if(record.results.begin(), record.results.end(), [&](const reports::Result& r) {
-                        return (r.quantity.empty() ? r.name : r.quantity) == column.result && r.point == point;
-                    });
-                if (result != record.results.end() && column.values[row].scope_entry == entry.id) {
+                const reports::Result* result = reports::result_of(record, table, column.result, row);
+                if (result != nullptr && column.values[row].scope_entry == entry.id) {
                     all.push_back({.column = column, .value = column.values[row], .result = *result});
                 }
             }

@@ -38,20 +38,6 @@ using reports::Result;
 
 constexpr double k_about_95_percent = 0.01;  // 95 % and 95.45 % are the same statement
 
-/// The result of a budget that a value stands for, or the set-up of a rotary table; none for its other tables.
-const Result* result_of(const EvaluationRecord& record, const CertifiedTable& table, const std::string& name,
-                        std::size_t row) {
-    if (table.id != "results" && table.id != "set_up") {
-        return nullptr;
-    }
-    const std::string point =
-        table.argument && row < table.argument->printed.size() ? table.argument->printed[row] : "";
-    const auto found = std::find_if(record.results.begin(), record.results.end(), [&](const Result& r) {
-        return (r.quantity.empty() ? r.name : r.quantity) == name && r.point == point;
-    });
-    return found == record.results.end() ? nullptr : &*found;
-}
-
 /// Rounding that the job itself asks for.
 bool job_rounds_upwards(const EvaluationRecord& record) {
     const nlohmann::json options = nlohmann::json::parse(record.options_json, nullptr, false);
@@ -97,7 +83,7 @@ private:
     void certify_value(const std::vector<CertifiedTable>& tables, const CertifiedTable& table, CertifiedColumn& column,
                        std::size_t row) {
         CertifiedValue& value = column.values[row];
-        const Result* result = result_of(record_, table, column.result, row);
+        const Result* result = reports::result_of(record_, table, column.result, row);
         const double p = result != nullptr ? result->coverage_probability : record_.coverage_probability;
         place_in_scope({.tables = tables, .table = table, .column = column, .row = row, .coverage_probability = p},
                        value);

@@ -194,6 +194,19 @@ CertifiedTable parameters(const std::string& id, const std::vector<TableParamete
 
 }  // namespace
 
+const Result* result_of(const EvaluationRecord& record, const CertifiedTable& table, const std::string& name,
+                        std::size_t row) {
+    if (table.id != "results" && table.id != "set_up") {
+        return nullptr;
+    }
+    const std::string point =
+        table.argument && row < table.argument->printed.size() ? table.argument->printed[row] : "";
+    const auto found = std::find_if(record.results.begin(), record.results.end(), [&](const Result& r) {
+        return (r.quantity.empty() ? r.name : r.quantity) == name && r.point == point;
+    });
+    return found == record.results.end() ? nullptr : &*found;
+}
+
 std::vector<CertifiedTable> certified_tables(const EvaluationRecord& record) {
     if (!record.rotary) {
         return tables_of_results(record.results, "results");

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 #include "certificate/certified_results.h"
@@ -18,5 +20,11 @@ namespace gumcert::reports {
 /// k and effective degrees of freedom are printed as certificate/statement_of_uncertainty.h says. Coverage intervals
 /// are left to whoever certifies.
 [[nodiscard]] std::vector<certificate::CertifiedTable> certified_tables(const EvaluationRecord& record);
+
+/// The result that a value of a column stands for: of a budget, or the set-up of a rotary table.
+/// \param name  of the column
+/// \return in the record; none for the other tables of a rotary table
+[[nodiscard]] const Result* result_of(const EvaluationRecord& record, const certificate::CertifiedTable& table,
+                                      const std::string& name, std::size_t row);
 
 }  // namespace gumcert::reports
