@@ -24,6 +24,8 @@ using certificate::StandardUsed;
 
 using Words = std::vector<std::u32string>;
 
+constexpr double k_usual_factor = 2.0;  // of a certificate that states no k
+
 void collect_sources(const std::vector<reports::BudgetRow>& rows, std::vector<Words>& sources) {
     for (const reports::BudgetRow& row : rows) {
         sources.push_back(certificate::words_of(row.source));
@@ -58,16 +60,14 @@ bool is_named(const StandardUsed& s, const std::vector<Words>& sources) {
 }
 
 /// What the rows of one result take from a standard.
-struct Taken {
-    std::vector<const reports::BudgetRow*> rows;
-};
+using Taken = std::vector<const reports::BudgetRow*>;
 
 void collect_rows(const std::vector<reports::BudgetRow>& rows, const StandardUsed& s, Taken& taken) {
     for (const reports::BudgetRow& row : rows) {
         const bool by_component = std::any_of(row.components.begin(), row.components.end(),
                                               [](const reports::BudgetRow& c) { return !c.source.empty(); });
         if (!by_component && is_named(s, {certificate::words_of(row.source)})) {
-            taken.rows.push_back(&row);
+            taken.push_back(&row);
         }
         collect_rows(row.components, s, taken);
     }
@@ -79,7 +79,6 @@ bool is_relative(const gum::Unit& unit) {
 
 /// The standard uncertainty that a certificate states for a row, in SI units; nothing where its unit is another one.
 std::optional<double> stated_u(const StandardUsed& s, const reports::BudgetRow& row) {
-    constexpr double k_usual_factor = 2.0;
     const gum::Unit stated = gum::Unit::parse(s.unit);
     const gum::Unit of_row = gum::Unit::parse(row.unit);
     const double u = stated.difference_to_si(*s.U) / s.k.value_or(k_usual_factor);
@@ -101,7 +100,7 @@ struct Comparison {
 
 Comparison compared(const StandardUsed& s, const Taken& taken) {
     Comparison out;
-    for (const reports::BudgetRow* row : taken.rows) {
+    for (const reports::BudgetRow* row : taken) {
         const std::optional<double> stated = stated_u(s, *row);
         if (!stated) {
             continue;
@@ -141,7 +140,7 @@ std::optional<Finding> against_budget(const reports::EvaluationRecord& record, c
         Taken taken;
         collect_rows(result.budget, s, taken);
         const Comparison one = compared(s, taken);
-        named = named || !taken.rows.empty();
+        named = named || !taken.empty();
         any = any || one.any;
         if (one.any && (best.stated <= 0.0 || one.u * best.stated > best.u * one.stated)) {
             best = one;
@@ -160,11 +159,11 @@ std::optional<Finding> against_budget(const reports::EvaluationRecord& record, c
     if (!any || best.u >= k_part * best.stated) {
         return std::nullopt;
     }
-    const gum::Unit unit = gum::Unit::parse(is_relative(gum::Unit::parse(s.unit)) ? "1" : s.unit);
-    const bool relative = is_relative(gum::Unit::parse(s.unit));
+    const gum::Unit unit = gum::Unit::parse(s.unit);
     const auto in_unit = [&](double u) {
-        return relative ? gum::round_significant(u / best.stated * *s.U / s.k.value_or(2.0), 2) + " " + s.unit
-                        : gum::round_significant(unit.difference_from_si(u), 2) + " " + s.unit;
+        const double stated =
+            is_relative(unit) ? u / best.stated * *s.U / s.k.value_or(k_usual_factor) : unit.difference_from_si(u);
+        return gum::round_significant(stated, 2) + " " + s.unit;
     };
     return finding(best.u < k_nothing * best.stated  ? FindingSeverity::critical
                    : best.u < k_little * best.stated ? FindingSeverity::major
