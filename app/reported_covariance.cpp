@@ -11,6 +11,7 @@
 #include "app/budget_covariance.h"
 #include "app/budget_record.h"
 #include "app/record_parts.h"
+#include "app/reported_result.h"
 #include "gum/propagation.h"
 #include "gum/random_draws.h"
 
@@ -26,21 +27,7 @@ constexpr Eigen::Index k_rows = 1024;
 /// Whether a result that is reported by the law has a variance: an input of t with ν ≤ 2 has none.
 bool has_variance(const BudgetPointResult& point, std::size_t output) {
     const BudgetOutputResult& of = point.outputs[output];
-    if (of.monte_carlo) {
-        return of.has_u;
-    }
-    Eigen::Index column = 0;
-    for (const gum::InputGroup& group : point.model->inputs()) {
-        for (Eigen::Index i = 0; i < group.size(); ++i, ++column) {
-            const auto at = static_cast<std::size_t>(i);
-            if (at < group.marginals.size() && group.marginals[at].kind == gum::DistributionKind::student_t &&
-                group.marginals[at].shape <= 2.0 &&
-                point.propagation.jacobian(static_cast<Eigen::Index>(output), column) != 0.0) {
-                return false;
-            }
-        }
-    }
-    return true;
+    return of.monte_carlo ? of.has_u : inputs_without_variance(point, static_cast<Eigen::Index>(output)).empty();
 }
 
 /// u of every result as it is reported; NaN without a variance.

@@ -64,10 +64,6 @@ double tail_exponent(const BudgetPointResult& point, Eigen::Index output, unsign
                        .threads = threads});
 }
 
-}  // namespace
-
-namespace {
-
 /// How far the ends of the interval lie aside, in parts of U: from the convolution of all distributions, correlated
 /// ones among them. Where it is not known the ends move by γ (k² − 1)/6 u, the first term of the expansion of Cornish
 /// and Fisher (1938).
@@ -189,23 +185,30 @@ engine::MonteCarloRequest automatic_monte_carlo() {
     return request;
 }
 
-ExistingMoments existing_moments(const std::optional<gum::EquationSystem>& system, const BudgetPointResult& point,
-                                 Eigen::Index output, unsigned threads) {
-    ExistingMoments exist;
-    const std::vector<BudgetQuantity>& quantities = point.model->quantities();
+std::vector<InputWithoutVariance> inputs_without_variance(const BudgetPointResult& point, Eigen::Index output) {
+    std::vector<InputWithoutVariance> found;
     Eigen::Index column = 0;
     for (const gum::InputGroup& group : point.model->inputs()) {
         for (Eigen::Index i = 0; i < group.size(); ++i, ++column) {
             const auto at = static_cast<std::size_t>(i);
-            if (at >= group.marginals.size() || group.marginals[at].kind != gum::DistributionKind::student_t ||
-                group.marginals[at].shape > 2.0 || point.propagation.jacobian(output, column) == 0.0) {
-                continue;
+            if (at < group.marginals.size() && group.marginals[at].kind == gum::DistributionKind::student_t &&
+                group.marginals[at].shape <= 2.0 && point.propagation.jacobian(output, column) != 0.0) {
+                found.push_back({.column = column, .nu = group.marginals[at].shape});
             }
-            const std::array<std::size_t, 1> symbol{quantities[static_cast<std::size_t>(column)].symbol};
-            if (!system || system->is_affine_in(symbol)) {
-                exist.u = false;
-                exist.mean = exist.mean && group.marginals[at].shape > 1.0;
-            }
+        }
+    }
+    return found;
+}
+
+ExistingMoments existing_moments(const std::optional<gum::EquationSystem>& system, const BudgetPointResult& point,
+                                 Eigen::Index output, unsigned threads) {
+    ExistingMoments exist;
+    const std::vector<BudgetQuantity>& quantities = point.model->quantities();
+    for (const InputWithoutVariance& input : inputs_without_variance(point, output)) {
+        const std::array<std::size_t, 1> symbol{quantities[static_cast<std::size_t>(input.column)].symbol};
+        if (!system || system->is_affine_in(symbol)) {
+            exist.u = false;
+            exist.mean = exist.mean && input.nu > 1.0;
         }
     }
     const BudgetOutputResult& of = point.outputs[static_cast<std::size_t>(output)];

@@ -48,6 +48,14 @@ struct PointPropagation {
 /// The Monte Carlo that the program runs by itself: adaptive, to the two digits that are printed.
 [[nodiscard]] engine::MonteCarloRequest automatic_monte_carlo();
 
+/// An input with a t-distribution and ν ≤ 2, which has no variance, that an output depends on in the first order.
+struct InputWithoutVariance {
+    Eigen::Index column = 0;  ///< of the Jacobian
+    double nu = 0.0;
+};
+[[nodiscard]] std::vector<InputWithoutVariance> inputs_without_variance(const BudgetPointResult& point,
+                                                                        Eigen::Index output);
+
 /// Whether a distribution that trials were drawn from has an expectation and a standard deviation.
 ///
 /// Not where an input with a t-distribution and ν ≤ 2 (≤ 1: no expectation either) enters linearly; nor where the
