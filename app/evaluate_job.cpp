@@ -55,10 +55,10 @@ struct Task {
     const Progress& progress;
 };
 
-/// The name of the covariance file of a job with these files.
+/// The name of the covariance file of a job with these files, where one is written.
 std::string covariance_name(CovarianceFile place, const std::vector<reports::InputFile>& files) {
-    if (place != CovarianceFile::with_others) {
-        return place == CovarianceFile::none ? "" : "covariance.csv";
+    if (place == CovarianceFile::own_folder) {
+        return "covariance.csv";
     }
     std::string digests;
     for (const reports::InputFile& file : files) {
@@ -118,8 +118,10 @@ Evaluation evaluate_rotary_table_job(const Task& task) {
     const RotaryTableResult result = evaluate_rotary_table(job, task.threads, task.progress);
     Evaluation evaluation;
     const std::vector<reports::InputFile> files = held_files(task.files, job.files);
-    evaluation.covariance_csv = covariance_csv(job, result.solution.quantities, result.propagation.covariance);
-    evaluation.covariance_file = covariance_name(task.covariance_file, files);
+    if (task.covariance_file != CovarianceFile::none) {
+        evaluation.covariance_csv = covariance_csv(job, result.solution.quantities, result.propagation.covariance);
+        evaluation.covariance_file = covariance_name(task.covariance_file, files);
+    }
     evaluation.record = rotary_table_record(job, result, files, evaluation.covariance_file);
     evaluation.negative = result.validation_failed;
     make_certificate(evaluation, job.certificate, profile, {});
