@@ -1,7 +1,6 @@
 #include "certificate/printed_languages.h"
 
 #include <algorithm>
-#include <iterator>
 
 #include "certificate/gates.h"
 
@@ -41,17 +40,15 @@ bool judge_printed_languages(Certificate& certificate, const std::vector<std::st
     const std::vector<Finding> left_out = demanded(certificate.profile, printed);
     Certificate as_printed = certificate;
     as_printed.data.languages = printed;
-    std::vector<Finding> found = left_out;
-    std::ranges::copy_if(language_findings(as_printed), std::back_inserter(found),
-                         [&](const Finding& finding) { return !is_among(certificate.findings, finding); });
+    std::vector<Finding> lacking = language_findings(as_printed);
+    std::erase_if(lacking, [&](const Finding& finding) { return is_among(certificate.findings, finding); });
     certificate.findings.insert(certificate.findings.begin(), left_out.begin(), left_out.end());
-    certificate.findings.insert(certificate.findings.end(),
-                                found.begin() + static_cast<std::ptrdiff_t>(left_out.size()), found.end());
+    certificate.findings.insert(certificate.findings.end(), lacking.begin(), lacking.end());
     if (!left_out.empty()) {
         certificate.blocked = true;
         certificate.symbol = false;
     }
-    return !found.empty();
+    return !left_out.empty() || !lacking.empty();
 }
 
 }  // namespace gumcert::certificate
