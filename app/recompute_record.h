@@ -18,7 +18,8 @@ inline constexpr std::size_t k_most_disagreements = 20;
 /// Where a record says something else than the one that its job gives. The same numbers are those that agree within
 /// 1e-9 of their size, or of 1e-12 of the largest in their list, in a matrix of covariances of the two standard
 /// uncertainties: mathematical functions of two computers may differ in the last digit. Every text, every digit that is
-/// printed, every verdict is the same to the letter. \param where  name of the record, for messages
+/// printed, every verdict is the same to the letter.
+/// \param where  name of the record, for messages
 [[nodiscard]] std::vector<gum::Diagnostic> disagreements(const reports::EvaluationRecord& stated,
                                                          const reports::EvaluationRecord& evaluated,
                                                          const std::string& where);

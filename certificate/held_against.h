@@ -34,7 +34,8 @@ struct HeldAgainst {
 [[nodiscard]] bool is_beyond(double value, double low, double high);
 
 /// Tells of a capability that is taken at another number than the result (X12): critical where the result is the larger
-/// one. \return whether it told
+/// one.
+/// \return whether it told
 bool capability_taken_elsewhere(FindingList& found, const ScopeEntry& entry, std::size_t i,
                                 const CapabilityArgument& argument, const HeldAgainst& held,
                                 const CertifiedColumn& column, const CertifiedValue& value);

@@ -40,14 +40,15 @@ enum class RobustMean { median, algorithm_a, q_hampel };
 /// variance between laboratories that is as large as the uncertainties of the others is often estimated as 0, and then
 /// only the plain scatter of all results shows how far off that one laboratory may be. Where k_p u(y) is larger than
 /// t_p(ν) u, it is u(y) with ν = ∞: results that agree by chance, or by the rounding of their last digit, take nothing
-/// away from what the stated uncertainties leave open. \param mean  linear in the results, Σ w = 1, its u by the
-/// weights \throws InputError  GC-GUM-0131 fewer than 2 results, -0135 sizes that do not fit
+/// away from what the stated uncertainties leave open.
+/// \param mean  linear in the results, Σ w = 1, its u by the weights
+/// \throws InputError  GC-GUM-0131 fewer than 2 results, -0135 sizes that do not fit
 [[nodiscard]] SpreadUncertainty weighted_spread(const Eigen::VectorXd& x, const ReferenceValue& mean,
                                                 double coverage_probability);
 
 /// Σ w e²/(n − 2) for each result apart, from all others alone: y without result i, its weights scaled to 1, ν = n − 2.
-/// A result far away does not widen the limit that it is held against. \return one a result; empty for fewer than 3
-/// results
+/// A result far away does not widen the limit that it is held against.
+/// \return one a result; empty for fewer than 3 results
 [[nodiscard]] std::vector<SpreadUncertainty> spread_of_others(const Eigen::VectorXd& x, const Eigen::VectorXd& weights);
 
 /// The same for robust means, up to k_most_results_left_out results. Of more, one hardly moves the scale, and all of

@@ -142,6 +142,12 @@ include({ROOT.as_posix()}/cmake/gumcert_header_self_check.cmake)
     def test_argument_that_is_not_known(self):
         self.expect(self.configure("gumcert_layer(gum NEEDS gum/quantity)"), 1, "NEEDS", "only USES, PUBLIC")
 
+    def refused_build(self, expected):
+        self.expect(self.configure("gumcert_layer(gum/quantity)\ngumcert_header_self_check()", "CXX"), 0)
+        returned = self.run_program(CMAKE, "--build", self.root / "build")
+        self.assertNotEqual(returned[0], 0)
+        self.assertIn(expected, returned[1])
+
     def test_header_that_does_not_compile_alone(self):
         layers = "gumcert_layer(gum/quantity)\ngumcert_header_self_check()"
         self.plant("gum/quantity/alone.cpp", '#include "gum/quantity/alone.h"\n')
@@ -150,26 +156,17 @@ include({ROOT.as_posix()}/cmake/gumcert_header_self_check.cmake)
         self.expect(self.run_program(CMAKE, "--build", self.root / "build"), 0)
         self.plant("gum/quantity/alone.h", "#pragma once\nstd::vector<double> leans_on_its_neighbours();\n")
         self.plant("gum/quantity/alone.cpp", '#include <vector>\n#include "gum/quantity/alone.h"\n')
-        self.expect(self.configure(layers, "CXX"), 0)
-        returned = self.run_program(CMAKE, "--build", self.root / "build")
-        self.assertNotEqual(returned[0], 0)
-        self.assertIn("gum/quantity/alone.h:2", returned[1])
+        self.refused_build("gum/quantity/alone.h:2")
 
     def test_header_that_does_not_compile_in_its_own_source(self):
         self.plant("gum/quantity/alone.cpp", '#include "gum/quantity/alone.h"\n#include <vector>\n')
         self.plant("gum/quantity/alone.h", "#pragma once\nstd::vector<double> leans_on_its_neighbours();\n")
-        self.expect(self.configure("gumcert_layer(gum/quantity)\ngumcert_header_self_check()", "CXX"), 0)
-        returned = self.run_program(CMAKE, "--build", self.root / "build")
-        self.assertNotEqual(returned[0], 0)
-        self.assertIn("gum/quantity/alone.h:2", returned[1])
+        self.refused_build("gum/quantity/alone.h:2")
 
     def test_header_without_guard(self):
         self.plant("gum/quantity/twice.cpp", '#include "gum/quantity/twice.h"\n')
         self.plant("gum/quantity/twice.h", "struct Twice {};\n")
-        self.expect(self.configure("gumcert_layer(gum/quantity)\ngumcert_header_self_check()", "CXX"), 0)
-        returned = self.run_program(CMAKE, "--build", self.root / "build")
-        self.assertNotEqual(returned[0], 0)
-        self.assertIn("redefinition of", returned[1])
+        self.refused_build("redefinition of")
 
 
 class LayerTable(PlantedTree):
