@@ -140,8 +140,8 @@ Remark dependent(const std::vector<const ReadingsSummary*>& all) {
                         .where = place_of(first.input, first.component, points),
                         .what = "autocorrelation coefficient of lag 1 is " + first.printed.r1 +
                                 (all.size() > 1 && !first.point.empty() ? " at point " + first.point : ""),
-                        .rule = "readings that are independent of each other stay within ±" + first.printed.limit +
-                                " in 95 % of all cases",
+                        .rule = "readings that are independent of each other stay within " +
+                                ("±" + first.printed.limit) + " in 95 % of all cases",
                         .action = "Look for drift; s/√n is not the uncertainty of the mean of dependent readings.",
                         .severity = gum::Severity::warning},
             .id = "A02",

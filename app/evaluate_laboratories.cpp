@@ -66,21 +66,21 @@ reports::ItemWithoutResult without_result(const engine::ComparisonItem& item, co
             .action = because.action};
 }
 
-/// Items for which reading the job has found that nothing can be computed.
-void add_refused_items(const engine::ComparisonJob& job, reports::Comparison& comparison,
-                       std::vector<gum::Diagnostic>& problems) {
-    for (const auto& [part, because] : job.refused_items) {
+/// Items for which it is known before that nothing can be computed.
+void add_refused_items(const engine::ComparisonJob& job, const engine::RefusedItems& refused,
+                       reports::Comparison& comparison, std::vector<gum::Diagnostic>& problems) {
+    for (const auto& [part, because] : refused) {
         comparison.items_without_result.push_back(
             without_result(job.items[part.first], part.second ? job.rounds[*part.second] : "", because));
         problems.push_back(because);
     }
 }
 
-bool is_refused(const engine::ComparisonJob& job, const LaboratoryData& data) {
+bool is_refused(const engine::ComparisonJob& job, const engine::RefusedItems& refused, const LaboratoryData& data) {
     const auto item = static_cast<std::size_t>(data.item - job.items.data());
     const auto round =
         static_cast<std::size_t>(std::find(job.rounds.begin(), job.rounds.end(), data.round) - job.rounds.begin());
-    return job.refused_items.contains({item, std::nullopt}) || job.refused_items.contains({item, round});
+    return refused.contains({item, std::nullopt}) || refused.contains({item, round});
 }
 
 /// The names of all sources that results and assigned values state.
@@ -133,8 +133,9 @@ reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, cons
     comparison.unit = unit_of_items(job);
     comparison.reference_name = reference_name(job);
     comparison.audit_finding = audit_findings(job);
-    const std::vector<engine::ComparisonResult> results = results_with_budgets(job, progress);
-    const std::vector<LaboratoryData> data = laboratory_data(job, results, comparison.shared_sources);
+    engine::RefusedItems refused_items = job.refused_items;
+    const std::vector<engine::ComparisonResult> results = results_with_budgets(job, progress, refused_items);
+    std::vector<LaboratoryData> data = laboratory_data(job, results);
     if (data.empty()) {
         throw gum::InputError(gum::Diagnostic{.code = "GC-COMPARE-0100",
                                               .where = "comparison",
@@ -150,9 +151,9 @@ reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, cons
     std::vector<EvaluatedItem> items;
     std::vector<gum::Diagnostic> problems;
     bool is_input = false;
-    add_refused_items(job, comparison, problems);
-    for (const LaboratoryData& of_item : data) {
-        if (is_refused(job, of_item)) {
+    add_refused_items(job, refused_items, comparison, problems);
+    for (LaboratoryData& of_item : data) {
+        if (is_refused(job, refused_items, of_item)) {
             continue;
         }
         if (progress && items.size() % k_items_between_messages == 0 && data.size() > 1) {
@@ -167,6 +168,7 @@ reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, cons
                 without_result(*of_item.item, of_item.round, error.diagnostics().front()));
         };
         try {
+            relate_results(job, of_item, comparison.shared_sources);
             item.assigned = assigned_value(job, of_item);
             reports::ComparisonItemEvaluation evaluation = item_evaluation(job, of_item, item.assigned);
             std::vector<reports::ComparisonPoint> points = laboratory_scores(job, of_item, item.assigned, evaluation);

@@ -36,6 +36,7 @@ std::string place_of(const engine::ComparisonJob& job, const engine::ComparisonI
 }
 
 /// The reference laboratory apart, those that are left out aside.
+/// \throws InputError  GC-COMPARE-0106
 void find_contributing(const engine::ComparisonJob& job, LaboratoryData& data) {
     const engine::AssignedValueRequest& request = data.item->assigned_value;
     const bool by_reference = request.method == engine::AssignedValueMethod::reference;
@@ -90,21 +91,28 @@ Eigen::VectorXd LaboratoryData::values(const std::vector<std::size_t>& positions
 }
 
 std::vector<engine::ComparisonResult> results_with_budgets(const engine::ComparisonJob& job,
-                                                           const std::function<void(const std::string&)>& progress) {
+                                                           const std::function<void(const std::string&)>& progress,
+                                                           engine::RefusedItems& refused) {
     std::vector<engine::ComparisonResult> results = job.results;
     for (engine::ComparisonResult& result : results) {
         if (result.budget == nullptr) {
             continue;
         }
         tell(progress, "budget " + result.budget_file);
-        take_over(job, result);
+        try {
+            take_over(job, result);
+        } catch (const gum::DiagnosedError& error) {
+            if (job.items.size() * job.rounds.size() == 1) {
+                throw;
+            }
+            refused.emplace(std::pair(result.item, result.round), error.diagnostics().front());
+        }
     }
     return results;
 }
 
 std::vector<LaboratoryData> laboratory_data(const engine::ComparisonJob& job,
-                                            const std::vector<engine::ComparisonResult>& results,
-                                            std::vector<reports::SharedSource>& shared) {
+                                            const std::vector<engine::ComparisonResult>& results) {
     std::vector<LaboratoryData> all(job.items.size() * job.rounds.size());
     for (const engine::ComparisonResult& result : results) {
         all[result.item * job.rounds.size() + result.round].results.push_back(&result);
@@ -126,14 +134,16 @@ std::vector<LaboratoryData> laboratory_data(const engine::ComparisonJob& job,
         }
     }
     std::erase_if(all, [](const LaboratoryData& data) { return data.results.empty(); });
-    for (LaboratoryData& data : all) {
-        find_contributing(job, data);
-        data.covariance = laboratory_covariance(job, data, shared, data.ambiguous_sources);
-        if (data.covariance.size() > 0) {
-            at_place(data.where, [&] { gum::require_results(data.at(data.with_u())); });
-        }
-    }
     return all;
+}
+
+void relate_results(const engine::ComparisonJob& job, LaboratoryData& data,
+                    std::vector<reports::SharedSource>& shared) {
+    find_contributing(job, data);
+    data.covariance = laboratory_covariance(job, data, shared, data.ambiguous_sources);
+    if (data.covariance.size() > 0) {
+        at_place(data.where, [&] { gum::require_results(data.at(data.with_u())); });
+    }
 }
 
 }  // namespace gumcert::app

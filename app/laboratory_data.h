@@ -39,16 +39,20 @@ struct LaboratoryData {
 
 /// The results of a job; where a budget stands for a result, the budget is evaluated for its value, its uncertainty and
 /// the sources of it.
-/// \throws InputError, NoResultError  those of side_of_budget()
+/// \param refused  receives the items with a budget that gives no result
+/// \throws InputError, NoResultError  those of side_of_budget(), where the job has no other item
 [[nodiscard]] std::vector<engine::ComparisonResult> results_with_budgets(
-    const engine::ComparisonJob& job, const std::function<void(const std::string&)>& progress);
+    const engine::ComparisonJob& job, const std::function<void(const std::string&)>& progress,
+    engine::RefusedItems& refused);
 
 /// The results item by item and round by round; rounds in which nobody measured an item are left out.
+[[nodiscard]] std::vector<LaboratoryData> laboratory_data(const engine::ComparisonJob& job,
+                                                          const std::vector<engine::ComparisonResult>& results);
+
+/// Finds who contributes to the assigned value of one item, who is its reference, and what its results have in common.
 /// \param shared  receives what was found in the sources that several results name, each pair of participants once
 /// \throws InputError  GC-COMPARE-0103 too many correlated results, -0106 no result of the reference laboratory; those
 ///                     of gum for a covariance that is none
-[[nodiscard]] std::vector<LaboratoryData> laboratory_data(const engine::ComparisonJob& job,
-                                                          const std::vector<engine::ComparisonResult>& results,
-                                                          std::vector<reports::SharedSource>& shared);
+void relate_results(const engine::ComparisonJob& job, LaboratoryData& data, std::vector<reports::SharedSource>& shared);
 
 }  // namespace gumcert::app

@@ -124,7 +124,7 @@ void add_sigma_pt(const LaboratoryData& data, ComparisonItemEvaluation& evaluati
     if (!(*evaluation.sigma_pt > 0.0)) {
         throw gum::InputError(gum::Diagnostic{.code = "GC-COMPARE-0107",
                                               .where = data.where + ", sigma_pt",
-                                              .what = "it comes out as 0",
+                                              .what = "sigma_pt comes out as 0",
                                               .rule = "z-scores divide by it",
                                               .action = "Give a number that is greater than 0."});
     }

@@ -318,7 +318,8 @@ void items_without_result(CertificateBuilder& builder, const Wording& words, con
             {{"item", item.round.empty()
                           ? name
                           : words.filled("comparison", "item_in_round", {{"item", name}, {"round", item.round}})},
-             {"what", words.sentence(item.what)}}));
+             {"what", words.sentence(item.what, words.filled("comparison_scores", "told_in_the_record",
+                                                             {{"code", item.code}}))}}));
     }
     if (c.items_without_result.size() > k_most_items) {
         builder.paragraph(words.filled("comparison_scores", "more_without_result",

@@ -155,6 +155,18 @@ Text Wording::sentence(const std::string& english) const {
     return Text(std::move(all));
 }
 
+Text Wording::sentence(const std::string& english, const Text& otherwise) const {
+    const Text worded = sentence(english);
+    if (!sentences_ || sentences_->identified(english)) {
+        return worded;
+    }
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < languages_.size(); ++i) {
+        all.push_back((languages_[i] == "en" ? worded : otherwise).in(i));
+    }
+    return Text(std::move(all));
+}
+
 Text Wording::message(const gum::Diagnostic& diagnostic) const {
     Text text;
     for (const std::string* part : {&diagnostic.where, &diagnostic.what, &diagnostic.rule, &diagnostic.action}) {

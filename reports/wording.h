@@ -50,6 +50,8 @@ public:
     /// A sentence that the record holds in English, in each language of the document; see ProgramSentences. English
     /// where the catalogue does not know it.
     [[nodiscard]] Text sentence(const std::string& english) const;
+    /// \param otherwise  stands in place of English in the other languages where the catalogue does not know it
+    [[nodiscard]] Text sentence(const std::string& english, const Text& otherwise) const;
 
     /// A message as gum::message() makes it, its parts in each language of the document.
     [[nodiscard]] Text message(const gum::Diagnostic& diagnostic) const;

@@ -187,6 +187,10 @@ struct MethodComparisonRequest {
     std::optional<double> tolerance;     ///< D_fail is held against it
 };
 
+/// Items, or rounds of them, of several for which nothing can be computed, by their positions, and why. Without a
+/// round: in none of them.
+using RefusedItems = std::map<std::pair<std::size_t, std::optional<std::size_t>>, gum::Diagnostic>;
+
 /// A job of kind `comparison`.
 struct ComparisonJob {
     std::string title;
@@ -208,9 +212,7 @@ struct ComparisonJob {
     std::optional<MethodComparisonRequest> methods;
 
     bool names_released = false;  ///< names of participants may stand on documents, beside their ids
-    /// Items, or rounds of them, of several for which nothing can be computed, by their positions, and why. Without a
-    /// round: in none of them.
-    std::map<std::pair<std::size_t, std::optional<std::size_t>>, gum::Diagnostic> refused_items = {};
+    RefusedItems refused_items = {};
     std::string organiser;  ///< of the comparison, for the report; "" without
     nlohmann::json document;
     std::optional<certificate::CertificateData> certificate;

@@ -174,5 +174,52 @@ TEST_F(DocumentLanguages, HaveNoEnglishSentenceOfTheProgramAndNoForeignDecimalSi
     }
 }
 
+/// Items that nothing can be computed for, each for a reason of its own, and one that is compared.
+void write_items_without_result(const fs::path& folder) {
+    std::ofstream(folder / "job.json") << R"({"schema": "gumcert/job/1", "kind": "comparison", "title": "T",
+  "unit": "mm", "participants": {"file": "r.csv"}, "correlations": [["A", "B", 0.5]],
+  "items": [{"id": "good", "assigned_value": "weighted_mean"},
+            {"id": "nobody", "assigned_value": "weighted_mean"}, {"id": "one", "assigned_value": "median"},
+            {"id": "single", "assigned_value": "median"},
+            {"id": "reference", "assigned_value": {"method": "reference", "participant": "A"}},
+            {"id": "no_u", "assigned_value": "mandel_paule"}, {"id": "no_s", "assigned_value": "vangel_rukhin"},
+            {"id": "equal", "assigned_value": "algorithm_a"}, {"id": "same", "assigned_value": "q_hampel"},
+            {"id": "zero", "assigned_value": "algorithm_a", "sigma_pt": {"percent": 10}},
+            {"id": "correlated", "assigned_value": "mandel_paule"}]})";
+    std::ofstream table(folder / "r.csv");
+    table << "participant,item,value,u,contributes,reason\n";
+    for (const std::string laboratory : {"A", "B", "C"}) {
+        const std::string shift = laboratory == "A" ? "0" : laboratory == "B" ? "0.1" : "-0.1";
+        table << laboratory << ",good," << shift << ",0.1,yes,\n"
+              << laboratory << ",nobody,1,0.1,no,damaged\n"
+              << laboratory << ",no_u,1,,yes,\n"
+              << laboratory << ",no_s,1,0.1,yes,\n"
+              << laboratory << ",equal,2,,yes,\n"
+              << laboratory << ",same,2,,yes,\n"
+              << laboratory << ",zero," << shift << ",,yes,\n"
+              << laboratory << ",correlated," << shift << ",0.1,yes,\n";
+    }
+    table << "A,one,1,0.1,yes,\nA,single,1,0.1,yes,\nB,single,1,0.1,no,damaged\n"
+          << "B,reference,1,0.1,yes,\nC,reference,1,0.1,yes,\n";
+}
+
+TEST_F(DocumentLanguages, WordWhyAnItemHasNoResult) {
+    write_items_without_result(folder());
+    const json record = evaluated((folder() / "job.json").string());
+    const json& items = record.at("comparison").at("items_without_result");
+    ASSERT_EQ(items.size(), 10U);
+    for (const std::string& language : k_languages) {
+        for (const std::string format : {"text", "html"}) {
+            const std::string document = rendered(format, language);
+            for (const json& item : items) {
+                for (const char* part : {"what", "rule", "action"}) {
+                    EXPECT_EQ(document.find(in_one_line(item.at(part).get<std::string>())), std::string::npos)
+                        << language << ": " << item.at(part);
+                }
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::cli

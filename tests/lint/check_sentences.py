@@ -23,13 +23,21 @@ SOURCES = (
     "certificate/symbol_gate.cpp",
     "certificate/uncertainty_gate.cpp",
     "app/adjustment_record.cpp",
+    "app/assigned_value.cpp",
+    "app/budget_findings.cpp",
+    "app/budget_record.cpp",
     "app/certified_scope.cpp",
     "app/certify.cpp",
     "app/evaluate_budget.cpp",
+    "app/evaluate_laboratories.cpp",
     "app/fit_scatter.cpp",
+    "app/laboratory_covariance.cpp",
+    "app/laboratory_data.cpp",
+    "app/laboratory_item.cpp",
     "app/rotary_findings.cpp",
     "app/rotary_monte_carlo_record.cpp",
     "app/table_parameter_record.cpp",
+    "app/zero_uncertainty.cpp",
 )
 
 # Literals of these sources that are no sentences of a record, or end the program in place of a record.

@@ -940,6 +940,20 @@ TEST(WhatScoresSay, IntervalsOfTrialsAreKept) {
     }
 }
 
+TEST(WhatScoresSay, OneItemWithoutItsReferenceDoesNotLoseTheOthers) {
+    ComparisonJob job = job_of({1.0, 1.1, 0.9}, {0.1, 0.1, 0.1});
+    job.items.push_back(item_in("alone", "mm"));
+    job.items[1].assigned_value.method = AssignedValueMethod::reference;
+    job.items[1].assigned_value.participant = "nobody";
+    for (std::size_t p = 0; p < 3; ++p) {
+        add_result(job, p, 2.0, u_and_k(0.1), 1);
+    }
+    const reports::Comparison comparison = evaluated(job);
+    EXPECT_EQ(comparison.items.size(), 1U);
+    ASSERT_EQ(comparison.items_without_result.size(), 1U);
+    EXPECT_EQ(comparison.items_without_result[0].code, "GC-COMPARE-0106");
+}
+
 TEST(WhatScoresSay, OneItemDoesNotLoseTheOthers) {
     ComparisonJob job = job_of({1.0, 1.1, 0.9}, {0.1, 0.1, 0.1});
     job.items.push_back(item_in("equal", "mm"));

@@ -148,5 +148,17 @@ TEST(Wording, SaysTheSentencesOfTheProgram) {
         "verlangen Sie nur eine Stelle.");
 }
 
+TEST(Wording, SaysSomethingElseWhereASentenceIsNotKnown) {
+    json de = json::parse(R"({"language": "de", "document": {"decimal_sign": ","}})");
+    de[Wording::k_sentences_key] = catalogue_file();
+    json en = json::parse(R"({"language": "en", "document": {"decimal_sign": "."}})");
+    const json both = json::array({de, en});
+    const Wording words(both);
+    const Text unknown = words.sentence("nobody has ever said this sentence", Text("Meldung X"));
+    EXPECT_EQ(unknown.in(0), "Meldung X");
+    EXPECT_EQ(unknown.in(1), "nobody has ever said this sentence");
+    EXPECT_EQ(words.sentence("stability without homogeneity", Text("Meldung X")).in(0), "Stabilität ohne Homogenität");
+}
+
 }  // namespace
 }  // namespace gumcert::reports
