@@ -120,7 +120,11 @@ public:
                 base = at;
             }
         }
-        covered_.push_back(box(left, base));
+        const Box place = box(left, base);
+        if (fewest == 0) {  // lines end before a name; nothing else lies below it
+            drawing.rectangle(place.left, place.top, width, place.bottom - place.top, "fill=\"#ffffff\"");
+        }
+        covered_.push_back(place);
         drawing.text(left ? x - k_aside : x + k_aside, base, name, left ? "end" : "start", k_size);
     }
 
