@@ -267,7 +267,9 @@ std::vector<Diagnostic> reservations_on(const reports::ImportedCertificate& cert
                                Severity::error));
         }
     }
-    std::vector<Diagnostic> breaches = reports::check_dcc(bytes, file);
+    std::vector<Diagnostic> breaches = reports::check_dcc_structure(bytes, file);
+    const std::vector<Diagnostic> rules = reports::check_dcc(bytes, file);
+    breaches.insert(breaches.end(), rules.begin(), rules.end());
     std::erase_if(breaches, [](const Diagnostic& d) { return d.severity != Severity::error; });
     if (!breaches.empty()) {
         out.push_back(told("GC-DCC-0045", file,
@@ -294,8 +296,8 @@ std::vector<Diagnostic> check_certificate(std::string_view bytes, const std::str
                                "correct the statement", Severity::error));
         }
     }
-    const std::vector<Diagnostic> missing = reports::check_dcc_structure(bytes, file);
-    out.insert(out.end(), missing.begin(), missing.end());
+    const std::vector<Diagnostic> schema = reports::check_dcc_structure(bytes, file);
+    out.insert(out.end(), schema.begin(), schema.end());
     const std::vector<Diagnostic> breaches = reports::check_dcc(bytes, file);
     out.insert(out.end(), breaches.begin(), breaches.end());
     return out;

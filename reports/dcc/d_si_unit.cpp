@@ -37,6 +37,44 @@ constexpr std::array k_units{
     Name{"one", "1"},
 };
 
+// Units and prefixes of D-SI that this program has no counterpart for.
+constexpr std::array<std::string_view, 36> k_other_words{"deka",
+                                                         "kibi",
+                                                         "mebi",
+                                                         "gibi",
+                                                         "tebi",
+                                                         "pebi",
+                                                         "exbi",
+                                                         "zebi",
+                                                         "yobi",
+                                                         "ronna",
+                                                         "quetta",
+                                                         "ronto",
+                                                         "quecto",
+                                                         "bit",
+                                                         "byte",
+                                                         "neper",
+                                                         "bel",
+                                                         "dalton",
+                                                         "atomicmassunit",
+                                                         "astronomicalunit",
+                                                         "electronmass",
+                                                         "planckbar",
+                                                         "clight",
+                                                         "hartree",
+                                                         "bohr",
+                                                         "elementarycharge",
+                                                         "naturalunitoftime",
+                                                         "atomicunitoftime",
+                                                         "angstrom",
+                                                         "barn",
+                                                         "knot",
+                                                         "nauticalmile",
+                                                         "mmhg",
+                                                         "gal",
+                                                         "erg",
+                                                         "dyne"};
+
 template <std::size_t size>
 std::optional<std::string_view> look_up(const std::array<Name, size>& names, std::string_view name) {
     const auto found = std::find_if(names.begin(), names.end(), [&](const Name& n) { return n.first == name; });
@@ -67,8 +105,8 @@ public:
         return found.empty() ? std::nullopt : std::optional(found);
     }
     [[nodiscard]] bool at_power() const { return rest_.starts_with(k_power); }
-    /// The exponent in braces, a decimal number; nothing for one that no unit of ours has, such as 0.333333.
-    std::optional<Power> power() {
+    /// The exponent in braces, a decimal number.
+    std::optional<double> decimal_power() {
         rest_.remove_prefix(k_power.size());
         const std::size_t end = rest_.find('}');
         if (end == std::string_view::npos) {
@@ -78,15 +116,20 @@ public:
         const char* const last = rest_.data() + end;
         const auto [stop, failure] = std::from_chars(rest_.data(), last, value, std::chars_format::fixed);
         rest_.remove_prefix(end + 1);
+        return failure == std::errc() && stop == last ? std::optional(value) : std::nullopt;
+    }
+    /// The exponent; nothing for one that no unit of ours has, such as 0.333333.
+    std::optional<Power> power() {
+        const std::optional<double> value = decimal_power();
         constexpr double k_largest = 99.0;
-        if (failure != std::errc() || stop != last || !(std::abs(value) <= k_largest) || value == 0.0) {
+        if (!value || !(std::abs(*value) <= k_largest) || *value == 0.0) {
             return std::nullopt;
         }
         // Halves, quarters, eighths and fifths are decimal numbers.
         for (const int denominator : {1, 2, 4, 5, 8}) {
-            const double numerator = std::round(value * denominator);
+            const double numerator = std::round(*value * denominator);
             constexpr double k_noise = 1e-12;  // of a product with a fifth
-            if (std::abs(value * denominator - numerator) < k_noise) {
+            if (std::abs(*value * denominator - numerator) < k_noise) {
                 return Power{static_cast<int>(numerator), denominator};
             }
         }
@@ -105,6 +148,10 @@ bool is_unit(const std::string& text) {
     } catch (const gum::InputError&) {
         return false;
     }
+}
+
+bool is_other_word(std::string_view word) {
+    return std::find(k_other_words.begin(), k_other_words.end(), word) != k_other_words.end();
 }
 
 /// Whether a symbol with a prefix is that multiple of the unit for us too: "ft" is a foot and no femtotonne, "kt" the
@@ -162,6 +209,29 @@ std::optional<std::string> factor_of(std::optional<std::string_view> word, Token
 }
 
 }  // namespace
+
+bool is_d_si(std::string_view text) {
+    if (text.starts_with('|')) {
+        return text.size() > 1;
+    }
+    Tokens tokens(text);
+    bool complete = false;  // a unit stands at the end, or an exponent behind one
+    bool divided = false;
+    while (!tokens.empty()) {
+        const auto word = tokens.word();
+        const bool prefix = word && look_up(k_prefixes, *word);
+        if (!word || (*word == "per" && (divided || !complete)) ||
+            (*word != "per" && !prefix && !look_up(k_units, *word) && !is_other_word(*word))) {
+            return false;
+        }
+        divided = divided || *word == "per";
+        complete = !prefix && *word != "per";
+        if (tokens.at_power() && (!complete || !tokens.decimal_power())) {
+            return false;
+        }
+    }
+    return complete;
+}
 
 std::optional<std::string> unit_from_d_si(std::string_view text) {
     Tokens tokens(text);

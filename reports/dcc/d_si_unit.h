@@ -14,4 +14,8 @@ namespace gumcert::reports {
 ///         with more than one \per, and those whose symbol would be another unit ("\femto\tonne" is not "ft")
 [[nodiscard]] std::optional<std::string> unit_from_d_si(std::string_view text);
 
+/// Whether a text is a unit in the notation of D-SI, known to this program or not: prefixes, units, powers and at most
+/// one \per; or one that begins with "|", which means that D-SI does not have it.
+[[nodiscard]] bool is_d_si(std::string_view text);
+
 }  // namespace gumcert::reports

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "reports/asset_files.h"
+#include "reports/dcc/dcc_element.h"
+#include "reports/dcc/dcc_rules.h"
 #include "reports/dcc/dcc_writer.h"
 #include "reports/result_names.h"
 
@@ -89,7 +91,8 @@ std::string render_dcc(const EvaluationRecord& record, const RenderAssets& asset
     const Wording words(texts);
     const RefTypes ref_types = RefTypes::read(assets);
     std::string document = written(record, words, ref_types);
-    std::vector<gum::Diagnostic> breaches = check_dcc(document, "digital certificate");
+    std::vector<gum::Diagnostic> breaches =
+        business_rule_breaches(read_dcc_root(document, "digital certificate"), "digital certificate");
     std::erase_if(breaches, [](const gum::Diagnostic& d) { return d.severity != gum::Severity::error; });
     if (!breaches.empty()) {
         throw gum::NoResultError(std::move(breaches));

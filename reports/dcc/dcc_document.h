@@ -19,11 +19,11 @@ namespace gumcert::reports {
 /// \throws gum::NoResultError  GC-DCC-01xx if the document would break a business rule
 [[nodiscard]] std::string render_dcc(const EvaluationRecord& record, const RenderAssets& assets);
 
-/// The business rules above the schema, on any DCC from 3.0 on.
+/// The business rules above the schema, and contradicting_statements(), on any DCC from 3.0 on.
 /// \throws gum::InputError  GC-DCC-0001 … if the bytes are not a well-formed DCC, or hold a DOCTYPE
 [[nodiscard]] std::vector<gum::Diagnostic> check_dcc(std::string_view bytes, const std::string& file);
 
-/// Parts that every DCC has and this one has not, as missing_parts().
+/// What the schema refuses, as schema_breaches(); of version 3.0 what missing_parts() finds.
 /// \throws gum::InputError  as check_dcc()
 [[nodiscard]] std::vector<gum::Diagnostic> check_dcc_structure(std::string_view bytes, const std::string& file);
 

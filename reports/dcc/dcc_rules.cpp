@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -14,6 +13,9 @@
 #include "reports/dcc/d_si_unit.h"
 #include "reports/dcc/dcc_document.h"
 #include "reports/dcc/dcc_element.h"
+#include "reports/dcc/dcc_statements.h"
+#include "reports/dcc/dcc_structure.h"
+#include "reports/dcc/printed_number.h"
 
 namespace gumcert::reports {
 
@@ -33,32 +35,6 @@ constexpr std::string_view k_languages =
 
 std::string quoted(const std::string& text) {
     return '"' + shortened(printable(text), k_shown) + '"';
-}
-
-/// Parts of a relative difference that decide whether two printed numbers say the same.
-struct PrintedNumber {
-    double value = 0.0, half_unit = 0.0;
-};
-
-std::optional<PrintedNumber> printed_number(std::string_view text) {
-    text.remove_prefix(text.starts_with('+') ? 1 : 0);
-    PrintedNumber number;
-    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number.value);
-    if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(number.value)) {
-        return std::nullopt;
-    }
-    const std::size_t exponent_at = std::min(text.find_first_of("eE"), text.size());
-    const std::string_view digits = text.substr(0, exponent_at);
-    const std::size_t point = digits.find('.');
-    int exponent = 0;
-    if (exponent_at < text.size()) {
-        std::string_view rest = text.substr(exponent_at + 1);
-        rest.remove_prefix(rest.starts_with('+') ? 1 : 0);
-        std::from_chars(rest.data(), rest.data() + rest.size(), exponent);
-    }
-    const int decimals = point == std::string_view::npos ? 0 : static_cast<int>(digits.size() - point - 1);
-    number.half_unit = 0.5 * std::pow(10.0, exponent - decimals);
-    return number;
 }
 
 bool is_blank_only(const std::string& text) {
@@ -551,11 +527,17 @@ std::vector<gum::Diagnostic> missing_parts(const XmlElement& root, const std::st
 }
 
 std::vector<gum::Diagnostic> check_dcc_structure(std::string_view bytes, const std::string& file) {
-    return missing_parts(read_dcc_root(bytes, file), file);
+    const XmlElement root = read_dcc_root(bytes, file);
+    return root.attribute("schemaVersion").starts_with("3.0.") ? missing_parts(root, file)
+                                                               : schema_breaches(root, file);
 }
 
 std::vector<gum::Diagnostic> check_dcc(std::string_view bytes, const std::string& file) {
-    return business_rule_breaches(read_dcc_root(bytes, file), file);
+    const XmlElement root = read_dcc_root(bytes, file);
+    std::vector<gum::Diagnostic> found = business_rule_breaches(root, file);
+    const std::vector<gum::Diagnostic> statements = contradicting_statements(root, file);
+    found.insert(found.end(), statements.begin(), statements.end());
+    return found;
 }
 
 }  // namespace gumcert::reports

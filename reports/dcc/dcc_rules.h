@@ -12,8 +12,8 @@ namespace gumcert::reports {
 /// and then of the document.
 [[nodiscard]] std::vector<gum::Diagnostic> business_rule_breaches(const XmlElement& root, const std::string& file);
 
-/// Parts that the schema demands of every DCC and that are missing, GC-DCC-0112. It is not the schema: order, types and
-/// what may stand beside are left to it.
+/// Parts that the schema demands of every DCC and that are missing, GC-DCC-0112; for version 3.0, of which
+/// schema_breaches() knows nothing.
 [[nodiscard]] std::vector<gum::Diagnostic> missing_parts(const XmlElement& root, const std::string& file);
 
 }  // namespace gumcert::reports

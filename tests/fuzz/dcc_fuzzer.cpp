@@ -13,6 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     bool checked = true;
     try {
         (void)reports::check_dcc(bytes, "fuzz");
+        (void)reports::check_dcc_structure(bytes, "fuzz");
     } catch (const gum::InputError&) {
         checked = false;
     }

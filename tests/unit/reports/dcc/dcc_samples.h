@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -97,17 +98,20 @@ inline void keep_message(void* messages, xmlErrorPtr error) {
     static_cast<std::string*>(messages)->append("line " + std::to_string(error->line) + ": " + error->message);
 }
 
-/// What the schema of DCC 3.3.0 says against a document; "" where it is valid. Offline, by the catalogue of the folder.
-inline std::string schema_errors(const std::string& document) {
+/// What the schema of a version of the DCC says against a document; "" where it is valid. Offline, by the catalogue of
+/// the folder.
+inline std::string schema_errors(const std::string& document, const std::string& version = "3.3.0") {
     using Schema = std::unique_ptr<xmlSchema, decltype(&xmlSchemaFree)>;
-    static const Schema schema = [] {
+    static std::map<std::string, Schema> schemas;
+    auto found = schemas.find(version);
+    if (found == schemas.end()) {
         xmlLoadCatalog((shared_dcc() / "xsd" / "catalog.xml").c_str());
         const std::unique_ptr<xmlSchemaParserCtxt, decltype(&xmlSchemaFreeParserCtxt)> parser(
-            xmlSchemaNewParserCtxt((shared_dcc() / "xsd" / "dcc" / "v3.3.0" / "dcc.xsd").c_str()),
+            xmlSchemaNewParserCtxt((shared_dcc() / "xsd" / "dcc" / ("v" + version) / "dcc.xsd").c_str()),
             &xmlSchemaFreeParserCtxt);
-        return Schema(xmlSchemaParse(parser.get()), &xmlSchemaFree);
-    }();
-    if (!schema) {
+        found = schemas.emplace(version, Schema(xmlSchemaParse(parser.get()), &xmlSchemaFree)).first;
+    }
+    if (!found->second) {
         return "the schema cannot be read";
     }
     std::string messages;
@@ -118,7 +122,7 @@ inline std::string schema_errors(const std::string& document) {
         return "not well-formed";
     }
     const std::unique_ptr<xmlSchemaValidCtxt, decltype(&xmlSchemaFreeValidCtxt)> validator(
-        xmlSchemaNewValidCtxt(schema.get()), &xmlSchemaFreeValidCtxt);
+        xmlSchemaNewValidCtxt(found->second.get()), &xmlSchemaFreeValidCtxt);
     xmlSchemaSetValidStructuredErrors(validator.get(), keep_message, &messages);
     const int result = xmlSchemaValidateDoc(validator.get(), xml.get());
     return result == 0 ? messages : "invalid: " + messages;
