@@ -1,6 +1,8 @@
 #include "gum/quantity/unit_expression.h"
 
+#include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
@@ -38,9 +40,14 @@ struct Refused {
     UnitRefusal refusal;
 };
 
+constexpr int k_most_cures = 4;  // of one text, each for one flaw
+
+UnitReading read_with_cures(std::string_view text, int cures);
+
 class Reader {
 public:
-    explicit Reader(std::string_view text) : text_(text) {}
+    /// \param cures  how many flaws of the text may still be mended for the advice
+    Reader(std::string_view text, int cures) : text_(text), cures_(cures) {}
 
     UnitExpression read() {
         UnitExpression all = unit(0);
@@ -56,8 +63,45 @@ private:
     static constexpr const char* k_exponent_action =
         "Write a whole number (m^2, s-1), or a fraction in parentheses: V/Hz^(1/2).";
 
-    [[noreturn]] static void refuse(Reason reason, std::string what, std::string action = {}) {
-        throw Refused{{reason, std::move(what), std::move(action)}};
+    [[noreturn]] static void refuse(Reason reason, std::string what, std::string action = {}, std::string cure = {}) {
+        throw Refused{{reason, std::move(what), std::move(action), std::move(cure)}};
+    }
+
+    /// The text with other letters in a place, where that is a unit or becomes one by cures of its own; else "".
+    [[nodiscard]] std::string mended(std::size_t from, std::size_t to, const std::string& by) const {
+        if (cures_ == 0) {
+            return "";
+        }
+        std::string text = std::string(text_.substr(0, from)) + by + std::string(text_.substr(to));
+        UnitReading again = read_with_cures(text, cures_ - 1);
+        return again.refusal ? std::move(again.refusal->cure) : text;
+    }
+
+    /// An exponent that is no whole number; the advice is the fraction that it is, if it is one.
+    [[noreturn]] void refuse_exponent(std::string_view of, const std::string& what) {
+        std::size_t end = exponent_from_;
+        while (end < text_.size() && std::string_view("^*(-").find(text_[end]) != std::string_view::npos) {
+            ++end;
+        }
+        const std::string_view signs = text_.substr(exponent_from_, end - exponent_from_);
+        std::string decimal;
+        while (end < text_.size() && (is_digit(text_[end]) || text_[end] == '.' || text_[end] == ',')) {
+            decimal += text_[end] == ',' ? '.' : text_[end];
+            ++end;
+        }
+        if (decimal.empty() && text_.substr(end).starts_with("½")) {
+            decimal = "0.5";
+            end += std::string_view("½").size();
+        }
+        end += signs.find('(') != std::string_view::npos && text_.substr(end).starts_with(')') ? 1U : 0U;
+        double value = 0.0;
+        const auto [stop, failure] = std::from_chars(decimal.data(), decimal.data() + decimal.size(), value);
+        const bool read = failure == std::errc() && stop == decimal.data() + decimal.size() && value > 0.0;
+        const std::optional<UnitExponent> exponent =
+            read ? unit_exponent(signs.find('-') == std::string_view::npos ? value : -value) : std::nullopt;
+        const std::string cure = exponent ? mended(exponent_from_, end, "^" + exponent_text(*exponent)) : "";
+        refuse(Reason::exponent, "the exponent of " + std::string(of) + what,
+               cure.empty() ? k_exponent_action : "Write " + cure + ".", cure);
     }
 
     [[nodiscard]] std::string_view rest() const { return text_.substr(at_); }
@@ -115,14 +159,12 @@ private:
             ++size;
         }
         if (size == 0 || rest().front() == '0' || value > k_largest_exponent) {
-            refuse(Reason::exponent, "the exponent of " + std::string(of) + " is not a whole number from 1 to 99",
-                   k_exponent_action);
+            refuse_exponent(of, " is not a whole number from 1 to 99");
         }
         at_ += size;
         const bool decimals = (next() == '.' || next() == ',') && at_ + 1 < text_.size() && is_digit(text_[at_ + 1]);
         if (decimals || next() == 'e' || next() == 'E') {
-            refuse(Reason::exponent, "the exponent of " + std::string(of) + " is not a whole number",
-                   k_exponent_action);
+            refuse_exponent(of, " is not a whole number");
         }
         return value;
     }
@@ -177,6 +219,14 @@ private:
 
     /// The exponent that stands here; 1 where there is none.
     UnitExponent exponent(std::string_view of, bool behind_a_name) {
+        exponent_from_ = at_;
+        const UnitExponent found = exponent_here(of, behind_a_name);
+        exponent_to_ = at_;
+        exponent_ = found;
+        return found;
+    }
+
+    UnitExponent exponent_here(std::string_view of, bool behind_a_name) {
         if (const int above = raised(of); above != 0) {
             return {above, 1};
         }
@@ -309,13 +359,35 @@ private:
         const std::string_view name = text_.substr(from, at_ - from);
         const NamedUnit named = find_unit(name);
         if (named.unit == nullptr) {
-            refuse_name(name);
+            refuse_name(from, name);
         }
         result.factors.push_back({name, named, exponent(name, true)});
         return result;
     }
 
-    [[noreturn]] static void refuse_name(std::string_view name) {
+    /// What stands under a root sign, or in sqrt(…), which begins here: "Hz", "(V A)"; "" for another name.
+    [[nodiscard]] std::string_view under_a_root(std::size_t from, std::string_view name) const {
+        constexpr std::string_view k_root = "√";
+        if (name.starts_with(k_root) && name.size() > k_root.size()) {
+            return name.substr(k_root.size());
+        }
+        if ((name != "sqrt" && name != k_root) || next() != '(') {
+            return {};
+        }
+        const std::size_t begin = from + name.size();
+        const std::size_t end = text_.find(')', begin);  // parentheses inside of it are rare
+        return end == std::string_view::npos ? std::string_view() : text_.substr(begin, end + 1 - begin);
+    }
+
+    [[noreturn]] void refuse_name(std::size_t from, std::string_view name) const {
+        if (const std::string_view inner = under_a_root(from, name); !inner.empty()) {
+            const auto end = static_cast<std::size_t>(inner.data() - text_.data()) + inner.size();
+            const std::string_view bare = inner.substr(1, inner.size() - 2);
+            const bool one = inner.starts_with('(') && find_unit(bare).unit != nullptr;
+            const std::string cure = mended(from, end, std::string(one ? bare : inner) + "^(1/2)");
+            refuse(Reason::not_known, "a root of " + std::string(inner), cure.empty() ? "" : "Write " + cure + ".",
+                   cure);
+        }
         for (const AmbiguousUnit& ambiguous : ambiguous_units()) {
             if (ambiguous.name == name) {
                 const std::size_t colon = ambiguous.meanings.find(": write ");
@@ -342,11 +414,13 @@ private:
                 append(all, factor(depth));
                 first = false;
             }
+            const std::size_t unit_to = at_;
             const bool blank = blanks();
             if (ends() || next() == ')') {
                 return all;
             }
             if (take("/")) {
+                slash_at_ = at_ - 1;
                 blanks();
                 divide(all, depth);
                 continue;
@@ -354,13 +428,13 @@ private:
             const bool sign = take_multiplication();
             blanks();
             if (number_begins()) {
-                refuse(Reason::number, quoted_rest() + ": a number behind a unit",
-                       "Write the number first (1e-6 m), or as an exponent (m^2).");
+                refuse_number_behind(unit_to);
             }
             if (!(sign || blank) || !factor_begins()) {
                 refuse(Reason::malformed,
                        ends() ? "ends where a unit is expected" : quoted_rest() + " cannot stand there");
             }
+            refuse_split_degree(all, unit_to);
             if (all.quotient) {
                 refuse(Reason::quotient, quoted_rest() + " behind a quotient may be above or below the line",
                        "Write parentheses or negative exponents: J/(kg K), J kg-1 K-1.");
@@ -369,10 +443,81 @@ private:
         }
     }
 
+    /// "m 3/2": most probably an exponent. \param unit_to  where the unit before it ends
+    [[noreturn]] void refuse_number_behind(std::size_t unit_to) {
+        std::size_t end = at_;
+        while (end < text_.size() && (is_digit(text_[end]) || text_[end] == '/')) {
+            ++end;
+        }
+        const std::string number(text_.substr(at_, end - at_));
+        const bool fraction = number.find('/') != std::string::npos;
+        const std::string cure = exponent_from_ == unit_to && exponent_ == UnitExponent{}
+                                     ? mended(unit_to, end, fraction ? "^(" + number + ")" : "^" + number)
+                                     : "";
+        refuse(Reason::number, quoted_rest() + ": a number behind a unit",
+               cure.empty() ? "Write the number first (1e-6 m), or as an exponent (m^2)."
+                            : "Write " + cure + " where it is an exponent; a number of the unit stands first (1e-6 m).",
+               cure);
+    }
+
+    /// "° C", "deg C" are no products of an angle and the coulomb. \param unit_to  where the unit before ends
+    void refuse_split_degree(const UnitExpression& all, std::size_t unit_to) {
+        static constexpr std::array<std::string_view, 4> k_degrees{"°", "deg", "degree", "degrees"};
+        static constexpr std::array<std::string_view, 4> k_scales{"C", "F", "K", "R"};
+        const std::string_view before = all.factors.empty() ? std::string_view() : all.factors.back().text;
+        const bool degree = std::find(k_degrees.begin(), k_degrees.end(), before) != k_degrees.end() &&
+                            before.data() + before.size() == text_.data() + unit_to;
+        std::size_t size = 0;
+        while (at_ + size < text_.size() && ((text_[at_ + size] >= 'A' && text_[at_ + size] <= 'Z') ||
+                                             (text_[at_ + size] >= 'a' && text_[at_ + size] <= 'z'))) {
+            ++size;
+        }
+        const std::string_view scale = text_.substr(at_, size);
+        const bool blanks_only = text_.substr(unit_to, at_ - unit_to).find_first_not_of(' ') == std::string_view::npos;
+        if (!degree || !blanks_only || std::find(k_scales.begin(), k_scales.end(), scale) == k_scales.end()) {
+            return;
+        }
+        const std::size_t from = unit_to - before.size();
+        const std::string cure = mended(from, at_ + size, scale == "K" ? "K" : "deg" + std::string(scale));
+        const std::string both = std::string(before) + "*" + std::string(scale);
+        const std::string product = mended(from, at_ + size, all.quotient ? "(" + both + ")" : both);
+        refuse(Reason::not_known,
+               "\"" + std::string(before) + " " + std::string(scale) +
+                   "\" may be a temperature or a product with an angle",
+               cure.empty()      ? ""
+               : product.empty() ? "Write " + cure + "."
+                                 : "Write " + cure + " for a temperature, or " + product + " for the product.",
+               cure);
+    }
+
+    /// "m^5/2": most probably an exponent without its parentheses.
+    [[noreturn]] void refuse_number_below(bool below) {
+        std::size_t end = at_;
+        while (end < text_.size() && is_digit(text_[end])) {
+            ++end;
+        }
+        const bool follows = exponent_to_ == slash_at_ && exponent_from_ < exponent_to_ && exponent_.denominator == 1 &&
+                             at_ == slash_at_ + 1;
+        const std::string denominator(text_.substr(at_, end - at_));
+        const auto with = [&](int numerator) {
+            return follows ? mended(exponent_from_, end, "^(" + std::to_string(numerator) + "/" + denominator + ")")
+                           : "";
+        };
+        const bool twice_below = below && exponent_.numerator < 0;
+        const std::string cure = with(twice_below ? -exponent_.numerator : exponent_.numerator);
+        refuse(Reason::number, quoted_rest() + ": a number behind /",
+               cure.empty()  ? "Write the number first (0.5 m), or in parentheses with a unit: L/(100 km)."
+               : twice_below ? "Write " + cure + " where the power is below the line, " + with(exponent_.numerator) +
+                                   " where it is above."
+                             : "Write " + cure +
+                                   " where the exponent is a fraction; a number of the unit stands first "
+                                   "(0.5 m).",
+               cure);
+    }
+
     void divide(UnitExpression& all, int depth) {
         if (number_begins()) {
-            refuse(Reason::number, quoted_rest() + ": a number behind /",
-                   "Write the number first (0.5 m), or in parentheses with a unit: L/(100 km).");
+            refuse_number_below(all.quotient);
         }
         if (!factor_begins()) {
             refuse(Reason::malformed, ends() ? "ends where a unit is expected" : quoted_rest() + " is not a unit");
@@ -385,16 +530,24 @@ private:
 
     std::string_view text_;
     std::size_t at_ = 0;
+    int cures_;
+    std::size_t exponent_from_ = 0, exponent_to_ = 0;  ///< the last exponent, or where one could stand
+    UnitExponent exponent_;
+    std::size_t slash_at_ = 0;  ///< the last one
 };
+
+UnitReading read_with_cures(std::string_view text, int cures) {
+    try {
+        return {Reader(text, cures).read(), std::nullopt};
+    } catch (Refused& refused) {
+        return {{}, std::move(refused.refusal)};
+    }
+}
 
 }  // namespace
 
 UnitReading read_unit_expression(std::string_view text) {
-    try {
-        return {Reader(text).read(), std::nullopt};
-    } catch (Refused& refused) {
-        return {{}, std::move(refused.refusal)};
-    }
+    return read_with_cures(text, k_most_cures);
 }
 
 }  // namespace gumcert::gum

@@ -37,6 +37,7 @@ struct UnitExpression {
 struct UnitRefusal {
     enum class Reason { not_known, malformed, exponent, number, quotient } reason = Reason::malformed;
     std::string what, action;
+    std::string cure;  ///< the whole text as it is most probably meant, which is a unit; "" where that is not known
 };
 
 /// Reads a unit:

@@ -213,6 +213,9 @@ constexpr std::array k_ambiguous{
     AmbiguousUnit{"mb", "the millibar or the millibarn: write mbar, or mbarn"},
     AmbiguousUnit{"ct", "the carat or the centitonne: write carat, or kg"},
     AmbiguousUnit{"PS", "the metric horsepower or the petasiemens: write metric_horsepower"},
+    AmbiguousUnit{"Gs", "the gauss or the gigasecond: write gauss, or 1e9 s"},
+    AmbiguousUnit{"mGs", "the milligauss, or wrong: write mgauss"},
+    AmbiguousUnit{"kGs", "the kilogauss, or wrong: write kgauss"},
     AmbiguousUnit{"G", "the gauss or the constant of gravitation: write gauss"},
 };
 

@@ -183,12 +183,18 @@ std::optional<Part> ModelReader::with_suffixes(std::optional<Part> part, std::si
     return part;
 }
 
+int version_from(std::string_view text) {
+    int version = 0;
+    std::from_chars(text.data(), text.data() + text.size(), version);
+    return version;
+}
+
 /// "id refId@330 schemaVersion!" of one version.
 std::vector<ElementType::Attribute> attributes_from(std::string_view text, int version) {
     std::vector<ElementType::Attribute> attributes;
     for (const std::string& word : xml_list(text)) {
         const std::size_t at = word.find('@');
-        const bool known = at == std::string::npos || version >= std::stoi(word.substr(at + 1));
+        const bool known = at == std::string::npos || version >= version_from(std::string_view(word).substr(at + 1));
         const std::string name = word.substr(0, at);
         const bool required = name.ends_with('!');
         if (known) {

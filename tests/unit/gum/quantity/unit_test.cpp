@@ -9,6 +9,7 @@
 
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit_exponent.h"
+#include "gum/quantity/unit_table.h"
 
 namespace gumcert::gum {
 namespace {
@@ -175,6 +176,104 @@ TEST(Unit, RefusesNamesWithTwoMeaningsAndSaysWhatToWrite) {
             EXPECT_EQ(error.diagnostics().front().code, "GC-UNIT-0001");
             EXPECT_NE(error.diagnostics().front().what.find("may be"), std::string::npos);
             EXPECT_TRUE(error.diagnostics().front().action.starts_with("Write ")) << error.what();
+        }
+    }
+}
+
+/// What the advice for a text that is refused tells to write: all between "Write " and " where", " for", "," or the
+/// end.
+std::vector<std::string> told_to_write(const std::string& text) {
+    std::string action;
+    try {
+        (void)Unit::parse(text);
+        ADD_FAILURE() << text;
+        return {};
+    } catch (const InputError& error) {
+        action = error.diagnostics().front().action;
+    }
+    EXPECT_TRUE(action.starts_with("Write ")) << text << ": " << action;
+    action = action.substr(0, action.find(';'));
+    action.erase(0, 6);
+    action += action.ends_with('.') ? "" : ".";
+    std::vector<std::string> cures;
+    for (const char* part : {", or ", ", ", " or "}) {
+        for (std::size_t at = action.find(part); at != std::string::npos; at = action.find(part)) {
+            action.replace(at, std::string(part).size(), "\n");
+        }
+    }
+    action.back() = '\n';
+    while (!action.empty()) {
+        std::string cure = action.substr(0, action.find('\n'));
+        action.erase(0, action.find('\n') + 1);
+        for (const char* end : {" where ", " for "}) {
+            cure = cure.substr(0, cure.find(end));
+        }
+        cures.push_back(cure);
+    }
+    return cures;
+}
+
+// Every message that tells a cure: who follows it has the unit that was meant, without a message.
+TEST(Unit, AdviceIsTheCureForThatText) {
+    const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
+        {"V/Hz^1/2", {"V/Hz^(1/2)"}},
+        {"V/Hz-1/2", {"V/Hz^(1/2)", "V/Hz^(-1/2)"}},
+        {"V/Hz^-1/2", {"V/Hz^(1/2)", "V/Hz^(-1/2)"}},
+        {"V Hz-1/2", {"V Hz^(-1/2)"}},
+        {"V Hz^-1/2", {"V Hz^(-1/2)"}},
+        {"V/Hz1/2", {"V/Hz^(1/2)"}},
+        {"m^5/2", {"m^(5/2)"}},
+        {"m5/2", {"m^(5/2)"}},
+        {"m**3/2", {"m^(3/2)"}},
+        {"m 3/2", {"m^(3/2)"}},
+        {"m 2", {"m^2"}},
+        {"kg/m 3", {"kg/m^3"}},
+        {"V/Hz 1/2", {"V/Hz^(1/2)"}},
+        {"V^1/2/Hz^1/2", {"V^(1/2)/Hz^(1/2)"}},
+        {"m^1/2 s^1/2", {"m^(1/2) s^(1/2)"}},
+        {"Hz^0.5", {"Hz^(1/2)"}},
+        {"Hz^-0.5", {"Hz^(-1/2)"}},
+        {"Hz^(0.5)", {"Hz^(1/2)"}},
+        {"V/Hz^0,5", {"V/Hz^(1/2)"}},
+        {"V/Hz^½", {"V/Hz^(1/2)"}},
+        {"m^1.5", {"m^(3/2)"}},
+        {"m^2.0", {"m^2"}},
+        {"V/sqrt(Hz)", {"V/Hz^(1/2)"}},
+        {"V/√Hz", {"V/Hz^(1/2)"}},
+        {"nV/√(kHz)", {"nV/kHz^(1/2)"}},
+        {"sqrt(V A)", {"(V A)^(1/2)"}},
+        {"° C", {"degC", "°*C"}},
+        {"deg C", {"degC", "deg*C"}},
+        {"degrees F", {"degF", "degrees*F"}},
+        {"m/° C", {"m/degC", "m/(°*C)"}},
+        {"deg K", {"K", "deg*K"}},
+        {"Gs", {"gauss", "1e9 s"}},
+        {"mGs", {"mgauss"}},
+        {"kGs", {"kgauss"}},
+    };
+    for (const auto& [text, expected] : cases) {
+        const std::vector<std::string> cures = told_to_write(text);
+        EXPECT_EQ(cures, expected) << text;
+        for (const std::string& cure : cures) {
+            EXPECT_NO_THROW((void)Unit::parse(cure)) << text << " -> " << cure;
+        }
+    }
+    // Where there is no such cure the advice is general.
+    for (const char* text : {"m/2", "m^0.123", "m^1/11", "m2 3/2", "m^x"}) {
+        EXPECT_NE(code_of(text), "") << text;
+    }
+    EXPECT_EQ(Unit::parse("V/Hz^(1/2)").dimension(), Unit::parse("V Hz^(-1/2)").dimension());
+    // Products with an angle that nobody takes for a temperature stand.
+    for (const char* text : {"deg*C", "C deg", "deg/s", "N m/deg", "deg s", "° rad"}) {
+        EXPECT_EQ(code_of(text), "") << text;
+    }
+}
+
+// Every name with two meanings tells names that are units.
+TEST(Unit, AdviceForAmbiguousNamesCanBeFollowed) {
+    for (const AmbiguousUnit& name : ambiguous_units()) {
+        for (const std::string& cure : told_to_write(std::string(name.name))) {
+            EXPECT_NO_THROW((void)Unit::parse(cure.substr(0, cure.find(" (")))) << name.name << " -> " << cure;
         }
     }
 }
