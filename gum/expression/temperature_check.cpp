@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <set>
 #include <utility>
+#include <vector>
 
 namespace gumcert::gum {
 
@@ -11,14 +13,39 @@ namespace {
 
 constexpr int k_highest_power = 30;
 
+const char* scale_of(const TemperatureContent& content) {
+    return content.fahrenheit ? "Fahrenheit" : "Celsius";
+}
+
+const char* unit_of(const TemperatureContent& content) {
+    return content.fahrenheit ? "degF" : "degC";
+}
+
 /// The two ways out, both for the same expression.
-std::string cure_of(const std::string& temperature, const std::string& zero) {
+std::string cure_of(const TemperatureContent& content) {
+    const std::string& temperature = content.temperature;
+    const std::string& zero = content.zero;
+    const std::string unit = unit_of(content);
     const bool single = temperature.find_first_of("+-*/^ ") == std::string::npos;
     const std::string difference = single ? temperature : "(" + temperature + ")";
     return "Write kelvin(" + temperature + ") for \"" + temperature +
-           "\" where the thermodynamic temperature is meant; where the difference from 0 degC is meant, write (" +
-           difference + " - " + zero + ") with the input \"" + zero +
-           "\": {\"value\": 0, \"unit\": \"degC\", \"constant\": true}.";
+           "\" where the thermodynamic temperature is meant; where the difference from 0 " + unit +
+           " is meant, write (" + difference + " - " + zero + ") with the input \"" + zero +
+           "\": {\"value\": 0, \"unit\": \"" + unit + "\", \"constant\": true}.";
+}
+
+/// That something is proportional to a temperature which holds for the thermodynamic one.
+Diagnostic proportional_to(const TemperatureContent& content, int power) {
+    const std::string unit = unit_of(content);
+    return {.code = "GC-MODEL-0041",
+            .where = content.where,
+            .what = "\"" + content.product + "\" is proportional to " +
+                    (power == 1 ? "" : "power " + std::to_string(power) + " of ") + "the " + scale_of(content) +
+                    " temperature \"" + content.temperature + "\"",
+            .rule = "what is proportional to a temperature holds for the thermodynamic temperature; the number in " +
+                    unit + " is a difference from 0 " + unit,
+            .action = cure_of(content),
+            .severity = Severity::warning};
 }
 
 /// A name for 0 degC that an equation does not use for something else.
@@ -72,6 +99,9 @@ public:
         for (std::size_t i = 0; i < tree_.nodes.size(); ++i) {
             contents_.push_back(content_of(i));
         }
+        for (const Law& law : laws_) {
+            warnings_.push_back(proportional_to(law.content, 1));
+        }
         return std::move(contents_.back());
     }
 
@@ -91,7 +121,51 @@ private:
         content.where = place(tree_.where, tree_.nodes[node].column);
         content.product = content.temperature = text(node);
         content.zero = free_name(tree_);
+        content.fahrenheit = kinds_[node].fahrenheit;
         return content;
+    }
+
+    /// Nodes of quantities in a sub-expression.
+    void collect(std::size_t node, std::vector<std::size_t>& quantities) const {
+        const SyntaxNode& at = tree_.nodes[node];
+        if (at.operation == Operation::quantity) {
+            quantities.push_back(node);
+        }
+        if (at.operation > Operation::quantity) {
+            collect(static_cast<std::size_t>(at.left), quantities);
+            if (is_binary(at.operation)) {
+                collect(static_cast<std::size_t>(at.right), quantities);
+            }
+        }
+    }
+
+    [[nodiscard]] std::set<std::string> names_in(std::size_t node) const {
+        std::vector<std::size_t> quantities;
+        collect(node, quantities);
+        std::set<std::string> names;
+        for (const std::size_t quantity : quantities) {
+            names.insert(tree_.names[tree_.nodes[quantity].name]);
+        }
+        return names;
+    }
+
+    /// Whether a product with a temperature looks like a law: see TemperatureContent::law.
+    [[nodiscard]] bool is_law(std::size_t node) const {
+        constexpr std::size_t k_kelvin = 4;
+        std::vector<std::size_t> quantities;
+        collect(node, quantities);
+        int per_kelvin = 0;
+        std::set<std::string> with_unit;
+        for (const std::size_t quantity : quantities) {
+            const Dimension& dimension = kinds_[quantity].dimension;
+            if (is_celsius(quantity) || dimension.is_one()) {
+                continue;
+            }
+            with_unit.insert(tree_.names[tree_.nodes[quantity].name]);
+            const bool plain = (dimension * Dimension::temperature()).is_one();
+            per_kelvin += dimension.exponent(k_kelvin) == -1.0 && !plain ? 1 : 0;
+        }
+        return per_kelvin > 0 && with_unit.size() > 1;
     }
 
     /// What is proportional to a power of what an operand is proportional to.
@@ -103,6 +177,9 @@ private:
             content.product = text(node);
             content.temperature = to.temperature;
             content.zero = to.zero;
+            content.fahrenheit = to.fahrenheit;
+            content.law = is_law(node);
+            content.factors = names_in(node);
         }
         return content;
     }
@@ -113,16 +190,36 @@ private:
             {.code = "GC-MODEL-0040",
              .where = place(tree_.where, tree_.nodes[node].column),
              .what = "\"" + text(node) + "\" " + does + " \"" + content.product + "\"" +
-                     (itself ? ", a Celsius temperature"
-                             : ", which is proportional to the Celsius temperature \"" + content.temperature + "\""),
-             .rule = "a quotient, a root, a logarithm or a power holds for the thermodynamic "
-                     "temperature; the number in degC is a difference from 0 degC",
-             .action = cure_of(content.temperature, content.zero),
+                     (itself ? std::string(", a ") + scale_of(content) + " temperature"
+                             : std::string(", which is proportional to the ") + scale_of(content) + " temperature \"" +
+                                   content.temperature + "\""),
+             .rule = std::string("a quotient, a root, a logarithm or a power holds for the thermodynamic "
+                                 "temperature; the number in ") +
+                     unit_of(content) + " is a difference from 0 " + unit_of(content),
+             .action = cure_of(content),
              .severity = Severity::warning});
     }
 
+    /// A law beside a term without a temperature that shares no name with it: no polynomial such as R_0 + R_0 A t. One
+    /// with the other sign makes a difference of the two.
+    void note_law(const TemperatureContent& content, std::size_t other, int sign) {
+        if (content.shifted || content.powers != 2 || !content.law) {
+            return;
+        }
+        if ((contents_[other].powers & 2U) != 0 && !laws_.empty() && laws_.back().sign != sign) {
+            laws_.pop_back();
+            return;
+        }
+        const std::set<std::string> beside = names_in(other);
+        const bool shares = std::any_of(beside.begin(), beside.end(),
+                                        [&](const std::string& name) { return content.factors.contains(name); });
+        if (contents_[other].powers == 1 && !shares) {
+            laws_.push_back({content, sign});
+        }
+    }
+
     /// A sum: the powers of both; a temperature whose zero a constant moves is one no longer.
-    [[nodiscard]] TemperatureContent of_sum(std::size_t node, std::size_t left, std::size_t right) const {
+    [[nodiscard]] TemperatureContent of_sum(std::size_t node, std::size_t left, std::size_t right) {
         const TemperatureContent& a = contents_[left];
         const TemperatureContent& b = contents_[right];
         if (is_celsius(node)) {
@@ -139,6 +236,8 @@ private:
         if (is_zero(left) || is_zero(right)) {
             return is_zero(left) ? b : a;
         }
+        note_law(a, right, 1);
+        note_law(b, left, tree_.nodes[node].operation == Operation::subtract ? -1 : 1);
         TemperatureContent content = a.lone_power() >= b.lone_power() ? a : b;
         content.shifted = false;
         content.powers = a.powers | b.powers;
@@ -224,9 +323,15 @@ private:
         }
     }
 
+    struct Law {
+        TemperatureContent content;
+        int sign;
+    };
+
     const SyntaxTree& tree_;
     std::span<const QuantityKind> kinds_;
     std::span<const TemperatureContent* const> named_;
+    std::vector<Law> laws_;  ///< in larger sums
     std::vector<Diagnostic>& warnings_;
     std::vector<TemperatureContent> contents_;
 };
@@ -262,15 +367,7 @@ void check_result(const TemperatureContent& content, const QuantityKind& kind, s
     if (power == 0 || std::fabs(kind.celsius) > 1e-9) {
         return;
     }
-    warnings.push_back({.code = "GC-MODEL-0041",
-                        .where = content.where,
-                        .what = "\"" + content.product + "\" is proportional to " +
-                                (power == 1 ? "" : "power " + std::to_string(power) + " of ") +
-                                "the Celsius temperature \"" + content.temperature + "\"",
-                        .rule = "what is proportional to a temperature holds for the thermodynamic temperature; the "
-                                "number in degC is a difference from 0 degC",
-                        .action = cure_of(content.temperature, content.zero),
-                        .severity = Severity::warning});
+    warnings.push_back(proportional_to(content, power));
 }
 
 void check_default_unit(const std::string& name, const TemperatureContent& content, const QuantityKind& kind,

@@ -335,17 +335,26 @@ private:
     std::vector<QuantityKind> kinds_;
 };
 
+const char* scale_of(const QuantityKind& kind) {
+    return kind.fahrenheit ? "Fahrenheit" : "Celsius";
+}
+
 std::string weight_text(const QuantityKind& kind) {
-    return expression_number_text(kind.celsius) + " times a Celsius temperature";
+    return expression_number_text(kind.celsius) + " times a " + scale_of(kind) + " temperature";
 }
 
 /// What to do about a sum of Celsius temperatures that is none.
 std::string cure_of_weight(const QuantityKind& kind) {
-    const std::string times = expression_number_text(kind.celsius);
-    return "Divide by " + times +
-           " where a mean of Celsius temperatures is meant, subtract Celsius temperatures until "
-           "a difference is left where one is meant, or write kelvin(t) for each Celsius temperature t and state the "
-           "result in K.";
+    const std::string scale = scale_of(kind);
+    if (kind.celsius < 0.0) {  // T - t: no mean
+        return "Write kelvin(t) for each " + scale +
+               " temperature t, which gives a difference in K; or celsius(T) for the thermodynamic temperature T that "
+               "one is subtracted from.";
+    }
+    return "Divide by " + expression_number_text(kind.celsius) + " where a mean of " + scale +
+           " temperatures is meant, subtract " + scale +
+           " temperatures until a difference is left where one is meant, or write kelvin(t) for each " + scale +
+           " temperature t and state the result in K.";
 }
 
 }  // namespace
@@ -427,23 +436,30 @@ Unit output_unit(const std::string& name, const QuantityKind& kind, const std::o
         }
         if (temperature && !is_same_weight(kind.celsius, declared->is_celsius_temperature() ? 1.0 : 0.0)) {
             if (declared->is_celsius_temperature() && is_same_weight(kind.celsius, 0.0)) {
+                const bool fahrenheit = QuantityKind::of(*declared).fahrenheit;
+                const std::string unit = fahrenheit ? "degF" : "degC";
                 return refuse("GC-MODEL-0036",
                               name + " is declared in " + declared->text() +
                                   ", its equation gives a thermodynamic temperature or a difference",
-                              "a Celsius temperature is a sum of one Celsius temperature and differences",
-                              "If it is a difference from 0 degC (a formula written for t in degC), add the input "
-                              "\"t_0\": {\"value\": 0, \"unit\": \"degC\", \"constant\": true} and \" + t_0\" to the "
-                              "right side (50 K becomes 50 degC). If it is a thermodynamic temperature, write "
-                              "celsius(…) around the right side (50 K becomes -223.15 degC). If a difference is asked "
-                              "for, declare " +
-                                  name + " in K.");
+                              "a Celsius or Fahrenheit temperature is a sum of one such temperature and differences",
+                              "If it is a difference from 0 " + unit + " (a formula written for t in " + unit +
+                                  "), add the input \"t_0\": {\"value\": 0, \"unit\": \"" + unit +
+                                  "\", \"constant\": true} and \" + t_0\" to the right side (50 K becomes " +
+                                  (fahrenheit ? "90 degF" : "50 degC") +
+                                  "). If it is a thermodynamic temperature, write celsius(…) around the right side "
+                                  "(50 K becomes " +
+                                  (fahrenheit ? "-369.67 degF" : "-223.15 degC") +
+                                  "). If a difference is asked for, declare " + name + " in " +
+                                  (fahrenheit ? "K or delta_degF." : "K."));
             }
             if (is_same_weight(kind.celsius, 1.0)) {
-                return refuse(
-                    "GC-MODEL-0036",
-                    name + " is declared in " + declared->text() + ", its equation gives a Celsius temperature",
-                    "a thermodynamic temperature or a difference is not a Celsius temperature",
-                    "Write kelvin(t) for a Celsius temperature t, or declare " + name + " in degC.");
+                return refuse("GC-MODEL-0036",
+                              name + " is declared in " + declared->text() + ", its equation gives a " +
+                                  scale_of(kind) + " temperature",
+                              std::string("a thermodynamic temperature or a difference is not a ") + scale_of(kind) +
+                                  " temperature",
+                              std::string("Write kelvin(t) for a ") + scale_of(kind) + " temperature t, or declare " +
+                                  name + " in " + (kind.fahrenheit ? "degF." : "degC."));
             }
             return refuse("GC-MODEL-0036", name + " is " + weight_text(kind),
                           "the result is neither a Celsius temperature nor a difference of temperatures",

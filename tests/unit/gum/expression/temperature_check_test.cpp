@@ -40,7 +40,10 @@ std::vector<InputSymbol> quantities() {
             input("c", "J/(kg K)"),
             input("m", "kg"),
             input("E_a", "J/mol"),
-            input("q_0", "W/m2")};
+            input("q_0", "W/m2"),
+            input("b", "m3", 0.001),
+            input("L", "m"),
+            input("Q", "J")};
 }
 
 std::string warned(const std::vector<std::string>& equations, const std::vector<OutputSymbol>& outputs = {}) {
@@ -68,6 +71,36 @@ TEST(TemperatureCheck, WarnsOfQuotientsRootsAndPowers) {
     EXPECT_EQ(warned({"y = exp(-E_a/(R*t))"}), "0040 m/0, column 13");
     EXPECT_EQ(warned({"V = n*R*t/p"}), "0041 m/0, column 10");
     EXPECT_EQ(warned({"y = w*t"}, {output("y", "K")}), "0041 m/0, column 6");
+}
+
+/// A law in a larger sum is no polynomial: another quantity per kelvin than a plain 1/K, and one more with a unit.
+TEST(TemperatureCheck, WarnsOfALawInALargerSum) {
+    EXPECT_EQ(warned({"y = n*R*t/p - b"}), "0041 m/0, column 10");
+    EXPECT_EQ(warned({"y = b - n*R*t/p"}), "0041 m/0, column 14");
+    EXPECT_EQ(warned({"y = 2*(b + (n*R*t)/p)"}), "0041 m/0, column 19");
+    EXPECT_EQ(warned({"y = b + (n*R/p)*t + b"}), "0041 m/0, column 16");
+    EXPECT_EQ(warned({"y = p*b - n*R*t"}), "0041 m/0, column 14");
+    EXPECT_EQ(warned({"y = x - b", "x = n*R*t/p"}), "0041 m/1, column 10");
+    EXPECT_EQ(warned({"y = Q + m*c*t"}), "0041 m/0, column 12");
+    for (const char* equation :
+         {"y = L + A*L*t", "y = q_0 + S*t*q_0/S/dt", "y = R_0 + R_0*A*t", "y = w + A*t", "y = b + n*R*kelvin(t)/p",
+          "y = b + n*R*(t - t_0)/p", "y = n*R*(t - t2)/p + b", "y = Q + m*c*t - m*c*t2", "y = Q - m*c*t + m*c*t2",
+          "y = Q + S*t*Q/S/dt", "y = b*(1 + A*t)"}) {
+        EXPECT_EQ(warned({equation}), "") << equation;
+    }
+}
+
+/// Texts for °F speak of °F, and their cures are for it.
+TEST(TemperatureCheck, SpeaksOfFahrenheitWhereItIsMeant) {
+    const std::vector<Diagnostic> warnings{system_of({"y = sqrt(t_F)"}, quantities()).warnings()};
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_THAT(warnings[0].what, HasSubstr("a Fahrenheit temperature"));
+    EXPECT_THAT(warnings[0].rule, HasSubstr("the number in degF is a difference from 0 degF"));
+    EXPECT_THAT(warnings[0].action, HasSubstr(R"((t_F - t_0) with the input "t_0": {"value": 0, "unit": "degF")"));
+    EXPECT_EQ(warned({"y = sqrt(kelvin(t_F))"}), "");
+    EXPECT_EQ(warned({"y = sqrt((t_F - t_0F))"}), "");
+    EXPECT_THAT(system_of({"y = t_F^4"}, quantities()).warnings().front().what,
+                HasSubstr("power 4 of the Fahrenheit temperature"));
 }
 
 TEST(TemperatureCheck, ACorrectionMovesNoZero) {
@@ -192,6 +225,8 @@ TEST(TemperatureCheck, CuresLeadToTheRightNumber) {
         {"y = n*R*t/p", 2.0 * R * 298.15 / 101325, 2.0 * R * 25.0 / 101325},
         {"y = sqrt(R*t/M)", std::sqrt(R * 298.15 / 0.028964), std::sqrt(R * 25.0 / 0.028964)},
         {"y = ln(t/T)", std::log(298.15 / 300.0), std::log(25.0 / 300.0)},
+        {"y = n*R*t/p - b", 2.0 * R * 298.15 / 101325 - 0.001, 2.0 * R * 25.0 / 101325 - 0.001},
+        {"y = b + n*R*(t + dt)/p", 2.0 * R * 299.15 / 101325 + 0.001, 2.0 * R * 26.0 / 101325 + 0.001},
     };
     const std::map<std::string, double> values{{"p", 101325}, {"t", 25.0}, {"dt", 1.0}, {"n", 2.0}, {"T", 300.0}};
     const std::vector<InputSymbol> symbols = quantities();

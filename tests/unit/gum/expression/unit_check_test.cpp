@@ -187,6 +187,16 @@ TEST(UnitCheck, CuresLeadToTheRightNumber) {
         {"y = t + t2", "degC", "0036", "Divide by 2 where a mean", "y = (t + t2)/2", "degC", 25.0},
         {"y = t + t2", "", "0038", "subtract Celsius temperatures until a difference is left", "y = t - t2", "", -10.0},
         {"y = t + t2", "", "0038", "write kelvin(t) for each", "y = kelvin(t) + kelvin(t2)", "", 596.3},
+        {"y = T - t", "", "0038", "Write kelvin(t) for each", "y = T - kelvin(t)", "", 300.0 - 293.15},
+        {"y = T - t", "", "0038", "or celsius(T) for the thermodynamic temperature T", "y = celsius(T) - t", "",
+         300.0 - 293.15},
+        {"y = -t", "K", "0036", "Write kelvin(t) for each", "y = -kelvin(t)", "K", -293.15},
+        {"y = t_F", "K", "0036", "Write kelvin(t) for a Fahrenheit temperature t", "y = kelvin(t_F)", "K", 298.15},
+        {"y = t_F", "K", "0036", "or declare y in degF", "y = t_F", "degF", 25.0},
+        {"y = T", "degF", "0036", "celsius(…) around the right side", "y = celsius(T)", "degF", 300.0 - 273.15},
+        {"y = (R/100 - R/200)/R/A", "degF", "0036", "\"t_0\": {\"value\": 0, \"unit\": \"degF\"",
+         "y = (R/100 - R/200)/R/A + t_0F", "degF", 0.005 / 4e-3 - 160.0 / 9.0},
+        {"y = T - dT", "degF", "0036", "declare y in K or delta_degF", "y = T - dT", "delta_degF", 299.0},
         {"y = abs(t)", "", "0037", "Take a difference of two temperatures", "y = abs(t - t2)", "", 10.0},
         {"y = abs(t)", "", "0037", "or kelvin(t)", "y = abs(kelvin(t))", "", 293.15},
         {"y = celsius(t)", "", "0037", "Leave celsius(…) out", "y = t", "", 20.0},
@@ -208,10 +218,12 @@ TEST(UnitCheck, CuresLeadToTheRightNumber) {
     inputs.push_back(input("f_v", "Hz"));
     inputs.push_back(input("N_v", "turn"));
     inputs.push_back(input("t_0", "degC", 0.0));
-    const std::map<std::string, double> values{{"x", 2e-3},     {"l", 2.0},   {"T", 300.0},     {"t", 20.0},
-                                               {"t2", 30.0},    {"phi", 0.5}, {"n", 3.0},       {"two", 2.0},
-                                               {"A", 4e-3},     {"R", 100.0}, {"dT", 1.0},      {"t_0", 0.0},
-                                               {"v", 2.0 * pi}, {"f_v", 3.0}, {"N_v", 6.0 * pi}};
+    inputs.push_back(input("t_F", "degF"));
+    inputs.push_back(input("t_0F", "degF", -160.0 / 9.0));
+    const std::map<std::string, double> values{
+        {"x", 2e-3},     {"l", 2.0},   {"T", 300.0},      {"t", 20.0},   {"t2", 30.0},          {"phi", 0.5},
+        {"n", 3.0},      {"two", 2.0}, {"A", 4e-3},       {"R", 100.0},  {"dT", 1.0},           {"t_0", 0.0},
+        {"v", 2.0 * pi}, {"f_v", 3.0}, {"N_v", 6.0 * pi}, {"t_F", 25.0}, {"t_0F", -160.0 / 9.0}};
     for (const Cure& cure : cures) {
         SCOPED_TRACE(cure.equation);
         const auto outputs = [](const std::string& unit) {
