@@ -157,18 +157,26 @@ bool has_nul(const nlohmann::json& text) {
     return text.get_ref<const std::string&>().find('\0') != std::string::npos;
 }
 
-/// A secret that more people than its owner may read is none.
-void warn_of_readers(const fs::path& file, std::vector<gum::Diagnostic>& warnings) {
+/// A secret that more people than its owner may read is none; where they may write, they can put another in its place.
+void warn_of_access(const fs::path& file, std::vector<gum::Diagnostic>& warnings) {
     constexpr unsigned k_read_by_others = 0044;
+    constexpr unsigned k_written_by_others = 0022;
     const encoding::FileBytes secret = encoding::read_regular_file(file, 0);
-    if (secret.failure.empty() && (secret.mode & k_read_by_others) != 0) {
-        warnings.push_back(
-            {.code = "GC-SIGN-0029",
-             .where = file.string(),
-             .what = "others than its owner may read it",
-             .rule = "whoever has the private key can sign in its owner's name",
-             .action = "chmod 600 " + file.string() + "; have the certificate revoked where others may have read it",
-             .severity = gum::Severity::warning});
+    const bool read = secret.failure.empty() && (secret.mode & k_read_by_others) != 0;
+    const bool written = secret.failure.empty() && (secret.mode & k_written_by_others) != 0;
+    if (read || written) {
+        const std::string revoked = "; have the certificate revoked where others may have read it";
+        warnings.push_back({.code = "GC-SIGN-0029",
+                            .where = file.string(),
+                            .what = std::string("others than its owner may ") +
+                                    (read && written ? "read and write"
+                                     : read          ? "read"
+                                                     : "write") +
+                                    " it",
+                            .rule = read ? "whoever has the private key can sign in its owner's name"
+                                         : "whoever can put another key in its place can sign with that",
+                            .action = "chmod 600 " + file.string() + (read ? revoked : ""),
+                            .severity = gum::Severity::warning});
     }
 }
 
@@ -315,12 +323,12 @@ DescribedSigner described_signer(const fs::path& file) {
         passphrase = read_signing_file(secret);
         passphrase.erase(passphrase.find_last_not_of("\r\n") + 1);
         result.files.push_back(secret);
-        warn_of_readers(secret, result.warnings);
+        warn_of_access(secret, result.warnings);
     }
     const fs::path key = folder / description.key;
     result.files.push_back(key);
     result.signer = signer_from_files(key, certificates, passphrase);
-    warn_of_readers(key, result.warnings);
+    warn_of_access(key, result.warnings);
     return result;
 }
 

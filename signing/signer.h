@@ -47,7 +47,7 @@ public:
 struct DescribedSigner {
     std::unique_ptr<Signer> signer;
     std::vector<std::filesystem::path> files;  ///< the description and every file that it names: never to be written
-    std::vector<gum::Diagnostic> warnings;     ///< GC-SIGN-0029 a key or passphrase that others may read
+    std::vector<gum::Diagnostic> warnings;     ///< GC-SIGN-0029 a key or passphrase that others may read or write
 };
 [[nodiscard]] DescribedSigner described_signer(const std::filesystem::path& file);
 

@@ -631,6 +631,12 @@ bool specify(StatedQuantity& quantity, const StatedSpecification& specification,
     const double width = std::abs(reading) * specification.percent_of_reading / 100.0 +
                          specification.range * specification.percent_of_range / 100.0 + specification.floor;
     const double width_si = unit.difference_to_si(width);
+    if (specification.percent_of_range > 0.0 && std::abs(reading) > specification.range) {
+        keys.warn(k_warn_beyond_range, "specification",
+                  "the reading " + shortest(reading) + " is beyond the range " + shortest(specification.range),
+                  "a specification holds within its range",
+                  "state the range that was set, or the specification for this reading");
+    }
     if (!(width_si > StatementReader::k_least_u && width_si < StatementReader::k_largest_u)) {
         keys.refuse(width_si == 0.0 ? k_no_uncertainty : k_not_representable, "specification",
                     "the specification gives " + shortest(width) + " for the reading " + shortest(reading),

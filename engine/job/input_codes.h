@@ -169,6 +169,7 @@ inline constexpr InputCode k_warn_fixture_u_differs{"GC-WARN-0012",
 inline constexpr InputCode k_warn_same_position{"GC-WARN-0013", "two angles that are one position of the table"};
 inline constexpr InputCode k_warn_correlations_repaired{"GC-WARN-0014",
                                                         "correlations that hold together within their digits only"};
+inline constexpr InputCode k_warn_beyond_range{"GC-WARN-0015", "a reading beyond the range of its specification"};
 
 /// The whole table, in the order of the codes.
 inline constexpr std::array k_input_codes{k_file_too_large,
@@ -296,6 +297,7 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_warn_equal_observations,
                                           k_warn_fixture_u_differs,
                                           k_warn_same_position,
-                                          k_warn_correlations_repaired};
+                                          k_warn_correlations_repaired,
+                                          k_warn_beyond_range};
 
 }  // namespace gumcert::engine

@@ -158,6 +158,30 @@ TEST(SignerFromFiles, AnEncryptedKeyNeedsItsPassphraseAndNobodyIsAsked) {
     EXPECT_EQ(code_of([&] { return signer_from_files(key, chain, "wrong"); }), "GC-SIGN-0014");
 }
 
+// A private key that others may read or write is told, and one that has the cure is not.
+TEST(SignerFromFiles, TellsAKeyThatOthersMayReadOrWrite) {
+    const Laboratory laboratory(ec_key());
+    const auto key = laboratory.folder.path() / "key.pem";
+    laboratory.folder.put("signer.json", R"({"certificates": "chain.pem", "key": "key.pem"})");
+    const auto told = [&](unsigned mode) {
+        std::filesystem::permissions(key, static_cast<std::filesystem::perms>(mode));
+        const auto warnings = described_signer(laboratory.folder.path() / "signer.json").warnings;
+        return warnings.empty() ? std::string() : warnings.front().code + " " + warnings.front().what;
+    };
+    for (const unsigned mode : {0600U, 0400U, 0700U, 0611U}) {
+        EXPECT_EQ(told(mode), "") << std::oct << mode;
+    }
+    for (const unsigned mode : {0602U, 0620U, 0622U, 0420U}) {
+        EXPECT_EQ(told(mode), "GC-SIGN-0029 others than its owner may write it") << std::oct << mode;
+    }
+    for (const unsigned mode : {0604U, 0640U, 0644U}) {
+        EXPECT_EQ(told(mode), "GC-SIGN-0029 others than its owner may read it") << std::oct << mode;
+    }
+    for (const unsigned mode : {0666U, 0660U, 0642U, 0606U}) {
+        EXPECT_EQ(told(mode), "GC-SIGN-0029 others than its owner may read and write it") << std::oct << mode;
+    }
+}
+
 /// A signing program made of openssl pkeyutl, as a laboratory may write one for its card.
 std::filesystem::path program(const Folder& folder, const std::string& name, const std::string& body) {
     const auto file = folder.put(name, "#!/bin/sh\n" + body);

@@ -342,6 +342,29 @@ TEST(BudgetJob, ReadsSamplesFromAFile) {
     EXPECT_EQ((*q.sample_rows)[1], 5.0);
 }
 
+// A specification holds within its range; whoever states another range has no message.
+TEST(BudgetJob, TellsAReadingBeyondTheRangeOfItsSpecification) {
+    const auto codes = [](const std::string& reading, const std::string& specification) {
+        std::vector<std::string> all;
+        const BudgetJob job = read_budget(R"j("inputs": {"a": {"value": )j" + reading +
+                                          R"j(, "unit": "V", "specification": {)j" + specification + "}}}");
+        for (const gum::Diagnostic& warning : job.warnings) {
+            all.emplace_back(warning.code);
+        }
+        return all;
+    };
+    using Codes = std::vector<std::string>;
+    const std::string of_range = R"j("percent_of_range": 0.05, "range": 10)j";
+    const Codes beyond{std::string(k_warn_beyond_range.code)};
+    EXPECT_EQ(codes("9.9", of_range), Codes());
+    EXPECT_EQ(codes("10", of_range), Codes());
+    EXPECT_EQ(codes("-10", of_range), Codes());
+    EXPECT_EQ(codes("10.1", of_range), beyond);
+    EXPECT_EQ(codes("-12", of_range + R"j(, "percent_of_reading": 0.1)j"), beyond);
+    EXPECT_EQ(codes("12", R"j("percent_of_range": 0.05, "range": 100)j"), Codes()) << "the cure";
+    EXPECT_EQ(codes("12", R"j("percent_of_reading": 0.05)j"), Codes());
+}
+
 // Kessel 2006: r with seven digits, whose matrix has the eigenvalue -2.2e-8.
 TEST(BudgetJob, TakesCorrelationsWithinTheirDigits) {
     const auto read = [](const std::string& last) {
