@@ -48,7 +48,8 @@ std::string shown(double degrees_of_freedom) {
     return text;
 }
 
-/// Sets of inputs that correlations tie together, each ascending, in the order of their first input.
+/// Sets of inputs that correlations, or readings taken together, tie to each other, each ascending, in the order of
+/// their first input.
 std::vector<std::vector<std::size_t>> clusters(const BudgetJob& job) {
     std::vector<std::size_t> parent(job.inputs.size());
     std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -59,10 +60,18 @@ std::vector<std::vector<std::size_t>> clusters(const BudgetJob& job) {
         }
         return i;
     };
-    for (const engine::InputCorrelation& correlation : job.correlations) {
-        const std::size_t a = root(correlation.first);
-        const std::size_t b = root(correlation.second);
+    const auto join = [&](std::size_t i, std::size_t j) {
+        const std::size_t a = root(i);
+        const std::size_t b = root(j);
         parent[std::max(a, b)] = std::min(a, b);
+    };
+    for (const engine::InputCorrelation& correlation : job.correlations) {
+        join(correlation.first, correlation.second);
+    }
+    for (const engine::SimultaneousInputs& set : job.simultaneous) {
+        for (const std::size_t input : set.inputs) {
+            join(set.inputs.front(), input);
+        }
     }
     std::vector<std::vector<std::size_t>> members(job.inputs.size());
     for (std::size_t i = 0; i < job.inputs.size(); ++i) {
@@ -282,27 +291,12 @@ void set_dependence(const BudgetJob& job, const std::vector<Member>& members,
     const bool single = std::all_of(members.begin(), members.end(),
                                     [](const Member& member) { return member.stated->components.size() == 1; });
     if (observed != nullptr && all_of_kind(DistributionKind::student_t)) {
-        const std::size_t inputs = members.size();
-        if (observed->observations <= inputs) {
-            if (job.monte_carlo) {
-                throw gum::NoResultError(
-                    Diagnostic{.code = "GC-BUDGET-0001",
-                               .where = job.monte_carlo->where,
-                               .what = std::to_string(observed->observations) + " joint observations of " +
-                                       std::to_string(inputs) + " inputs (" + group.name + ")",
-                               .rule = "the multivariate t-distribution needs more observations than inputs "
-                                       "(JCGM 102:2011, 5.3.2)",
-                               .action = "Take more observations, or evaluate without monte_carlo."});
-            }
-        } else {
-            const auto nu = static_cast<double>(observed->observations - inputs);
-            const double widening = std::sqrt(static_cast<double>(observed->observations - 1) / nu);
-            for (std::size_t i = 0; i < members.size(); ++i) {
-                group.marginals[i] = Distribution::student_t(
-                    group.value(static_cast<Eigen::Index>(i)),
-                    std::sqrt(group.covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i))) * widening,
-                    nu);
-            }
+        // t with n − 1 degrees of freedom, however many inputs were observed: each linear combination has the
+        // distribution of the mean of its n rows then (docs/adr/0030-simultaneous-observations.md).
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            const auto at = static_cast<Eigen::Index>(i);
+            group.marginals[i] = Distribution::student_t(group.value(at), std::sqrt(group.covariance(at, at)),
+                                                         static_cast<double>(observed->observations - 1));
         }
         group.dependence = Dependence::student_t;
     } else if (all_of_kind(DistributionKind::normal)) {

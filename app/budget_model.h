@@ -86,8 +86,6 @@ struct BudgetInputs {
 /// Points that share some inputs of a correlated group draw the others by themselves, given those that they share.
 /// \param fits   one for each fit of the job
 /// \param point  position in job.points, or nothing
-/// \throws NoResultError  GC-BUDGET-0001 where fewer than N + 1 observations of N inputs were taken together and Monte
-///                        Carlo is asked for
 /// \throws InputError     GC-BUDGET-0002 for a correlation that the distributions of its inputs cannot have,
 ///                        GC-BUDGET-0003 for one that contradicts joint samples
 [[nodiscard]] BudgetInputs budget_inputs(const engine::BudgetJob& job, const std::vector<engine::CurveFit>& fits,

@@ -161,7 +161,8 @@ void run_monte_carlo(const BudgetJob& job, const engine::MonteCarloRequest& aske
         options.adaptive->tolerance_divisor = k_automatic_divisor;
     }
     options.streams = point.streams;
-    options.regions = job.points.empty();
+    // What is drawn of simultaneous observations is right for one result at a time, not for a region of several.
+    options.regions = job.points.empty() && job.simultaneous.empty();
     options.histogram = job.points.size() <= k_most_points_with_histogram;
     std::map<double, gum::MonteCarloResult> results;
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
@@ -230,7 +231,7 @@ void validate_outputs(const BudgetJob& job, BudgetPointResult& point, BudgetResu
 /// JCGM 102:2011, clause 8, where there are several outputs whose first order does not vanish.
 void validate_together(const BudgetJob& job, BudgetPointResult& point, BudgetResult& result) {
     const auto m = static_cast<Eigen::Index>(point.outputs.size());
-    if (m < 2 || !job.points.empty() || job.model.empty() ||
+    if (m < 2 || !job.points.empty() || job.model.empty() || !job.simultaneous.empty() ||
         !(point.propagation.standard_uncertainty.minCoeff() > 0.0)) {
         return;
     }

@@ -458,10 +458,14 @@ private:
     std::vector<OutputQuantity> outputs_;
 };
 
+/// Whether the quantities of a group depend on each other.
 bool has_correlation(const InputGroup& group) {
     const Eigen::MatrixXd& V = group.covariance;
     if (V.cols() == 1) {
         return false;
+    }
+    if (group.dependence == Dependence::student_t) {
+        return true;  // one χ² for all of them, also where no two are correlated
     }
     for (Eigen::Index j = 0; j < V.cols(); ++j) {
         for (Eigen::Index i = 0; i < V.rows(); ++i) {
