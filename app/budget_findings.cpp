@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -11,8 +13,10 @@
 #include "app/budget_texts.h"
 #include "app/record_parts.h"
 #include "app/remark.h"
+#include "gum/analysis_of_variance.h"
 #include "gum/outlying_readings.h"
 #include "gum/quantity/unit.h"
+#include "gum/rounding.h"
 
 namespace gumcert::app {
 
@@ -25,6 +29,7 @@ using reports::OutlyingReading;
 using reports::ReadingsSummary;
 
 constexpr double k_gross_outlier = 0.001;  // p-value below which nobody takes a reading for chance
+constexpr double k_refuted_pool = 0.001;   // p-value of the F test below which a pool does not hold for readings
 constexpr std::size_t k_most_points = 5;
 
 std::string with_unit(const std::string& number, const std::string& unit) {
@@ -150,6 +155,75 @@ Remark dependent(const std::vector<const ReadingsSummary*>& all) {
             .accredited = FindingSeverity::minor};
 }
 
+/// Whether the scatter of readings is that of the pool that they are stated to belong to.
+struct PoolTest {
+    double F = 0.0, p_value = 1.0;
+    double nu = 0.0;       ///< of the readings
+    double nu_pool = 0.0;  ///< of the pool
+    std::vector<std::string> points;
+};
+
+PoolTest tested(double F, double nu, double nu_pool, std::vector<std::string> points) {
+    constexpr double k_as_good_as_infinite = 1e9;
+    return {.F = F,
+            .p_value = gum::f_upper_tail(F, nu, std::min(nu_pool, k_as_good_as_infinite)),
+            .nu = nu,
+            .nu_pool = nu_pool,
+            .points = std::move(points)};
+}
+
+/// The worse of two tests: of the set that scatters most, among so many, and of all sets together.
+/// \param all  of one input, each with pooled_F
+PoolTest pool_test(const std::vector<const ReadingsSummary*>& all) {
+    const auto nu_pool = [](const ReadingsSummary& r) {
+        return r.pooled_degrees_of_freedom.value_or(std::numeric_limits<double>::infinity());
+    };
+    const auto sets = static_cast<double>(all.size());
+    double sum = 0.0;
+    double nu = 0.0;
+    double least_nu_pool = std::numeric_limits<double>::infinity();
+    PoolTest worst;
+    std::vector<std::string> points;
+    for (const ReadingsSummary* r : all) {
+        const auto own_nu = static_cast<double>(r->n - 1);
+        PoolTest alone = tested(*r->pooled_F, own_nu, nu_pool(*r), {r->point});
+        alone.p_value = std::min(1.0, sets * alone.p_value);
+        if (worst.points.empty() || alone.p_value < worst.p_value) {
+            worst = std::move(alone);
+        }
+        sum += own_nu * *r->pooled_F;
+        nu += own_nu;
+        least_nu_pool = std::min(least_nu_pool, nu_pool(*r));
+        points.push_back(r->point);
+    }
+    PoolTest together = tested(sum / nu, nu, least_nu_pool, std::move(points));
+    return together.p_value <= worst.p_value ? together : worst;
+}
+
+std::string printed_p(double p_value) {
+    constexpr double k_least_printed = 1e-4;
+    return p_value < k_least_printed ? "< 0.0001" : gum::round_significant(p_value, 2);
+}
+
+Remark refuted_pool(const ReadingsSummary& of, const PoolTest& test) {
+    return {.message = {.code = "GC-BUDGET-0037",
+                        .where = place_of(of.input, of.component, test.points),
+                        .what = "the readings scatter " + gum::round_significant(std::sqrt(test.F), 2) +
+                                " times as much as their pooled standard deviation says (F = " +
+                                gum::round_significant(test.F, 3) + " with " + shortest(test.nu) + " and " +
+                                (std::isinf(test.nu_pool) ? "∞" : shortest(test.nu_pool)) +
+                                " degrees of freedom, p-value " + printed_p(test.p_value) + ")",
+                        .rule = "a pooled standard deviation holds for readings of the same procedure: by chance alone "
+                                "they scatter so much less than once in a thousand times",
+                        .action = "Look for what was different. Correct the pooled standard deviation, or leave "
+                                  "`pooled` out: then u comes from the scatter of the readings themselves.",
+                        .severity = gum::Severity::warning},
+            .id = "A03",
+            .clause = "JCGM 100:2008, 4.2.4",
+            .severity = FindingSeverity::major,
+            .accredited = FindingSeverity::critical};
+}
+
 /// Those of one input and component together, in the order of the record.
 template <typename Summary, typename Wanted>
 std::vector<std::vector<const Summary*>> by_input(const std::vector<Summary>& all, const Wanted& wanted) {
@@ -177,6 +251,12 @@ std::vector<Remark> remarks_of(const EvaluationRecord& record) {
     }
     for (const auto& group : by_input(record.readings, [](const ReadingsSummary& r) { return r.dependent; })) {
         remarks.push_back(dependent(group));
+    }
+    for (const auto& group :
+         by_input(record.readings, [](const ReadingsSummary& r) { return r.pooled_F.has_value(); })) {
+        if (const PoolTest test = pool_test(group); test.p_value < k_refuted_pool) {
+            remarks.push_back(refuted_pool(*group.front(), test));
+        }
     }
     for (const auto& group : by_input(record.outliers, [](const OutlyingReading&) { return true; })) {
         remarks.push_back(outliers(group));

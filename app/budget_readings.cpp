@@ -45,6 +45,34 @@ std::vector<double> in_unit(const BudgetInput& input, const std::vector<double>&
     return values;
 }
 
+/// The step of the display that a component of the input states, in the unit of the input; 0 without one.
+double stated_resolution(const BudgetInput& input) {
+    double step = 0.0;
+    for (const StatedQuantity& component : input.components) {
+        if (component.statement == "resolution") {
+            step = std::max(step, 2.0 * input.unit.difference_from_si(component.distribution.scale));
+        }
+    }
+    return step;
+}
+
+/// The scatter of readings beside the one that they are stated to have.
+void add_pool(const Stated& stated, reports::ReadingsSummary& summary) {
+    const double s = stated.input.unit.difference_from_si(*stated.quantity.pooled_standard_deviation);
+    summary.pooled_standard_deviation = s;
+    if (std::isfinite(stated.quantity.degrees_of_freedom)) {
+        summary.pooled_degrees_of_freedom = stated.quantity.degrees_of_freedom;
+    }
+    if (summary.n >= 2) {
+        // Readings between two steps of a display show one step or the other: a variance of n/(n - 1) q²/4 at most.
+        const auto n = static_cast<double>(summary.n);
+        const double step = stated_resolution(stated.input);
+        const double of_steps = n / (n - 1.0) * 0.25 * step * step;
+        const double variance = summary.standard_deviation * summary.standard_deviation;
+        summary.pooled_F = std::max(0.0, variance - of_steps) / (s * s);
+    }
+}
+
 reports::ReadingsSummary readings_summary(const Stated& stated) {
     const std::vector<double> readings = in_unit(stated.input, stated.quantity.observations);
     reports::ReadingsSummary summary;
@@ -73,8 +101,7 @@ reports::ReadingsSummary readings_summary(const Stated& stated) {
         }
     }
     if (stated.quantity.pooled_standard_deviation) {
-        summary.pooled_standard_deviation =
-            stated.input.unit.difference_from_si(*stated.quantity.pooled_standard_deviation);
+        add_pool(stated, summary);
     }
     summary.printed.mean = printed_estimate(summary.mean, summary.standard_deviation_of_mean);
     summary.printed.standard_deviation = rounded(summary.standard_deviation, k_digits_of_u);
@@ -135,17 +162,6 @@ reports::VarianceAnalysis variance_analysis(const Stated& stated) {
     out.printed.group_means = rounded(out.standard_deviation_of_group_means, k_digits_of_u);
     out.printed.mean_square = {rounded(out.mean_square_between, 3), rounded(out.mean_square_within, 3)};
     return out;
-}
-
-/// The step of the display that a component of the input states, in the unit of the input; 0 without one.
-double stated_resolution(const BudgetInput& input) {
-    double step = 0.0;
-    for (const StatedQuantity& component : input.components) {
-        if (component.statement == "resolution") {
-            step = std::max(step, 2.0 * input.unit.difference_from_si(component.distribution.scale));
-        }
-    }
-    return step;
 }
 
 void add_outliers(const Stated& stated, const char* of, std::size_t group, std::span<const double> readings,

@@ -156,6 +156,10 @@ struct ReadingsSummary {
     std::int64_t n = 0;
     double mean = 0.0, standard_deviation = 0.0, standard_deviation_of_mean = 0.0;
     std::optional<double> pooled_standard_deviation;
+    std::optional<double> pooled_degrees_of_freedom = {};  ///< none beside a pooled one: infinite
+    /// F of the scatter of these readings over the pooled one, without what the steps of a display may add; none for a
+    /// single reading
+    std::optional<double> pooled_F = {};
     std::vector<double> autocorrelation;  ///< coefficients of lag 0, 1, 2 …; empty where all readings are equal
     double autocorrelation_limit = 0.0;   ///< |r1| above it says that the readings depend on each other
     bool dependent = false;

@@ -384,6 +384,8 @@ void describe(Archive& a, Struct& r) {
     a("standard_deviation", r.standard_deviation, Range::not_negative);
     a("standard_deviation_of_mean", r.standard_deviation_of_mean, Range::not_negative);
     a("pooled_standard_deviation", r.pooled_standard_deviation, Range::not_negative);
+    a.added("pooled_degrees_of_freedom", r.pooled_degrees_of_freedom, Range::positive);
+    a.added("pooled_F", r.pooled_F, Range::not_negative);
     a("autocorrelation", r.autocorrelation);
     a("autocorrelation_limit", r.autocorrelation_limit, Range::not_negative);
     a("dependent", r.dependent);

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <random>
 #include <string>
+#include <vector>
 
 #include "app/budget_covariance.h"
 #include "app/budget_record.h"
@@ -110,6 +112,85 @@ TEST(BudgetFindings, TemperaturesAndLostDigitsOfTheRecordAreFindings) {
         "x": {"value": 429228004229873, "u": 0.1}, "f": {"value": 429228004229000, "constant": true}})");
     EXPECT_EQ(findings(optical, "accredited"), "");
     EXPECT_EQ(optical.results.at(0).value, 873.0);
+}
+
+std::string readings_of_pool(const std::vector<std::string>& sets, const std::string& s) {
+    std::string points;
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+        points += (i == 0 ? "" : ", ") + std::string(R"({"point": "P)") + std::to_string(i + 1) +
+                  R"(", "x": {"observations": [)" + sets[i] + R"(], "pooled": {"s": )" + s + R"(, "nu": 20}}})";
+    }
+    return R"("model": ["y = x"], "inputs": {"x": {"unit": "mV"}}, "points": [)" + points + "]";
+}
+
+TEST(BudgetFindings, ReadingsThatRefuteTheirPoolBlockAnAccreditedCertificate) {
+    const std::string scattered = R"j("model": ["y = x"], "inputs": {"x": {"unit": "mV",
+        "observations": [5.0, 5.9, 4.2, 5.4, 4.6], "pooled": {"s": 0.1, "nu": 20}}})j";
+    const reports::EvaluationRecord record = record_of(scattered);
+    EXPECT_EQ(findings(record, "accredited"), "A03 critical");
+    EXPECT_EQ(findings(record, "not_accredited"), "A03 major");
+    const gum::Diagnostic message = budget_remarks(record).at(0);
+    EXPECT_EQ(message.code, "GC-BUDGET-0037");
+    EXPECT_EQ(message.where, "readings of x");
+    // s = 0.66483, F = 44.2 with 4 and 20 degrees of freedom.
+    EXPECT_THAT(message.what, HasSubstr("scatter 6.6 times as much"));
+    EXPECT_THAT(message.what, HasSubstr("F = 44.2 with 4 and 20 degrees of freedom, p-value < 0.0001"));
+    // Infinite degrees of freedom are no obstacle; less scatter than the pool is none of our business.
+    EXPECT_EQ(findings(record_of(R"("model": ["y = x"], "inputs": {"x": {
+        "observations": [5.0, 5.9, 4.2], "pooled": {"s": 0.1, "nu": "inf"}}})"),
+                       "accredited"),
+              "A03 critical");
+    EXPECT_EQ(findings(record_of(R"("model": ["y = x"], "inputs": {"x": {
+        "observations": [5.0, 5.0, 5.0], "pooled": {"s": 0.1, "nu": 50}}})"),
+                       "accredited"),
+              "");
+    // The cure: without `pooled` there is nothing to tell.
+    EXPECT_EQ(findings(record_of(R"("model": ["y = x"], "inputs": {"x": {"observations": [5.0, 5.9, 4.2, 5.4, 4.6]}})"),
+                       "accredited"),
+              "");
+}
+
+TEST(BudgetFindings, StepsOfADisplayDoNotRefuteAPool) {
+    EXPECT_EQ(findings(record_of(R"("model": ["y = x"], "inputs": {"x": {"components": [
+        {"name": "readings", "observations": [5.0, 5.1], "pooled": {"s": 0.01, "nu": 20}},
+        {"name": "display", "value": 0, "resolution": 0.1}]}})"),
+                       "accredited"),
+              "");
+    EXPECT_EQ(findings(record_of(R"("model": ["y = x"], "inputs": {"x": {"components": [
+        {"name": "readings", "observations": [5.0, 5.2], "pooled": {"s": 0.01, "nu": 20}},
+        {"name": "display", "value": 0, "resolution": 0.1}]}})"),
+                       "accredited"),
+              "A03 critical");
+}
+
+TEST(BudgetFindings, APoolIsHeldAgainstAllPointsTogether) {
+    // Each F of 6.1 with 1 degree of freedom is nothing by itself.
+    const std::vector<std::string> each(12, "5.0, 5.35");
+    const auto together = budget_remarks(record_of(readings_of_pool(each, "0.1")));
+    ASSERT_EQ(together.size(), 1U);
+    EXPECT_THAT(together[0].where, HasSubstr("readings of x at points P1, P2"));
+    EXPECT_EQ(findings(record_of(readings_of_pool({"5.0, 5.3", "5.0, 5.1"}, "0.1")), "accredited"), "");
+    const auto one = budget_remarks(record_of(readings_of_pool({"5.0, 5.1", "5.0, 7.0", "5.0, 5.05"}, "0.1")));
+    ASSERT_EQ(one.size(), 1U);
+    EXPECT_THAT(one[0].where, HasSubstr("P2"));
+}
+
+/// Readings that do belong to the pool are told less than once in a thousand times.
+TEST(BudgetFindings, AGoodPoolIsLeftAlone) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal;
+    int told = 0;
+    for (int job = 0; job < 300; ++job) {
+        std::vector<std::string> sets;
+        for (int i = 0; i < 4; ++i) {
+            sets.push_back(std::to_string(0.1 * normal(random)) + ", " + std::to_string(0.1 * normal(random)) + ", " +
+                           std::to_string(0.1 * normal(random)));
+        }
+        for (const gum::Diagnostic& message : budget_remarks(record_of(readings_of_pool(sets, "0.1")))) {
+            told += message.code == "GC-BUDGET-0037" ? 1 : 0;
+        }
+    }
+    EXPECT_LE(told, 3);
 }
 
 }  // namespace
