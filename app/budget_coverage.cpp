@@ -61,6 +61,12 @@ void expand_by_propagation(const engine::BudgetJob& job, const BudgetPointResult
             result.coverage_note = "k is taken from the convolution of all distributions; that of the " +
                                    std::string(std::isinf(nu) ? "normal " : "t-") + "distribution would be " +
                                    gum::round_to_quantum(k, 2);
+            if (convolved->draws > 0) {
+                result.k_numerical_error = convolved->numerical_error;
+                result.coverage_note += "; the numerical error of k from " + std::to_string(convolved->draws) +
+                                        " draws of correlated inputs is " +
+                                        gum::round_significant(convolved->numerical_error, 1);
+            }
             result.coverage_factor = convolved->coverage_factor;
             result.expanded_uncertainty = convolved->expanded_uncertainty;
             return;

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -17,6 +18,7 @@
 #include "app/record_parts.h"
 #include "app/reported_covariance.h"
 #include "app/reported_result.h"
+#include "app/zero_uncertainty.h"
 #include "gum/coverage.h"
 #include "gum/quantity/decimal_rounding.h"
 #include "gum/rounding.h"
@@ -42,6 +44,24 @@ Printed printed_result(double value, std::optional<double> U, double u, const st
         return {pair.value, pair.U, shown};
     }
     return {printed_estimate(value, u), U ? "0" : "", shown};
+}
+
+/// An exact value with the digits that double precision holds: 0.3 for 0.1 + 0.2.
+/// \param lost  what the rounding of the numbers that it comes from may be
+double held_digits(double value, double lost) {
+    constexpr int k_digits = 15;
+    int digits = k_digits;
+    if (value == 0.0 || value == std::floor(value)) {
+        return value;
+    }
+    if (lost > 0.0) {
+        const double count = std::floor(std::log10(std::abs(value))) - std::floor(std::log10(2.0 * lost));
+        digits = static_cast<int>(std::clamp(count, 1.0, static_cast<double>(k_digits)));
+    }
+    const std::string text = gum::round_significant(value, digits);
+    double held = value;
+    std::from_chars(text.data(), text.data() + text.size(), held);
+    return held;
 }
 
 /// Numbers of a budget row in the units of its input and of the result.
@@ -335,7 +355,9 @@ reports::CoverageRegion region_of(const BudgetJob& job, const BudgetPointResult&
 /// Results whose digits are lost because double precision cannot hold the numbers that they come from: large values
 /// that cancel, among them constants, which have no uncertainty of their own to be held against.
 void warn_of_lost_digits(const BudgetResult& result, reports::EvaluationRecord& record) {
+    constexpr double k_few_digits = 1e-6;  // of an exact value
     std::vector<std::string> names;
+    std::vector<std::string> inexact;
     std::string worst;
     double most = 0.0;
     for (std::size_t p = 0; p < result.points.size(); ++p) {
@@ -345,10 +367,14 @@ void warn_of_lost_digits(const BudgetResult& result, reports::EvaluationRecord& 
             const auto index = static_cast<Eigen::Index>(i);
             const double lost = roundings(index);
             const double u = point.propagation.standard_uncertainty(index);
+            const std::string& name = record.results[p * result.output_names.size() + i].name;
+            if (point.outputs[i].coverage_note == k_exact_by_definition &&
+                lost > k_few_digits * std::abs(point.propagation.value(index))) {
+                inexact.push_back(name);
+            }
             if (!(u > 0.0) || !(lost > 2.0 * gum::k_accepted_rounding * u)) {
                 continue;
             }
-            const std::string& name = record.results[p * result.output_names.size() + i].name;
             names.push_back(name);
             if (lost / u > most) {
                 most = lost / u;
@@ -369,6 +395,17 @@ void warn_of_lost_digits(const BudgetResult& result, reports::EvaluationRecord& 
              .action =
                  "State a large value as a whole number, a constant, and the difference from it, an input; in the "
                  "model, subtract the whole numbers from each other before the differences are added.",
+             .severity = gum::Severity::warning});
+    }
+    if (!inexact.empty()) {
+        record.diagnostics.push_back(
+            {.code = "GC-BUDGET-0034",
+             .where = (inexact.size() == 1 ? "result " : "results ") + listed(inexact, 5),
+             .what =
+                 "exact by definition, and fewer than six of its digits are held by the numbers that it is computed "
+                 "from",
+             .rule = "a number has about 16 digits; they are lost where large values cancel",
+             .action = "Subtract the whole numbers from each other before the differences are added.",
              .severity = gum::Severity::warning});
     }
 }
@@ -442,6 +479,7 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
     const std::vector<std::string> names = budget_result_names(job, result);
     for (std::size_t p = 0; p < result.points.size(); ++p) {
         const BudgetPointResult& point = result.points[p];
+        const Eigen::VectorXd roundings = point.model->rounding(gum::input_estimates(*point.model));
         const std::optional<std::size_t> at = job.points.empty() ? std::nullopt : std::optional<std::size_t>(p);
         for (std::size_t i = 0; i < result.output_names.size(); ++i) {
             const auto index = static_cast<Eigen::Index>(i);
@@ -460,10 +498,14 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
                 }
             }
             out.value = unit.from_si(point.propagation.value(index));
+            if (from.coverage_note == k_exact_by_definition) {
+                out.value = held_digits(out.value, unit.difference_from_si(roundings(index)));
+            }
             out.unit = unit.text();
             out.u = unit.difference_from_si(from.standard_uncertainty);
             out.nu_eff = finite_or_none(from.degrees_of_freedom);
             out.k = from.coverage_factor;
+            out.k_numerical_error = from.k_numerical_error;
             out.coverage_probability = from.coverage_probability;
             if (from.expanded_uncertainty) {
                 out.U = unit.difference_from_si(*from.expanded_uncertainty);
@@ -472,7 +514,7 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
             out.coverage = from.coverage;
             out.coverage_note = from.coverage_note;
             out.printed = printed_result(out.value, out.U, out.u, out.unit, job.rounding);
-            out.reported = reported_of(from, point.propagation.value(index), unit, job.rounding);
+            out.reported = reported_of(from, out.value, unit, job.rounding);
             out.budget = budget_rows(job, result, at, point, index, unit);
             if (i < point.without_derivative.size() && point.without_derivative[i]) {
                 without_sensitivities(out.budget);

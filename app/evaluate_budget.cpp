@@ -386,6 +386,8 @@ BudgetResult evaluate_budget(const BudgetJob& job, unsigned threads,
         }
         if (is_without_scatter(fit, result.fits.back())) {
             result.notes.push_back(no_scatter_message(fit));
+        } else if (auto lost = lost_digits_message(fit, result.fits.back())) {
+            result.notes.push_back(std::move(*lost));
         }
     }
     const std::optional<gum::EquationSystem> system = compile_model(job);

@@ -25,7 +25,8 @@ struct BudgetOutputResult {
     double degrees_of_freedom = 0.0;        ///< ν_eff, truncated where the job asks for it; NaN: none can be stated
     std::optional<double> coverage_factor;  ///< none: no expanded uncertainty can be stated
     std::optional<double> expanded_uncertainty;
-    std::string coverage;  ///< as reports::Result::coverage
+    std::optional<double> k_numerical_error;  ///< standard uncertainty of a k that was found by draws
+    std::string coverage;                     ///< as reports::Result::coverage
     std::string coverage_note;
     /// How far the middle of the interval of the convolution lies from the estimate, in parts of its U; none where
     /// there is no convolution, or it certainly changes little.

@@ -1,10 +1,15 @@
 #include "app/fit_scatter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <string>
 
 #include "app/budget_fit_record.h"
 #include "gum/coverage.h"
+#include "gum/quantity/decimal_rounding.h"
+#include "gum/quantity/unit.h"
+#include "gum/rounding.h"
 
 namespace gumcert::app {
 
@@ -15,6 +20,59 @@ bool is_without_scatter(const engine::BudgetFit& fit, const engine::CurveFit& so
     }
     const double largest = fit.y.cwiseAbs().maxCoeff();
     return solved.residuals.cwiseAbs().maxCoeff() <= k_roundings * std::numeric_limits<double>::epsilon() * largest;
+}
+
+namespace {
+
+/// The smallest standard uncertainty among data; 0 without any.
+double least_uncertainty(const Eigen::MatrixXd& uncertainty) {
+    if (uncertainty.size() == 0) {
+        return 0.0;
+    }
+    return uncertainty.cols() == 1 ? uncertainty.col(0).minCoeff()
+                                   : std::sqrt(std::max(0.0, uncertainty.diagonal().minCoeff()));
+}
+
+/// How far data may be from the decimal numbers that were written.
+double rounding_of(const Eigen::Ref<const Eigen::VectorXd>& data, const gum::Unit& unit) {
+    double most = 0.0;
+    for (const double value : data) {
+        most = std::max(most, unit.difference_to_si(gum::decimal_rounding(unit.from_si(value))));
+    }
+    return most;
+}
+
+}  // namespace
+
+std::optional<gum::Diagnostic> lost_digits_message(const engine::BudgetFit& fit, const engine::CurveFit& solved) {
+    std::string name = fit.ordinate;
+    const gum::Unit* unit = &fit.ordinate_unit;
+    double u = least_uncertainty(fit.y_uncertainty);
+    if (u == 0.0 && solved.degrees_of_freedom > 0.0) {
+        u = std::sqrt(solved.residuals.squaredNorm() / solved.degrees_of_freedom);
+    }
+    double lost = rounding_of(fit.y, *unit);
+    if (const double u_x = least_uncertainty(fit.x_uncertainty); u_x > 0.0) {
+        const double lost_x = rounding_of(fit.x.col(0), fit.regressor_units.front());
+        if (lost_x * u > lost * u_x) {
+            name = fit.regressors.front();
+            unit = &fit.regressor_units.front();
+            lost = lost_x;
+            u = u_x;
+        }
+    }
+    if (!(u > 0.0) || !(lost > gum::k_accepted_rounding * u)) {
+        return std::nullopt;
+    }
+    return gum::Diagnostic{
+        .code = "GC-BUDGET-0034",
+        .where = "fit " + fit.name,
+        .what = "the digits of the data of " + name + " are held to ±" +
+                gum::round_significant(unit->difference_from_si(lost), 2) +
+                " only, and their standard uncertainty is " + gum::round_significant(unit->difference_from_si(u), 2),
+        .rule = "a number has about 16 digits; what is lost of it must be small beside its uncertainty",
+        .action = "Subtract a whole number from the data, and add it as a constant in the model.",
+        .severity = gum::Severity::warning};
 }
 
 gum::Diagnostic no_scatter_message(const engine::BudgetFit& fit) {

@@ -319,10 +319,9 @@ void note_reported(const BudgetJob& job, BudgetResult& result) {
     }
 }
 
-reports::ReportedResult reported_of(const BudgetOutputResult& output, double value, const gum::Unit& unit,
+reports::ReportedResult reported_of(const BudgetOutputResult& output, double y, const gum::Unit& unit,
                                     gum::RoundingMode rounding) {
     reports::ReportedResult reported;
-    const double y = unit.from_si(value);
     if (output.by_monte_carlo) {
         const gum::MonteCarloOutput& trials = *output.monte_carlo;
         const std::array<double, 2> interval{unit.from_si(trials.symmetric.low), unit.from_si(trials.symmetric.high)};

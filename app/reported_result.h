@@ -77,7 +77,7 @@ void decide_reported(engine::CoverageChoice choice, const std::string& evidence,
 void note_reported(const engine::BudgetJob& job, BudgetResult& result);
 
 /// The reported result of an output with its printed texts, in its unit.
-[[nodiscard]] reports::ReportedResult reported_of(const BudgetOutputResult& output, double value, const gum::Unit& unit,
+[[nodiscard]] reports::ReportedResult reported_of(const BudgetOutputResult& output, double y, const gum::Unit& unit,
                                                   gum::RoundingMode rounding);
 
 }  // namespace gumcert::app

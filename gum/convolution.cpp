@@ -435,6 +435,31 @@ std::optional<double> fourier_half_width(std::span<const Centred> terms, double 
 
 namespace {
 
+constexpr std::size_t k_most_sums = std::size_t{1} << 20U;
+constexpr std::size_t k_most_listed = std::size_t{1} << 17U;  // for an interval
+
+/// The possible values of a sum of samples and nothing else, in rising order, where they are few enough to be listed.
+std::vector<double> possible_sums(std::span<const Centred> distributions, std::size_t most) {
+    std::vector<double> sums{0.0};
+    for (const Centred& centred : distributions) {
+        const Distribution& d = centred.distribution;
+        if (d.kind != DistributionKind::empirical || d.samples->size() > most / sums.size()) {
+            return {};
+        }
+        std::vector<double> next;
+        next.reserve(sums.size() * d.samples->size());
+        for (const double before : sums) {
+            for (const double sample : *d.samples) {
+                const double deviation = d.location + d.scale * sample;
+                next.push_back(before + (centred.mirrored ? -deviation : deviation));
+            }
+        }
+        sums = std::move(next);
+    }
+    std::sort(sums.begin(), sums.end());
+    return sums;
+}
+
 ConvolutionInterval symmetric_interval(const CellSum& convolved, double coverage_probability) {
     // Probability inside ±(k + ½) h grows by two cells a step; inside a cell it is taken as linear.
     const double h = convolved.h;
@@ -483,6 +508,12 @@ ConvolutionInterval interval_with_equal_tails(const CellSum& convolved, double c
 ConvolutionInterval convolution_interval(std::span<const ConvolutionTerm> terms, double coverage_probability) {
     require_probability(coverage_probability, "coverage probability");
     const std::vector<Centred> distributions = centred_distributions(terms);
+    if (const std::vector<double> sums = possible_sums(distributions, k_most_listed); !sums.empty()) {
+        // Values with probabilities of their own: no more than (1 − p)/2 lies beyond either end.
+        const auto n = static_cast<double>(sums.size());
+        const auto beyond = static_cast<std::size_t>(0.5 * (1.0 - coverage_probability) * n);
+        return {sums[beyond], sums[sums.size() - 1 - beyond]};
+    }
     const bool symmetric =
         std::all_of(distributions.begin(), distributions.end(), [](const Centred& term) { return term.symmetric; });
     if (symmetric && distributions.size() == 1) {
@@ -550,29 +581,6 @@ CumulativeCells cumulative(const CellSum& sum) {
     return result;
 }
 
-/// The possible values of a sum of samples and nothing else, in rising order, where they are few enough to be listed.
-std::vector<double> possible_sums(std::span<const Centred> distributions) {
-    constexpr std::size_t k_most_sums = std::size_t{1} << 20U;
-    std::vector<double> sums{0.0};
-    for (const Centred& centred : distributions) {
-        const Distribution& d = centred.distribution;
-        if (d.kind != DistributionKind::empirical || d.samples->size() > k_most_sums / sums.size()) {
-            return {};
-        }
-        std::vector<double> next;
-        next.reserve(sums.size() * d.samples->size());
-        for (const double before : sums) {
-            for (const double sample : *d.samples) {
-                const double deviation = d.location + d.scale * sample;
-                next.push_back(before + (centred.mirrored ? -deviation : deviation));
-            }
-        }
-        sums = std::move(next);
-    }
-    std::sort(sums.begin(), sums.end());
-    return sums;
-}
-
 }  // namespace
 
 struct ConvolutionDistribution::Table {
@@ -608,7 +616,7 @@ ConvolutionDistribution::ConvolutionDistribution(std::span<const ConvolutionTerm
     const auto widest = std::max_element(distributions.begin(), distributions.end(),
                                          [&](const Centred& a, const Centred& b) { return rank(a) < rank(b); });
     Table table;
-    table.sums = possible_sums(distributions);
+    table.sums = possible_sums(distributions, k_most_sums);
     const DistributionKind kind = widest->distribution.kind;
     if (!table.sums.empty() ||
         (distributions.size() > 1 &&
@@ -810,8 +818,12 @@ Eigen::Index draws_of_group(double coverage_probability) {
     return static_cast<Eigen::Index>(k_draws_of_group * std::min(std::floor(more), k_most_times));
 }
 
+constexpr Eigen::Index k_batches = 16;
+
 /// Contribution of a group that is drawn by a copula or by rows, as the distribution of many draws.
-Distribution drawn_contribution(const InputGroup& group, const Eigen::RowVectorXd& c, double coverage_probability) {
+/// \param batch  one of k_batches equal parts of the draws; none: all of them
+Distribution drawn_contribution(const InputGroup& group, const Eigen::RowVectorXd& c, double coverage_probability,
+                                std::optional<Eigen::Index> batch) {
     auto values = std::make_shared<std::vector<double>>();
     const auto add = [&](const Eigen::MatrixXd& x, const EffectiveGroup& of) {
         const Eigen::VectorXd sums = (x.rowwise() - of.group.value.transpose()) * of.c.transpose();
@@ -823,9 +835,11 @@ Distribution drawn_contribution(const InputGroup& group, const Eigen::RowVectorX
         const EffectiveGroup sorted = taken_from(group, c, canonical_order(group, c));
         constexpr std::uint64_t k_seed = 1;
         const InputDraws draws({sorted.group}, k_seed, {});
-        Eigen::MatrixXd x(k_draws_of_group, group.size());
         const Eigen::Index count = draws_of_group(coverage_probability);
-        for (Eigen::Index first = 0; first < count; first += k_draws_of_group) {
+        const Eigen::Index begin = batch ? *batch * (count / k_batches) : 0;
+        const Eigen::Index end = batch ? begin + count / k_batches : count;
+        Eigen::MatrixXd x(std::min(k_draws_of_group, count / k_batches), group.size());
+        for (Eigen::Index first = begin; first < end; first += x.rows()) {
             draws.draw(static_cast<std::uint64_t>(first), x);
             add(x, sorted);
         }
@@ -898,10 +912,20 @@ bool convolution_changes_little(const MeasurementModel& model, const Propagation
     return bounded + students + few <= k_certainly_less && shapes.other <= k_negligible_share;
 }
 
-std::optional<std::vector<ConvolutionTerm>> convolution_terms(const MeasurementModel& model,
-                                                              const Propagation& propagation, Eigen::Index output) {
-    const std::vector<InputGroup>& groups = model.inputs();
+namespace {
+
+/// The terms, and how many draws a drawn one has.
+struct DrawnTerms {
     std::vector<ConvolutionTerm> terms;
+    std::uint64_t draws = 0;
+};
+
+/// \param batch  as drawn_contribution()
+std::optional<DrawnTerms> terms_of(const MeasurementModel& model, const Propagation& propagation, Eigen::Index output,
+                                   std::optional<Eigen::Index> batch) {
+    const std::vector<InputGroup>& groups = model.inputs();
+    DrawnTerms result;
+    std::vector<ConvolutionTerm>& terms = result.terms;
     Eigen::Index first = 0;
     for (std::size_t g = 0; g < groups.size(); ++g) {
         const InputGroup& group = groups[g];
@@ -921,15 +945,43 @@ std::optional<std::vector<ConvolutionTerm>> convolution_terms(const MeasurementM
         } else {
             const EffectiveGroup of = with_effect(group, c);
             const bool single = of.group.size() == 1 && of.group.marginals.size() == 1;
-            terms.push_back(
-                single ? ConvolutionTerm{of.c(0), of.group.marginals.front()}
-                       : ConvolutionTerm{1.0, drawn_contribution(of.group, of.c, propagation.coverage_probability)});
+            if (single) {
+                terms.push_back({of.c(0), of.group.marginals.front()});
+                continue;
+            }
+            terms.push_back({1.0, drawn_contribution(of.group, of.c, propagation.coverage_probability, batch)});
+            if (of.group.dependence != Dependence::joint_samples) {
+                result.draws = terms.back().distribution.samples->size();
+            }
         }
     }
     if (terms.empty()) {
         return std::nullopt;
     }
-    return terms;
+    return result;
+}
+
+/// Standard uncertainty of U from the finite number of draws.
+double error_from_draws(const MeasurementModel& model, const Propagation& propagation, Eigen::Index output) {
+    double sum = 0.0;
+    double squares = 0.0;
+    for (Eigen::Index batch = 0; batch < k_batches; ++batch) {
+        const double U = convolution_half_width(terms_of(model, propagation, output, batch)->terms,
+                                                propagation.coverage_probability);
+        sum += U;
+        squares += U * U;
+    }
+    constexpr auto k_count = static_cast<double>(k_batches);
+    const double variance = (squares - sum * sum / k_count) / (k_count - 1.0);
+    return std::sqrt(std::max(0.0, variance) / k_count);
+}
+
+}  // namespace
+
+std::optional<std::vector<ConvolutionTerm>> convolution_terms(const MeasurementModel& model,
+                                                              const Propagation& propagation, Eigen::Index output) {
+    auto result = terms_of(model, propagation, output, std::nullopt);
+    return result ? std::optional(std::move(result->terms)) : std::nullopt;
 }
 
 std::optional<ConvolvedOutput> expand_by_convolution(const MeasurementModel& model, const Propagation& propagation,
@@ -938,15 +990,19 @@ std::optional<ConvolvedOutput> expand_by_convolution(const MeasurementModel& mod
     if (!(u > 0.0)) {
         return std::nullopt;
     }
-    const auto terms = convolution_terms(model, propagation, output);
-    if (!terms) {
+    const auto drawn = terms_of(model, propagation, output, std::nullopt);
+    if (!drawn) {
         return std::nullopt;
     }
-    const ConvolutionInterval interval = convolution_interval(*terms, propagation.coverage_probability);
+    const ConvolutionInterval interval = convolution_interval(drawn->terms, propagation.coverage_probability);
     ConvolvedOutput result;
     result.expanded_uncertainty = 0.5 * (interval.high - interval.low);
     result.coverage_factor = result.expanded_uncertainty / u;
     result.asymmetry = 0.5 * (interval.high + interval.low) / result.expanded_uncertainty;
+    result.draws = drawn->draws;
+    if (result.draws > 0) {
+        result.numerical_error = error_from_draws(model, propagation, output) / u;
+    }
     return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -70,7 +71,9 @@ private:
 struct ConvolvedOutput {
     double expanded_uncertainty = 0.0;  ///< half the width of the probabilistically symmetric interval
     double coverage_factor = 0.0;       ///< U / u(y)
-    double asymmetry = 0.0;  ///< where the middle of that interval lies beside y, in parts of U; 0: symmetric
+    double asymmetry = 0.0;        ///< where the middle of that interval lies beside y, in parts of U; 0: symmetric
+    double numerical_error = 0.0;  ///< standard uncertainty of the coverage factor from the draws of groups; 0: none
+    std::uint64_t draws = 0;       ///< of a group that is drawn by a copula; 0: none
 };
 
 /// True when the convolution certainly moves k by less than 1 % away from t_p(ν_eff): a bound from the shares of the
@@ -87,6 +90,7 @@ struct ConvolvedOutput {
                                                                             const Propagation& propagation,
                                                                             Eigen::Index output);
 
+/// The numerical error comes from 16 batches of the draws: the standard deviation of their U, divided by 4.
 /// \return nothing when u(y) is 0, or there are no convolution_terms
 [[nodiscard]] std::optional<ConvolvedOutput> expand_by_convolution(const MeasurementModel& model,
                                                                    const Propagation& propagation, Eigen::Index output);

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -15,6 +16,7 @@ namespace gumcert::gum {
 namespace {
 
 constexpr Eigen::Index k_pairs = 64;
+constexpr Eigen::Index k_end_pairs = 1024;
 constexpr double k_accepted_end = 0.05;         // of U
 constexpr double k_accepted_mean = 0.15;        // of u
 constexpr double k_accepted_rms = 0.35;         // of u
@@ -75,6 +77,60 @@ void keep_inside(Eigen::Ref<Eigen::RowVectorXd> point, const std::vector<ProbedG
     }
 }
 
+/// Points x ± δ as the inputs scatter: bounded quantities evenly, others and correlated ones as normal ones.
+Eigen::MatrixXd scattered_points(const Eigen::VectorXd& x, const std::vector<ProbedGroup>& groups) {
+    constexpr std::uint64_t k_other_numbers = 0x5CA7;  // than the probes have
+    constexpr double k_least_number = -1.0 + 0x1p-50;  // a normal quantity has no limit
+    Eigen::MatrixXd points = x.transpose().replicate(2 * k_end_pairs, 1);
+    for (Eigen::Index pair = 0; pair < k_end_pairs; ++pair) {
+        const std::uint64_t number = k_other_numbers + static_cast<std::uint64_t>(pair);
+        for (const ProbedGroup& group : groups) {
+            const Eigen::Index size = group.root.rows();
+            Eigen::VectorXd s(size);
+            for (Eigen::Index i = 0; i < size; ++i) {
+                const double r =
+                    std::max(scattered(number, static_cast<std::uint64_t>(group.first + i)), k_least_number);
+                const bool is_bounded = group.root.isDiagonal() && static_cast<std::size_t>(i) < group.limits.size() &&
+                                        std::isfinite(group.limits[static_cast<std::size_t>(i)].low) &&
+                                        std::isfinite(group.limits[static_cast<std::size_t>(i)].high);
+                s(i) = is_bounded ? std::numbers::sqrt3 * r : std::numbers::sqrt2 * boost::math::erf_inv(r);
+            }
+            const Eigen::RowVectorXd off = (group.root * s).transpose();
+            points.row(2 * pair).segment(group.first, size) += off;
+            points.row(2 * pair + 1).segment(group.first, size) -= off;
+        }
+    }
+    for (Eigen::Index row = 0; row < points.rows(); ++row) {
+        Eigen::RowVectorXd point = points.row(row);
+        keep_inside(point, groups);
+        points.row(row) = point;
+    }
+    return points;
+}
+
+/// How far the ends of the interval of a model are from those of its tangent at the same points.
+/// \param values, tangent  one a point
+double moved_ends(const Eigen::VectorXd& values, const Eigen::VectorXd& tangent, double coverage_probability) {
+    constexpr std::size_t k_least_beyond = 8;
+    std::vector<double> f;
+    std::vector<double> t;
+    for (Eigen::Index row = 0; row < values.size(); ++row) {
+        if (std::isfinite(values(row))) {
+            f.push_back(values(row));
+            t.push_back(tangent(row));
+        }
+    }
+    const auto beyond = std::max(k_least_beyond, static_cast<std::size_t>(0.5 * (1.0 - coverage_probability) *
+                                                                          static_cast<double>(values.size())));
+    if (f.size() <= 2 * beyond) {
+        return 0.0;
+    }
+    std::sort(f.begin(), f.end());
+    std::sort(t.begin(), t.end());
+    const std::size_t last = f.size() - 1 - beyond;
+    return std::max(std::abs(f[beyond] - t[beyond]), std::abs(f[last] - t[last]));
+}
+
 }  // namespace
 
 std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const Propagation& propagation,
@@ -127,6 +183,13 @@ std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const
     const Eigen::MatrixXd tangent = ((points.rowwise() - x.transpose()) * propagation.jacobian.transpose()).rowwise() +
                                     propagation.value.transpose();
 
+    const Eigen::MatrixXd scatter = scattered_points(x, groups);
+    Eigen::MatrixXd y_scatter(scatter.rows(), m);
+    model.evaluate_trials(scatter, y_scatter);
+    const Eigen::MatrixXd tangent_scatter =
+        ((scatter.rowwise() - x.transpose()) * propagation.jacobian.transpose()).rowwise() +
+        propagation.value.transpose();
+
     std::vector<LinearityCheck> checks(static_cast<std::size_t>(m));
     for (Eigen::Index k = 0; k < m; ++k) {
         LinearityCheck& check = checks[static_cast<std::size_t>(k)];
@@ -175,7 +238,10 @@ std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const
                 check.end_deviation = std::max(check.end_deviation, std::abs(residual));
             }
         }
-        check.adequate = check.adequate && check.end_deviation <= k_accepted_end * factor(k) * u + rounding;
+        const double accepted = k_accepted_end * factor(k) * u + rounding;
+        check.adequate =
+            check.adequate && check.end_deviation <= accepted &&
+            moved_ends(y_scatter.col(k), tangent_scatter.col(k), propagation.coverage_probability) <= accepted;
     }
     return checks;
 }

@@ -178,7 +178,9 @@ std::vector<Text> contributions(const EvaluationRecord& record, const Wording& w
 void uncertainty_section(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record,
                          const CertifiedOverview& overview) {
     builder.section("statement_of_uncertainty");
-    if (overview.used().empty()) {
+    if (overview.exact()) {
+        builder.paragraph(words("statement", "exact_values"));
+    } else if (overview.used().empty()) {
         builder.paragraph(words("statement", "no_uncertainty"));
     }
     for (const Coverage c : overview.used()) {

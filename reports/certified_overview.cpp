@@ -17,9 +17,16 @@ constexpr std::array<Coverage, 6> k_coverages = {Coverage::normal,      Coverage
 
 }  // namespace
 
+bool is_exact(const CertifiedValue& v) {
+    return v.printed_U == "0" && v.printed_k.empty();
+}
+
 Coverage coverage_of(const CertifiedValue& v) {
     if (v.interval && !v.printed_low.empty()) {
         return Coverage::interval;
+    }
+    if (is_exact(v)) {
+        return Coverage::nothing;  // U = 0 is no multiple of a standard uncertainty
     }
     if (v.printed_U.empty()) {
         return v.coverage == "none" ? Coverage::none : Coverage::nothing;
@@ -39,6 +46,7 @@ CertifiedOverview::CertifiedOverview(const certificate::Certificate& certificate
         for (const CertifiedColumn& column : table.columns) {
             for (const CertifiedValue& v : column.values) {
                 const Coverage c = coverage_of(v);
+                exact_ = exact_ || is_exact(v);
                 if (c == Coverage::nothing) {
                     continue;
                 }

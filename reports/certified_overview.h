@@ -17,6 +17,9 @@ inline constexpr const char* k_raised_mark = "#";
 /// What the U (or the interval) of a value means; each has a sentence.
 enum class Coverage { nothing, none, normal, student_t, convolution, monte_carlo, interval };
 
+/// U = 0 without a coverage factor: the value follows from constants.
+[[nodiscard]] bool is_exact(const certificate::CertifiedValue& v);
+
 [[nodiscard]] Coverage coverage_of(const certificate::CertifiedValue& v);
 
 /// Everything that is certified, seen at once: which sentences are needed, which columns, and which marks.
@@ -33,6 +36,8 @@ public:
     [[nodiscard]] const std::vector<Coverage>& used() const { return used_; }
     /// k is not the same for all, or the profile wants its column.
     [[nodiscard]] bool k_column() const { return k_column_; }
+    /// Some values are exact.
+    [[nodiscard]] bool exact() const { return exact_; }
     /// Some U is the capability of the laboratory.
     [[nodiscard]] bool raised() const { return raised_; }
     /// The profile wants what is outside of the accreditation in a section of its own.
@@ -54,7 +59,7 @@ private:
     const certificate::Certificate& certificate_;
     std::array<std::vector<const certificate::CertifiedValue*>, 7> by_coverage_;
     std::vector<Coverage> used_;
-    bool k_column_ = false, raised_ = false;
+    bool k_column_ = false, raised_ = false, exact_ = false;
 };
 
 }  // namespace gumcert::reports

@@ -104,7 +104,8 @@ bool match(const Pieces& pieces, std::string_view text, std::size_t i, std::vect
     const bool last = i + 1 == pieces.placeholders.size();
     const auto take = [&](std::size_t length) {
         const std::string_view value = text.substr(0, length);
-        if (value.empty() || (pieces.placeholders[i].kind == Kind::number && !may_be_number(value))) {
+        const bool is_number = pieces.placeholders[i].kind == Kind::number;
+        if (value.empty() || (is_number && (!may_be_number(value) || value.find("; ") != std::string_view::npos))) {
             return false;
         }
         values.emplace_back(value);

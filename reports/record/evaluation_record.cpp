@@ -217,6 +217,7 @@ void describe(Archive& a, Struct& r) {
     a("u", r.u, Range::not_negative);
     a("nu_eff", r.nu_eff, Range::positive);
     a("k", r.k, Range::positive);
+    a.added("k_numerical_error", r.k_numerical_error, Range::not_negative);
     a("coverage_probability", r.coverage_probability, Range::probability);
     a("U", r.U, Range::not_negative);
     a("distribution", r.distribution);

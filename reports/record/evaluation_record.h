@@ -83,8 +83,9 @@ struct Result {
     double value = 0.0;
     std::string unit;  ///< "um", "arcsec", … as UDUNITS-2 writes it
     double u = 0.0;
-    std::optional<double> nu_eff;  ///< none = infinite, or none can be stated: see `coverage`
-    std::optional<double> k;       ///< none: no expanded uncertainty can be stated
+    std::optional<double> nu_eff;                  ///< none = infinite, or none can be stated: see `coverage`
+    std::optional<double> k;                       ///< none: no expanded uncertainty can be stated
+    std::optional<double> k_numerical_error = {};  ///< standard uncertainty of a k that was found by draws
     double coverage_probability = 0.9545;
     std::optional<double> U;
     std::string distribution;  ///< of the result: "normal", "student_t", "convolution", "numerical", "not stated"

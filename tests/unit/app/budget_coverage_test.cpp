@@ -148,5 +148,49 @@ TEST(ExpandByPropagation, TellsWhereTheResultIsNotSymmetric) {
     EXPECT_EQ(evaluate(rectangular("a"), "a").asymmetry.value(), 0.0);
 }
 
+// What is stated as the error of k is what other draws would change it by.
+TEST(ExpandByPropagation, StatesTheErrorOfADrawnFactor) {
+    const std::string pair = R"("a": {"value": 0, "half_width": 1}, "b": {"value": 0, "half_width": 1})";
+    const BudgetOutputResult drawn = evaluate(pair, "a + b", R"(, "correlations": [["a", "b", 0.5]])");
+    ASSERT_EQ(drawn.coverage, "convolution");
+    ASSERT_TRUE(drawn.k_numerical_error.has_value());
+    EXPECT_THAT(drawn.coverage_note,
+                HasSubstr("; the numerical error of k from 65536 draws of correlated inputs is 0.00"));
+    EXPECT_GT(*drawn.k_numerical_error, 0.0005);
+    EXPECT_LT(*drawn.k_numerical_error, 0.01);
+    const BudgetOutputResult trials =
+        evaluate(pair, "a + b", R"(, "correlations": [["a", "b", 0.5]], "monte_carlo": {"trials": 2000000})");
+    const gum::MonteCarloOutput& mc = *trials.monte_carlo;
+    EXPECT_NEAR(0.5 * (mc.symmetric.high - mc.symmetric.low) / drawn.standard_uncertainty, *drawn.coverage_factor,
+                5.0 * *drawn.k_numerical_error);
+    // Nothing is drawn of independent inputs, nor of normal ones.
+    EXPECT_FALSE(evaluate(pair, "a + b").k_numerical_error.has_value());
+}
+
+// Samples are values with probabilities of their own: U is one of their differences, not the edge of a cell.
+TEST(ExpandByPropagation, TakesTheQuantileOfDiscreteSamples) {
+    std::string samples;
+    for (int i = 0; i < 120; ++i) {
+        samples += std::string(i == 0 ? "" : ", ") + (i % 12 == 0   ? "1.3"
+                                                      : i % 12 == 1 ? "0.7"
+                                                      : i % 2 == 0  ? "1.1"
+                                                                    : "0.9");
+    }
+    const BudgetOutputResult one = evaluate("\"x\": {\"samples\": [" + samples + "]}", "x");
+    ASSERT_EQ(one.coverage, "convolution");
+    EXPECT_NEAR(*one.expanded_uncertainty, 0.3, 1e-12);
+    const BudgetOutputResult two =
+        evaluate("\"x\": {\"samples\": [" + samples + "]}, \"z\": {\"samples\": [" + samples + "]}", "x + 2*z");
+    const double tenths = *two.expanded_uncertainty * 10.0;
+    EXPECT_NEAR(tenths, std::round(tenths), 1e-9);
+    // Trials have the same values, however many they are.
+    for (const char* trials : {"200000", "3000000"}) {
+        const BudgetOutputResult drawn = evaluate("\"x\": {\"samples\": [" + samples + "]}", "x",
+                                                  std::string(R"(, "monte_carlo": {"trials": )") + trials + "}");
+        EXPECT_NEAR(drawn.monte_carlo->symmetric.high, 1.3, 1e-12) << trials;
+        EXPECT_NEAR(drawn.monte_carlo->symmetric.low, 0.7, 1e-12) << trials;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::app

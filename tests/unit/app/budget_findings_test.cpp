@@ -193,5 +193,49 @@ TEST(BudgetFindings, AGoodPoolIsLeftAlone) {
     EXPECT_LE(told, 3);
 }
 
+TEST(BudgetFindings, DataOfFitsWhoseDigitsAreLostAreFindings) {
+    const auto fit = [](const std::string& y, const std::string& more) {
+        return R"("fits": {"f": {"equation": "y = a + b*x", "parameters": {"a": {}, "b": {}},
+            "data": {"x": [0, 1, 2, 3, 4], "y": )" +
+               y + more + "}}}";
+    };
+    const std::string large = "[1000000000.1, 1000000001.3, 1000000001.9, 1000000003.2, 1000000004.1]";
+    const std::string tiny = "[1000000000.1, 1000000001.1, 1000000002.1, 1000000003.1, 1000000004.1000003]";
+    EXPECT_THAT(findings(record_of(fit(large, R"(, "u_y": 1e-7)")), "accredited"), HasSubstr("M02 critical"));
+    EXPECT_EQ(findings(record_of(fit(large, R"(, "u_y": 0.3)")), "accredited"), "");
+    EXPECT_EQ(findings(record_of(fit(large, "")), "accredited"), "");
+    EXPECT_EQ(findings(record_of(fit(tiny, "")), "accredited"), "F03 critical; M02 critical");
+    // As the message advises: the whole number is subtracted from the data.
+    EXPECT_EQ(findings(record_of(fit("[0.1, 1.1, 2.1, 3.1, 4.1000003]", "")), "accredited"), "");
+}
+
+/// Exact results have the digits that double precision holds, and no others.
+TEST(BudgetFindings, ExactResultsHaveTheDigitsThatAreHeld) {
+    const auto exact = [](const std::string& model, const std::string& a, const std::string& b) {
+        return record_of(R"("model": ["y = )" + model + R"("], "inputs": {"a": {"value": )" + a +
+                         R"(, "constant": true}, "b": {"value": )" + b + R"(, "constant": true}})");
+    };
+    const auto printed = [&](const std::string& model, const std::string& a, const std::string& b) {
+        return exact(model, a, b).results.at(0).reported.printed.value;
+    };
+    EXPECT_EQ(printed("a + b", "0.1", "0.2"), "0.3");
+    EXPECT_EQ(printed("a - b", "1000000000.1", "1000000000"), "0.1");
+    EXPECT_EQ(printed("a*a*b", "0.1", "3"), "0.03");
+    EXPECT_EQ(printed("a*b", "3", "7"), "21");
+    EXPECT_EQ(printed("a/b", "1", "3"), "0.333333333333333");
+    EXPECT_EQ(printed("a - b", "0.30001", "0.3"), "1e-05");
+    EXPECT_EQ(findings(exact("a - b", "1000000000.1", "1000000000"), "accredited"), "");
+    EXPECT_EQ(findings(exact("(a + b) - a", "10000000000000000", "0.3"), "accredited"), "M02 critical");
+    // A thousand sums of decimals, as a person adds them.
+    std::mt19937 random(3);
+    for (int i = 0; i < 1000; ++i) {
+        const int a = static_cast<int>(random() % 100000);
+        const int b = static_cast<int>(random() % 100000);
+        const double sum = (a + b) / 1000.0;
+        const auto text = [](int thousandths) { return std::to_string(thousandths / 1000.0); };
+        EXPECT_EQ(exact("a + b", text(a), text(b)).results.at(0).value, sum) << a << " " << b;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::app
