@@ -86,7 +86,8 @@ Text listed(const std::vector<std::string>& names, const Wording& words) {
 
 /// Results whose coverage is stated by one sentence.
 struct CoverageGroup {
-    std::string kind;  ///< as `coverage`, but "student_t" for a normal distribution as well
+    std::string
+        kind;  ///< as `coverage`, but "student_t" for a normal distribution as well, "exact" for U = 0 without k
     double probability = 0.0;
     std::vector<const Result*> results;
 };
@@ -96,6 +97,9 @@ std::string coverage_kind(const Result& r) {
     const ReportedResult reported = reported_result(r);
     if (reported.method == "monte_carlo") {
         return reported.U ? "monte_carlo" : "interval";
+    }
+    if (reported.U && !reported.k) {
+        return "exact";
     }
     return r.coverage == "normal" ? "student_t" : r.coverage;
 }
@@ -131,6 +135,9 @@ Text coverage_sentence(const CoverageGroup& group, const Wording& words) {
     const Text p = words.number(percent_text(group.probability));
     if (group.kind == "none") {
         return words("sentence", "coverage_none");
+    }
+    if (group.kind == "exact") {
+        return words("statement", "exact_values");
     }
     std::optional<double> k_low;
     std::optional<double> k_high;
