@@ -411,5 +411,23 @@ TEST(SecondOrder, TakesTheMomentsOfTheDistributions) {
     EXPECT_NEAR(u(R"("value": 0, "u": 1)"), std::sqrt(2.0), 1e-12);
 }
 
+// Limits and kinks that no probe along a line meets, against a million and a half trials of NumPy.
+TEST(ReportedResult, SeesWhatOnlyTheScatterOfAllInputsShows) {
+    struct Interval {
+        std::string model, inputs;
+        double low, high;
+    };
+    const std::vector<Interval> cases{
+        {"y = min(a, b)", R"("a": {"value": 5, "u": 1}, "b": {"value": 7, "half_width": 2})", 2.996, 6.743},
+        {"y = hypot(x, z)", R"("x": {"value": 1, "half_width": 1}, "z": {"value": 0, "u": 0.3})", 0.1506, 1.978},
+        {"y = sqrt(x^2 + z^2)", R"("x": {"value": 5, "u": 1}, "z": {"value": 0, "u": 1})", 3.129, 7.086}};
+    for (const Interval& one : cases) {
+        const Evaluated result = evaluated(budget(one.model, one.inputs));
+        EXPECT_EQ(result.reported().because, "not_linear") << one.model;
+        EXPECT_NEAR((*result.reported().interval)[0], one.low, 0.02) << one.model;
+        EXPECT_NEAR((*result.reported().interval)[1], one.high, 0.02) << one.model;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::app

@@ -359,5 +359,20 @@ TEST(BudgetCertificate, WorksWithoutOptionalParts) {
     EXPECT_THAT(render_html(two, assets()), HasSubstr("number of the observation"));
 }
 
+TEST(BudgetCertificate, ExactResultsAreNoMultipleOfAStandardUncertainty) {
+    EvaluationRecord r = test::sample_budget_record();
+    for (Result& result : r.results) {
+        result.u = 0.0;
+        result.U = 0.0;
+        result.k.reset();
+        result.coverage = "normal";
+        result.coverage_note.clear();
+        result.reported = {};
+        result.printed = {.value = "0.3", .U = "0", .unit = ""};
+    }
+    EXPECT_THAT(text_of(r), HasSubstr("Values with U = 0 follow from constants alone"));
+    EXPECT_THAT(text_of(r), Not(HasSubstr("multiplied by the coverage factor")));
+}
+
 }  // namespace
 }  // namespace gumcert::reports
