@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/remark.h"
+#include "engine/group_notes.h"
 #include "gum/coverage.h"
 #include "gum/rounding.h"
 
@@ -101,7 +102,16 @@ std::vector<gum::Diagnostic> rotary_remarks(const EvaluationRecord& record) {
 }
 
 std::vector<certificate::Finding> rotary_findings(const EvaluationRecord& record) {
-    return findings_of(remarks_of(record), record);
+    std::vector<Remark> remarks = remarks_of(record);
+    for (const gum::Diagnostic& message : record.diagnostics) {
+        if (record.rotary && message.code == engine::k_suspicious_group) {
+            remarks.push_back({.message = message,
+                               .id = "G04",
+                               .clause = "ISO/IEC 17025:2017, 7.7.1",
+                               .accredited = FindingSeverity::critical});
+        }
+    }
+    return findings_of(std::move(remarks), record);
 }
 
 }  // namespace gumcert::app

@@ -13,7 +13,8 @@ namespace gumcert::app {
 /// a record of another kind.
 [[nodiscard]] std::vector<gum::Diagnostic> rotary_remarks(const reports::EvaluationRecord& record);
 
-/// The same as findings of a certificate: G01 and G03, critical where it is accredited, and G02, information
+/// The same as findings of a certificate: G01 and G03, critical where it is accredited, and G02, information; and G04
+/// for every group of distances that the adjustment found suspicious, critical where it is accredited
 /// (docs/findings.md).
 [[nodiscard]] std::vector<certificate::Finding> rotary_findings(const reports::EvaluationRecord& record);
 

@@ -118,15 +118,17 @@ void Adjustment::hold(BlockId block, int component) {
 Adjustment::GroupId Adjustment::add_observations(std::shared_ptr<const ObservationModel> model,
                                                  std::vector<BlockId> blocks, Eigen::VectorXd observed,
                                                  const Eigen::MatrixXd& covariance) {
-    groups_.push_back({std::move(model), std::move(blocks), std::move(observed), cholesky_factor(covariance)});
+    groups_.push_back({std::move(model), std::move(blocks), std::move(observed), cholesky_factor(covariance), false});
     return groups_.size() - 1;
 }
 
 Adjustment::GroupId Adjustment::add_prior(BlockId block, std::vector<int> components, Eigen::VectorXd observed,
                                           const Eigen::MatrixXd& covariance) {
     const int size = static_cast<int>(blocks_[block].value.size());
-    return add_observations(std::make_shared<ComponentModel>(std::move(components), size), {block}, std::move(observed),
-                            covariance);
+    const GroupId group = add_observations(std::make_shared<ComponentModel>(std::move(components), size), {block},
+                                           std::move(observed), covariance);
+    groups_[group].is_prior = true;
+    return group;
 }
 
 void Adjustment::set_covariance(GroupId group, const Eigen::MatrixXd& covariance) {
@@ -677,7 +679,9 @@ SolveSummary Adjustment::solve(const SolverOptions& options) {
             pointers.push_back(values.data() + first[block]);
             used[block] = true;
         }
-        problem.AddResidualBlock(new WhitenedCost(group, blocks_), nullptr, pointers);
+        const bool robust = options.robust_scale > 0.0 && !group.is_prior;
+        problem.AddResidualBlock(new WhitenedCost(group, blocks_),
+                                 robust ? new ceres::CauchyLoss(options.robust_scale) : nullptr, pointers);
     }
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
         const Block& block = blocks_[b];
@@ -731,6 +735,10 @@ SolveSummary Adjustment::solve(const SolverOptions& options) {
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
         std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(first[b]), blocks_[b].value.size(),
                     blocks_[b].value.begin());
+    }
+    if (options.robust_scale > 0.0) {
+        summary.converged = true;
+        return summary;
     }
     const SolveSummary refined = refine(options);
     summary.converged = refined.converged;

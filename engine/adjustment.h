@@ -25,6 +25,9 @@ struct SolverOptions {
     int max_refinements = 500;  ///< Gauss-Newton steps after it; outliers that are kept make them slow
     /// Converged when the next Gauss-Newton step of every parameter is below this fraction of its standard uncertainty.
     double step_tolerance = 1e-6;
+    /// Above 0, for solve() only: groups whose whitened residuals are together larger than this count less and less
+    /// (Cauchy's loss), and nothing is refined. Finds where all others agree when some are grossly wrong; no result.
+    double robust_scale = 0.0;
     /// Squared ratio of smallest to largest singular value of the column-scaled Jacobian below which the parameters
     /// count as not determined.
     double rank_tolerance = 1e-12;
@@ -202,6 +205,7 @@ private:
         std::vector<BlockId> blocks;
         Eigen::VectorXd observed;
         Eigen::MatrixXd cholesky;
+        bool is_prior = false;
     };
     class WhitenedCost;
 

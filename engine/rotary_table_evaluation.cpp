@@ -6,11 +6,15 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "engine/geometry_check.h"
+#include "engine/group_notes.h"
 #include "engine/reported_covariance.h"
 #include "gum/quantity/units.h"
 
@@ -19,6 +23,30 @@ namespace gumcert::engine {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// Whether distances that were left out are many of one visit or of one reflector: then it may be the group that is
+/// wrong, and what is left of it does not say so any more.
+bool is_concentrated(const RotaryTableMeasurement& measurement, const std::vector<bool>& active) {
+    constexpr std::size_t k_fewest = 2;
+    constexpr double k_share = 0.2;
+    struct Count {
+        std::size_t out = 0, all = 0;
+        [[nodiscard]] bool is_large() const {
+            return out >= k_fewest && static_cast<double>(out) > k_share * static_cast<double>(all);
+        }
+    };
+    std::map<std::pair<std::size_t, std::size_t>, Count> visits;  // by pass and angle
+    std::vector<Count> reflectors(measurement.reflectors.size());
+    for (std::size_t i = 0; i < active.size(); ++i) {
+        const LengthObservation& length = measurement.lengths[i];
+        for (Count* count : {&visits[{length.pass, length.angle}], &reflectors[length.reflector]}) {
+            ++count->all;
+            count->out += active[i] ? std::size_t{0} : std::size_t{1};
+        }
+    }
+    return std::ranges::any_of(visits, [](const auto& visit) { return visit.second.is_large(); }) ||
+           std::ranges::any_of(reflectors, &Count::is_large);
+}
 
 /// Kept in, they would carry the solution away from every other distance.
 [[noreturn]] void refuse_gross_errors(const RotaryTableMeasurement& measurement,
@@ -86,6 +114,57 @@ JointAdjustment with_active(const JointAdjustment& from, const std::vector<bool>
     result.copy_parameters_from(from);
     result.set_weights(stochastic);
     return result;
+}
+
+// Whitened residual of a visit, together, above which the robust search lets it count less.
+constexpr double k_robust_scale = 10.0;
+// Mean whitened residual above which something is grossly wrong, and the robust search is asked.
+constexpr double k_gross_misfit = 30.0;
+// Deviation from the others of a visit that no repeatability makes, and that the linear search would not survive.
+constexpr double k_gross_deviation = 200.0 * gum::k_micrometre;
+
+double median_of(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// Distances that deviate from the median of their visit by far more than those of the other visits do, at the place
+/// where most visits agree, the largest first. The adjustment is left there.
+std::vector<std::size_t> find_gross_deviations(JointAdjustment& adjustment, const SolverOptions& solver) {
+    constexpr double k_times_scale = 100.0;
+    SolverOptions robust = solver;
+    robust.robust_scale = k_robust_scale;
+    robust.max_iterations = 200;
+    if (!adjustment.adjustment().solve(robust).converged) {
+        return {};
+    }
+    std::vector<double> sizes;
+    std::vector<std::pair<std::size_t, double>> deviations;
+    for (std::size_t v = 0; v < adjustment.visits().size(); ++v) {
+        const Eigen::VectorXd residual = adjustment.adjustment().residual(v);
+        if (residual.size() < 3) {
+            continue;
+        }
+        const double middle = median_of({residual.begin(), residual.end()});
+        for (Eigen::Index i = 0; i < residual.size(); ++i) {
+            const double size = std::abs(residual[i] - middle);
+            sizes.push_back(size);
+            deviations.emplace_back(adjustment.visits()[v].observations[static_cast<std::size_t>(i)], size);
+        }
+    }
+    if (sizes.empty()) {
+        return {};
+    }
+    std::ranges::stable_sort(deviations, std::greater{}, &std::pair<std::size_t, double>::second);
+    std::vector<std::size_t> found;
+    const double limit = std::max(k_gross_deviation, k_times_scale * median_of(std::move(sizes)));
+    for (const auto& [length, size] : deviations) {
+        if (size > limit) {
+            found.push_back(length);
+        }
+    }
+    return found;
 }
 
 /// Adjustment and weights that agree with each other.
@@ -197,6 +276,8 @@ TestLimits test_limits(const EvaluationOptions& options, const VarianceComponent
 constexpr double k_linear_reach = 50.0 * gum::k_micrometre;
 // Share of flagged distances above which it is hardly the distances that are wrong.
 constexpr double k_many_outliers = 0.05;
+// Probability that a sound measurement makes a group of one of the eight kinds suspicious.
+constexpr double k_group_level = 0.001;
 // Probability of warning of a fixture that is as stated.
 constexpr double k_fixture_test_level = 0.01;
 
@@ -206,6 +287,21 @@ std::string micrometres(double length) {
                                    std::chars_format::general, 3)
                          .ptr;
     return std::string(buffer.data(), end) + " µm";
+}
+
+/// Tests of the groups with the distances that were left out; none where that adjustment does not converge.
+std::optional<GroupTests> groups_with_all(const JointAdjustment& adjustment, const std::vector<bool>& active,
+                                          const EstimatedComponents& estimated, StochasticModel stochastic,
+                                          const EvaluationOptions& options, const GroupTestOptions& group_options) {
+    const Progress silent;
+    Iteration iteration(estimated, silent);
+    try {
+        JointAdjustment whole = with_active(adjustment, active, stochastic);
+        iteration.settle_exactly(whole, stochastic, options);
+        return test_groups(whole, *iteration.normal, iteration.covariance, group_options);
+    } catch (const gum::NoResultError&) {
+        return std::nullopt;
+    }
 }
 
 /// The fixture component together with the others, as a check of the stated covariance.
@@ -307,7 +403,9 @@ void note_outliers(RotaryTableSolution& solution, const RotaryTableMeasurement& 
              "review the stated uncertainties, and correct or delete the distances that are flagged",
              gum::Severity::warning});
     }
-    for (std::size_t k = 0; k < solution.fixture_reliability.size(); ++k) {
+    // With tests of groups the points of the fixture are tested whole, one at a time: the culprit is named, and not
+    // all.
+    for (std::size_t k = 0; !solution.groups && k < solution.fixture_reliability.size(); ++k) {
         const CoordinateReliability& row = solution.fixture_reliability[k];
         if (std::abs(row.test_value) > solution.fixture_critical_value) {
             solution.notes.push_back(
@@ -343,14 +441,15 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
         refuse_gross_errors(measurement, gross);
     }
     std::vector<OutlierFinding> found;
-    for (const std::size_t i : gross) {
+    const auto set_aside = [&](std::size_t i) {
         active[i] = false;
         OutlierFinding finding;
         finding.length = i;
         finding.reason = OutlierReason::gross_error;
         finding.redundancy_number = 1.0;
         found.push_back(finding);
-    }
+    };
+    std::ranges::for_each(gross, set_aside);
     const StartValues start = find_start_values(measurement, active);
     JointAdjustment first(measurement, active, RigidMotion{}, start, stochastic);
     const auto require_rank = [&](const JointAdjustment& adjustment) {
@@ -364,7 +463,19 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
     // While an outlier may still be in, the last digits of the solution are not worth their steps.
     SolverOptions rough = options.solver;
     rough.step_tolerance = 1e-3;
-    const SolveSummary summary = first.adjustment().solve(rough);
+    SolveSummary summary = first.adjustment().solve(rough);
+    const double misfit = std::sqrt(summary.chi_square / static_cast<double>(measurement.lengths.size()));
+    if (snooping && outliers.action == OutlierAction::remove && (!summary.converged || misfit > k_gross_misfit)) {
+        JointAdjustment robust(measurement, active, RigidMotion{}, start, stochastic);
+        for (const std::size_t i : find_gross_deviations(robust, rough)) {
+            set_aside(i);
+        }
+        first = JointAdjustment(measurement, active, RigidMotion{}, robust.present_values(), stochastic);
+        first.copy_parameters_from(robust);
+        first.set_weights(stochastic);
+        require_rank(first);
+        summary = first.adjustment().solve(rough);
+    }
     require_convergence(summary);
     require_rank(first);
     iteration.iterations += summary.iterations;
@@ -546,6 +657,24 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
     solution.non_centrality = limits.non_centrality;
     fill_variance_factor(solution);
 
+    if (options.chi_square_upper_tail) {
+        iteration.report("groups of distances");
+        const GroupTestOptions group_options{.alpha = k_group_level,
+                                             .chi_square_upper_tail = options.chi_square_upper_tail};
+        solution.groups = test_groups(adjustment, normal, covariance, group_options);
+        std::vector<bool> with_outliers = all;
+        for (const OutlierFinding& finding : solution.outliers) {
+            with_outliers[finding.length] =
+                with_outliers[finding.length] && finding.reason != OutlierReason::gross_error;
+        }
+        if (is_concentrated(measurement, active) && active != with_outliers) {
+            if (std::optional<GroupTests> groups =
+                    groups_with_all(adjustment, with_outliers, estimated, stochastic, options, group_options)) {
+                solution.groups = std::move(groups);
+            }
+        }
+    }
+
     const auto nu = [&](std::size_t k) { return solution.components[k].degrees_of_freedom; };
     solution.model = std::make_shared<RotaryTableModel>(
         measurement, adjustment, stochastic,
@@ -577,6 +706,9 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
              "measure more reflectors, or rely on the uncertainty budget of the CMM", gum::Severity::note});
     }
     note_outliers(solution, measurement, settled);
+    if (solution.groups) {
+        std::ranges::move(group_notes(*solution.groups, measurement), std::back_inserter(solution.notes));
+    }
     if (!adjustment.has_reversal()) {
         solution.notes.push_back({"GC-REVERSAL-0001", "reversal", "not reported",
                                   "every station must be measured in both senses of approach to separate it", "",

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/datum.h"
+#include "engine/group_tests.h"
 #include "engine/reliability.h"
 #include "engine/rotary_table_model.h"
 #include "engine/variance_components.h"
@@ -31,7 +32,8 @@ struct EvaluationOptions {
     /// tested with Pope's tau where the length noise is estimated; without it always with `critical_value`.
     std::function<double(double)> student_critical_value;
     /// Probability above a value of chi-square, by value and degrees of freedom. With it the stated covariance of the
-    /// fixture is tested against what the distances say of it (FixtureComponent::check); without it it is not.
+    /// fixture is tested against what the distances say of it (FixtureComponent::check), and groups of distances are
+    /// tested; without it they are not.
     std::function<double(double, double)> chi_square_upper_tail;
 };
 
@@ -43,7 +45,7 @@ struct StationEstimate {
 };
 
 enum class OutlierReason {
-    gross_error,    ///< off by centimetres: left out before the adjustment, which would not survive it
+    gross_error,    ///< grossly off: left out before the adjustment, which would not survive it
     data_snooping,  ///< largest test value above the critical one
 };
 
@@ -94,6 +96,7 @@ struct RotaryTableSolution {
     std::optional<double> critical_value_degrees_of_freedom;  ///< of Pope's tau; none: normal distribution
     double non_centrality = 0.0;                              ///< δ0 of the minimal detectable biases
     double fixture_critical_value = 0.0;                      ///< the same test for the coordinates of the fixture
+    std::optional<GroupTests> groups;                         ///< with EvaluationOptions::chi_square_upper_tail
 
     std::shared_ptr<const gum::MeasurementModel> model;  ///< outputs: the reported quantities; for the GUM layer
     std::vector<gum::Diagnostic> notes;                  ///< what a reader must know of this result

@@ -42,6 +42,7 @@ SOURCES = (
     "app/rotary_monte_carlo_record.cpp",
     "app/table_parameter_record.cpp",
     "app/zero_uncertainty.cpp",
+    "engine/group_notes.cpp",
 )
 
 # Literals of these sources that are no sentences of a record, or end the program in place of a record.

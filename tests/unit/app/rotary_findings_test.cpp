@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/group_notes.h"
 #include "tests/support/sample_certificate.h"
 #include "tests/support/sample_record.h"
 
@@ -65,6 +66,17 @@ TEST(RotaryFindings, ManyDistancesLeftOutAreNoGrossErrors) {
         distance.removed = false;
     }
     EXPECT_EQ(ids(reported_only), Ids());
+}
+
+TEST(RotaryFindings, SuspiciousGroupsBlockAnAccreditedCertificate) {
+    EvaluationRecord record = record_with(100.0, 0.48);
+    record.diagnostics.push_back(
+        {.code = engine::k_suspicious_group, .where = "station P1", .what = "drift", .rule = "r", .action = "a"});
+    EXPECT_EQ(ids(record), Ids{"G04"});
+    EXPECT_EQ(rotary_findings(record).front().severity, FindingSeverity::critical);
+    EXPECT_EQ(rotary_findings(record).front().where, "station P1");
+    record.certificate->data.status = "not_accredited";
+    EXPECT_EQ(rotary_findings(record).front().severity, FindingSeverity::major);
 }
 
 TEST(RotaryFindings, OfOtherRecordsAreNone) {

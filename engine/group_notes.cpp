@@ -1,0 +1,123 @@
+#include "engine/group_notes.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+#include "gum/quantity/units.h"
+
+namespace gumcert::engine {
+
+namespace {
+
+constexpr std::size_t k_most_notes = 5;
+
+std::string digits(double value, int count) {
+    std::array<char, 32> buffer{};
+    const auto end =
+        std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, count).ptr;
+    return {buffer.data(), end};
+}
+
+std::string size_of(double length) {
+    const double size = std::abs(length) / gum::k_micrometre;
+    return size < 999.5 ? digits(size, 3) + " µm" : digits(size / 1000.0, 3) + " mm";
+}
+
+std::string chi_square_of(double value) {
+    return value < 1000.0 ? digits(value, 3) : digits(std::round(value), 12);
+}
+
+/// "station P1, pass P1-1+, 105°"
+std::string place_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
+    if (test.kind == GroupKind::reflector) {
+        return "fixture, reflector " + measurement.reflectors[test.reflector];
+    }
+    if (test.station == GroupTest::k_none) {
+        return "lengths";
+    }
+    std::string place = "station " + measurement.stations[test.station];
+    if (test.pass != GroupTest::k_none && test.kind != GroupKind::drift) {
+        place += ", pass " + measurement.passes[test.pass] + ", " + digits(measurement.angles_deg[test.angle], 8) + "°";
+    }
+    return place;
+}
+
+std::string what_of(const GroupTest& test) {
+    switch (test.kind) {
+        case GroupKind::visit_length:
+            return "all distances of this visit are off by " + size_of(test.estimate) + " alike";
+        case GroupKind::visit_pose:
+            return "the table stood elsewhere at this visit than at the others of this angle: the distances differ "
+                   "by " +
+                   size_of(test.estimate) + " (root mean square)";
+        case GroupKind::dead_path_change:
+            return "from this visit on all distances of the station are off by " + size_of(test.estimate) + " alike";
+        case GroupKind::drift:
+            return test.degrees_of_freedom > 1
+                       ? "the distances of the stations drift, by " + size_of(test.estimate) +
+                             " from the first visit to the last (root mean square of the stations)"
+                       : "the distances drift by " + size_of(test.estimate) + " from the first visit to the last";
+        case GroupKind::angle_index:
+            return std::string("the distances of this station agree with the others when its angles are one step ") +
+                   (test.estimate > 0.0 ? "higher" : "lower");
+        case GroupKind::succession:
+            return "successive visits deviate alike: their autocorrelation coefficient is " + digits(test.estimate, 2);
+        case GroupKind::station:
+            return "the visits of this station scatter " + digits(test.estimate, 2) +
+                   " times as much as those of the "
+                   "others";
+        case GroupKind::reflector:
+            return "the distances put it " + size_of(test.estimate) + " away from its stated coordinates";
+    }
+    return "";
+}
+
+std::string action_of(const GroupTest& test) {
+    switch (test.kind) {
+        case GroupKind::visit_length:
+            return "Look for a disturbed beam at this visit, and measure it again; without it the result rests on the "
+                   "other visits of this angle.";
+        case GroupKind::visit_pose:
+            return "See whether the table had come to its angle, and which angle the file states; measure the visit "
+                   "again.";
+        case GroupKind::dead_path_change:
+            return "If the beam was interrupted there, give the distances from there on a dead path of their own.";
+        case GroupKind::drift:
+            return "Look at the temperatures and at the supports of stations and table; measure in both senses, or let "
+                   "it settle and measure again.";
+        case GroupKind::angle_index:
+            return "Correct the angles of this station in the lengths file.";
+        case GroupKind::succession:
+            return "Look for drift, of temperature or of a support; the visits are not independent of each other, and "
+                   "the uncertainties are too small.";
+        case GroupKind::station:
+            return "Look at this station: its support, its line of sight, its angles.";
+        case GroupKind::reflector:
+            return "Measure the reflector again with the CMM, and check that it has not moved in its holder.";
+    }
+    return "";
+}
+
+}  // namespace
+
+std::vector<gum::Diagnostic> group_notes(const GroupTests& groups, const RotaryTableMeasurement& measurement) {
+    std::vector<gum::Diagnostic> notes;
+    for (const GroupTest& test : groups.tests) {
+        if (test.suspicious && notes.size() < k_most_notes) {
+            notes.push_back({.code = k_suspicious_group,
+                             .where = place_of(test, measurement),
+                             .what = what_of(test) + " (chi-square " + chi_square_of(test.chi_square) + ", limit " +
+                                     chi_square_of(test.critical_value) + ")",
+                             .rule =
+                                 "one sound measurement in a thousand exceeds such a limit; what exceeds it belongs "
+                                 "to the measurement and not to the repeatability of the table",
+                             .action = action_of(test),
+                             .severity = gum::Severity::warning});
+        }
+    }
+    return notes;
+}
+
+}  // namespace gumcert::engine

@@ -1,0 +1,792 @@
+#include "engine/group_tests.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace gumcert::engine {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double k_median_of_absolute_normal = 0.674489750196082;
+constexpr double k_spread_of_robust_scale = 1.17;         // times 1/sqrt(n): standard deviation of its relative error
+constexpr double k_deviate_of_power = 0.841621233572914;  // of the normal distribution, for 80 %
+constexpr double k_controlled = 1e-9;            // share of the weight of a group below which nothing else controls it
+constexpr std::size_t k_most_suspects = 40;      // groups that are taken away one after the other
+constexpr std::size_t k_fewest_for_scatter = 8;  // visits: fewer say nothing of a scatter
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// Value of chi-square that is exceeded with a probability.
+double critical_chi_square(const GroupTestOptions& options, double probability, int degrees_of_freedom) {
+    double low = 0.0;
+    double high = 1e4;
+    for (int i = 0; i < 80; ++i) {
+        const double middle = 0.5 * (low + high);
+        (options.chi_square_upper_tail(middle, degrees_of_freedom) > probability ? low : high) = middle;
+    }
+    return high;
+}
+
+/// A symmetric positive semi-definite matrix inverted where it is not zero.
+struct Inverted {
+    MatrixXd inverse;
+    int rank = 0;
+};
+Inverted pseudo_inverse(const MatrixXd& matrix, double least) {
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(matrix);
+    Inverted result{MatrixXd::Zero(matrix.rows(), matrix.cols()), 0};
+    for (Index i = 0; i < matrix.rows(); ++i) {
+        if (eigen.eigenvalues()[i] > least) {
+            ++result.rank;
+            result.inverse +=
+                eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose() / eigen.eigenvalues()[i];
+        }
+    }
+    return result;
+}
+
+/// V⁻¹v and the blocks of M = V⁻¹ Q_v V⁻¹ of all visits, from which whole visits can be left out.
+///
+/// Leaving out a visit g is estimating an error of each of its distances: V⁻¹v ← V⁻¹v - M_g M_gg⁻¹ (V⁻¹v)_g and
+/// M ← M - M_g M_gg⁻¹ M_gᵀ, exact for the linearised model at fixed weights.
+class Visits {
+public:
+    Visits(const JointAdjustment& adjustment, const NormalEquations& normal, const BorderedCovariance& covariance)
+        : normal_(normal), covariance_(covariance), size_(adjustment.visits().size()), out_(size_, false) {
+        for (std::size_t g = 0; g < size_; ++g) {
+            const LinearisedGroup& group = normal.groups()[g];
+            const Index n = group.residual.size();
+            const auto lower = group.cholesky.triangularView<Eigen::Lower>();
+            MatrixXd half = MatrixXd::Identity(n, n);
+            lower.solveInPlace(half);  // L⁻¹
+            const MatrixXd cofactor = MatrixXd::Identity(n, n) - group.jacobian *
+                                                                     covariance(group.columns, group.columns) *
+                                                                     group.jacobian.transpose();
+            weighted_.emplace_back(half.transpose() * group.residual);
+            own_.emplace_back(half.transpose() * cofactor * half);
+            least_.push_back(k_controlled * half.squaredNorm());
+            whitening_.push_back(std::move(half));
+        }
+    }
+
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] bool is_out(std::size_t g) const { return out_[g]; }
+    [[nodiscard]] const VectorXd& weighted(std::size_t g) const { return weighted_[g]; }
+    [[nodiscard]] const MatrixXd& own(std::size_t g) const { return own_[g]; }
+    [[nodiscard]] double least(std::size_t g) const { return least_[g]; }
+
+    /// Errors of each distance of a visit on its own.
+    void leave_out(std::size_t g) {
+        std::vector<MatrixXd> effect(size_);
+        effect[g] = MatrixXd::Identity(own_[g].rows(), own_[g].rows());
+        take_away(effect, own_[g].rows());
+        out_[g] = true;
+    }
+
+    /// Values at visits: the same at all distances of each.
+    using Column = std::vector<std::pair<std::size_t, double>>;
+    /// Errors in common of the visits of columns.
+    void take_away(const std::vector<Column>& columns) {
+        const auto q = static_cast<Index>(columns.size());
+        std::vector<MatrixXd> effect(size_);
+        for (Index k = 0; k < q; ++k) {
+            for (const auto& [g, value] : columns[static_cast<std::size_t>(k)]) {
+                if (effect[g].size() == 0) {
+                    effect[g] = MatrixXd::Zero(own_[g].rows(), q);
+                }
+                effect[g].col(k).array() += value;
+            }
+        }
+        take_away(effect, q);
+    }
+    /// An effect of any shape, one column.
+    void take_away_effect(const std::vector<MatrixXd>& effect) { take_away(effect, 1); }
+
+    /// Cᵀ V⁻¹ v and Cᵀ M C of columns.
+    struct Projection {
+        VectorXd weighted;
+        MatrixXd spread;
+        double weight = 0.0;  ///< largest of the diagonal of Cᵀ V⁻¹ C
+    };
+    [[nodiscard]] Projection projection(const std::vector<Column>& columns) const {
+        const auto q = static_cast<Index>(columns.size());
+        std::vector<MatrixXd> effect(size_);
+        for (Index k = 0; k < q; ++k) {
+            for (const auto& [g, value] : columns[static_cast<std::size_t>(k)]) {
+                if (effect[g].size() == 0) {
+                    effect[g] = MatrixXd::Zero(own_[g].rows(), q);
+                }
+                effect[g].col(k).array() += value;
+            }
+        }
+        return projection(effect, q);
+    }
+    /// \param effect  one matrix a visit, distances×q; without elements: no effect
+    [[nodiscard]] Projection projection(const std::vector<MatrixXd>& effect, Index q) const {
+        Projection result{VectorXd::Zero(q), MatrixXd::Zero(q, q), 0.0};
+        MatrixXd pull = MatrixXd::Zero(covariance_.size(), q);
+        for (std::size_t g = 0; g < size_; ++g) {
+            if (effect[g].size() > 0) {
+                const MatrixXd whitened = whitening_[g] * effect[g];
+                result.weighted += effect[g].transpose() * weighted_[g];
+                result.spread += whitened.transpose() * whitened;
+                pull(normal_.groups()[g].columns, Eigen::all) += normal_.groups()[g].jacobian.transpose() * whitened;
+            }
+        }
+        result.weight = result.spread.diagonal().maxCoeff();
+        for (Index k = 0; k < q; ++k) {
+            result.spread.col(k) -= pull.transpose() * covariance_.times(pull.col(k));
+        }
+        for (const LeftOut& left : left_out_) {
+            MatrixXd across = MatrixXd::Zero(left.inverse.rows(), q);
+            for (std::size_t g = 0; g < size_; ++g) {
+                if (effect[g].size() > 0) {
+                    across += left.columns[g].transpose() * effect[g];
+                }
+            }
+            result.spread -= across.transpose() * left.inverse * across;
+        }
+        return result;
+    }
+
+private:
+    struct LeftOut {
+        std::vector<MatrixXd> columns;  ///< M C at every visit when it was left out
+        MatrixXd inverse;               ///< (Cᵀ M C)⁻¹ then
+    };
+
+    void take_away(const std::vector<MatrixXd>& effect, Index q) {
+        const Projection projected = projection(effect, q);
+        LeftOut left{columns(effect, q),
+                     pseudo_inverse(projected.spread, k_controlled * std::max(projected.weight, 1e-300)).inverse};
+        const VectorXd error = left.inverse * projected.weighted;
+        for (std::size_t h = 0; h < size_; ++h) {
+            weighted_[h] -= left.columns[h] * error;
+            own_[h] -= left.columns[h] * left.inverse * left.columns[h].transpose();
+        }
+        left_out_.push_back(std::move(left));
+    }
+
+    /// M C at every visit.
+    [[nodiscard]] std::vector<MatrixXd> columns(const std::vector<MatrixXd>& effect, Index q) const {
+        MatrixXd pull = MatrixXd::Zero(covariance_.size(), q);
+        for (std::size_t g = 0; g < size_; ++g) {
+            if (effect[g].size() > 0) {
+                pull(normal_.groups()[g].columns, Eigen::all) +=
+                    normal_.groups()[g].jacobian.transpose() * (whitening_[g] * effect[g]);
+            }
+        }
+        MatrixXd shift(covariance_.size(), q);  // of the parameters
+        for (Index k = 0; k < q; ++k) {
+            shift.col(k) = covariance_.times(pull.col(k));
+        }
+        std::vector<MatrixXd> result;
+        for (std::size_t h = 0; h < size_; ++h) {
+            const LinearisedGroup& group = normal_.groups()[h];
+            MatrixXd part = -(group.jacobian * shift(group.columns, Eigen::all));
+            if (effect[h].size() > 0) {
+                part += whitening_[h] * effect[h];
+            }
+            result.emplace_back(whitening_[h].transpose() * part);
+        }
+        for (const LeftOut& left : left_out_) {
+            MatrixXd across = MatrixXd::Zero(left.inverse.rows(), q);
+            for (std::size_t g = 0; g < size_; ++g) {
+                if (effect[g].size() > 0) {
+                    across += left.columns[g].transpose() * effect[g];
+                }
+            }
+            const MatrixXd error = left.inverse * across;
+            for (std::size_t h = 0; h < size_; ++h) {
+                result[h] -= left.columns[h] * error;
+            }
+        }
+        return result;
+    }
+
+    const NormalEquations& normal_;
+    const BorderedCovariance& covariance_;
+    std::size_t size_;
+    std::vector<bool> out_;
+    std::vector<VectorXd> weighted_;
+    std::vector<MatrixXd> own_;
+    std::vector<MatrixXd> whitening_;  ///< L⁻¹
+    std::vector<double> least_;
+    std::vector<LeftOut> left_out_;
+};
+
+/// Both tests of one visit.
+struct VisitTest {
+    bool is_controlled = false;
+    double deviate = 0.0;  ///< common error over its standard deviation
+    double error = 0.0, spread = 0.0;
+    double pose_chi_square = 0.0;
+    int pose_rank = 0;
+    double pose_error = 0.0;  ///< rms of what the pose does to the distances
+};
+
+class GroupSearch {
+public:
+    GroupSearch(const JointAdjustment& adjustment, const NormalEquations& normal, const BorderedCovariance& covariance,
+                const GroupTestOptions& options)
+        : adjustment_(adjustment),
+          normal_(normal),
+          covariance_(covariance),
+          options_(options),
+          visits_(adjustment, normal, covariance) {
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            poses_.push_back(adjustment.pose_jacobian(g));
+        }
+    }
+
+    GroupTests run() {
+        find_scale();
+        sequences();
+        std::vector<std::optional<Candidate>> last;
+        for (std::size_t round = 0; round < std::min(k_most_suspects, visits_.size() / 4); ++round) {
+            last = {best_visit(), best_change(), best_drift(), best_index()};
+            const std::optional<Candidate> worst = least_probable(last);
+            if (!worst || !worst->test.suspicious) {
+                break;
+            }
+            result_.tests.push_back(worst->test);
+            worst->take_away();
+            retest();
+            sequences();
+        }
+        for (const std::optional<Candidate>& candidate : last) {
+            if (candidate && !candidate->test.suspicious) {
+                result_.tests.push_back(candidate->test);
+            }
+        }
+        // What says no cause is of use only where no cause is found.
+        if (std::none_of(result_.tests.begin(), result_.tests.end(),
+                         [](const GroupTest& test) { return test.suspicious; })) {
+            search_succession();
+            search_stations();
+        }
+        search_reflectors();
+        std::stable_sort(result_.tests.begin(), result_.tests.end(), [](const GroupTest& a, const GroupTest& b) {
+            return a.suspicious != b.suspicious ? a.suspicious : a.suspicious && is_less_probable(a, b);
+        });
+        return std::move(result_);
+    }
+
+private:
+    [[nodiscard]] VisitTest test_visit(std::size_t g) const {
+        VisitTest test;
+        test.spread = visits_.own(g).sum();
+        test.is_controlled = test.spread > visits_.least(g);
+        if (test.is_controlled) {
+            test.deviate = visits_.weighted(g).sum() / std::sqrt(test.spread);
+            test.error = visits_.weighted(g).sum() / test.spread;
+        }
+        const MatrixXd& pose = poses_[g];
+        const VectorXd scale = pose.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+        const MatrixXd columns = pose * scale.asDiagonal();
+        const Inverted inverted = pseudo_inverse(columns.transpose() * visits_.own(g) * columns, visits_.least(g));
+        const VectorXd pull = columns.transpose() * visits_.weighted(g);
+        test.pose_rank = inverted.rank;
+        test.pose_chi_square = pull.dot(inverted.inverse * pull);
+        test.pose_error = (columns * (inverted.inverse * pull)).norm() / std::sqrt(static_cast<double>(pose.rows()));
+        return test;
+    }
+
+    /// 1 where a robust scale may be 1, else its limit on the side of 1.
+    static double within(double scale, double upper) {
+        return scale * upper < 1.0 ? scale * upper : std::max(1.0, scale / upper);
+    }
+    /// Wilson and Hilferty's, within 1 % from 1 degree of freedom on.
+    static double median_of_chi_square(int degrees_of_freedom) {
+        const double nu = degrees_of_freedom;
+        return nu * std::pow(1.0 - 2.0 / (9.0 * nu), 3);
+    }
+
+    /// The scale of the test values from all visits, and their deviations for a plot.
+    void find_scale() {
+        std::vector<double> sizes;
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            tests_.push_back(test_visit(g));
+            if (tests_.back().is_controlled) {
+                sizes.push_back(std::abs(tests_.back().deviate));
+            }
+        }
+        if (sizes.size() >= k_fewest_for_scatter) {
+            const double count = static_cast<double>(sizes.size());
+            const double upper = 1.0 + 2.0 * k_spread_of_robust_scale / std::sqrt(count);
+            result_.scale = median(std::move(sizes)) / k_median_of_absolute_normal;
+            used_scale_ = within(result_.scale, upper);
+            std::vector<double> squares;
+            for (const VisitTest& test : tests_) {
+                if (test.pose_rank > 0) {
+                    squares.push_back(test.pose_chi_square / median_of_chi_square(test.pose_rank));
+                }
+            }
+            if (squares.size() >= k_fewest_for_scatter) {
+                pose_scale_ = within(std::sqrt(median(std::move(squares))), upper);
+            }
+        }
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            if (tests_[g].is_controlled) {
+                result_.visits.push_back(
+                    {adjustment_.visits()[g], tests_[g].error, result_.scale / std::sqrt(tests_[g].spread)});
+            }
+        }
+    }
+
+    /// Chi-square of one of several tests of a kind, with its probability and its limit.
+    GroupTest judged(GroupKind kind, double chi_square, int degrees_of_freedom, std::size_t count) const {
+        GroupTest test;
+        test.kind = kind;
+        test.degrees_of_freedom = degrees_of_freedom;
+        test.chi_square = chi_square;
+        test.p_value = options_.chi_square_upper_tail(chi_square, degrees_of_freedom);
+        const double level = options_.alpha / static_cast<double>(std::max<std::size_t>(count, 1));
+        const auto [limit, is_new] = limits_.try_emplace({degrees_of_freedom, count}, 0.0);
+        if (is_new) {
+            limit->second = critical_chi_square(options_, level, degrees_of_freedom);
+        }
+        test.critical_value = limit->second;
+        test.suspicious = test.p_value < level;
+        return test;
+    }
+
+    void place(GroupTest& test, std::size_t visit) const {
+        const Visit& of = adjustment_.visits()[visit];
+        test.visit = visit;
+        test.station = of.station;
+        test.pass = of.pass;
+        test.angle = of.angle;
+    }
+
+    /// Smallest error with one column that is found with the power.
+    [[nodiscard]] double detectable(const GroupTest& test, double spread) const {
+        return (std::sqrt(test.critical_value) + k_deviate_of_power) * used_scale_ / std::sqrt(spread);
+    }
+
+    [[nodiscard]] GroupTest length_test(std::size_t g, const VisitTest& test) const {
+        const double deviate = test.deviate / used_scale_;
+        GroupTest found = judged(GroupKind::visit_length, deviate * deviate, 1, visits_.size());
+        place(found, g);
+        found.estimate = test.error;
+        found.minimal_detectable = detectable(found, test.spread);
+        return found;
+    }
+    [[nodiscard]] GroupTest pose_test(std::size_t g, const VisitTest& test) const {
+        GroupTest found = judged(GroupKind::visit_pose, test.pose_chi_square / (pose_scale_ * pose_scale_),
+                                 std::max(test.pose_rank, 1), visits_.size());
+        place(found, g);
+        found.estimate = test.pose_error;
+        return found;
+    }
+
+    /// A test, and how what it says is taken away before the next ones.
+    struct Candidate {
+        GroupTest test;
+        std::function<void()> take_away;
+    };
+
+    static bool is_less_probable(const GroupTest& a, const GroupTest& b) {
+        if (a.p_value != b.p_value) {
+            return a.p_value < b.p_value;
+        }
+        return a.chi_square - 2.0 * a.degrees_of_freedom > b.chi_square - 2.0 * b.degrees_of_freedom;
+    }
+    static void take(std::optional<Candidate>& best, Candidate candidate) {
+        if (!best || is_less_probable(candidate.test, best->test)) {
+            best = std::move(candidate);
+        }
+    }
+    static std::optional<Candidate> least_probable(const std::vector<std::optional<Candidate>>& all) {
+        std::optional<Candidate> best;
+        for (const std::optional<Candidate>& candidate : all) {
+            if (candidate) {
+                take(best, *candidate);
+            }
+        }
+        return best;
+    }
+
+    void retest() {
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            tests_[g] = test_visit(g);
+        }
+    }
+
+    /// Whether a pose explains what one error of all distances leaves; else the simpler cause is taken.
+    [[nodiscard]] bool is_more_than_length(const VisitTest& test) const {
+        if (!test.is_controlled || test.pose_rank < 2) {
+            return true;
+        }
+        const double left = test.pose_chi_square - test.deviate * test.deviate;
+        const GroupTest length = judged(GroupKind::visit_length, std::pow(test.deviate / used_scale_, 2), 1, size());
+        return !length.suspicious || judged(GroupKind::visit_pose, std::max(0.0, left) / (pose_scale_ * pose_scale_),
+                                            test.pose_rank - 1, size())
+                                         .suspicious;
+    }
+    [[nodiscard]] std::size_t size() const { return visits_.size(); }
+
+    [[nodiscard]] std::optional<Candidate> best_visit() {
+        std::optional<Candidate> best;
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            if (visits_.is_out(g)) {
+                continue;
+            }
+            const auto leave_out = [this, g] { visits_.leave_out(g); };
+            if (tests_[g].is_controlled) {
+                take(best, {length_test(g, tests_[g]), leave_out});
+            }
+            if (tests_[g].pose_rank > 0 && is_more_than_length(tests_[g])) {
+                take(best, {pose_test(g, tests_[g]), leave_out});
+            }
+        }
+        return best;
+    }
+
+    /// Visits of one station with the same dead path, in the order in which they were measured.
+    void sequences() {
+        sequences_.clear();
+        std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> by_path;
+        const std::vector<LengthObservation>& lengths = adjustment_.measurement().lengths;
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            if (visits_.is_out(g) || !tests_[g].is_controlled) {
+                continue;
+            }
+            const Visit& visit = adjustment_.visits()[g];
+            std::size_t path = lengths[visit.observations.front()].dead_path;
+            for (const std::size_t i : visit.observations) {
+                path = std::min(path, lengths[i].dead_path);
+            }
+            by_path[{visit.station, path}].push_back(g);
+        }
+        for (auto& [key, sequence] : by_path) {
+            sequences_.push_back(std::move(sequence));
+        }
+    }
+
+    void keep(std::vector<GroupTest> all) {
+        std::stable_sort(all.begin(), all.end(), [](const GroupTest& a, const GroupTest& b) {
+            return a.p_value < b.p_value || (a.p_value == b.p_value && a.chi_square > b.chi_square);
+        });
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            if (i == 0 || all[i].suspicious) {
+                result_.tests.push_back(all[i]);
+            }
+        }
+    }
+
+    [[nodiscard]] std::optional<GroupTest> column_test(GroupKind kind, const Visits::Column& column,
+                                                       std::size_t count) const {
+        const Visits::Projection projection = visits_.projection({column});
+        const double spread = projection.spread(0, 0);
+        if (!(spread > k_controlled * projection.weight)) {
+            return std::nullopt;
+        }
+        const double deviate = projection.weighted[0] / std::sqrt(spread) / used_scale_;
+        GroupTest test = judged(kind, deviate * deviate, 1, count);
+        test.estimate = projection.weighted[0] / spread;
+        test.minimal_detectable = detectable(test, spread);
+        return test;
+    }
+
+    /// Where in a sequence a change is most probable follows from sums of its visits; its test value is exact.
+    [[nodiscard]] std::optional<Candidate> best_change() {
+        std::size_t count = 0;
+        for (const auto& sequence : sequences_) {
+            count += sequence.size() - 1;
+        }
+        std::optional<Candidate> best;
+        for (const auto& sequence : sequences_) {
+            double spread = 0.0;
+            for (const std::size_t g : sequence) {
+                spread += tests_[g].spread;
+            }
+            double weighted_after = 0.0;
+            double spread_after = 0.0;
+            double largest = -1.0;
+            std::size_t first = 0;
+            for (std::size_t k = sequence.size(); k-- > 1;) {
+                weighted_after += visits_.weighted(sequence[k]).sum();
+                spread_after += tests_[sequence[k]].spread;
+                const double square =
+                    weighted_after * weighted_after * spread / (spread_after * (spread - spread_after));
+                if (square > largest && k > 1 && k + 1 < sequence.size()) {  // of one visit it is that visit
+                    largest = square;
+                    first = k;
+                }
+            }
+            if (first == 0) {
+                continue;
+            }
+            Visits::Column column;
+            for (std::size_t k = first; k < sequence.size(); ++k) {
+                column.emplace_back(sequence[k], 1.0);
+            }
+            if (std::optional<GroupTest> test = column_test(GroupKind::dead_path_change, column, count)) {
+                place(*test, sequence[first]);
+                take(best, {*test, [this, column] { visits_.take_away({column}); }});
+            }
+        }
+        return best;
+    }
+
+    /// Of every sequence, of all sequences alike, and of each sequence its own, jointly.
+    [[nodiscard]] std::optional<Candidate> best_drift() {
+        std::vector<Visits::Column> columns;
+        std::vector<std::size_t> first;
+        Visits::Column common;
+        for (const auto& sequence : sequences_) {
+            if (sequence.size() < 3) {
+                continue;
+            }
+            Visits::Column column;
+            const auto last = static_cast<double>(sequence.size() - 1);
+            for (std::size_t k = 0; k < sequence.size(); ++k) {
+                column.emplace_back(sequence[k], static_cast<double>(k) / last - 0.5);
+            }
+            common.insert(common.end(), column.begin(), column.end());
+            columns.push_back(std::move(column));
+            first.push_back(sequence.front());
+        }
+        const std::size_t count = columns.size() + 2;
+        std::optional<Candidate> best;
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            if (std::optional<GroupTest> test = column_test(GroupKind::drift, columns[k], count)) {
+                place(*test, first[k]);
+                take(best, {*test, [this, column = columns[k]] { visits_.take_away({column}); }});
+            }
+        }
+        if (columns.size() > 1) {
+            if (const std::optional<GroupTest> test = column_test(GroupKind::drift, common, count)) {
+                take(best, {*test, [this, common] { visits_.take_away({common}); }});
+            }
+            take(best, {joint_drift(columns, count), [this, columns] { visits_.take_away(columns); }});
+        }
+        return best;
+    }
+
+    [[nodiscard]] GroupTest joint_drift(const std::vector<Visits::Column>& columns, std::size_t count) const {
+        const Visits::Projection projection = visits_.projection(columns);
+        const Inverted inverted = pseudo_inverse(projection.spread, k_controlled * projection.weight);
+        const VectorXd drifts = inverted.inverse * projection.weighted;
+        GroupTest test = judged(GroupKind::drift, projection.weighted.dot(drifts) / (used_scale_ * used_scale_),
+                                std::max(inverted.rank, 1), count);
+        test.estimate = drifts.norm() / std::sqrt(static_cast<double>(drifts.size()));
+        return test;
+    }
+
+    /// A station whose angles are one step off, forwards or backwards. Its place takes up the step itself; what is left
+    /// is that the table deviates at the next angle in another way than at this one: R(-s) E(θ+s) R(s) in place of
+    /// E(θ).
+    [[nodiscard]] std::optional<Candidate> best_index() {
+        const RotaryTableMeasurement& measurement = adjustment_.measurement();
+        const std::size_t angles = measurement.angles.size();
+        if (angles < 4 || !is_uniform(measurement)) {
+            return std::nullopt;
+        }
+        const MatrixXd poses = adjustment_.poses();
+        const double step = measurement.angles[1] - measurement.angles[0];
+        std::optional<Candidate> best;
+        moved_.resize(measurement.stations.size(), false);
+        for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
+            if (moved_[j]) {
+                continue;
+            }
+            for (const bool forwards : {true, false}) {
+                const Eigen::Matrix3d turn =
+                    Eigen::AngleAxisd(forwards ? step : -step,
+                                      Eigen::Vector3d::Unit(axial_coordinate(measurement.axis)))
+                        .toRotationMatrix();
+                std::vector<MatrixXd> effect(visits_.size());
+                for (std::size_t g = 0; g < visits_.size(); ++g) {
+                    const Visit& visit = adjustment_.visits()[g];
+                    if (visit.station != j || visits_.is_out(g)) {
+                        continue;
+                    }
+                    const std::size_t other =
+                        forwards ? (visit.angle + 1) % angles : (visit.angle + angles - 1) % angles;
+                    Eigen::Matrix<double, 6, 1> change;
+                    change << turn.transpose() * poses.col(static_cast<Index>(other)).head<3>(),
+                        turn.transpose() * poses.col(static_cast<Index>(other)).tail<3>();
+                    change -= poses.col(static_cast<Index>(visit.angle));
+                    effect[g] = poses_[g] * change;
+                }
+                const Visits::Projection projection = visits_.projection(effect, 1);
+                const double spread = projection.spread(0, 0);
+                if (!(spread > k_controlled * projection.weight)) {
+                    continue;
+                }
+                const double deviate = projection.weighted[0] / std::sqrt(spread) / std::max(used_scale_, pose_scale_);
+                GroupTest test = judged(GroupKind::angle_index, deviate * deviate, 1, 2 * measurement.stations.size());
+                test.station = j;
+                test.estimate = (forwards ? 1.0 : -1.0) * projection.weighted[0] / spread;
+                test.minimal_detectable = detectable(test, spread);
+                take(best, {test, [this, effect, j] {
+                                visits_.take_away_effect(effect);
+                                moved_[j] = true;
+                            }});
+            }
+        }
+        return best;
+    }
+
+    /// Whether the angles divide a full turn evenly.
+    static bool is_uniform(const RotaryTableMeasurement& measurement) {
+        const std::vector<double>& angles = measurement.angles_deg;
+        const double step = 360.0 / static_cast<double>(angles.size());
+        for (std::size_t i = 0; i < angles.size(); ++i) {
+            if (std::abs(angles[i] - angles[0] - step * static_cast<double>(i)) > 1e-3) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /// Autocorrelation of lag 1 of the deviations of successive visits, over all sequences.
+    void search_succession() {
+        double products = 0.0;
+        double squares = 0.0;
+        std::size_t pairs = 0;
+        for (const auto& sequence : sequences_) {
+            for (std::size_t k = 0; k < sequence.size(); ++k) {
+                const double deviate = tests_[sequence[k]].deviate;
+                squares += deviate * deviate;
+                if (k > 0) {
+                    products += tests_[sequence[k - 1]].deviate * deviate;
+                    ++pairs;
+                }
+            }
+        }
+        if (pairs < k_fewest_for_scatter || !(squares > 0.0)) {
+            return;
+        }
+        const double r = products / squares;
+        const double deviate = std::max(0.0, r * std::sqrt(static_cast<double>(pairs)));
+        GroupTest test = judged(GroupKind::succession, deviate * deviate, 1, 1);
+        test.estimate = r;
+        result_.tests.push_back(test);
+    }
+
+    /// Ratio of the mean squares of the deviations of one station and of all others. The logarithm of a ratio of
+    /// variances with ν₁ and ν₂ degrees of freedom has the variance 2/ν₁ + 2/ν₂, nearly.
+    void search_stations() {
+        const std::size_t stations = adjustment_.measurement().stations.size();
+        VectorXd squares = VectorXd::Zero(static_cast<Index>(stations));
+        VectorXd counts = squares;
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            if (!visits_.is_out(g) && tests_[g].is_controlled) {
+                const auto j = static_cast<Index>(adjustment_.visits()[g].station);
+                squares[j] += tests_[g].deviate * tests_[g].deviate;
+                counts[j] += 1.0;
+            }
+        }
+        std::vector<GroupTest> all;
+        for (std::size_t j = 0; j < stations; ++j) {
+            const auto at = static_cast<Index>(j);
+            const double others = counts.sum() - counts[at];
+            if (counts[at] < static_cast<double>(k_fewest_for_scatter) ||
+                others < static_cast<double>(k_fewest_for_scatter)) {
+                continue;
+            }
+            const double ratio = squares[at] / counts[at] / ((squares.sum() - squares[at]) / others);
+            const double deviate = std::max(0.0, std::log(ratio) / std::sqrt(2.0 / counts[at] + 2.0 / others));
+            GroupTest test = judged(GroupKind::station, deviate * deviate, 1, stations);
+            test.station = j;
+            test.estimate = std::sqrt(ratio);
+            all.push_back(test);
+        }
+        keep(std::move(all));
+    }
+
+    /// Points of the fixture, one at a time: the coordinates of the least probable one are left out before the next.
+    void search_reflectors() {
+        const LinearisedGroup& group = normal_.groups()[adjustment_.fixture_prior()];
+        const Index n = group.residual.size();
+        MatrixXd half = MatrixXd::Identity(n, n);
+        group.cholesky.triangularView<Eigen::Lower>().solveInPlace(half);
+        VectorXd weighted = half.transpose() * group.residual;
+        MatrixXd spread = half.transpose() *
+                          (MatrixXd::Identity(n, n) -
+                           group.jacobian * covariance_(group.columns, group.columns) * group.jacobian.transpose()) *
+                          half;
+        const double least = 1e-6 * half.colwise().squaredNorm().minCoeff();
+        const auto points = static_cast<std::size_t>(n / 3);
+        std::vector<bool> out(points, false);
+        // Three points make a frame: of as many nothing controls the others.
+        for (std::size_t round = 0; round + 3 < points; ++round) {
+            std::optional<GroupTest> worst;
+            for (std::size_t m = 0; m < points; ++m) {
+                if (out[m]) {
+                    continue;
+                }
+                const auto at = static_cast<Index>(3 * m);
+                const Inverted inverted = pseudo_inverse(spread.block<3, 3>(at, at), least);
+                if (inverted.rank == 0) {
+                    continue;
+                }
+                const Eigen::Vector3d pull = weighted.segment<3>(at);
+                const Eigen::Vector3d error = inverted.inverse * pull;
+                GroupTest test = judged(GroupKind::reflector, pull.dot(error), inverted.rank, points);
+                test.reflector = m;
+                test.estimate = error.norm();
+                test.minimal_detectable = (std::sqrt(test.critical_value) + k_deviate_of_power) *
+                                          std::sqrt(inverted.inverse.trace() / inverted.rank);
+                if (!worst || test.p_value < worst->p_value ||
+                    (test.p_value == worst->p_value && test.chi_square > worst->chi_square)) {
+                    worst = test;
+                }
+            }
+            if (!worst || (!worst->suspicious && round > 0)) {
+                return;
+            }
+            result_.tests.push_back(*worst);
+            if (!worst->suspicious) {
+                return;
+            }
+            const auto at = static_cast<Index>(3 * worst->reflector);
+            const MatrixXd across = spread.middleCols<3>(at);
+            const MatrixXd inverse = pseudo_inverse(spread.block<3, 3>(at, at), least).inverse;
+            weighted -= across * (inverse * weighted.segment<3>(at).eval());
+            spread -= across * inverse * across.transpose();
+            out[worst->reflector] = true;
+        }
+    }
+
+    const JointAdjustment& adjustment_;
+    const NormalEquations& normal_;
+    const BorderedCovariance& covariance_;
+    const GroupTestOptions& options_;
+    Visits visits_;
+    std::vector<MatrixXd> poses_;
+    std::vector<VisitTest> tests_;
+    std::vector<std::vector<std::size_t>> sequences_;
+    mutable std::map<std::pair<int, std::size_t>, double> limits_;  ///< by degrees of freedom and number of tests
+    double used_scale_ = 1.0, pose_scale_ = 1.0;                    ///< of common errors, of poses
+    std::vector<bool> moved_;                                       ///< by station: its angles were found to be others
+    GroupTests result_;
+};
+
+}  // namespace
+
+GroupTests test_groups(const JointAdjustment& adjustment, const NormalEquations& normal,
+                       const BorderedCovariance& covariance, const GroupTestOptions& options) {
+    return GroupSearch(adjustment, normal, covariance, options).run();
+}
+
+}  // namespace gumcert::engine

@@ -1,0 +1,63 @@
+#include "engine/group_notes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace gumcert::engine {
+namespace {
+
+using testing::HasSubstr;
+
+RotaryTableMeasurement two_stations() {
+    RotaryTableMeasurement measurement;
+    measurement.stations = {"P1", "P2"};
+    measurement.passes = {"up"};
+    measurement.reflectors = {"R1", "R2", "R3"};
+    measurement.angles_deg = {0.0, 15.0};
+    return measurement;
+}
+
+GroupTest suspicious(GroupKind kind) {
+    GroupTest test;
+    test.kind = kind;
+    test.station = 1;
+    test.pass = 0;
+    test.angle = 1;
+    test.reflector = 2;
+    test.chi_square = 123.4;
+    test.critical_value = 20.2;
+    test.estimate = 5.04e-6;
+    test.suspicious = true;
+    return test;
+}
+
+TEST(GroupNotes, SayWhichGroupByHowMuchAndWhatToDo) {
+    for (const GroupKind kind :
+         {GroupKind::visit_length, GroupKind::visit_pose, GroupKind::dead_path_change, GroupKind::drift,
+          GroupKind::angle_index, GroupKind::succession, GroupKind::station, GroupKind::reflector}) {
+        const auto notes = group_notes({.tests = {suspicious(kind)}, .visits = {}}, two_stations());
+        ASSERT_EQ(notes.size(), 1U);
+        EXPECT_EQ(notes[0].code, k_suspicious_group);
+        EXPECT_EQ(notes[0].severity, gum::Severity::warning);
+        EXPECT_THAT(notes[0].what, HasSubstr("chi-square 123, limit 20.2"));
+        EXPECT_FALSE(notes[0].action.empty());
+    }
+    const auto visit = group_notes({.tests = {suspicious(GroupKind::visit_length)}, .visits = {}}, two_stations());
+    EXPECT_EQ(visit[0].where, "station P2, pass up, 15°");
+    EXPECT_THAT(visit[0].what, HasSubstr("off by 5.04 µm alike"));
+    EXPECT_EQ(group_notes({.tests = {suspicious(GroupKind::reflector)}, .visits = {}}, two_stations())[0].where,
+              "fixture, reflector R3");
+}
+
+TEST(GroupNotes, SayNothingOfGroupsThatAreNotSuspicious) {
+    GroupTest sound = suspicious(GroupKind::drift);
+    sound.suspicious = false;
+    EXPECT_TRUE(group_notes({.tests = {sound}, .visits = {}}, two_stations()).empty());
+    EXPECT_EQ(
+        group_notes({.tests = std::vector<GroupTest>(9, suspicious(GroupKind::station)), .visits = {}}, two_stations())
+            .size(),
+        5U);
+}
+
+}  // namespace
+}  // namespace gumcert::engine

@@ -1,0 +1,175 @@
+// Groups of distances that are wrong together are found and named first; sound measurements are left in peace.
+#include "engine/group_tests.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/complement.hpp>
+#include <cmath>
+
+#include "engine/rotary_table_evaluation.h"
+#include "tests/support/synthetic_campaign.h"
+
+namespace gumcert::engine {
+namespace {
+
+using synthetic::Campaign;
+using synthetic::CampaignPlan;
+
+double upper_tail(double value, double degrees_of_freedom) {
+    return boost::math::cdf(boost::math::complement(boost::math::chi_squared_distribution<double>(degrees_of_freedom),
+                                                    std::max(value, 0.0)));
+}
+
+/// A table with a repeatability of its own, whose components are estimated.
+Campaign campaign(std::uint64_t seed) {
+    CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(24);
+    plan.table_linear = 0.15e-6;
+    plan.table_axial = 1.5e-6;
+    plan.table_tilt = 0.5e-6;
+    plan.seed = seed;
+    Campaign result = simulate(plan);
+    result.measurement.table_repeatability = {RepeatabilityMode::estimate, 0.0, 0.0, 0.0};
+    result.measurement.estimate_length_noise = true;
+    result.measurement.outliers.test = OutlierTest::data_snooping;
+    return result;
+}
+
+GroupTests tests_of(const RotaryTableMeasurement& measurement) {
+    EvaluationOptions options;
+    options.chi_square_upper_tail = upper_tail;
+    const RotaryTableSolution solution = evaluate_jointly(measurement, options);
+    return solution.groups.value();
+}
+
+std::string told(const GroupTests& groups) {
+    std::string text = "scale " + std::to_string(groups.scale) + "\n";
+    for (const GroupTest& test : groups.tests) {
+        text += std::to_string(static_cast<int>(test.kind)) + (test.suspicious ? " ! " : "   ") +
+                std::to_string(test.chi_square) + " (" + std::to_string(test.critical_value) + ") station " +
+                std::to_string(static_cast<int>(test.station)) + " angle " +
+                std::to_string(static_cast<int>(test.angle)) + " reflector " +
+                std::to_string(static_cast<int>(test.reflector)) + " estimate " + std::to_string(test.estimate * 1e6) +
+                " detectable " + std::to_string(test.minimal_detectable * 1e6) + "\n";
+    }
+    return text;
+}
+
+TEST(GroupTests, LeaveSoundMeasurementsInPeace) {
+    int alarms = 0;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        const GroupTests groups = tests_of(campaign(seed).measurement);
+        const bool alarm =
+            std::any_of(groups.tests.begin(), groups.tests.end(), [](const GroupTest& t) { return t.suspicious; });
+        alarms += alarm ? 1 : 0;
+        EXPECT_NEAR(groups.scale, 1.0, 0.35);
+        if (alarm) {
+            ADD_FAILURE() << "seed " << seed << "\n" << told(groups);
+        }
+    }
+    EXPECT_EQ(alarms, 0);
+}
+
+TEST(GroupTests, FindAVisitThatIsOff) {
+    for (const double error : {5e-6, -50e-6, 500e-6}) {
+        RotaryTableMeasurement measurement = campaign(31).measurement;
+        for (LengthObservation& length : measurement.lengths) {
+            if (length.station == 2 && length.angle == 7) {
+                length.length += error;
+            }
+        }
+        const GroupTests groups = tests_of(measurement);
+        ASSERT_FALSE(groups.tests.empty());
+        const GroupTest& first = groups.tests.front();
+        EXPECT_TRUE(first.suspicious) << told(groups);
+        EXPECT_EQ(first.kind, GroupKind::visit_length) << told(groups);
+        EXPECT_EQ(first.station, 2U) << told(groups);
+        EXPECT_EQ(first.angle, 7U) << told(groups);
+        EXPECT_NEAR(first.estimate / error, 1.0, 0.3) << told(groups);
+    }
+}
+
+TEST(GroupTests, FindAnInterruptedBeam) {
+    for (const double error : {1e-6, 10e-6, 100e-6}) {
+        RotaryTableMeasurement measurement = campaign(32).measurement;
+        for (LengthObservation& length : measurement.lengths) {
+            if (length.station == 1 && length.angle >= 13) {
+                length.length += error;
+            }
+        }
+        const GroupTests groups = tests_of(measurement);
+        const GroupTest& first = groups.tests.front();
+        EXPECT_TRUE(first.suspicious) << told(groups);
+        EXPECT_EQ(first.kind, GroupKind::dead_path_change) << told(groups);
+        EXPECT_EQ(first.station, 1U) << told(groups);
+        EXPECT_EQ(first.angle, 13U) << told(groups);
+        EXPECT_NEAR(first.estimate / error, 1.0, 0.5) << told(groups);
+    }
+}
+
+/// One to three distances that are off by micrometres to a metre: never a refusal.
+TEST(GroupTests, SurviveDistancesThatAreOffByAnySize) {
+    for (const double error : {0.5e-6, 50e-6, 1.7e-3, 5e-3, 14e-3, 50e-3, 1.0}) {
+        for (std::uint64_t seed = 41; seed < 44; ++seed) {
+            RotaryTableMeasurement measurement = campaign(seed).measurement;
+            for (std::size_t k = 0; k < seed - 40; ++k) {
+                measurement.lengths[(37 * seed + 211 * k) % measurement.lengths.size()].length -= error;
+            }
+            EvaluationOptions options;
+            options.chi_square_upper_tail = upper_tail;
+            const RotaryTableSolution solution = evaluate_jointly(measurement, options);
+            EXPECT_EQ(std::count_if(solution.outliers.begin(), solution.outliers.end(),
+                                    [](const OutlierFinding& finding) { return finding.removed; }) >=
+                          static_cast<long>(seed - 40),
+                      error > 1e-6)
+                << error << ", seed " << seed;
+        }
+    }
+}
+
+TEST(GroupTests, FindDrift) {
+    for (const double drift : {2e-6, 10e-6}) {
+        RotaryTableMeasurement measurement = campaign(33).measurement;
+        for (LengthObservation& length : measurement.lengths) {
+            length.length += drift * static_cast<double>(length.angle) / 23.0;
+        }
+        const GroupTests groups = tests_of(measurement);
+        EXPECT_TRUE(groups.tests.front().suspicious) << told(groups);
+        EXPECT_TRUE(groups.tests.front().kind == GroupKind::drift || groups.tests.front().kind == GroupKind::succession)
+            << told(groups);
+    }
+}
+
+TEST(GroupTests, FindADisplacedReflector) {
+    for (const double error : {5e-6, 50e-6}) {
+        RotaryTableMeasurement measurement = campaign(34).measurement;
+        measurement.fixture(2, 1) += error;
+        const GroupTests groups = tests_of(measurement);
+        const GroupTest& first = groups.tests.front();
+        EXPECT_TRUE(first.suspicious) << told(groups);
+        EXPECT_EQ(first.kind, GroupKind::reflector) << told(groups);
+        EXPECT_EQ(first.reflector, 2U) << told(groups);
+        EXPECT_EQ(std::count_if(groups.tests.begin(), groups.tests.end(),
+                                [](const GroupTest& t) { return t.suspicious && t.kind == GroupKind::reflector; }),
+                  1)
+            << told(groups);
+    }
+}
+
+TEST(GroupTests, TellAStationWithOtherAngles) {
+    RotaryTableMeasurement measurement = campaign(35).measurement;
+    for (LengthObservation& length : measurement.lengths) {
+        if (length.station == 4) {
+            length.angle = (length.angle + 1) % measurement.angles.size();
+        }
+    }
+    const GroupTests groups = tests_of(measurement);
+    EXPECT_TRUE(groups.tests.front().suspicious) << told(groups);
+    EXPECT_EQ(groups.tests.front().kind, GroupKind::angle_index) << told(groups);
+    EXPECT_EQ(groups.tests.front().station, 4U) << told(groups);
+}
+
+}  // namespace
+}  // namespace gumcert::engine
