@@ -113,7 +113,7 @@ reports::GlobalTest global_test(const RotaryTableSolution& solution) {
     test.accepted = test.lower <= solution.chi_square && solution.chi_square <= test.upper;
     test.printed_lower = gum::round_to_quantum(test.lower, 1);
     test.printed_upper = gum::round_to_quantum(test.upper, 1);
-    if (solution.variance_basis == engine::VarianceBasis::estimated) {
+    if (test.accepted && solution.variance_basis == engine::VarianceBasis::estimated) {
         test.meaning =
             "Variance components were estimated from the same residuals, so that chi-square is near its degrees of "
             "freedom by construction: the test confirms the adjustment, not the stated uncertainties.";

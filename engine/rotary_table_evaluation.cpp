@@ -375,8 +375,11 @@ void fill_variance_factor(RotaryTableSolution& solution) {
         solution.variance_basis = VarianceBasis::estimated;
         solution.variance_factor_reason =
             "Variance components estimated from the residuals are in the weights: " + names +
-            ". The uncertainties contain them and are not multiplied by a factor; chi-square per degree of freedom "
-            "is near 1 by construction.";
+            ". The uncertainties contain them and are not multiplied by a factor";
+        constexpr double k_near = 0.1;
+        solution.variance_factor_reason += std::abs(solution.variance_factor - 1.0) < k_near
+                                               ? "; chi-square per degree of freedom is near 1 by construction."
+                                               : ".";
     }
 }
 

@@ -158,6 +158,29 @@ TEST(GroupTests, FindADisplacedReflector) {
     }
 }
 
+/// What the residuals refute is not said to be near 1 by construction.
+TEST(GroupTests, NoReasonContradictsTheVarianceFactor) {
+    CampaignPlan plan;
+    plan.both_senses = true;
+    plan.u_constant = 0.05e-6;
+    plan.u_proportional = 0.0;
+    plan.table_linear = 0.15e-6;
+    plan.table_axial = 1.5e-6;
+    plan.table_tilt = 1.5e-6;
+    RotaryTableMeasurement measurement = simulate(plan).measurement;
+    measurement.table_repeatability = {RepeatabilityMode::estimate, 0.0, 0.0, 0.0};
+    measurement.estimate_length_noise = true;
+    measurement.outliers.test = OutlierTest::data_snooping;
+    const auto says_near = [](const RotaryTableSolution& solution) {
+        return solution.variance_factor_reason.find("near 1 by construction") != std::string::npos;
+    };
+    EXPECT_TRUE(says_near(evaluate_jointly(measurement, EvaluationOptions{})));
+    measurement.fixture(2, 1) += 50e-6;
+    const RotaryTableSolution refuted = evaluate_jointly(measurement, EvaluationOptions{});
+    EXPECT_GT(refuted.variance_factor, 1.5);
+    EXPECT_FALSE(says_near(refuted));
+}
+
 TEST(GroupTests, TellAStationWithOtherAngles) {
     RotaryTableMeasurement measurement = campaign(35).measurement;
     for (LengthObservation& length : measurement.lengths) {
