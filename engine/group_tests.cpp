@@ -11,6 +11,8 @@
 #include <optional>
 #include <utility>
 
+#include "engine/median.h"
+
 namespace gumcert::engine {
 
 namespace {
@@ -25,12 +27,6 @@ constexpr double k_deviate_of_power = 0.841621233572914;  // of the normal distr
 constexpr double k_controlled = 1e-9;            // share of the weight of a group below which nothing else controls it
 constexpr std::size_t k_most_suspects = 40;      // groups that are taken away one after the other
 constexpr std::size_t k_fewest_for_scatter = 8;  // visits: fewer say nothing of a scatter
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 /// Value of chi-square that is exceeded with a probability.
 double critical_chi_square(const GroupTestOptions& options, double probability, int degrees_of_freedom) {
@@ -61,6 +57,21 @@ Inverted pseudo_inverse(const MatrixXd& matrix, double least) {
     return result;
 }
 
+/// V⁻¹v and M = V⁻¹ Q_v V⁻¹ of the observations of one group.
+struct GroupSpread {
+    MatrixXd whitening;  ///< L⁻¹
+    VectorXd weighted;   ///< V⁻¹v
+    MatrixXd own;        ///< M
+};
+GroupSpread spread_of(const LinearisedGroup& group, const BorderedCovariance& covariance) {
+    const Index n = group.residual.size();
+    MatrixXd whitening = MatrixXd::Identity(n, n);
+    group.cholesky.triangularView<Eigen::Lower>().solveInPlace(whitening);
+    const MatrixXd cofactor = MatrixXd::Identity(n, n) -
+                              group.jacobian * covariance(group.columns, group.columns) * group.jacobian.transpose();
+    return {whitening, whitening.transpose() * group.residual, whitening.transpose() * cofactor * whitening};
+}
+
 /// V⁻¹v and the blocks of M = V⁻¹ Q_v V⁻¹ of all visits, from which whole visits can be left out.
 ///
 /// Leaving out a visit g is estimating an error of each of its distances: V⁻¹v ← V⁻¹v - M_g M_gg⁻¹ (V⁻¹v)_g and
@@ -70,18 +81,11 @@ public:
     Visits(const JointAdjustment& adjustment, const NormalEquations& normal, const BorderedCovariance& covariance)
         : normal_(normal), covariance_(covariance), size_(adjustment.visits().size()), out_(size_, false) {
         for (std::size_t g = 0; g < size_; ++g) {
-            const LinearisedGroup& group = normal.groups()[g];
-            const Index n = group.residual.size();
-            const auto lower = group.cholesky.triangularView<Eigen::Lower>();
-            MatrixXd half = MatrixXd::Identity(n, n);
-            lower.solveInPlace(half);  // L⁻¹
-            const MatrixXd cofactor = MatrixXd::Identity(n, n) - group.jacobian *
-                                                                     covariance(group.columns, group.columns) *
-                                                                     group.jacobian.transpose();
-            weighted_.emplace_back(half.transpose() * group.residual);
-            own_.emplace_back(half.transpose() * cofactor * half);
-            least_.push_back(k_controlled * half.squaredNorm());
-            whitening_.push_back(std::move(half));
+            GroupSpread spread = spread_of(normal.groups()[g], covariance);
+            least_.push_back(k_controlled * spread.whitening.squaredNorm());
+            weighted_.push_back(std::move(spread.weighted));
+            own_.push_back(std::move(spread.own));
+            whitening_.push_back(std::move(spread.whitening));
         }
     }
 
@@ -93,85 +97,21 @@ public:
 
     /// Errors of each distance of a visit on its own.
     void leave_out(std::size_t g) {
-        std::vector<MatrixXd> effect(size_);
+        Effect effect(size_);
         effect[g] = MatrixXd::Identity(own_[g].rows(), own_[g].rows());
         take_away(effect, own_[g].rows());
         out_[g] = true;
     }
 
+    /// C: one matrix a visit, distances×q; without elements: no effect.
+    using Effect = std::vector<MatrixXd>;
     /// Values at visits: the same at all distances of each.
     using Column = std::vector<std::pair<std::size_t, double>>;
-    /// Errors in common of the visits of columns.
+
     void take_away(const std::vector<Column>& columns) {
-        const auto q = static_cast<Index>(columns.size());
-        std::vector<MatrixXd> effect(size_);
-        for (Index k = 0; k < q; ++k) {
-            for (const auto& [g, value] : columns[static_cast<std::size_t>(k)]) {
-                if (effect[g].size() == 0) {
-                    effect[g] = MatrixXd::Zero(own_[g].rows(), q);
-                }
-                effect[g].col(k).array() += value;
-            }
-        }
-        take_away(effect, q);
+        take_away(effect_of(columns), static_cast<Index>(columns.size()));
     }
-    /// An effect of any shape, one column.
-    void take_away_effect(const std::vector<MatrixXd>& effect) { take_away(effect, 1); }
-
-    /// Cᵀ V⁻¹ v and Cᵀ M C of columns.
-    struct Projection {
-        VectorXd weighted;
-        MatrixXd spread;
-        double weight = 0.0;  ///< largest of the diagonal of Cᵀ V⁻¹ C
-    };
-    [[nodiscard]] Projection projection(const std::vector<Column>& columns) const {
-        const auto q = static_cast<Index>(columns.size());
-        std::vector<MatrixXd> effect(size_);
-        for (Index k = 0; k < q; ++k) {
-            for (const auto& [g, value] : columns[static_cast<std::size_t>(k)]) {
-                if (effect[g].size() == 0) {
-                    effect[g] = MatrixXd::Zero(own_[g].rows(), q);
-                }
-                effect[g].col(k).array() += value;
-            }
-        }
-        return projection(effect, q);
-    }
-    /// \param effect  one matrix a visit, distances×q; without elements: no effect
-    [[nodiscard]] Projection projection(const std::vector<MatrixXd>& effect, Index q) const {
-        Projection result{VectorXd::Zero(q), MatrixXd::Zero(q, q), 0.0};
-        MatrixXd pull = MatrixXd::Zero(covariance_.size(), q);
-        for (std::size_t g = 0; g < size_; ++g) {
-            if (effect[g].size() > 0) {
-                const MatrixXd whitened = whitening_[g] * effect[g];
-                result.weighted += effect[g].transpose() * weighted_[g];
-                result.spread += whitened.transpose() * whitened;
-                pull(normal_.groups()[g].columns, Eigen::all) += normal_.groups()[g].jacobian.transpose() * whitened;
-            }
-        }
-        result.weight = result.spread.diagonal().maxCoeff();
-        for (Index k = 0; k < q; ++k) {
-            result.spread.col(k) -= pull.transpose() * covariance_.times(pull.col(k));
-        }
-        for (const LeftOut& left : left_out_) {
-            MatrixXd across = MatrixXd::Zero(left.inverse.rows(), q);
-            for (std::size_t g = 0; g < size_; ++g) {
-                if (effect[g].size() > 0) {
-                    across += left.columns[g].transpose() * effect[g];
-                }
-            }
-            result.spread -= across.transpose() * left.inverse * across;
-        }
-        return result;
-    }
-
-private:
-    struct LeftOut {
-        std::vector<MatrixXd> columns;  ///< M C at every visit when it was left out
-        MatrixXd inverse;               ///< (Cᵀ M C)⁻¹ then
-    };
-
-    void take_away(const std::vector<MatrixXd>& effect, Index q) {
+    void take_away(const Effect& effect, Index q) {
         const Projection projected = projection(effect, q);
         LeftOut left{columns(effect, q),
                      pseudo_inverse(projected.spread, k_controlled * std::max(projected.weight, 1e-300)).inverse};
@@ -183,8 +123,69 @@ private:
         left_out_.push_back(std::move(left));
     }
 
-    /// M C at every visit.
-    [[nodiscard]] std::vector<MatrixXd> columns(const std::vector<MatrixXd>& effect, Index q) const {
+    /// Cᵀ V⁻¹ v and Cᵀ M C of columns.
+    struct Projection {
+        VectorXd weighted;
+        MatrixXd spread;
+        double weight = 0.0;  ///< largest of the diagonal of Cᵀ V⁻¹ C
+    };
+    [[nodiscard]] Projection projection(const std::vector<Column>& columns) const {
+        return projection(effect_of(columns), static_cast<Index>(columns.size()));
+    }
+    [[nodiscard]] Projection projection(const Effect& effect, Index q) const {
+        Projection result{VectorXd::Zero(q), MatrixXd::Zero(q, q), 0.0};
+        for (std::size_t g = 0; g < size_; ++g) {
+            if (effect[g].size() > 0) {
+                const MatrixXd whitened = whitening_[g] * effect[g];
+                result.weighted += effect[g].transpose() * weighted_[g];
+                result.spread += whitened.transpose() * whitened;
+            }
+        }
+        result.weight = result.spread.diagonal().maxCoeff();
+        const MatrixXd pull = pull_of(effect, q);
+        for (Index k = 0; k < q; ++k) {
+            result.spread.col(k) -= pull.transpose() * covariance_.times(pull.col(k));
+        }
+        for (const LeftOut& left : left_out_) {
+            const MatrixXd across = left.across(effect, q);
+            result.spread -= across.transpose() * left.inverse * across;
+        }
+        return result;
+    }
+
+private:
+    struct LeftOut {
+        Effect columns;    ///< M C at every visit when it was left out
+        MatrixXd inverse;  ///< (Cᵀ M C)⁻¹ then
+
+        /// Cᵀ M of what was left out with another effect.
+        [[nodiscard]] MatrixXd across(const Effect& effect, Index q) const {
+            MatrixXd sum = MatrixXd::Zero(inverse.rows(), q);
+            for (std::size_t g = 0; g < effect.size(); ++g) {
+                if (effect[g].size() > 0) {
+                    sum += columns[g].transpose() * effect[g];
+                }
+            }
+            return sum;
+        }
+    };
+
+    [[nodiscard]] Effect effect_of(const std::vector<Column>& columns) const {
+        const auto q = static_cast<Index>(columns.size());
+        Effect effect(size_);
+        for (Index k = 0; k < q; ++k) {
+            for (const auto& [g, value] : columns[static_cast<std::size_t>(k)]) {
+                if (effect[g].size() == 0) {
+                    effect[g] = MatrixXd::Zero(own_[g].rows(), q);
+                }
+                effect[g].col(k).array() += value;
+            }
+        }
+        return effect;
+    }
+
+    /// Jᵀ V⁻¹ C, parameters×q.
+    [[nodiscard]] MatrixXd pull_of(const Effect& effect, Index q) const {
         MatrixXd pull = MatrixXd::Zero(covariance_.size(), q);
         for (std::size_t g = 0; g < size_; ++g) {
             if (effect[g].size() > 0) {
@@ -192,11 +193,17 @@ private:
                     normal_.groups()[g].jacobian.transpose() * (whitening_[g] * effect[g]);
             }
         }
+        return pull;
+    }
+
+    /// M C at every visit.
+    [[nodiscard]] Effect columns(const Effect& effect, Index q) const {
+        const MatrixXd pull = pull_of(effect, q);
         MatrixXd shift(covariance_.size(), q);  // of the parameters
         for (Index k = 0; k < q; ++k) {
             shift.col(k) = covariance_.times(pull.col(k));
         }
-        std::vector<MatrixXd> result;
+        Effect result;
         for (std::size_t h = 0; h < size_; ++h) {
             const LinearisedGroup& group = normal_.groups()[h];
             MatrixXd part = -(group.jacobian * shift(group.columns, Eigen::all));
@@ -206,13 +213,7 @@ private:
             result.emplace_back(whitening_[h].transpose() * part);
         }
         for (const LeftOut& left : left_out_) {
-            MatrixXd across = MatrixXd::Zero(left.inverse.rows(), q);
-            for (std::size_t g = 0; g < size_; ++g) {
-                if (effect[g].size() > 0) {
-                    across += left.columns[g].transpose() * effect[g];
-                }
-            }
-            const MatrixXd error = left.inverse * across;
+            const MatrixXd error = left.inverse * left.across(effect, q);
             for (std::size_t h = 0; h < size_; ++h) {
                 result[h] -= left.columns[h] * error;
             }
@@ -330,7 +331,7 @@ private:
         if (sizes.size() >= k_fewest_for_scatter) {
             const double count = static_cast<double>(sizes.size());
             const double upper = 1.0 + 2.0 * k_spread_of_robust_scale / std::sqrt(count);
-            result_.scale = median(std::move(sizes)) / k_median_of_absolute_normal;
+            result_.scale = upper_median(sizes) / k_median_of_absolute_normal;
             used_scale_ = within(result_.scale, upper);
             std::vector<double> squares;
             for (const VisitTest& test : tests_) {
@@ -339,7 +340,7 @@ private:
                 }
             }
             if (squares.size() >= k_fewest_for_scatter) {
-                pose_scale_ = within(std::sqrt(median(std::move(squares))), upper);
+                pose_scale_ = within(std::sqrt(upper_median(squares)), upper);
             }
         }
         for (std::size_t g = 0; g < visits_.size(); ++g) {
@@ -613,7 +614,7 @@ private:
                     Eigen::AngleAxisd(forwards ? step : -step,
                                       Eigen::Vector3d::Unit(axial_coordinate(measurement.axis)))
                         .toRotationMatrix();
-                std::vector<MatrixXd> effect(visits_.size());
+                Visits::Effect effect(visits_.size());
                 for (std::size_t g = 0; g < visits_.size(); ++g) {
                     const Visit& visit = adjustment_.visits()[g];
                     if (visit.station != j || visits_.is_out(g)) {
@@ -638,7 +639,7 @@ private:
                 test.estimate = (forwards ? 1.0 : -1.0) * projection.weighted[0] / spread;
                 test.minimal_detectable = detectable(test, spread);
                 take(best, {test, [this, effect, j] {
-                                visits_.take_away_effect(effect);
+                                visits_.take_away(effect, 1);
                                 moved_[j] = true;
                             }});
             }
@@ -716,17 +717,9 @@ private:
 
     /// Points of the fixture, one at a time: the coordinates of the least probable one are left out before the next.
     void search_reflectors() {
-        const LinearisedGroup& group = normal_.groups()[adjustment_.fixture_prior()];
-        const Index n = group.residual.size();
-        MatrixXd half = MatrixXd::Identity(n, n);
-        group.cholesky.triangularView<Eigen::Lower>().solveInPlace(half);
-        VectorXd weighted = half.transpose() * group.residual;
-        MatrixXd spread = half.transpose() *
-                          (MatrixXd::Identity(n, n) -
-                           group.jacobian * covariance_(group.columns, group.columns) * group.jacobian.transpose()) *
-                          half;
-        const double least = 1e-6 * half.colwise().squaredNorm().minCoeff();
-        const auto points = static_cast<std::size_t>(n / 3);
+        auto [whitening, weighted, spread] = spread_of(normal_.groups()[adjustment_.fixture_prior()], covariance_);
+        const double least = 1e-6 * whitening.colwise().squaredNorm().minCoeff();
+        const auto points = static_cast<std::size_t>(weighted.size() / 3);
         std::vector<bool> out(points, false);
         // Three points make a frame: of as many nothing controls the others.
         for (std::size_t round = 0; round + 3 < points; ++round) {

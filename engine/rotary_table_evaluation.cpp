@@ -15,6 +15,7 @@
 
 #include "engine/geometry_check.h"
 #include "engine/group_notes.h"
+#include "engine/median.h"
 #include "engine/reported_covariance.h"
 #include "gum/quantity/units.h"
 
@@ -123,12 +124,6 @@ constexpr double k_gross_misfit = 30.0;
 // Deviation from the others of a visit that no repeatability makes, and that the linear search would not survive.
 constexpr double k_gross_deviation = 200.0 * gum::k_micrometre;
 
-double median_of(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 /// Distances that deviate from the median of their visit by far more than those of the other visits do, at the place
 /// where most visits agree, the largest first. The adjustment is left there.
 std::vector<std::size_t> find_gross_deviations(JointAdjustment& adjustment, const SolverOptions& solver) {
@@ -146,7 +141,8 @@ std::vector<std::size_t> find_gross_deviations(JointAdjustment& adjustment, cons
         if (residual.size() < 3) {
             continue;
         }
-        const double middle = median_of({residual.begin(), residual.end()});
+        std::vector<double> of_visit(residual.begin(), residual.end());
+        const double middle = upper_median(of_visit);
         for (Eigen::Index i = 0; i < residual.size(); ++i) {
             const double size = std::abs(residual[i] - middle);
             sizes.push_back(size);
@@ -158,7 +154,7 @@ std::vector<std::size_t> find_gross_deviations(JointAdjustment& adjustment, cons
     }
     std::ranges::stable_sort(deviations, std::greater{}, &std::pair<std::size_t, double>::second);
     std::vector<std::size_t> found;
-    const double limit = std::max(k_gross_deviation, k_times_scale * median_of(std::move(sizes)));
+    const double limit = std::max(k_gross_deviation, k_times_scale * upper_median(sizes));
     for (const auto& [length, size] : deviations) {
         if (size > limit) {
             found.push_back(length);
@@ -664,17 +660,16 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
         iteration.report("groups of distances");
         const GroupTestOptions group_options{.alpha = k_group_level,
                                              .chi_square_upper_tail = options.chi_square_upper_tail};
-        solution.groups = test_groups(adjustment, normal, covariance, group_options);
         std::vector<bool> with_outliers = all;
         for (const OutlierFinding& finding : solution.outliers) {
             with_outliers[finding.length] =
                 with_outliers[finding.length] && finding.reason != OutlierReason::gross_error;
         }
         if (is_concentrated(measurement, active) && active != with_outliers) {
-            if (std::optional<GroupTests> groups =
-                    groups_with_all(adjustment, with_outliers, estimated, stochastic, options, group_options)) {
-                solution.groups = std::move(groups);
-            }
+            solution.groups = groups_with_all(adjustment, with_outliers, estimated, stochastic, options, group_options);
+        }
+        if (!solution.groups) {
+            solution.groups = test_groups(adjustment, normal, covariance, group_options);
         }
     }
 

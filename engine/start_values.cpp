@@ -16,6 +16,7 @@
 #include "engine/datum.h"
 #include "engine/geometry_check.h"
 #include "engine/joint_adjustment.h"
+#include "engine/median.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/units.h"
 
@@ -66,15 +67,6 @@ struct StationFit {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     double misfit = std::numeric_limits<double>::infinity();
 };
-
-double median(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    if (values.size() % 2 == 1) {
-        return *middle;
-    }
-    return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
 
 /// All that is needed of a measurement, and the robust descent.
 class StartSearch {
