@@ -27,8 +27,10 @@ struct LinearityCheck {
 /// the pairs its mean is at most 0.15 u, its root mean square 0.35 u, and the dispersion of f within 8 % of that of the
 /// tangent. 2048 more points, as the inputs scatter: the ends of the symmetric interval of f there are within 5 % of U
 /// of those of the tangent at the same points. The choice is ours (docs/adr/0024): 5 % of U is what two digits of U
-/// show. Rounding is allowed for. \param coverage_factor  k of each output; none: 2 \return one an output. A probe
-/// where the model has no value counts at the ends only: U reaches outside its domain.
+/// show. Rounding is allowed for. A probe where the model has no value counts at the ends only: U reaches outside its
+/// domain.
+/// \param coverage_factor  k of each output; none: 2
+/// \return one an output
 [[nodiscard]] std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const Propagation& propagation,
                                                           std::span<const std::optional<double>> coverage_factor);
 

@@ -443,7 +443,8 @@ private:
         }
     }
 
-    /// "m 3/2": most probably an exponent. \param unit_to  where the unit before it ends
+    /// "m 3/2": most probably an exponent.
+    /// \param unit_to  where the unit before it ends
     [[noreturn]] void refuse_number_behind(std::size_t unit_to) {
         std::size_t end = at_;
         while (end < text_.size() && (is_digit(text_[end]) || text_[end] == '/')) {
@@ -460,7 +461,8 @@ private:
                cure);
     }
 
-    /// "° C", "deg C" are no products of an angle and the coulomb. \param unit_to  where the unit before ends
+    /// "° C", "deg C" are no products of an angle and the coulomb.
+    /// \param unit_to  where the unit before ends
     void refuse_split_degree(const UnitExpression& all, std::size_t unit_to) {
         static constexpr std::array<std::string_view, 4> k_degrees{"°", "deg", "degree", "degrees"};
         static constexpr std::array<std::string_view, 4> k_scales{"C", "F", "K", "R"};

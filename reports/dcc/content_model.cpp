@@ -153,7 +153,8 @@ std::optional<Part> ModelReader::element() {
     return Part{.first = {at}, .last = {at}};
 }
 
-/// ?, *, + and the versions, in this order. \param begin  the first place of the part
+/// ?, *, + and the versions, in this order.
+/// \param begin  the first place of the part
 std::optional<Part> ModelReader::with_suffixes(std::optional<Part> part, std::size_t begin) {
     const char sign = rest_.empty() ? ' ' : rest_.front();
     const bool optional = sign == '?' || sign == '*';
