@@ -206,7 +206,7 @@ reports::FlaggedDistance flagged_distance(const RotaryTableSolution& solution,
 }
 
 void fill_reliability(reports::RotaryTable& rotary, const RotaryTableSolution& solution,
-                      const RotaryTableMeasurement& measurement, const gum::Propagation& propagation) {
+                      const RotaryTableMeasurement& measurement, const gum::UncertaintyBudget& propagation) {
     rotary.outlier_critical_value = solution.critical_value;
     rotary.outlier_alpha = measurement.outliers.alpha;
     rotary.printed_critical_value = gum::round_to_quantum(solution.critical_value, 2);
@@ -257,7 +257,7 @@ void fill_reliability(reports::RotaryTable& rotary, const RotaryTableSolution& s
 }  // namespace
 
 void fill_adjustment(reports::RotaryTable& rotary, const RotaryTableSolution& solution,
-                     const RotaryTableMeasurement& measurement, const gum::Propagation& propagation, double k) {
+                     const RotaryTableMeasurement& measurement, const gum::UncertaintyBudget& propagation, double k) {
     fill_stations(rotary, solution, measurement, k);
     fill_reflectors(rotary, solution, measurement, k);
     fill_test(rotary, solution);

@@ -11,6 +11,7 @@ namespace gumcert::app {
 /// \param propagation  of the reported quantities
 /// \param k  coverage factor of the printed uncertainties of positions
 void fill_adjustment(reports::RotaryTable& rotary, const engine::RotaryTableSolution& solution,
-                     const engine::RotaryTableMeasurement& measurement, const gum::Propagation& propagation, double k);
+                     const engine::RotaryTableMeasurement& measurement, const gum::UncertaintyBudget& propagation,
+                     double k);
 
 }  // namespace gumcert::app

@@ -17,7 +17,7 @@ reports::Printed printed(double value, double U, const DocumentUnit& unit) {
     return {pair.value, pair.U, unit.print};
 }
 
-Reported reported(const gum::Propagation& propagation, Eigen::Index i, const DocumentUnit& unit) {
+Reported reported(const gum::UncertaintyBudget& propagation, Eigen::Index i, const DocumentUnit& unit) {
     Reported result;
     result.value = propagation.value[i] / unit.si;
     result.u = propagation.standard_uncertainty[i] / unit.si;

@@ -34,6 +34,6 @@ struct Reported {
     reports::Printed text;
 };
 
-[[nodiscard]] Reported reported(const gum::Propagation& propagation, Eigen::Index i, const DocumentUnit& unit);
+[[nodiscard]] Reported reported(const gum::UncertaintyBudget& propagation, Eigen::Index i, const DocumentUnit& unit);
 
 }  // namespace gumcert::app

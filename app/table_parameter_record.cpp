@@ -18,8 +18,8 @@ namespace {
 // Runs of each sense that ISO 230-2 asks for; fewer give its parameters with less to rest on.
 constexpr std::size_t k_runs_of_the_standard = 5;
 
-reports::TableParameter parameter_of(const engine::TableParameters& parameters, const gum::Propagation& propagation,
-                                     Eigen::Index index) {
+reports::TableParameter parameter_of(const engine::TableParameters& parameters,
+                                     const gum::UncertaintyBudget& propagation, Eigen::Index index) {
     const auto at = static_cast<std::size_t>(index);
     const DocumentUnit& unit = unit_of(parameters.outputs()[at]);
     const Reported numbers = reported(propagation, index, unit);
@@ -66,7 +66,7 @@ reports::PositioningTarget target_of(double angle_deg, const engine::Positioning
 
 reports::PositioningAccuracy positioning_of(const engine::TableParameterModel& model,
                                             const engine::RotaryTableMeasurement& measurement,
-                                            const gum::Propagation& propagation) {
+                                            const gum::UncertaintyBudget& propagation) {
     const engine::TableParameters& parameters = *model.parameters();
     const engine::TableParameterLayout& layout = parameters.layout();
     reports::PositioningAccuracy accuracy;
@@ -160,7 +160,8 @@ PositioningScope positioning_scope(const engine::TableParameterModel& model) {
 }
 
 void fill_table_parameters(reports::RotaryTable& rotary, const engine::TableParameterModel& model,
-                           const engine::RotaryTableMeasurement& measurement, const gum::Propagation& parameters) {
+                           const engine::RotaryTableMeasurement& measurement,
+                           const gum::UncertaintyBudget& parameters) {
     const engine::TableParameters& from = *model.parameters();
     const engine::TableParameterLayout& layout = from.layout();
     for (std::size_t c = 0; c < 6; ++c) {

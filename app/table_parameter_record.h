@@ -12,7 +12,7 @@ namespace gumcert::app {
 /// axis average line, accuracy and repeatability of positioning (ISO 230-2).
 /// \param parameters  law of propagation of `model`
 void fill_table_parameters(reports::RotaryTable& rotary, const engine::TableParameterModel& model,
-                           const engine::RotaryTableMeasurement& measurement, const gum::Propagation& parameters);
+                           const engine::RotaryTableMeasurement& measurement, const gum::UncertaintyBudget& parameters);
 
 /// True for the parameters of ISO 230-2 that rest on standard deviations of runs: R, R_up, A …. Monte Carlo would add
 /// the noise of the distances a second time to deviations that hold it already, and make them larger than they are.

@@ -251,44 +251,20 @@ std::vector<BudgetContribution> add_up_by_source(const std::vector<InputGroup>& 
 
 }  // namespace
 
-Propagation propagate(const MeasurementModel& model, double coverage_probability) {
+UncertaintyBudget uncertainty_budget(const MeasurementModel& model, Eigen::VectorXd value,
+                                     std::vector<Eigen::VectorXd> variances, double coverage_probability) {
     require_probability(coverage_probability, "coverage probability");
     const std::vector<InputGroup>& groups = model.inputs();
-    const std::vector<GroupFactor> factors = factor_groups(groups);
-
-    Propagation result;
+    UncertaintyBudget result;
     result.coverage_probability = coverage_probability;
-    const Eigen::VectorXd x = input_estimates(model);
-    const auto m = static_cast<Eigen::Index>(model.outputs().size());
-    result.value = model.evaluate(x);
-    if (result.value.size() != m) {
-        throw std::logic_error("measurement model: evaluate() does not return one value an output");
-    }
-    require_finite_value(model, result.value);
-    result.jacobian = model.jacobian(x);
-    if (result.jacobian.rows() != m || result.jacobian.cols() != x.size()) {
-        throw std::logic_error("measurement model: jacobian() is not outputs × inputs");
-    }
-    require_finite_jacobian(model, result.jacobian);
-
-    // S = C F with F Fᵀ = V_x, group by group. Then V_y = S Sᵀ is positive semi-definite by construction and a
-    // contribution, being a sum of squares, cannot come out negative.
-    Eigen::MatrixXd S = result.jacobian;
+    result.value = std::move(value);
+    const Eigen::Index m = result.value.size();
     Eigen::VectorXd total = Eigen::VectorXd::Zero(m);
     result.budget.reserve(groups.size());
-    Eigen::Index first = 0;
     for (std::size_t g = 0; g < groups.size(); ++g) {
-        const Eigen::Index n = groups[g].size();
-        auto block = S.middleCols(first, n);
-        block.array().rowwise() *= factors[g].u.transpose().array();
-        if (factors[g].root) {
-            const Eigen::MatrixXd product = block * *factors[g].root;
-            block = product;
-        }
+        total += variances[g];
         result.budget.push_back(
-            BudgetContribution{.name = groups[g].name, .variance = block.rowwise().squaredNorm(), .share = {}});
-        total += result.budget.back().variance;
-        first += n;
+            BudgetContribution{.name = groups[g].name, .variance = std::move(variances[g]), .share = {}});
     }
     for (Eigen::Index i = 0; i < m; ++i) {
         if (!std::isfinite(total(i))) {
@@ -296,11 +272,6 @@ Propagation propagate(const MeasurementModel& model, double coverage_probability
                       "a standard uncertainty must be finite", "Check the input uncertainties and their units.");
         }
     }
-    result.covariance = Eigen::MatrixXd::Zero(m, m);
-    result.covariance.selfadjointView<Eigen::Lower>().rankUpdate(S);
-    result.covariance.triangularView<Eigen::StrictlyUpper>() = result.covariance.transpose();
-    result.covariance.diagonal() = total;  // the same sum as the budget, to the last bit
-
     result.standard_uncertainty = total.cwiseSqrt();
     result.effective_degrees_of_freedom.resize(m);
     result.coverage_factor.resize(m);
@@ -320,11 +291,58 @@ Propagation propagate(const MeasurementModel& model, double coverage_probability
             stated ? coverage_factor(coverage_probability, result.effective_degrees_of_freedom(i)) : k_nan;
     }
     result.expanded_uncertainty = result.coverage_factor.cwiseProduct(result.standard_uncertainty);
-
     for (BudgetContribution& contribution : result.budget) {
         divide_into_shares(contribution, total);
     }
     result.shares_by_source = add_up_by_source(groups, result.budget, total);
+    return result;
+}
+
+Propagation propagate(const MeasurementModel& model, double coverage_probability) {
+    require_probability(coverage_probability, "coverage probability");
+    const std::vector<InputGroup>& groups = model.inputs();
+    const std::vector<GroupFactor> factors = factor_groups(groups);
+
+    const Eigen::VectorXd x = input_estimates(model);
+    const auto m = static_cast<Eigen::Index>(model.outputs().size());
+    Eigen::VectorXd value = model.evaluate(x);
+    if (value.size() != m) {
+        throw std::logic_error("measurement model: evaluate() does not return one value an output");
+    }
+    require_finite_value(model, value);
+    Propagation result;
+    result.jacobian = model.jacobian(x);
+    if (result.jacobian.rows() != m || result.jacobian.cols() != x.size()) {
+        throw std::logic_error("measurement model: jacobian() is not outputs × inputs");
+    }
+    require_finite_jacobian(model, result.jacobian);
+
+    // S = C F with F Fᵀ = V_x, group by group. Then V_y = S Sᵀ is positive semi-definite by construction and a
+    // contribution, being a sum of squares, cannot come out negative.
+    Eigen::MatrixXd S = result.jacobian;
+    std::vector<Eigen::VectorXd> variances;
+    Eigen::Index first = 0;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const Eigen::Index n = groups[g].size();
+        auto block = S.middleCols(first, n);
+        block.array().rowwise() *= factors[g].u.transpose().array();
+        if (factors[g].root) {
+            const Eigen::MatrixXd product = block * *factors[g].root;
+            block = product;
+        }
+        variances.emplace_back(block.rowwise().squaredNorm());
+        first += n;
+    }
+    static_cast<UncertaintyBudget&>(result) =
+        uncertainty_budget(model, std::move(value), std::move(variances), coverage_probability);
+    result.covariance = Eigen::MatrixXd::Zero(m, m);
+    result.covariance.selfadjointView<Eigen::Lower>().rankUpdate(S);
+    result.covariance.triangularView<Eigen::StrictlyUpper>() = result.covariance.transpose();
+    // The same sum as the budget, to the last bit.
+    result.covariance.diagonal().setZero();
+    for (const BudgetContribution& contribution : result.budget) {
+        result.covariance.diagonal() += contribution.variance;
+    }
     return result;
 }
 

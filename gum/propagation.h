@@ -16,12 +16,10 @@ struct BudgetContribution {
     Eigen::VectorXd share;     ///< m, variance / u²(y), [1]; 0 where u(y) is 0
 };
 
-/// Result of the law of propagation for m outputs and n inputs. All vectors are in the order of the model's outputs.
-struct Propagation {
+/// Uncertainty budget (VIM 2.33) of m outputs. All vectors are in the order of the model's outputs.
+struct UncertaintyBudget {
     double coverage_probability = 0.0;
     Eigen::VectorXd value;                 ///< m, y = f(x)
-    Eigen::MatrixXd jacobian;              ///< m×n, sensitivity coefficients ∂y/∂x
-    Eigen::MatrixXd covariance;            ///< m×m, symmetric, of the outputs, given the input covariances
     Eigen::VectorXd standard_uncertainty;  ///< m, u(y)
     /// m, ν_eff; infinite where no contribution has finite ones; NaN, as k and U then are, where none can be stated
     /// because a group that contributes has none (InputGroup::no_degrees_of_freedom_because)
@@ -31,6 +29,22 @@ struct Propagation {
     std::vector<BudgetContribution> budget;            ///< one a group, in the order of the model's groups
     std::vector<BudgetContribution> shares_by_source;  ///< groups of one source added up, in order of first appearance
 };
+
+/// Result of the law of propagation for m outputs and n inputs.
+struct Propagation : UncertaintyBudget {
+    Eigen::MatrixXd jacobian;    ///< m×n, sensitivity coefficients ∂y/∂x
+    Eigen::MatrixXd covariance;  ///< m×m, symmetric, of the outputs, given the input covariances
+};
+
+/// Uncertainty budget from what every group of inputs contributes: u² = Σ_g variance_g, and ν_eff by
+/// Welch–Satterthwaite over the groups (JCGM 100:2008, G.4.1), k = t_p(ν_eff) with ν_eff not cut to an integer.
+///
+/// \param value      m, of the outputs of the model
+/// \param variances  one a group of the model's inputs, in their order, m each: diagonal of c_g V_g c_gᵀ
+/// \throws InputError     if the probability is not between 0 and 1
+/// \throws NoResultError  GC-GUM-0057 if a variance is not finite
+[[nodiscard]] UncertaintyBudget uncertainty_budget(const MeasurementModel& model, Eigen::VectorXd value,
+                                                   std::vector<Eigen::VectorXd> variances, double coverage_probability);
 
 /// Law of propagation of uncertainty through a measurement model.
 ///
