@@ -6,6 +6,7 @@
 #include "app/budget_record.h"
 #include "app/certificate_inputs.h"
 #include "app/certify.h"
+#include "app/document_units.h"
 #include "app/evaluate_budget.h"
 #include "app/evaluate_comparison.h"
 #include "app/evaluate_rotary_table.h"
@@ -49,22 +50,27 @@ std::vector<reports::InputFile> held_files(const engine::ReadOnceSource& source,
 struct Task {
     const engine::ReadOnceSource& files;
     const std::string& job_file;  ///< name in `files`
-    CovarianceFile covariance_file = CovarianceFile::none;
+    const CovarianceOutput& covariance;
     unsigned threads = 0;
     const std::filesystem::path& templates;
     const Progress& progress;
 };
 
 /// The name of the covariance file of a job with these files, where one is written.
-std::string covariance_name(CovarianceFile place, const std::vector<reports::InputFile>& files) {
+std::string covariance_name(CovarianceFile place, CovarianceForm form, const std::vector<reports::InputFile>& files) {
     if (place == CovarianceFile::own_folder) {
-        return "covariance.csv";
+        return "covariance" + covariance_ending(form);
     }
     std::string digests;
     for (const reports::InputFile& file : files) {
         digests += file.sha256;
     }
-    return "covariance-" + encoding::sha256(digests).substr(0, 12) + ".csv";
+    return "covariance-" + encoding::sha256(digests).substr(0, 12) + covariance_ending(form);
+}
+
+/// Whether a covariance file is to be written at all.
+bool is_written(const CovarianceOutput& output) {
+    return output.file != CovarianceFile::none && output.form != CovarianceForm::none;
 }
 
 /// The profile that certificate data ask for: found before the evaluation, which may take long.
@@ -100,9 +106,9 @@ Evaluation evaluate_budget_job(const Task& task) {
     }
     Evaluation evaluation;
     const std::vector<reports::InputFile> files = held_files(task.files, job.files);
-    if (results > k_most_results_in_record && covariance.size() > 0 && task.covariance_file != CovarianceFile::none) {
-        evaluation.covariance_csv = budget_covariance_csv(job, result, covariance);
-        evaluation.covariance_file = covariance_name(task.covariance_file, files);
+    if (results > k_most_results_in_record && covariance.size() > 0 && is_written(task.covariance)) {
+        evaluation.covariance = budget_covariance_csv(job, result, covariance);
+        evaluation.covariance_file = covariance_name(task.covariance.file, CovarianceForm::csv, files);
     }
     evaluation.record = budget_record(job, result, files, covariance, evaluation.covariance_file);
     evaluation.negative = result.validation_failed;
@@ -118,9 +124,16 @@ Evaluation evaluate_rotary_table_job(const Task& task) {
     const RotaryTableResult result = evaluate_rotary_table(job, task.threads, task.progress);
     Evaluation evaluation;
     const std::vector<reports::InputFile> files = held_files(task.files, job.files);
-    if (task.covariance_file != CovarianceFile::none) {
-        evaluation.covariance_csv = covariance_csv(job, result.solution.quantities, result.propagation.covariance);
-        evaluation.covariance_file = covariance_name(task.covariance_file, files);
+    if (is_written(task.covariance)) {
+        const std::vector<gum::OutputQuantity>& quantities = result.solution.quantities.outputs;
+        const CovarianceForm form = chosen_form(task.covariance.form, quantities.size());
+        std::vector<double> units;
+        for (const gum::OutputQuantity& quantity : quantities) {
+            units.push_back(unit_of(quantity).si);
+        }
+        evaluation.covariance = covariance_contents(result.reported.covariance,
+                                                    covariance_order(job, result.solution.quantities), units, form);
+        evaluation.covariance_file = covariance_name(task.covariance.file, form, files);
     }
     evaluation.record = rotary_table_record(job, result, files, evaluation.covariance_file);
     evaluation.negative = result.validation_failed;
@@ -168,18 +181,19 @@ std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_
     return files;
 }
 
-Evaluation evaluate_job(const std::filesystem::path& job_file, CovarianceFile covariance_file, unsigned threads,
+Evaluation evaluate_job(const std::filesystem::path& job_file, const CovarianceOutput& covariance, unsigned threads,
                         const std::filesystem::path& templates, const Progress& progress) {
-    return evaluate_job(engine::DiskFileSource(job_file.parent_path()), job_file.filename().string(), covariance_file,
+    return evaluate_job(engine::DiskFileSource(job_file.parent_path()), job_file.filename().string(), covariance,
                         threads, templates, progress);
 }
 
-Evaluation evaluate_job(const engine::FileSource& source, const std::string& job_file, CovarianceFile covariance_file,
-                        unsigned threads, const std::filesystem::path& templates, const Progress& progress) {
+Evaluation evaluate_job(const engine::FileSource& source, const std::string& job_file,
+                        const CovarianceOutput& covariance, unsigned threads, const std::filesystem::path& templates,
+                        const Progress& progress) {
     const engine::ReadOnceSource files(source);
     const Task task{.files = files,
                     .job_file = job_file,
-                    .covariance_file = covariance_file,
+                    .covariance = covariance,
                     .threads = threads,
                     .templates = templates,
                     .progress = progress};

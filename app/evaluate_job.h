@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/covariance_file.h"
 #include "engine/job/file_source.h"
 #include "reports/record/evaluation_record.h"
 
@@ -14,14 +15,23 @@ namespace gumcert::app {
 /// record: a job gives the same record wherever it is written.
 enum class CovarianceFile {
     none,         ///< it will not be written
-    own_folder,   ///< alone in its folder: covariance.csv
-    with_others,  ///< beside those of other jobs: covariance-<digest of the files of the job>.csv
+    own_folder,   ///< alone in its folder: covariance.csv, .npy or -parts.npy by its form
+    with_others,  ///< beside those of other jobs: covariance-<digest of the files of the job>.csv …
+};
+
+/// The covariance file that is asked for.
+struct CovarianceOutput {
+    CovarianceFile file = CovarianceFile::none;
+    CovarianceForm form = CovarianceForm::automatic;
+
+    // NOLINTNEXTLINE(google-explicit-constructor): a place alone asks for the form that suits the size
+    CovarianceOutput(CovarianceFile place, CovarianceForm as = CovarianceForm::automatic) : file(place), form(as) {}
 };
 
 struct Evaluation {
     reports::EvaluationRecord record;
-    std::string covariance_csv;   ///< contents of the file that the record names; empty: there is none
-    std::string covariance_file;  ///< its name; empty where `covariance_csv` is
+    std::string covariance;       ///< contents of the file that the record names; empty: there is none
+    std::string covariance_file;  ///< its name; empty where `covariance` is
     bool negative = false;        ///< evaluated, and the answer is no: not validated where validation was demanded
     bool blocked = false;         ///< critical findings block the issue of the certificate
 };
@@ -50,13 +60,13 @@ using Progress = std::function<void(const std::string&)>;
 /// \param templates  folder with profiles/<id>.json, for certificate data that name a profile by its id
 /// \throws gum::InputError  GC-CERT-0300 for a profile that is not in the folder, and those of the readers
 /// \throws gum::NoResultError, gum::StorageError
-[[nodiscard]] Evaluation evaluate_job(const std::filesystem::path& job_file, CovarianceFile covariance_file,
+[[nodiscard]] Evaluation evaluate_job(const std::filesystem::path& job_file, const CovarianceOutput& covariance,
                                       unsigned threads, const std::filesystem::path& templates,
                                       const Progress& progress = {});
 /// The same of a job in any source of files, under its name there. Every file is read once, so that the digests in the
 /// record are those of the bytes that were evaluated.
 [[nodiscard]] Evaluation evaluate_job(const engine::FileSource& source, const std::string& job_file,
-                                      CovarianceFile covariance_file, unsigned threads,
+                                      const CovarianceOutput& covariance, unsigned threads,
                                       const std::filesystem::path& templates, const Progress& progress = {});
 
 }  // namespace gumcert::app

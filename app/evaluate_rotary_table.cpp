@@ -7,6 +7,7 @@
 #include "app/record_parts.h"
 #include "app/table_parameter_record.h"
 #include "engine/contact_point_model.h"
+#include "engine/rotary_table_contributions.h"
 #include "engine/rotary_table_trials.h"
 #include "engine/sequential_evaluation.h"
 #include "gum/coverage.h"
@@ -27,8 +28,8 @@ struct Stated {
 };
 
 Stated stated(const RotaryTableResult& result, Eigen::Index output) {
-    const Eigen::Index reported = result.propagation.value.size();
-    const gum::Propagation& from = output < reported ? result.propagation : result.parameters;
+    const Eigen::Index reported = result.reported.budget.value.size();
+    const gum::UncertaintyBudget& from = output < reported ? result.reported.budget : result.parameters;
     const Eigen::Index index = output < reported ? output : output - reported;
     return {from.value[index], from.standard_uncertainty[index], from.expanded_uncertainty[index]};
 }
@@ -50,7 +51,7 @@ RotaryTableMonteCarlo run_monte_carlo(const RotaryTableJob& job, const RotaryTab
     }
     const std::vector<std::string>& names = result.parameter_model->parameters()->short_names();
     const PositioningScope scope = positioning_scope(*result.parameter_model);
-    const auto reported = static_cast<std::size_t>(result.propagation.value.size());
+    const auto reported = static_cast<std::size_t>(result.reported.budget.value.size());
     const std::size_t positioning =
         reported + static_cast<std::size_t>(result.parameter_model->parameters()->layout().positioning);
     RotaryTableMonteCarlo monte_carlo;
@@ -72,6 +73,29 @@ RotaryTableMonteCarlo run_monte_carlo(const RotaryTableJob& job, const RotaryTab
         monte_carlo.validations.push_back(validation);
     }
     return monte_carlo;
+}
+
+QuantityUncertainty stated_by_law(const gum::MeasurementModel& model, const Eigen::VectorXd& value,
+                                  engine::RotaryTableContributions contributions, double coverage_probability) {
+    return {gum::uncertainty_budget(model, value, std::move(contributions.variance), coverage_probability),
+            std::move(contributions.covariance), std::move(contributions.sensitivity)};
+}
+
+/// The same with a sensitivity coefficient for every input and output.
+QuantityUncertainty stated_by_all_coefficients(const gum::MeasurementModel& model, double coverage_probability) {
+    gum::Propagation propagation = gum::propagate(model, coverage_probability);
+    QuantityUncertainty result;
+    Eigen::Index first = 0;
+    for (const gum::InputGroup& group : model.inputs()) {
+        result.sensitivity.emplace_back();
+        if (group.size() == 1) {
+            result.sensitivity.back() = propagation.jacobian.col(first);
+        }
+        first += group.size();
+    }
+    result.covariance = engine::AnglewiseCovariance(propagation.covariance);
+    result.budget = std::move(propagation);
+    return result;
 }
 
 }  // namespace
@@ -96,7 +120,9 @@ RotaryTableResult evaluate_rotary_table(RotaryTableJob& job, unsigned threads, c
             "Monte Carlo repeats the joint adjustment", "remove \"monte_carlo\", or choose \"method\": \"joint\"",
             gum::Severity::error});
     }
-    engine::require_evaluable_size(measurement);
+    if (!joint) {
+        engine::require_evaluable_size(measurement);
+    }
     RotaryTableResult result;
     result.fixture = apply_fixture_budget(job);
     result.options = evaluation_options(measurement);
@@ -108,19 +134,24 @@ RotaryTableResult evaluate_rotary_table(RotaryTableJob& job, unsigned threads, c
         }
     };
     report("law of propagation");
-    result.propagation = gum::propagate(*result.solution.model, job.coverage_probability);
-    if (joint) {
-        const auto model = std::dynamic_pointer_cast<const engine::RotaryTableModel>(result.solution.model);
-        result.parameter_model = std::make_shared<engine::TableParameterModel>(model, result.solution.datum);
+    const engine::RotaryTableSolution& solution = result.solution;
+    const double probability = job.coverage_probability;
+    const auto model = std::dynamic_pointer_cast<const engine::RotaryTableModel>(solution.model);
+    if (model) {
+        result.reported = stated_by_law(*model, solution.values, engine::contributions_of(*model), probability);
+        result.parameter_model = std::make_shared<engine::TableParameterModel>(model, solution.datum);
     } else {
+        result.reported = stated_by_all_coefficients(*solution.model, probability);
         result.parameter_model =
-            std::make_shared<engine::TableParameterModel>(result.solution.model, measurement, result.solution.datum);
+            std::make_shared<engine::TableParameterModel>(solution.model, measurement, solution.datum);
     }
-    result.parameters = gum::propagate(*result.parameter_model, job.coverage_probability);
+    result.parameters = gum::propagate(*result.parameter_model, probability);
     if (job.reference) {
-        const engine::ContactPointModel contact(result.solution.model, measurement, result.solution.datum,
+        const engine::ContactPointModel contact(solution.model, measurement, solution.datum,
                                                 job.reference->contact_point);
-        result.contact_point = gum::propagate(contact, job.coverage_probability);
+        result.contact_point = model ? stated_by_law(contact, contact.displacements(solution.values),
+                                                     engine::contributions_of(*model, contact), probability)
+                                     : stated_by_all_coefficients(contact, probability);
     }
     if (job.monte_carlo) {
         report("Monte Carlo");

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -8,6 +10,7 @@
 #include <vector>
 
 #include "app/fixture_budget.h"
+#include "engine/anglewise_covariance.h"
 #include "engine/job/rotary_table_job.h"
 #include "engine/rotary_table_evaluation.h"
 #include "engine/table_parameters.h"
@@ -25,14 +28,21 @@ struct RotaryTableMonteCarlo {
     double mean_steps = 0.0;
 };
 
+/// What the law of propagation states of quantities that stand angle by angle.
+struct QuantityUncertainty {
+    gum::UncertaintyBudget budget;
+    engine::AnglewiseCovariance covariance;
+    std::vector<Eigen::VectorXd> sensitivity;  ///< ∂y/∂x of a group of one input; empty for others
+};
+
 /// Everything computed for a rotary-table job, coherent SI.
 struct RotaryTableResult {
     engine::EvaluationOptions options;
     engine::RotaryTableSolution solution;
-    gum::Propagation propagation;  ///< of the reported quantities
+    QuantityUncertainty reported;  ///< of the reported quantities
     std::shared_ptr<const engine::TableParameterModel> parameter_model;
-    gum::Propagation parameters;                    ///< ranges, location errors, positioning (ISO 230-2)
-    std::optional<gum::Propagation> contact_point;  ///< of the comparison: x, y, z at every angle
+    gum::UncertaintyBudget parameters;                 ///< ranges, location errors, positioning (ISO 230-2)
+    std::optional<QuantityUncertainty> contact_point;  ///< of the comparison: x, y, z at every angle
     std::optional<RotaryTableMonteCarlo> monte_carlo;
     FixtureUncertainty fixture;      ///< where the covariance of the fixture comes from
     bool validation_failed = false;  ///< validation was demanded, and a quantity is not validated

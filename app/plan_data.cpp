@@ -97,7 +97,7 @@ json expected_json(const Setting& setting, const RotaryTableMeasurement& layout,
 }  // namespace
 
 std::string data_json(const Setting& setting, const std::string& job_name, const Expected& now,
-                      const std::optional<SourceShares>& shares, const std::vector<Variant>& variants,
+                      const SourceShares& shares, const std::vector<Variant>& variants,
                       const std::optional<Proposal>& proposal) {
     const RotaryTableMeasurement& layout = setting.layout;
     json data{{"schema", "gumcert/plan/1"},
@@ -117,17 +117,14 @@ std::string data_json(const Setting& setting, const std::string& job_name, const
                 {"u_axial_arcsec", std::sqrt(setting.stochastic.variance_axial) / k_arcsec.si},
                 {"u_tilt_arcsec", std::sqrt(setting.stochastic.variance_tilt) / k_arcsec.si}}}};
     data["expected"] = expected_json(setting, layout, now);
-    data["budget"] = nullptr;
-    if (shares) {
-        data["budget"] = json::object();
-        for (std::size_t c = 0; c < 6; ++c) {
-            json row = json::object();
-            for (std::size_t s = 0; s < k_sources.size(); ++s) {
-                row[k_sources[s]] = shares->of_motion[c][s];
-            }
-            data["budget"][setting.names[c]] = {{"angle_deg", layout.angles_deg[now.motions[c].worst_angle]},
-                                                {"shares", std::move(row)}};
+    data["budget"] = json::object();
+    for (std::size_t c = 0; c < 6; ++c) {
+        json row = json::object();
+        for (std::size_t s = 0; s < k_sources.size(); ++s) {
+            row[k_sources[s]] = shares.of_motion[c][s];
         }
+        data["budget"][setting.names[c]] = {{"angle_deg", layout.angles_deg[now.motions[c].worst_angle]},
+                                            {"shares", std::move(row)}};
     }
     data["sensitivity"] = json::array();
     for (const Variant& variant : variants) {

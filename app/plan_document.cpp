@@ -350,7 +350,7 @@ void add_standing_notes(Setting& setting) {
 }  // namespace
 
 reports::StudyDocument document_of(Setting setting, const std::string& job_name, const Expected& now,
-                                   const std::optional<SourceShares>& shares, const std::vector<Variant>& variants,
+                                   const SourceShares& shares, const std::vector<Variant>& variants,
                                    const std::optional<Proposal>& proposal) {
     add_standing_notes(setting);
 
@@ -370,14 +370,10 @@ reports::StudyDocument document_of(Setting setting, const std::string& job_name,
                                  .paragraphs = {},
                                  .tables = {layout_table(setting, now)},
                                  .figures = {layout_figure(setting, now, proposal)}});
-    if (shares) {
-        document.sections.push_back({.heading = "What the uncertainties are made of",
-                                     .paragraphs = {},
-                                     .tables = {budget_table(setting, now, *shares)},
-                                     .figures = {}});
-    } else {
-        setting.notes.emplace_back("The budget by source is left out: it is made for smaller numbers of distances.");
-    }
+    document.sections.push_back({.heading = "What the uncertainties are made of",
+                                 .paragraphs = {},
+                                 .tables = {budget_table(setting, now, shares)},
+                                 .figures = {}});
     document.sections.push_back({.heading = "What each part of the layout is worth",
                                  .paragraphs = sensitivity_sentences(variants),
                                  .tables = {sensitivity_table(setting, variants)},

@@ -11,8 +11,7 @@ namespace gumcert::app::plan {
 
 /// What a plan found, as it is shown to people and given to programs.
 [[nodiscard]] reports::StudyDocument document_of(Setting setting, const std::string& job_name, const Expected& now,
-                                                 const std::optional<SourceShares>& shares,
-                                                 const std::vector<Variant>& variants,
+                                                 const SourceShares& shares, const std::vector<Variant>& variants,
                                                  const std::optional<Proposal>& proposal);
 
 }  // namespace gumcert::app::plan

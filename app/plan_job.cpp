@@ -21,7 +21,7 @@ reports::StudyDocument plan_job(const std::filesystem::path& job, unsigned threa
     report("expected uncertainties");
     const plan::Expected now = plan::expect(setting, setting.layout);
     report("budget by source");
-    const std::optional<plan::SourceShares> shares = plan::source_shares(setting, now.motions);
+    const plan::SourceShares shares = plan::source_shares(setting, now.motions);
     report("one thing changed at a time");
     const std::vector<plan::Variant> variants = plan::variants_of(setting, workers);
     const std::optional<plan::Proposal> proposal = plan::propose(setting, workers, progress);

@@ -9,6 +9,7 @@
 #include "app/plan_texts.h"
 #include "engine/campaign_layout.h"
 #include "engine/geometry_check.h"
+#include "engine/rotary_table_contributions.h"
 #include "engine/start_values.h"
 #include "engine/variance_components.h"
 #include "gum/coverage.h"
@@ -25,8 +26,6 @@ using engine::StochasticModel;
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
 // More angles add time and next to nothing to what a comparison of stations says.
 constexpr std::size_t k_most_angles_of_search = 36;
-// The sensitivities of the budget are held whole; beyond this many numbers it is left out.
-constexpr double k_most_sensitivities = 4e7;
 constexpr std::size_t k_most_doubled_angles = 720;
 constexpr std::size_t k_most_left_out = 60;  // stations, and reflectors, that are left out one by one
 
@@ -158,21 +157,19 @@ Expected expect(const Setting& setting, const RotaryTableMeasurement& layout) {
     return expected;
 }
 
-std::optional<SourceShares> source_shares(const Setting& setting, const std::array<Motion, 6>& motions) {
+SourceShares source_shares(const Setting& setting, const std::array<Motion, 6>& motions) {
     const RotaryTableMeasurement& layout = setting.layout;
     const engine::JointAdjustment adjustment = engine::planned_adjustment(layout, setting.stochastic);
-    const double inputs = static_cast<double>(layout.lengths.size() + 6 * adjustment.visits().size());
-    if (6.0 * static_cast<double>(layout.angles.size()) * inputs > k_most_sensitivities) {
-        return std::nullopt;
-    }
     const engine::RotaryTableModel model(layout, adjustment, setting.stochastic,
                                          {k_infinite, k_infinite, k_infinite, k_infinite, k_infinite});
-    const gum::Propagation propagation = gum::propagate(model, setting.job.coverage_probability);
+    const gum::UncertaintyBudget budget =
+        gum::uncertainty_budget(model, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.outputs().size())),
+                                engine::contributions_of(model).variance, setting.job.coverage_probability);
     SourceShares shares;
     for (std::size_t c = 0; c < 6; ++c) {
         const auto output = static_cast<Eigen::Index>(6 * motions[c].worst_angle + c);
         for (std::size_t s = 0; s < k_sources.size(); ++s) {
-            for (const gum::BudgetContribution& contribution : propagation.shares_by_source) {
+            for (const gum::BudgetContribution& contribution : budget.shares_by_source) {
                 if (contribution.name == k_sources[s]) {
                     shares.of_motion[c][s] = contribution.share[output];
                 }

@@ -58,12 +58,12 @@ struct Expected {
 constexpr std::array<const char*, 6> k_sources{"length noise", "scale",           "dead path",
                                                "fixture CMM",  "fixture thermal", "table repeatability"};
 
-/// What the largest U of each error motion is made of; nothing where it is too large to compute.
+/// What the largest U of each error motion is made of.
 struct SourceShares {
     std::array<std::array<double, 6>, 6> of_motion{};  ///< by motion and source, [1]
 };
 
-[[nodiscard]] std::optional<SourceShares> source_shares(const Setting& setting, const std::array<Motion, 6>& motions);
+[[nodiscard]] SourceShares source_shares(const Setting& setting, const std::array<Motion, 6>& motions);
 
 /// One thing that is changed in the layout or in what the uncertainties rest on.
 enum class Change {

@@ -150,13 +150,15 @@ std::string made_by(const reports::Software& software) {
 }
 
 /// As the record was made; where its name is another one, the comparison of the two records tells it.
-CovarianceFile covariance_file_of(const EvaluationRecord& record) {
+CovarianceOutput covariance_of(const EvaluationRecord& record) {
     const std::string name = record.rotary       ? record.rotary->covariance_file.value_or("")
                              : record.covariance ? record.covariance->file
                                                  : "";
-    return name.empty()               ? CovarianceFile::none
-           : name == "covariance.csv" ? CovarianceFile::own_folder
-                                      : CovarianceFile::with_others;
+    const CovarianceForm form = form_of_file(name);
+    return {name.empty()                                     ? CovarianceFile::none
+            : name == "covariance" + covariance_ending(form) ? CovarianceFile::own_folder
+                                                             : CovarianceFile::with_others,
+            form};
 }
 
 gum::InputError refusal(const char* code, const std::string& where, std::string what, std::string rule) {
@@ -245,8 +247,7 @@ EvaluationRecord evaluated_again(const EvaluationRecord& record, const std::stri
     const engine::MemoryFileSource files(files_of(record, where));
     std::string reason;
     try {
-        return evaluate_job(files, record.job_files.front().name, covariance_file_of(record), threads, templates,
-                            progress)
+        return evaluate_job(files, record.job_files.front().name, covariance_of(record), threads, templates, progress)
             .record;
     } catch (const gum::DiagnosedError& error) {
         const gum::Diagnostic& first = error.diagnostics().front();

@@ -133,7 +133,7 @@ std::string word_of(ReferenceCorrelation correlation) {
     return "unknown";
 }
 
-MethodComparison method_comparison(const RotaryTableJob& job, const gum::Propagation& displacement,
+MethodComparison method_comparison(const RotaryTableJob& job, const QuantityUncertainty& displacement,
                                    const std::vector<ReferencePoint>& points, const MethodSide& side) {
     MethodComparison comparison;
     comparison.coverage_probability = job.coverage_probability;
@@ -144,7 +144,7 @@ MethodComparison method_comparison(const RotaryTableJob& job, const gum::Propaga
         const ReferencePoint& at = points[i];
         const engine::ResultUncertainty& of_reference = side.uncertainty[i];
         rows.push_back(static_cast<Eigen::Index>(3 * at.angle + at.direction));
-        const Reported table = reported(displacement, rows.back(), k_um);
+        const Reported table = reported(displacement.budget, rows.back(), k_um);
         comparison.points.push_back({.direction = k_directions[at.direction],
                                      .angle_deg = job.measurement.angles_deg[at.angle],
                                      .position = job.measurement.angles_deg[at.angle],
@@ -159,7 +159,12 @@ MethodComparison method_comparison(const RotaryTableJob& job, const gum::Propaga
                                      .reference_k = of_reference.k,
                                      .reference_nu = finite_or_none(of_reference.degrees_of_freedom)});
     }
-    comparison.covariance = displacement.covariance(rows, rows) / (gum::k_micrometre * gum::k_micrometre);
+    const auto m = static_cast<Eigen::Index>(rows.size());
+    comparison.covariance.resize(m, m);
+    for (Eigen::Index i = 0; i < m; ++i) {
+        comparison.covariance.row(i) = displacement.covariance.row(rows[static_cast<std::size_t>(i)])(rows) /
+                                       (gum::k_micrometre * gum::k_micrometre);
+    }
     comparison.correlation_unknown = job.reference->correlation == ReferenceCorrelation::unknown;
     comparison.reference_audited_factor = job.reference->audited_factor;
     for (std::size_t d = 0; d < k_directions.size(); ++d) {
@@ -172,7 +177,7 @@ MethodComparison method_comparison(const RotaryTableJob& job, const gum::Propaga
 
 }  // namespace
 
-reports::Comparison reference_comparison(const RotaryTableJob& job, const gum::Propagation& displacement) {
+reports::Comparison reference_comparison(const RotaryTableJob& job, const QuantityUncertainty& displacement) {
     const ReferenceMethod& reference = *job.reference;
     const std::vector<ReferencePoint> points = engine::reference_points(reference.readings);
     MethodSide side = job.reference_budget ? side_of_budget(job) : side_of_indicator(job, points);

@@ -37,7 +37,7 @@ const std::vector<std::string>& budget_sources() {
 }
 
 /// Shares of one output in the order of `budget_sources`; 0 for a source that the measurement does not have.
-std::vector<double> shares_of(const gum::Propagation& propagation, Eigen::Index output) {
+std::vector<double> shares_of(const gum::UncertaintyBudget& propagation, Eigen::Index output) {
     std::vector<double> shares;
     for (const std::string& source : budget_sources()) {
         const auto found = std::find_if(propagation.shares_by_source.begin(), propagation.shares_by_source.end(),
@@ -55,8 +55,9 @@ DocumentUnit budget_unit(const std::string& si_unit) {
     return si_unit == "rad" ? k_arcsec : DocumentUnit{1.0, si_unit.c_str(), si_unit.c_str()};
 }
 
-reports::Result result_of(const gum::Propagation& propagation, const gum::MeasurementModel& model, Eigen::Index output,
-                          const std::string& name, const std::string& description) {
+reports::Result result_of(const QuantityUncertainty& uncertainty, const gum::MeasurementModel& model,
+                          Eigen::Index output, const std::string& name, const std::string& description) {
+    const gum::UncertaintyBudget& propagation = uncertainty.budget;
     const DocumentUnit& unit = unit_of(model.outputs()[static_cast<std::size_t>(output)]);
     const Reported numbers = reported(propagation, output, unit);
     reports::Result result;
@@ -87,12 +88,8 @@ reports::Result result_of(const gum::Propagation& propagation, const gum::Measur
         row.share = propagation.budget[g].share[output];
         row.source = group.source;
         if (group.size() == 1) {
-            Eigen::Index first = 0;
-            for (std::size_t before = 0; before < g; ++before) {
-                first += model.inputs()[before].size();
-            }
             row.value = group.value[0] / input_unit.si;
-            row.sensitivity = propagation.jacobian(output, first) * input_unit.si / unit.si;
+            row.sensitivity = uncertainty.sensitivity[g][output] * input_unit.si / unit.si;
         }
         row.printed.u = gum::round_significant(row.u, 2);
         row.printed.contribution = gum::round_significant(row.contribution, 2);
@@ -142,8 +139,8 @@ nlohmann::json options_json(const RotaryTableJob& job, const engine::EvaluationO
               {"non_centrality", options.non_centrality}}}};
 }
 
-void fill_set_up(reports::RotaryTable& rotary, const RotaryTableSolution& solution, const gum::Propagation& propagation,
-                 engine::RotaryAxis axis) {
+void fill_set_up(reports::RotaryTable& rotary, const RotaryTableSolution& solution,
+                 const gum::UncertaintyBudget& propagation, engine::RotaryAxis axis) {
     const auto across = engine::across_axis(axis);
     rotary.set_up.printed_O.fill({"0", "", k_um.print});
     rotary.set_up.printed_S.fill({"0", "", k_arcsec.print});
@@ -171,8 +168,8 @@ void fill_set_up(reports::RotaryTable& rotary, const RotaryTableSolution& soluti
     rotary.set_up.k = rotary.axis_in_fixture.k = propagation.coverage_factor.segment<4>(first).maxCoeff();
 }
 
-void fill_budget(reports::RotaryTable& rotary, const RotaryTableSolution& solution, const gum::Propagation& propagation,
-                 const engine::RotaryTableMeasurement& measurement) {
+void fill_budget(reports::RotaryTable& rotary, const RotaryTableSolution& solution,
+                 const gum::UncertaintyBudget& propagation, const engine::RotaryTableMeasurement& measurement) {
     rotary.budget_sources = budget_sources();
     const auto angles = static_cast<Eigen::Index>(measurement.angles.size());
     const auto add = [&](Eigen::Index output, const std::string& name, std::optional<double> angle) {
@@ -203,7 +200,7 @@ void fill_budget(reports::RotaryTable& rotary, const RotaryTableSolution& soluti
         row.shares.assign(budget_sources().size(), 0.0);
         double total = 0.0;
         for (const Eigen::Index output : outputs) {
-            const double variance = propagation.covariance(output, output);
+            const double variance = std::pow(propagation.standard_uncertainty[output], 2);
             total += variance;
             const std::vector<double> shares = shares_of(propagation, output);
             for (std::size_t s = 0; s < shares.size(); ++s) {
@@ -249,27 +246,6 @@ void note_outliers(reports::EvaluationRecord& record, const engine::OutlierOptio
 
 }  // namespace
 
-std::string covariance_csv(const RotaryTableJob& job, const engine::ReportedQuantities& quantities,
-                           const Eigen::MatrixXd& covariance) {
-    std::string text;
-    const std::vector<std::string> names = covariance_order(job, quantities);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        text += (i == 0 ? "" : ",") + names[i];
-    }
-    text += '\n';
-    for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
-        const double row_unit = unit_of(quantities.outputs[static_cast<std::size_t>(i)]).si;
-        for (Eigen::Index j = 0; j < covariance.cols(); ++j) {
-            const double column_unit = unit_of(quantities.outputs[static_cast<std::size_t>(j)]).si;
-            // Symmetric to the last bit, as a reader may check.
-            const double value = 0.5 * (covariance(i, j) + covariance(j, i)) / (row_unit * column_unit);
-            text += (j == 0 ? "" : ",") + shortest(value);
-        }
-        text += '\n';
-    }
-    return text;
-}
-
 std::vector<std::string> covariance_order(const RotaryTableJob& job, const engine::ReportedQuantities& quantities) {
     std::vector<std::string> names;
     const auto motions = engine::error_motion_names(job.measurement.axis);
@@ -289,7 +265,7 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const R
                                               const std::string& covariance_file) {
     const engine::RotaryTableMeasurement& measurement = job.measurement;
     const RotaryTableSolution& solution = result.solution;
-    const gum::Propagation& propagation = result.propagation;
+    const gum::UncertaintyBudget& propagation = result.reported.budget;
     reports::EvaluationRecord record = record_head("rotary_table",
                                                    {.title = job.title,
                                                     .coverage_probability = job.coverage_probability,
@@ -306,7 +282,7 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const R
         const std::string description =
             c < 2 ? std::string("offset of the fixture along ") + coordinate + " from the " + letter + " axis"
                   : std::string("tilt of the fixture about ") + coordinate + " against the " + letter + " axis";
-        record.results.push_back(result_of(propagation, *solution.model, output,
+        record.results.push_back(result_of(result.reported, *solution.model, output,
                                            solution.quantities.outputs[static_cast<std::size_t>(output)].name,
                                            description));
     }

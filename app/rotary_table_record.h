@@ -21,10 +21,4 @@ namespace gumcert::app {
 [[nodiscard]] std::vector<std::string> covariance_order(const engine::RotaryTableJob& job,
                                                         const engine::ReportedQuantities& quantities);
 
-/// Covariance of all error motions, set-up errors and reversals as CSV: a head line of names, then one line a row,
-/// [µm], [arcsec] and their products, shortest digits that read back the same.
-[[nodiscard]] std::string covariance_csv(const engine::RotaryTableJob& job,
-                                         const engine::ReportedQuantities& quantities,
-                                         const Eigen::MatrixXd& covariance);
-
 }  // namespace gumcert::app

@@ -12,6 +12,7 @@
 #include "app/campaign_draws.h"
 #include "engine/campaign_simulation.h"
 #include "engine/joint_adjustment.h"
+#include "engine/rotary_table_contributions.h"
 #include "engine/rotary_table_evaluation.h"
 #include "engine/sequential_evaluation.h"
 #include "gum/coverage.h"
@@ -170,7 +171,7 @@ public:
         try {
             if (noisy_) {
                 const engine::RotaryTableSolution solution = engine::evaluate_sequentially(for_sequential, options);
-                compare(for_sequential, solution.values, solution.covariance, Datum::home, 2, result);
+                compare(for_sequential, solution.values, solution.covariance.dense(), Datum::home, 2, result);
             } else if (exact.method) {
                 const Eigen::VectorXd values = exact.method->values(measurement);
                 compare(measurement, values, Eigen::MatrixXd(), Datum::home, 2, result);
@@ -186,23 +187,16 @@ public:
 private:
     /// Coverage factors as an evaluation states them.
     [[nodiscard]] Eigen::VectorXd coverage_factors(const engine::RotaryTableSolution& joint) const {
-        if (campaign_.measurement.angles.size() <= k_most_sequential_angles) {
-            return gum::propagate(*joint.model, probability_).coverage_factor;
-        }
-        // The effective degrees of freedom are at least those of the worst known of the estimated components
-        // (JCGM 100:2008, G.4.1); with so many angles they are hundreds, and the factors differ in the third digit.
-        double fewest = std::numeric_limits<double>::infinity();
-        for (const engine::VarianceComponent& component : joint.components) {
-            fewest = std::min(fewest, component.degrees_of_freedom);
-        }
-        return Eigen::VectorXd::Constant(joint.values.size(), gum::coverage_factor(probability_, fewest));
+        const auto& model = dynamic_cast<const engine::RotaryTableModel&>(*joint.model);
+        return gum::uncertainty_budget(model, joint.values, engine::contributions_of(model).variance, probability_)
+            .coverage_factor;
     }
 
     void judge(const engine::RotaryTableSolution& joint, RunResult& result) {
         if (noisy_) {
             coverage_factor_ = coverage_factors(joint);
         }
-        compare(campaign_.measurement, joint.values, joint.covariance, Datum::axis_average_line, 0, result);
+        compare(campaign_.measurement, joint.values, joint.covariance.dense(), Datum::axis_average_line, 0, result);
         result.chi_square = joint.chi_square;
         result.degrees_of_freedom = static_cast<double>(joint.degrees_of_freedom);
         for (std::size_t i = 0; i < joint.reliability.size(); ++i) {

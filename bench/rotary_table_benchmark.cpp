@@ -17,7 +17,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/reported_covariance.h"
+#include "engine/anglewise_map.h"
 #include "engine/rotary_table_evaluation.h"
 #include "engine/rotary_table_trials.h"
 #include "gum/monte_carlo.h"
@@ -82,7 +82,8 @@ Eigen::MatrixXd reported_covariance(const JointAdjustment& adjustment) {
     const NormalEquations normal = adjustment.adjustment().linearise();
     const DatumSolution datum = transform_to_datum(adjustment.measurement(), adjustment.poses(), adjustment.set_up(),
                                                    adjustment.measurement().datum);
-    return ReportedCovariance(adjustment, normal, normal.bordered_covariance(), datum).dense();
+    return covariance_of(reported_map(adjustment, normal, datum), adjustment, normal, normal.bordered_covariance())
+        .dense();
 }
 
 void start_values(benchmark::State& state) {
@@ -206,7 +207,8 @@ double reported_uncertainties(const JointAdjustment& adjustment) {
     const NormalEquations normal = adjustment.adjustment().linearise();
     const DatumSolution datum = transform_to_datum(adjustment.measurement(), adjustment.poses(), adjustment.set_up(),
                                                    adjustment.measurement().datum);
-    const ReportedCovariance covariance(adjustment, normal, normal.bordered_covariance(), datum);
+    const AnglewiseCovariance covariance =
+        covariance_of(reported_map(adjustment, normal, datum), adjustment, normal, normal.bordered_covariance());
     double sum = covariance.diagonal().cwiseSqrt().sum();
     for (std::size_t i = 0; i < adjustment.measurement().angles.size(); ++i) {
         sum += covariance.of_angle(static_cast<Eigen::Index>(i)).sum();

@@ -379,10 +379,19 @@ BorderedCovariance NormalEquations::bordered_covariance() const {
         const Eigen::Index size = blocks_[e].normal.rows();
         const Eigen::Index first = blocks_[e].first - border_;
         result.elimination_.middleRows(first, size) = -elimination[e];
-        result.own_.push_back({blocks_[e].first, blocks_[e].normal.llt().solve(Eigen::MatrixXd::Identity(size, size))});
+        result.own_.push_back(
+            {blocks_[e].first, blocks_[e].normal.llt().solve(Eigen::MatrixXd::Identity(size, size)), {}});
         std::fill_n(result.own_of_.begin() + first, size, e);
     }
     result.cross_ = result.elimination_ * result.border_covariance_;
+    for (BorderedCovariance::Own& own : result.own_) {
+        const Eigen::Index first = own.first - border_;
+        const Eigen::Index size = own.covariance.rows();
+        const Eigen::MatrixXd spread =
+            result.cross_.middleRows(first, size) * result.elimination_.middleRows(first, size).transpose();
+        own.total = 0.5 * (spread + spread.transpose()) + own.covariance;
+        own.total.triangularView<Eigen::StrictlyUpper>() = own.total.transpose();  // symmetric to the last bit
+    }
     return result;
 }
 
@@ -402,19 +411,30 @@ double BorderedCovariance::operator()(Eigen::Index row, Eigen::Index column) con
     if (row < b || column < b) {
         return cross_(std::max(row, column) - b, std::min(row, column));
     }
-    const auto [low, high] = std::minmax(row, column);  // the same bits above and below the diagonal
-    double value = cross_.row(high - b).dot(elimination_.row(low - b));
-    if (own_of_[static_cast<std::size_t>(high - b)] == own_of_[static_cast<std::size_t>(low - b)]) {
-        value += own(high)(high - first_of(high), low - first_of(high));
+    const std::size_t block = own_of_[static_cast<std::size_t>(row - b)];
+    if (block == own_of_[static_cast<std::size_t>(column - b)]) {
+        const Own& own = own_[block];
+        return own.total(row - own.first, column - own.first);
     }
-    return value;
+    const auto [low, high] = std::minmax(row, column);  // the same bits above and below the diagonal
+    return cross_.row(high - b).dot(elimination_.row(low - b));
 }
 
 Eigen::MatrixXd BorderedCovariance::operator()(const Indices& rows, const Indices& columns) const {
+    const Eigen::Index b = border();
     Eigen::MatrixXd result(rows.size(), columns.size());
     for (std::size_t j = 0; j < columns.size(); ++j) {
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = (*this)(rows[i], columns[j]);
+        const Eigen::Index column = columns[j];
+        double* to = result.col(static_cast<Eigen::Index>(j)).data();
+        if (column < b) {
+            for (const Eigen::Index row : rows) {
+                *to++ = row < b ? border_covariance_(row, column) : cross_(row - b, column);
+            }
+            continue;
+        }
+        const double* across = cross_.row(column - b).data();
+        for (const Eigen::Index row : rows) {
+            *to++ = row < b ? across[row] : (*this)(row, column);
         }
     }
     return result;

@@ -9,6 +9,9 @@
 
 namespace gumcert::engine {
 
+/// A matrix with many rows of which a few neighbours are used at a time: they stand together in memory.
+using TallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// Functional model of one group of observations: predicted values and their derivatives.
 class ObservationModel {
 public:
@@ -77,7 +80,7 @@ public:
     /// A root R of C = R Rᵀ, b×b.
     [[nodiscard]] const Eigen::MatrixXd& border_root() const { return border_root_; }
     /// F, (p-b)×b, row i for parameter b + i.
-    [[nodiscard]] const Eigen::MatrixXd& elimination() const { return elimination_; }
+    [[nodiscard]] const TallMatrix& elimination() const { return elimination_; }
     /// W of the eliminated block that a parameter i ≥ b is in, and the first parameter of that block.
     [[nodiscard]] const Eigen::MatrixXd& own(Eigen::Index parameter) const;
     [[nodiscard]] Eigen::Index first_of(Eigen::Index parameter) const;
@@ -94,11 +97,13 @@ public:
 private:
     friend class NormalEquations;
     struct Own {
-        Eigen::Index first = 0;  ///< parameter
-        Eigen::MatrixXd covariance;
+        Eigen::Index first = 0;      ///< parameter
+        Eigen::MatrixXd covariance;  ///< W
+        Eigen::MatrixXd total;       ///< F C Fᵀ + W
     };
-    Eigen::MatrixXd border_covariance_, border_root_, elimination_;
-    Eigen::MatrixXd cross_;  ///< F C
+    Eigen::MatrixXd border_covariance_, border_root_;
+    TallMatrix elimination_;
+    TallMatrix cross_;  ///< F C
     std::vector<Own> own_;
     std::vector<std::size_t> own_of_;  ///< by eliminated parameter
 };
@@ -111,6 +116,8 @@ private:
 class NormalEquations {
 public:
     [[nodiscard]] Eigen::Index parameter_count() const { return static_cast<Eigen::Index>(parameters_.size()); }
+    /// Parameters of the border, which come first.
+    [[nodiscard]] Eigen::Index border_count() const { return border_; }
     [[nodiscard]] const std::vector<FreeParameter>& parameters() const { return parameters_; }
     [[nodiscard]] const std::vector<LinearisedGroup>& groups() const { return groups_; }
     /// Index of a free parameter, or -1 when it is held.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/anglewise_map.h"
 #include "engine/datum.h"
 #include "engine/rotary_table_measurement.h"
 #include "gum/quantity/measurement_model.h"
@@ -26,6 +27,10 @@ public:
     [[nodiscard]] const std::vector<gum::OutputQuantity>& outputs() const override { return outputs_; }
     [[nodiscard]] Eigen::VectorXd evaluate(const Eigen::VectorXd& x) const override;
     [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const override;
+    /// The outputs for values of the reported quantities.
+    [[nodiscard]] Eigen::VectorXd displacements(const Eigen::VectorXd& reported) const;
+    /// Map of the displacements from that of the reported quantities; three an angle, no others.
+    [[nodiscard]] AnglewiseMap seen_through(const AnglewiseMap& reported) const;
 
 private:
     [[nodiscard]] DatumSolution on_average_line(const Eigen::VectorXd& reported) const;

@@ -10,6 +10,7 @@
 #include "engine/datum.h"
 #include "engine/geometry_check.h"
 #include "engine/reliability.h"
+#include "engine/station_covariance.h"
 #include "gum/quantity/units.h"
 
 namespace gumcert::engine {
@@ -180,7 +181,7 @@ ExpectedUncertainty expected_uncertainty(const RotaryTableMeasurement& measureme
 
     ExpectedUncertainty expected;
     expected.quantities = reported_quantities(measurement, adjustment.has_reversal());
-    expected.covariance = ReportedCovariance(adjustment, normal, covariance, datum);
+    expected.covariance = covariance_of(reported_map(adjustment, normal, datum), adjustment, normal, covariance);
     for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
         PlannedStation station;
         station.position = *measurement.station_start[j];
@@ -458,9 +459,9 @@ std::optional<Eigen::VectorXd> LayoutVariances::variances(const Information& inf
     Eigen::MatrixXd root = Eigen::MatrixXd::Identity(border_.size, border_.size);  // of the covariance of the border
     factor.matrixU().solveInPlace(root);
     root = (scale.asDiagonal() * root).eval();
-    return ReportedCovariance(own, -gain, root,
-                              has_reversal_ ? std::optional<Eigen::Index>(border_.reversal) : std::nullopt, datum_)
-        .diagonal();
+    const AnglewiseMap map = reported_map(datum_, border_.size,
+                                          has_reversal_ ? std::optional<Eigen::Index>(border_.reversal) : std::nullopt);
+    return covariance_of(map, {own, -gain}, root).diagonal();
 }
 
 std::optional<Eigen::VectorXd> LayoutVariances::variances() const {

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/anglewise_covariance.h"
 #include "engine/datum.h"
 #include "engine/joint_adjustment.h"
-#include "engine/reported_covariance.h"
 #include "engine/rotary_table_evaluation.h"
 #include "engine/rotary_table_model.h"
 
@@ -47,7 +47,7 @@ struct PlannedStation {
 /// What the evaluation of a planned measurement will state, coherent SI, without estimated variance components.
 struct ExpectedUncertainty {
     ReportedQuantities quantities;
-    ReportedCovariance covariance;  ///< of the reported quantities in the datum of the measurement
+    AnglewiseCovariance covariance;  ///< of the reported quantities in the datum of the measurement
     std::vector<PlannedStation> stations;
     Eigen::Index observations = 0, parameters = 0, degrees_of_freedom = 0;
     double condition_number = 0.0;

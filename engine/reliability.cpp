@@ -143,31 +143,6 @@ std::vector<CoordinateReliability> fixture_reliability(const JointAdjustment& ad
     return rows;
 }
 
-std::vector<ExternalReliability> external_reliability(const JointAdjustment& adjustment, const NormalEquations& normal,
-                                                      const Eigen::MatrixXd& gain,
-                                                      const std::vector<DistanceReliability>& rows) {
-    std::vector<ExternalReliability> worst(static_cast<std::size_t>(gain.rows()));
-    Eigen::MatrixXd to_lengths;
-    for (std::size_t v = 0; v < adjustment.visits().size(); ++v) {
-        const LinearisedGroup& group = normal.groups()[v];
-        const Eigen::MatrixXd weighted =  // V⁻¹ J, n×columns
-            group.cholesky.triangularView<Eigen::Lower>().transpose().solve(group.jacobian);
-        to_lengths.noalias() = gain(Eigen::all, group.columns) * weighted.transpose();  // m×n
-        const std::vector<std::size_t>& observations = adjustment.visits()[v].observations;
-        for (std::size_t k = 0; k < observations.size(); ++k) {
-            const double bias = rows[observations[k]].minimal_detectable_bias;
-            for (std::size_t q = 0; q < worst.size(); ++q) {
-                const double influence = to_lengths(static_cast<Eigen::Index>(q), static_cast<Eigen::Index>(k)) * bias;
-                if (std::abs(influence) > std::abs(worst[q].influence)) {
-                    worst[q] = {q, observations[k], influence};
-                }
-            }
-        }
-    }
-    std::erase_if(worst, [](const ExternalReliability& row) { return row.influence == 0.0; });
-    return worst;
-}
-
 double tau_critical_value(double student_critical_value, double degrees_of_freedom) {
     const double t = student_critical_value;
     return std::sqrt(degrees_of_freedom) * t / std::sqrt(degrees_of_freedom - 1.0 + t * t);

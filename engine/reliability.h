@@ -30,13 +30,6 @@ struct CoordinateReliability {
     double estimated_error = 0.0;          ///< stated minus what all other observations say, [m]
 };
 
-/// What an undetected bias of one distance does to one reported quantity (Baarda's external reliability).
-struct ExternalReliability {
-    std::size_t quantity = 0;  ///< index of the reported quantity
-    std::size_t length = 0;    ///< index of the distance whose minimal detectable bias changes it most
-    double influence = 0.0;    ///< change of the quantity by that bias, [m] or [rad]
-};
-
 /// One row a length of the measurement.
 ///
 /// w_i = e_iᵀ V⁻¹ v / sqrt(e_iᵀ V⁻¹ Q_v V⁻¹ e_i), minimal detectable bias δ0 / sqrt(e_iᵀ V⁻¹ Q_v V⁻¹ e_i), for full V.
@@ -52,16 +45,6 @@ struct ExternalReliability {
                                                                      const NormalEquations& normal,
                                                                      const BorderedCovariance& covariance,
                                                                      double non_centrality);
-
-/// One row a reported quantity that depends on a distance at all, by the gain of the joint estimator: dead paths,
-/// stations and fixture are estimated anew from the wrong distance.
-///
-/// \param gain  ∂(reported quantities)/∂parameters times the covariance of the parameters, m×p
-/// \param rows  of `distance_reliability`
-[[nodiscard]] std::vector<ExternalReliability> external_reliability(const JointAdjustment& adjustment,
-                                                                    const NormalEquations& normal,
-                                                                    const Eigen::MatrixXd& gain,
-                                                                    const std::vector<DistanceReliability>& rows);
 
 /// Critical value of a test value whose variance was estimated from the same residuals (Pope 1976, tau distribution):
 /// τ = sqrt(ν) t / sqrt(ν - 1 + t²).

@@ -13,10 +13,11 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/anglewise_map.h"
 #include "engine/geometry_check.h"
 #include "engine/group_notes.h"
 #include "engine/median.h"
-#include "engine/reported_covariance.h"
+#include "engine/station_covariance.h"
 #include "gum/quantity/units.h"
 
 namespace gumcert::engine {
@@ -593,7 +594,8 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
     solution.datum = transform_to_datum(measurement, adjustment.poses(), adjustment.set_up(), measurement.datum);
     solution.quantities = reported_quantities(measurement, adjustment.has_reversal());
     solution.values = reported_values(adjustment, solution.datum);
-    solution.covariance = ReportedCovariance(adjustment, normal, covariance, solution.datum).dense();
+    const AnglewiseMap map = reported_map(adjustment, normal, solution.datum);
+    solution.covariance = covariance_of(map, adjustment, normal, covariance);
 
     for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
         const auto block = adjustment.station_block(j);
@@ -647,9 +649,8 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
     const TestLimits fixture_limits = test_limits(options, solution.components[fixture_cmm]);
     solution.fixture_reliability = fixture_reliability(adjustment, normal, covariance, fixture_limits.non_centrality);
     solution.fixture_critical_value = fixture_limits.critical_value;
-    solution.external_reliability = external_reliability(
-        adjustment, normal, covariance.times_left(reported_map(adjustment, normal, solution.datum)),
-        solution.reliability);
+    solution.external_reliability = external_reliability(AnglewiseSensitivity(map, adjustment, normal, covariance),
+                                                         adjustment, solution.reliability);
     solution.outliers = std::move(found);
     solution.critical_value = limits.critical_value;
     solution.critical_value_degrees_of_freedom = limits.degrees_of_freedom;

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/anglewise_covariance.h"
 #include "engine/datum.h"
+#include "engine/external_reliability.h"
 #include "engine/group_tests.h"
 #include "engine/reliability.h"
 #include "engine/rotary_table_model.h"
@@ -70,8 +72,8 @@ enum class VarianceBasis {
 struct RotaryTableSolution {
     DatumSolution datum;
     ReportedQuantities quantities;
-    Eigen::VectorXd values;      ///< of the reported quantities
-    Eigen::MatrixXd covariance;  ///< of the reported quantities, from the normal equations
+    Eigen::VectorXd values;          ///< of the reported quantities
+    AnglewiseCovariance covariance;  ///< of the reported quantities, from the normal equations
     std::vector<StationEstimate> stations;
     Eigen::VectorXd dead_paths, u_dead_paths;  ///< [m]
     Eigen::MatrixX3d fixture, u_fixture;       ///< adjusted coordinates at the reference temperature, [m]

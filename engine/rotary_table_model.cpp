@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/anglewise_map.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::engine {
@@ -77,31 +78,6 @@ Eigen::VectorXd reported_values(const JointAdjustment& adjustment, const DatumSo
     }
     const Eigen::Matrix<double, 6, 1> reversal = adjustment.adjustment().parameters(adjustment.reversal_block());
     return reported_order(adjustment.measurement(), datum.errors, datum.set_up, &reversal);
-}
-
-Eigen::MatrixXd reported_map(const JointAdjustment& adjustment, const NormalEquations& normal,
-                             const DatumSolution& datum) {
-    const auto angles = static_cast<Eigen::Index>(adjustment.measurement().angles.size());
-    const Eigen::Index errors = 6 * angles;
-    const Eigen::MatrixXd change = datum.change_map();
-    Eigen::MatrixXd map =
-        Eigen::MatrixXd::Zero(errors + 4 + (adjustment.has_reversal() ? 6 : 0), normal.parameter_count());
-    for (Eigen::Index i = 0; i < angles; ++i) {
-        for (int c = 0; c < 6; ++c) {
-            const Eigen::Index column = normal.column(adjustment.pose_block(static_cast<std::size_t>(i)), c);
-            if (column >= 0) {
-                map.col(column).head(errors).noalias() = datum.motion_map * change.col(6 * i + c);
-                map.col(column).segment<4>(errors) = datum.set_up_map.col(6 * i + c);
-                if (datum.zero_angle != i) {
-                    map(6 * i + c, column) += 1.0;
-                }
-            }
-        }
-    }
-    for (int c = 0; c < 6 && adjustment.has_reversal(); ++c) {
-        map(errors + 4 + c, normal.column(adjustment.reversal_block(), c)) = 1.0;
-    }
-    return map;
 }
 
 double sensitivity_coefficient_count(const RotaryTableMeasurement& measurement) {
@@ -377,8 +353,9 @@ Eigen::MatrixXd RotaryTableModel::jacobian(const Eigen::VectorXd& x) const {
     const JointAdjustment adjustment = solve_at(x);
     const NormalEquations normal = adjustment.adjustment().linearise();
     const DatumSolution datum = transform_to_datum(measurement_, adjustment.poses(), set_up_, measurement_.datum);
-    const Eigen::MatrixXd map = reported_map(adjustment, normal, datum);
-    return input_sensitivity(adjustment, normal, map, Eigen::MatrixXd(map.rows(), 0));
+    const AnglewiseMap map = reported_map(adjustment, normal, datum);
+    const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(map.rows(), map.rows());
+    return input_sensitivity(adjustment, normal, map.combined(all, adjustment, normal), Eigen::MatrixXd(map.rows(), 0));
 }
 
 Eigen::MatrixXd RotaryTableModel::input_sensitivity(const JointAdjustment& adjustment, const NormalEquations& normal,

@@ -35,10 +35,6 @@ struct ReportedQuantities {
 /// Values of the reported quantities, [m] and [rad].
 [[nodiscard]] Eigen::VectorXd reported_values(const JointAdjustment& adjustment, const DatumSolution& datum);
 
-/// Their derivatives with respect to the free parameters of an adjustment, m×p.
-[[nodiscard]] Eigen::MatrixXd reported_map(const JointAdjustment& adjustment, const NormalEquations& normal,
-                                           const DatumSolution& datum);
-
 /// Columns of a pose in the order of the table-repeatability inputs: linear (3), axial (1), tilt (2).
 [[nodiscard]] std::array<int, 6> repeatability_order(RotaryAxis axis);
 

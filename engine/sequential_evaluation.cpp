@@ -626,7 +626,7 @@ RotaryTableSolution evaluate_sequentially(const RotaryTableMeasurement& measurem
     solution.quantities = model->quantities();
     solution.values = model->reported(stages);
     const Eigen::MatrixXd derivatives = model->reported_derivatives(stages, in);
-    solution.covariance = model->propagated(model->with_table(derivatives));
+    solution.covariance = AnglewiseCovariance(model->propagated(model->with_table(derivatives)));
     solution.external_reliability = model->external_reliability(derivatives, solution.reliability);
     solution.condition_number = 0.0;
     const RigidMotion table_from_fixture = rigid_motion(stages.set_up);

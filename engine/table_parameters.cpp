@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/anglewise_map.h"
+
 namespace gumcert::engine {
 
 namespace {
@@ -371,7 +373,8 @@ Eigen::MatrixXd TableParameterModel::jacobian(const Eigen::VectorXd& x) const {
         first += n;
     }
     Eigen::MatrixXd result = joint_->input_sensitivity(
-        adjustment, normal, by.by_reported * reported_map(adjustment, normal, datum), by_residual);
+        adjustment, normal, reported_map(adjustment, normal, datum).combined(by.by_reported, adjustment, normal),
+        by_residual);
     result.middleCols(axial, positions.size()) += by.by_position;
     return result;
 }
@@ -392,17 +395,15 @@ double TableParameterModel::rms_position_uncertainty() const {
     const NormalEquations normal = solved.adjustment().linearise();
     const BorderedCovariance covariance = normal.bordered_covariance();
     const DatumSolution datum = transform_to_datum(measurement, solved.poses(), solved.set_up(), measurement.datum);
-    const Eigen::MatrixXd map = reported_map(solved, normal, datum);
+    const AnglewiseMap map = reported_map(solved, normal, datum);
+    const AnglewiseCovariance reported = covariance_of(map, solved, normal, covariance);
+    const AnglewiseSensitivity sensitivity(map, solved, normal, covariance);
+    const PoseCovariance poses = pose_covariance(solved, normal, covariance);
+    const Eigen::Index border = covariance.border();
+    const TallMatrix border_spread = sensitivity.shared().leftCols(border) * covariance.border_covariance();
     const auto angles = static_cast<Eigen::Index>(measurement.angles.size());
     const Eigen::Index axial = 3 + axial_coordinate(measurement.axis);
-    Eigen::MatrixXd by_parameter = Eigen::MatrixXd::Zero(angles + 1, map.cols());
-    for (Eigen::Index i = 0; i < angles; ++i) {
-        by_parameter.row(i) = map.row(6 * i + axial);
-    }
-    if (solved.has_reversal()) {
-        by_parameter.row(angles) = map.row(6 * angles + 4 + axial);
-    }
-    const Eigen::MatrixXd spread = covariance.times_left(by_parameter);  // h'Q
+    const Eigen::Index reversal = 6 * angles + 4 + axial;
 
     const std::vector<Visit>& visits = solved.visits();
     const auto paths = static_cast<Eigen::Index>(measurement.dead_paths.size());
@@ -421,6 +422,15 @@ double TableParameterModel::rms_position_uncertainty() const {
         }
     }
     by_path = covariance.times_left(by_path.transpose()).transpose().eval();
+    Eigen::MatrixXd pose_by_path = Eigen::MatrixXd::Zero(6 * angles, paths);
+    for (Eigen::Index i = 0; i < 6 * angles; ++i) {
+        const auto block = solved.pose_block(static_cast<std::size_t>(i / 6));
+        if (const Eigen::Index column = normal.column(block, static_cast<int>(i % 6)); column >= 0) {
+            pose_by_path.row(i) = by_path.row(column);
+        }
+    }
+    const Eigen::MatrixXd change_by_path = map.change * pose_by_path;
+
     Eigen::MatrixXd path_covariance;
     for (const gum::InputGroup& group : joint_->inputs()) {
         if (group.source == "dead path") {
@@ -437,9 +447,28 @@ double TableParameterModel::rms_position_uncertainty() const {
         const LinearisedGroup& group = normal.groups()[v];
         const Eigen::VectorXd& g = gains_.gains[v];
         const auto angle = static_cast<Eigen::Index>(visits[v].angle);
+        const Eigen::Index row = 6 * angle + axial;
         const double share = reversal_share(solved.has_reversal(), visits[v].approach);
-        const Eigen::RowVectorXd h = by_parameter.row(angle) + share * by_parameter.row(angles);
-        const Eigen::RowVectorXd hq = spread.row(angle) + share * spread.row(angles);
+        // h is the row of the axial rotation and a share of that of the reversal, which depends on the border only.
+        const auto with_reversal = [&](const auto& rows) -> Eigen::RowVectorXd {
+            return share == 0.0 ? Eigen::RowVectorXd(rows.row(row)) : rows.row(row) + share * rows.row(reversal);
+        };
+        double h_spread = reported(row, row);  // h'Qh
+        if (share != 0.0) {
+            h_spread += share * (2.0 * reported(row, reversal) + share * reported(reversal, reversal));
+        }
+        const Eigen::RowVectorXd by_change = with_reversal(map.by_change);
+        const Eigen::RowVectorXd by_pose = map.local.row(row) + by_change * map.change.middleCols<6>(6 * angle);
+        const Eigen::RowVectorXd by_border = with_reversal(border_spread);
+        const Eigen::RowVectorXd to_pose = by_border * poses.by_border.middleRows<6>(6 * angle).transpose() +
+                                           by_pose * poses.own.middleRows<6>(6 * angle);
+        Eigen::RowVectorXd hq(group.columns.size());  // h'Q over the parameters of the visit
+        for (std::size_t c = 0; c < group.columns.size(); ++c) {
+            const Eigen::Index column = group.columns[c];
+            hq[static_cast<Eigen::Index>(c)] =
+                column < border ? by_border[column]
+                                : to_pose[normal.parameters()[static_cast<std::size_t>(column)].component];
+        }
         const Eigen::VectorXd w =
             group.jacobian.transpose() * (group.cholesky.triangularView<Eigen::Lower>().transpose() * g);
         const Eigen::MatrixXd q = covariance(group.columns, group.columns);
@@ -449,10 +478,12 @@ double TableParameterModel::rms_position_uncertainty() const {
         // Σ = M + σ² aa' and g'a = 1.
         const Eigen::VectorXd factored = group.cholesky.triangularView<Eigen::Lower>().transpose() * g;
         const double variance_of_gain = factored.squaredNorm() - stochastic.variance_axial;
-        const Eigen::RowVectorXd difference = hq(group.columns) - (q * w).transpose();
+        const Eigen::RowVectorXd difference = hq - (q * w).transpose();
         double variance =
-            hq.dot(h) - w.dot(q * w) + variance_of_gain - 2.0 * stochastic.variance_axial * difference.dot(own);
-        Eigen::RowVectorXd to_path = h * by_path - w.transpose() * by_path(group.columns, Eigen::all);
+            h_spread - w.dot(q * w) + variance_of_gain - 2.0 * stochastic.variance_axial * difference.dot(own);
+        Eigen::RowVectorXd to_path = map.local.row(row) * pose_by_path.middleRows<6>(6 * angle);
+        to_path += by_change * change_by_path + with_reversal(map.by_border) * by_path.topRows(border);
+        to_path -= w.transpose() * by_path(group.columns, Eigen::all);
         for (std::size_t k = 0; k < visits[v].observations.size(); ++k) {
             to_path[static_cast<Eigen::Index>(measurement.lengths[visits[v].observations[k]].dead_path)] +=
                 g[static_cast<Eigen::Index>(k)];

@@ -71,15 +71,25 @@ public:
     void add(const BorderedCovariance& covariance, const std::vector<Eigen::Index>& columns,
              const Eigen::MatrixXd& local) {
         const Eigen::Index b = covariance.border();
-        for (std::size_t j = 0; j < columns.size(); ++j) {
-            for (std::size_t i = 0; i < columns.size(); ++i) {
-                const double value = local(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-                if (columns[i] < b && columns[j] < b) {
-                    border_(columns[i], columns[j]) += value;
-                } else if (columns[i] >= b && columns[j] < b) {
-                    cross_(columns[i] - b, columns[j]) += value;
-                } else if (columns[i] >= b) {
-                    own_(columns[i] - b, columns[j] - covariance.first_of(columns[j])) += value;
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            const double* values = local.col(static_cast<Eigen::Index>(i)).data();  // of a row as well: A is symmetric
+            if (columns[i] < b) {
+                double* to = border_.col(columns[i]).data();
+                for (std::size_t j = 0; j < columns.size(); ++j) {
+                    if (columns[j] < b) {
+                        to[columns[j]] += values[j];
+                    }
+                }
+                continue;
+            }
+            double* across = cross_.row(columns[i] - b).data();
+            double* own = own_.row(columns[i] - b).data();
+            const Eigen::Index first = covariance.first_of(columns[i]);
+            for (std::size_t j = 0; j < columns.size(); ++j) {
+                if (columns[j] < b) {
+                    across[columns[j]] += values[j];
+                } else {
+                    own[columns[j] - first] += values[j];
                 }
             }
         }
@@ -87,11 +97,11 @@ public:
 
     /// Once everything is added.
     void complete(const BorderedCovariance& covariance) {
-        const Eigen::MatrixXd& elimination = covariance.elimination();
+        const TallMatrix& elimination = covariance.elimination();
         const Eigen::Index b = covariance.border();
-        Eigen::MatrixXd by_border = cross_;  // T
+        TallMatrix by_border = cross_;  // T
         weighted_.resize(cross_.rows(), b);
-        weighted_own_ = Eigen::MatrixXd::Zero(own_.rows(), k_pose);
+        weighted_own_ = TallMatrix::Zero(own_.rows(), k_pose);
         for (Eigen::Index i = 0; i < own_.rows();) {
             const Eigen::MatrixXd& spread = covariance.own(b + i);  // W
             const Eigen::Index size = spread.rows();
@@ -130,11 +140,12 @@ public:
 
 private:
     static constexpr Eigen::Index k_pose = 6;
-    Eigen::MatrixXd border_, cross_, own_;  ///< A: b×b, (p-b)×b, and the blocks one below the other
-    Eigen::MatrixXd spread_border_;         ///< C S
-    Eigen::MatrixXd spread_;                ///< T C
-    Eigen::MatrixXd weighted_;              ///< W T
-    Eigen::MatrixXd weighted_own_;          ///< W A, the blocks one below the other
+    Eigen::MatrixXd border_;         ///< A: b×b
+    TallMatrix cross_, own_;         ///< A: (p-b)×b, and the blocks one below the other
+    Eigen::MatrixXd spread_border_;  ///< C S
+    TallMatrix spread_;              ///< T C
+    TallMatrix weighted_;            ///< W T
+    TallMatrix weighted_own_;        ///< W A, the blocks one below the other
     std::vector<Eigen::Index> own_sizes_;
 };
 

@@ -163,14 +163,15 @@ bool naming_job(const fs::path& job, const Work& work) {
 bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> inputs, Issuer& issuer,
              const DocumentOptions& options, const CommonOptions& common, ProgressLine& progress, bool several) {
     app::Evaluation evaluation =
-        app::evaluate_job(job, app::CovarianceFile::own_folder, static_cast<unsigned>(common.threads),
-                          templates_folder(options.share), [&](const std::string& text) { progress(text); });
+        app::evaluate_job(job, {app::CovarianceFile::own_folder, *app::covariance_form(options.covariance)},
+                          static_cast<unsigned>(common.threads), templates_folder(options.share),
+                          [&](const std::string& text) { progress(text); });
     const reports::EvaluationRecord& record = evaluation.record;
     const std::vector<fs::path> documents = document_files(record, folder);
     std::vector<app::OutputFile> files{{folder / "record.json", reports::to_canonical_json(record)}};
     judge_issue(evaluation.record, options.languages, options.share);  // the record is written as it is on every day
-    if (!evaluation.covariance_csv.empty()) {
-        files.push_back({folder / evaluation.covariance_file, evaluation.covariance_csv});
+    if (!evaluation.covariance.empty()) {
+        files.push_back({folder / evaluation.covariance_file, evaluation.covariance});
     }
     const bool held_back = withheld(record, options.draft);
     if (!held_back) {
@@ -316,8 +317,9 @@ ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& o
     return code;
 }
 
-ExitCode evaluate_to_record(const fs::path& job, const std::string& output, const std::string& share,
-                            const CommonOptions& common) {
+ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options, const CommonOptions& common) {
+    const std::string& output = options.output;
+    const std::string& share = options.share;
     const bool to_stdout = output == "-";
     const fs::path record_file =
         output.empty() ? job.parent_path() / (job.stem().string() + "-record.json") : fs::path(output);
@@ -329,7 +331,9 @@ ExitCode evaluate_to_record(const fs::path& job, const std::string& output, cons
     }
     ProgressLine progress(!common.quiet);
     app::Evaluation evaluation =
-        app::evaluate_job(job, to_stdout ? app::CovarianceFile::none : app::CovarianceFile::with_others,
+        app::evaluate_job(job,
+                          {to_stdout ? app::CovarianceFile::none : app::CovarianceFile::with_others,
+                           *app::covariance_form(options.covariance)},
                           static_cast<unsigned>(common.threads), templates_folder(share),
                           [&](const std::string& text) { progress(text); });
     const std::string text = reports::to_canonical_json(evaluation.record);
@@ -345,8 +349,8 @@ ExitCode evaluate_to_record(const fs::path& job, const std::string& output, cons
         return code;
     }
     std::vector<app::OutputFile> files{{record_file, text}};
-    if (!evaluation.covariance_csv.empty()) {
-        files.push_back({record_file.parent_path() / evaluation.covariance_file, evaluation.covariance_csv});
+    if (!evaluation.covariance.empty()) {
+        files.push_back({record_file.parent_path() / evaluation.covariance_file, evaluation.covariance});
     }
     for (const fs::path& file : app::input_files(job, evaluation.record)) {
         inputs.push_back(file);
@@ -362,10 +366,9 @@ ExitCode evaluate_to_record(const fs::path& job, const std::string& output, cons
     return code;
 }
 
-ExitCode compare_to_record(const fs::path& job, const std::string& output, const std::string& share,
-                           const CommonOptions& common) {
+ExitCode compare_to_record(const fs::path& job, const DocumentOptions& options, const CommonOptions& common) {
     app::require_comparison_job(job);
-    return evaluate_to_record(job, output, share, common);
+    return evaluate_to_record(job, options, common);
 }
 
 ExitCode render_records(const std::vector<std::string>& records, const std::string& format,

@@ -16,6 +16,7 @@ struct DocumentOptions {
     std::vector<std::string> languages;  ///< --language
     bool draft = false;                  ///< --draft
     std::string signer;                  ///< --sign: signer description; "" = not signed
+    std::string covariance = "auto";     ///< --covariance: a word of app::covariance_form()
 };
 
 /// `gumcert run`: evaluates jobs and writes record, covariance and documents of each.
@@ -23,12 +24,12 @@ struct DocumentOptions {
                                 const CommonOptions& common);
 
 /// `gumcert evaluate`: the record only.
-[[nodiscard]] ExitCode evaluate_to_record(const std::filesystem::path& job, const std::string& output,
-                                          const std::string& share, const CommonOptions& common);
+[[nodiscard]] ExitCode evaluate_to_record(const std::filesystem::path& job, const DocumentOptions& options,
+                                          const CommonOptions& common);
 
 /// `gumcert compare`: the same for a job of kind comparison, and for no other.
-[[nodiscard]] ExitCode compare_to_record(const std::filesystem::path& job, const std::string& output,
-                                         const std::string& share, const CommonOptions& common);
+[[nodiscard]] ExitCode compare_to_record(const std::filesystem::path& job, const DocumentOptions& options,
+                                         const CommonOptions& common);
 
 /// `gumcert render`: one form of the document of each record.
 [[nodiscard]] ExitCode render_records(const std::vector<std::string>& records, const std::string& format,

@@ -92,6 +92,14 @@ void add_document_options(CLI::App& command, DocumentOptions& options) {
     command.add_option("--share", options.share, k_share_help);
 }
 
+void add_covariance_option(CLI::App& command, DocumentOptions& options) {
+    command
+        .add_option("--covariance", options.covariance,
+                    "Form of the covariance file of a rotary table: csv, npy (NumPy), parts (NumPy, grows with the\n"
+                    "angles: docs/rotary_table_job.md), none, or auto: csv for up to 1000 quantities, else parts")
+        ->check(CLI::IsMember({"auto", "none", "csv", "npy", "parts"}));
+}
+
 CLI::App& add_run(CLI::App& program, Arguments& a) {
     CLI::App& command = *program.add_subcommand("run", "Evaluate jobs and write record, covariance and certificates");
     command.add_option("JOB", a.jobs, "Job files (JSON)")->required();
@@ -99,6 +107,7 @@ CLI::App& add_run(CLI::App& program, Arguments& a) {
                        "Folder for the output; default: the job's name with -out, beside the job. "
                        "With several jobs, a folder for each in it");
     add_document_options(command, a.documents);
+    add_covariance_option(command, a.documents);
     command.footer(
         "Example: gumcert run examples/rotary_table/job.json -o /tmp/certificate\n"
         "Writes record.json, covariance.csv, certificate.html, certificate.pdf and certificate.xml (the digital\n"
@@ -113,9 +122,10 @@ CLI::App& add_run(CLI::App& program, Arguments& a) {
 CLI::App& add_evaluate(CLI::App& program, Arguments& a) {
     CLI::App& command = *program.add_subcommand("evaluate", "Evaluate a job and write its record only");
     command.add_option("JOB", a.job, "Job file (JSON)")->required();
-    command.add_option("-o,--output", a.output,
+    command.add_option("-o,--output", a.documents.output,
                        "Record file, or - for standard output; default: the job's name with -record.json");
-    command.add_option("--share", a.share, k_share_help);
+    command.add_option("--share", a.documents.share, k_share_help);
+    add_covariance_option(command, a.documents);
     command.footer("Example: gumcert evaluate job.json -o record.json");
     return command;
 }
@@ -124,9 +134,9 @@ CLI::App& add_compare(CLI::App& program, Arguments& a) {
     CLI::App& command = *program.add_subcommand(
         "compare", "Do results agree, and what does that prove? Evaluate a comparison and write its record");
     command.add_option("JOB", a.job, "Job file (JSON) of kind comparison")->required();
-    command.add_option("-o,--output", a.output,
+    command.add_option("-o,--output", a.documents.output,
                        "Record file, or - for standard output; default: the job's name with -record.json");
-    command.add_option("--share", a.share, k_share_help);
+    command.add_option("--share", a.documents.share, k_share_help);
     command.footer(
         "Between laboratories, the job names participants with their results (value and u, or U with k) and how the\n"
         "assigned value is found: one laboratory's result, a given value, a weighted mean, a robust mean, the largest\n"
@@ -282,10 +292,10 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
         return run_jobs(a.jobs, a.documents, a.common);
     }
     if (evaluate.parsed()) {
-        return evaluate_to_record(a.job, a.output, a.share, a.common);
+        return evaluate_to_record(a.job, a.documents, a.common);
     }
     if (compare.parsed()) {
-        return compare_to_record(a.job, a.output, a.share, a.common);
+        return compare_to_record(a.job, a.documents, a.common);
     }
     if (render.parsed()) {
         return render_records(a.records, a.format, a.documents, a.common);

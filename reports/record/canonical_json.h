@@ -6,8 +6,8 @@
 
 namespace gumcert::reports {
 
-inline constexpr std::size_t k_max_json_depth = 64;                        ///< levels of nesting of a record
-inline constexpr std::size_t k_max_record_bytes = 64UL * 1024UL * 1024UL;  ///< size of a record as text
+inline constexpr std::size_t k_max_json_depth = 64;                         ///< levels of nesting of a record
+inline constexpr std::size_t k_max_record_bytes = 128UL * 1024UL * 1024UL;  ///< size of a record as text
 
 /// True if the bytes are well-formed UTF-8 (no overlong forms, no surrogates, nothing above U+10FFFF).
 [[nodiscard]] bool is_utf8(std::string_view text);

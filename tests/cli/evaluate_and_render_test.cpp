@@ -39,6 +39,23 @@ TEST_F(Evaluate, WritesRecordAndCovariance) {
     EXPECT_EQ(json::parse(files.at("table.json"))["rotary"]["covariance"]["file"], covariance);
 }
 
+TEST_F(Evaluate, CovarianceIsWrittenInTheFormAskedFor) {
+    const auto named = [&](const std::string& form) -> std::string {
+        const fs::path record = folder() / "made" / (form + ".json");
+        EXPECT_EQ(gumcert({"evaluate", job_.string(), "--covariance", form, "-o", record.string()}).code, 0);
+        const json covariance = json::parse(bytes_of(record))["rotary"]["covariance"];
+        return covariance["file"].is_string() ? covariance["file"].get<std::string>() : "";
+    };
+    EXPECT_EQ(named("none"), "");
+    EXPECT_TRUE(named("csv").ends_with(".csv"));
+    for (const std::string form : {"npy", "parts"}) {
+        const std::string name = named(form);
+        EXPECT_TRUE(name.ends_with(form == "npy" ? ".npy" : "-parts.npy")) << name;
+        EXPECT_EQ(bytes_of(folder() / "made" / name).substr(0, 6), "\x93NUMPY") << form;
+    }
+    EXPECT_EQ(gumcert({"evaluate", job_.string(), "--covariance", "mtx"}).code, 2);
+}
+
 TEST_F(Evaluate, TheRecordIsTheSameWhereverItIsWritten) {
     for (const char* name : {"a.json", "b.json", "deep/er/c"}) {
         const Ended ended = gumcert({"evaluate", job_.string(), "-o", (folder() / "made" / name).string()});

@@ -50,8 +50,9 @@ const std::vector<std::string> k_three_of_x{"x,0", "x,45", "x,90"};
 
 /// A displacement with D = 0.5 µm, 0.2 µm, -0.1 µm of x at the first three angles, 0.3 µm and -0.2 µm of y at the first
 /// two, each with u = 0.3 µm and independent of all others.
-gum::Propagation displacement(double u = 0.3) {
-    gum::Propagation result;
+QuantityUncertainty displacement(double u = 0.3) {
+    QuantityUncertainty stated;
+    gum::UncertaintyBudget& result = stated.budget;
     const Eigen::Index n = 24;
     result.coverage_probability = 0.9545;
     result.value = Eigen::VectorXd::Zero(n);
@@ -61,11 +62,12 @@ gum::Propagation displacement(double u = 0.3) {
     result.value(1) = 0.3 * k_um;
     result.value(4) = -0.2 * k_um;
     result.standard_uncertainty = Eigen::VectorXd::Constant(n, u * k_um);
-    result.covariance = result.standard_uncertainty.cwiseAbs2().asDiagonal();
+    stated.covariance =
+        engine::AnglewiseCovariance(Eigen::MatrixXd(result.standard_uncertainty.cwiseAbs2().asDiagonal()));
     result.effective_degrees_of_freedom = Eigen::VectorXd::Constant(n, INFINITY);
     result.coverage_factor = Eigen::VectorXd::Constant(n, k_factor);
     result.expanded_uncertainty = k_factor * result.standard_uncertainty;
-    return result;
+    return stated;
 }
 
 const reports::ComparisonSummary& row(const reports::Comparison& comparison, const std::string& direction) {
@@ -165,8 +167,10 @@ TEST(ReferenceComparison, DividesTheRepeatabilityByTheRunsOfThePoint) {
 }
 
 TEST(ReferenceComparison, UsesTheCovarianceOfTheDisplacement) {
-    gum::Propagation table = displacement();
-    table.covariance(0, 3) = table.covariance(3, 0) = 0.5 * table.covariance(0, 0);
+    QuantityUncertainty table = displacement();
+    Eigen::MatrixXd covariance = table.covariance.dense();
+    covariance(0, 3) = covariance(3, 0) = 0.5 * covariance(0, 0);
+    table.covariance = engine::AnglewiseCovariance(covariance);
     Files files = campaign(k_three_of_x);
     replace(files["dial_indicator.json"], "\"resolution_um\"", "\"mpe_common\": false, \"resolution_um\"");
     const reports::Comparison comparison = reference_comparison(read(files), table);

@@ -1,5 +1,5 @@
 // What grows with the angles in proportion gives the numbers of the dense algebra that it stands for.
-#include "engine/reported_covariance.h"
+#include "engine/anglewise_map.h"
 
 #include <gtest/gtest.h>
 
@@ -171,15 +171,20 @@ TEST_P(LinearGrowth, CovarianceOfTheReportedQuantitiesIsThatOfTheDenseMaps) {
     const NormalEquations normal = adjustment.adjustment().linearise();
     const DatumSolution& datum = solution_.datum;
     const Eigen::MatrixXd map = dense_map(adjustment, normal, datum);
-    EXPECT_LT((reported_map(adjustment, normal, datum) - map).cwiseAbs().maxCoeff(), 1e-13 * map.cwiseAbs().maxCoeff());
+    const AnglewiseMap structured = reported_map(adjustment, normal, datum);
+    ASSERT_EQ(structured.rows(), map.rows());
+    EXPECT_EQ(structured.per_angle(), 6);
+    const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(map.rows(), map.rows());
+    EXPECT_LT((structured.combined(all, adjustment, normal) - map).cwiseAbs().maxCoeff(),
+              1e-13 * map.cwiseAbs().maxCoeff());
     const Eigen::MatrixXd expected = map * inverse_of(dense_normal(normal)) * map.transpose();
     const Eigen::VectorXd u = expected.diagonal().cwiseSqrt();
-    const ReportedCovariance covariance(adjustment, normal, normal.bordered_covariance(), datum);
+    const AnglewiseCovariance covariance = covariance_of(structured, adjustment, normal, normal.bordered_covariance());
     ASSERT_EQ(covariance.rows(), expected.rows());
     const Eigen::MatrixXd dense = covariance.dense();
     EXPECT_EQ(dense, dense.transpose());
     EXPECT_LT(deviation(dense, expected, u, u), k_equal);
-    EXPECT_LT(deviation(solution_.covariance, expected, u, u), k_equal);
+    EXPECT_LT(deviation(solution_.covariance.dense(), expected, u, u), k_equal);
     const Eigen::VectorXd diagonal = covariance.diagonal();
     for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
         EXPECT_NEAR(diagonal[i], expected(i, i), k_equal * expected(i, i)) << i;
@@ -192,9 +197,35 @@ TEST_P(LinearGrowth, CovarianceOfTheReportedQuantitiesIsThatOfTheDenseMaps) {
                   k_equal);
     }
     if (std::get<1>(GetParam()) == Datum::home) {
-        EXPECT_EQ(covariance.of_angle(2), (ReportedCovariance::Matrix6::Zero()));
+        EXPECT_EQ(covariance.of_angle(2), Eigen::MatrixXd::Zero(6, 6));
         EXPECT_EQ(dense.middleRows<6>(12), Eigen::MatrixXd::Zero(6, dense.cols()));
     }
+}
+
+TEST_P(LinearGrowth, SensitivityOfTheReportedQuantitiesIsThatOfTheDenseMaps) {
+    const JointAdjustment adjustment = joint();
+    const NormalEquations normal = adjustment.adjustment().linearise();
+    const BorderedCovariance bordered = normal.bordered_covariance();
+    const AnglewiseMap structured = reported_map(adjustment, normal, solution_.datum);
+    const AnglewiseSensitivity sensitivity(structured, adjustment, normal, bordered);
+    const Eigen::MatrixXd gain = dense_map(adjustment, normal, solution_.datum) * inverse_of(dense_normal(normal));
+    const auto expected_of = [&](const LinearisedGroup& group) -> Eigen::MatrixXd {
+        const Eigen::MatrixXd whitened = gain(Eigen::all, group.columns) * group.jacobian.transpose();
+        return group.cholesky.triangularView<Eigen::Lower>().transpose().solve(whitened.transpose()).transpose();
+    };
+    for (std::size_t v = 0; v < adjustment.visits().size(); ++v) {
+        const AnglewiseSensitivity::OfVisit of = sensitivity.of_visit(v);
+        ASSERT_EQ(of.angle, static_cast<Eigen::Index>(adjustment.visits()[v].angle));
+        Eigen::MatrixXd found = sensitivity.shared() * of.shared;
+        found.middleRows<6>(6 * of.angle) += of.own;
+        const Eigen::MatrixXd expected = expected_of(normal.groups()[v]);
+        for (Eigen::Index i = 0; i < found.rows(); ++i) {
+            EXPECT_LT((found.row(i) - expected.row(i)).norm(), 1e-6 * expected.row(i).norm() + 1e-18) << v << ' ' << i;
+        }
+    }
+    const Eigen::MatrixXd prior = sensitivity.shared() * sensitivity.of_prior(adjustment.fixture_prior());
+    const Eigen::MatrixXd expected = expected_of(normal.groups()[adjustment.fixture_prior()]);
+    EXPECT_LT((prior - expected).cwiseAbs().maxCoeff(), 1e-8 * expected.cwiseAbs().maxCoeff());
 }
 
 TEST_P(LinearGrowth, TheMapsOfTheDatumAreThoseOfTheDenseMap) {
@@ -308,7 +339,7 @@ TEST_P(LinearGrowth, LawOfPropagationWithDenseAndWithStructuredAlgebraAgree) {
         first += group.size();
     }
     const Eigen::VectorXd u = solution_.covariance.diagonal().cwiseSqrt();
-    EXPECT_LT(deviation(propagated, solution_.covariance, u, u), 1e-7);
+    EXPECT_LT(deviation(propagated, solution_.covariance.dense(), u, u), 1e-7);
 
     // A contact point: ∂D = displacement · (∂errors on the axis average line).
     const Eigen::Vector3d point(0.02, -0.03, 0.15);

@@ -128,7 +128,7 @@ TEST(SeenInDatum, IsTheEvaluationInThatDatum) {
     const RotaryTableSolution average = evaluate_jointly(measurement, EvaluationOptions{});
     measurement.datum = Datum::home;
     const RotaryTableSolution home = evaluate_jointly(measurement, EvaluationOptions{});
-    const DatumView seen = seen_in_datum(measurement, average.values, average.covariance, Datum::home);
+    const DatumView seen = seen_in_datum(measurement, average.values, average.covariance.dense(), Datum::home);
     for (Eigen::Index i = 0; i < seen.values.size(); ++i) {
         const double u = std::sqrt(home.covariance(i, i));
         EXPECT_NEAR(seen.values[i], home.values[i], 1e-3 * u + 1e-16) << i;

@@ -347,7 +347,9 @@ TEST(RotaryTableModel, SensitivityOfAnyCombinationIsThatOfTheReportedQuantities)
     const auto model = std::dynamic_pointer_cast<const RotaryTableModel>(solution.model);
     const Eigen::MatrixXd all = model->jacobian(gum::input_estimates(*model));
     const NormalEquations normal = model->solved().adjustment().linearise();
-    const Eigen::MatrixXd map = reported_map(model->solved(), normal, solution.datum);
+    const AnglewiseMap structured = reported_map(model->solved(), normal, solution.datum);
+    const Eigen::MatrixXd map =
+        structured.combined(Eigen::MatrixXd::Identity(structured.rows(), structured.rows()), model->solved(), normal);
     Noise noise(5);
     Eigen::MatrixXd combination(3, map.rows());
     for (double& value : combination.reshaped()) {

@@ -214,7 +214,9 @@ TEST(TableParameterModel, UncertaintyOfOnePositionIsThatOfThePropagation) {
     const auto joint = joint_model(solution);
     const TableParameterModel model(joint, solution.datum);
     const NormalEquations normal = joint->solved().adjustment().linearise();
-    const Eigen::MatrixXd map = reported_map(joint->solved(), normal, solution.datum);
+    const AnglewiseMap structured = reported_map(joint->solved(), normal, solution.datum);
+    const Eigen::MatrixXd map =
+        structured.combined(Eigen::MatrixXd::Identity(structured.rows(), structured.rows()), joint->solved(), normal);
     const std::vector<Visit>& visits = joint->solved().visits();
     const auto count = static_cast<Eigen::Index>(visits.size());
     Eigen::MatrixXd by_parameter(count, map.cols());
