@@ -10,7 +10,7 @@ namespace gumcert::engine {
 namespace {
 
 constexpr std::string_view k_schema = "gumcert/job/1";
-constexpr std::array<std::string_view, 3> k_kinds{"budget", "rotary_table", "comparison"};
+constexpr std::array<std::string_view, 4> k_kinds{"budget", "rotary_table", "circle_closure", "comparison"};
 
 }  // namespace
 
@@ -72,9 +72,9 @@ std::optional<std::string> probable_job_kind(const FileSource& source, const std
     }
     // The text ends before its end, or is none: the first kind that is named in it.
     const std::size_t key = bytes.find("\"kind\"");
-    for (const char* kind : {"budget", "rotary_table", "comparison"}) {
+    for (const std::string_view kind : k_kinds) {
         if (key != std::string::npos && bytes.find('"' + std::string(kind) + '"', key) < bytes.find(',', key)) {
-            return kind;
+            return std::string(kind);
         }
     }
     return std::nullopt;

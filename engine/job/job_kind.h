@@ -19,14 +19,14 @@ struct JobKeys {
     std::span<const std::string_view> keys;
 };
 
-/// "budget", "rotary_table" or "comparison".
+/// "budget", "rotary_table", "circle_closure" or "comparison".
 /// \throws InputError    if the file is not a job of this schema
 /// \throws StorageError  if it cannot be read
 [[nodiscard]] std::string job_kind(const std::filesystem::path& job_file);
 [[nodiscard]] std::string job_kind(const FileSource& source, const std::string& job_file);
 
-/// `schema` and `kind` of a job that is read already; problems go to the list. \return the kind when it is one of the
-/// three
+/// `schema` and `kind` of a job that is read already; problems go to the list. \return the kind when it is one of
+/// these
 [[nodiscard]] std::optional<std::string> read_kind(const JsonDocument& document, ProblemList& problems);
 
 /// The kind that a job seems to be of, also where its text has faults: which reader should tell what is wrong with it.
