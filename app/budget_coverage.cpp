@@ -16,6 +16,16 @@ constexpr double k_noticed_change = 0.01;                   // of k
 
 }  // namespace
 
+bool is_noticed_change(double k_of_convolution, double k) {
+    return std::abs(k_of_convolution - k) > k_noticed_change * k;
+}
+
+std::string convolution_note(double degrees_of_freedom, double k) {
+    return "k is taken from the convolution of all distributions; that of the " +
+           std::string(std::isinf(degrees_of_freedom) ? "normal " : "t-") + "distribution would be " +
+           gum::round_to_quantum(k, 2);
+}
+
 void expand_by_propagation(const engine::BudgetJob& job, const BudgetPointResult& point, Eigen::Index output,
                            BudgetOutputResult& result) {
     const double u = point.propagation.standard_uncertainty(output);
@@ -56,11 +66,9 @@ void expand_by_propagation(const engine::BudgetJob& job, const BudgetPointResult
         if (convolved) {
             result.asymmetry = convolved->asymmetry;
         }
-        if (convolved && std::abs(convolved->coverage_factor - k) > k_noticed_change * k) {
+        if (convolved && is_noticed_change(convolved->coverage_factor, k)) {
             result.coverage = "convolution";
-            result.coverage_note = "k is taken from the convolution of all distributions; that of the " +
-                                   std::string(std::isinf(nu) ? "normal " : "t-") + "distribution would be " +
-                                   gum::round_to_quantum(k, 2);
+            result.coverage_note = convolution_note(nu, k);
             if (convolved->draws > 0) {
                 result.k_numerical_error = convolved->numerical_error;
                 result.coverage_note += "; the numerical error of k from " + std::to_string(convolved->draws) +

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
 #include "app/evaluate_budget.h"
 #include "engine/job/budget_job.h"
@@ -12,5 +13,10 @@ namespace gumcert::app {
 /// with its coverage probability, which is that of the propagation too
 void expand_by_propagation(const engine::BudgetJob& job, const BudgetPointResult& point, Eigen::Index output,
                            BudgetOutputResult& result);
+
+/// Whether the convolution changes k so much that it is taken.
+[[nodiscard]] bool is_noticed_change(double k_of_convolution, double k);
+/// A sentence: k is that of the convolution, and what it would be else. \param k  of the t- or normal distribution
+[[nodiscard]] std::string convolution_note(double degrees_of_freedom, double k);
 
 }  // namespace gumcert::app

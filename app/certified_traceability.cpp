@@ -219,7 +219,7 @@ std::vector<Finding> source_findings(const reports::EvaluationRecord& record) {
 }  // namespace
 
 std::vector<Finding> traceability_findings(const reports::EvaluationRecord& record) {
-    if (record.kind != "budget" || !record.certificate) {
+    if ((record.kind != "budget" && record.kind != "circle_closure") || !record.certificate) {
         return {};
     }
     std::vector<Finding> findings = source_findings(record);

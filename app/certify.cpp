@@ -11,6 +11,7 @@
 #include "app/certified_scope.h"
 #include "app/certified_texts.h"
 #include "app/certified_traceability.h"
+#include "app/circle_closure_findings.h"
 #include "app/record_parts.h"
 #include "app/reported_result.h"
 #include "app/rotary_findings.h"
@@ -356,6 +357,8 @@ void certify(EvaluationRecord& record, CertificateData data, Profile profile, co
     audit.insert(audit.end(), budget.begin(), budget.end());
     const std::vector<Finding> adjustment = rotary_findings(record);
     audit.insert(audit.end(), adjustment.begin(), adjustment.end());
+    const std::vector<Finding> closure = circle_closure_findings(record);
+    audit.insert(audit.end(), closure.begin(), closure.end());
     const std::vector<Finding> traceability = traceability_findings(record);
     audit.insert(audit.end(), traceability.begin(), traceability.end());
     certificate::pass_gates(*record.certificate, audit);

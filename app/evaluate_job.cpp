@@ -6,14 +6,17 @@
 #include "app/budget_record.h"
 #include "app/certificate_inputs.h"
 #include "app/certify.h"
+#include "app/circle_closure_record.h"
 #include "app/document_units.h"
 #include "app/evaluate_budget.h"
+#include "app/evaluate_circle_closure.h"
 #include "app/evaluate_comparison.h"
 #include "app/evaluate_rotary_table.h"
 #include "app/reported_covariance.h"
 #include "app/rotary_table_record.h"
 #include "encoding/sha2.h"
 #include "engine/job/budget_job.h"
+#include "engine/job/circle_closure_job.h"
 #include "engine/job/comparison_job.h"
 #include "engine/job/file_source.h"
 #include "engine/job/job_kind.h"
@@ -141,6 +144,25 @@ Evaluation evaluate_rotary_table_job(const Task& task) {
     return evaluation;
 }
 
+Evaluation evaluate_circle_closure_job(const Task& task) {
+    const engine::CircleClosureJob job = engine::read_circle_closure_job(task.files, task.job_file);
+    const std::optional<certificate::Profile> profile = profile_of(job.certificate, task.templates);
+    const CircleClosureResult result = evaluate_circle_closure(job, task.threads, task.progress);
+    Evaluation evaluation;
+    const std::vector<reports::InputFile> files = held_files(task.files, job.files);
+    const bool is_large = circle_closure_result_names(job).size() > k_most_results_in_record;
+    if (is_large && is_written(task.covariance)) {
+        evaluation.covariance = circle_closure_covariance_csv(job, result);
+        evaluation.covariance_file = covariance_name(task.covariance.file, CovarianceForm::csv, files);
+    }
+    evaluation.record = circle_closure_record(job, result, files, evaluation.covariance_file);
+    evaluation.negative = result.validation_failed;
+    if (job.certificate) {
+        make_certificate(evaluation, job.certificate, profile, circle_closure_capability_inputs(job, result));
+    }
+    return evaluation;
+}
+
 Evaluation evaluate_comparison_job(const Task& task) {
     const engine::ComparisonJob job = engine::read_comparison_job(task.files, task.job_file);
     Evaluation evaluation;
@@ -154,7 +176,7 @@ Evaluation evaluate_comparison_job(const Task& task) {
 void require_comparison_job(const std::filesystem::path& job_file) {
     const std::optional<std::string> kind = engine::probable_job_kind(job_file);
     // A kind that no job has is told by the reader, with the kinds that there are.
-    if (kind == "budget" || kind == "rotary_table") {
+    if (kind == "budget" || kind == "rotary_table" || kind == "circle_closure") {
         throw gum::InputError(gum::Diagnostic{.code = "GC-COMPARE-0140",
                                               .where = job_file.string() + "#/kind",
                                               .what = "a job of kind \"" + *kind + "\" is not a comparison",
@@ -167,6 +189,9 @@ std::vector<gum::Diagnostic> warnings_of_job(const std::string& kind, const engi
                                              const std::string& job_file) {
     if (kind == "budget") {
         return engine::read_budget_job(source, job_file).warnings;
+    }
+    if (kind == "circle_closure") {
+        return engine::read_circle_closure_job(source, job_file).warnings;
     }
     return kind == "comparison" ? engine::read_comparison_job(source, job_file).warnings
                                 : engine::read_rotary_table_job(source, job_file).warnings;
@@ -205,9 +230,10 @@ Evaluation evaluate_job(const engine::FileSource& source, const std::string& job
         (void)warnings_of_job(engine::probable_job_kind(files, job_file).value_or(""), files, job_file);
         throw;
     }
-    Evaluation evaluation = kind == "budget"       ? evaluate_budget_job(task)
-                            : kind == "comparison" ? evaluate_comparison_job(task)
-                                                   : evaluate_rotary_table_job(task);
+    Evaluation evaluation = kind == "budget"           ? evaluate_budget_job(task)
+                            : kind == "comparison"     ? evaluate_comparison_job(task)
+                            : kind == "circle_closure" ? evaluate_circle_closure_job(task)
+                                                       : evaluate_rotary_table_job(task);
     reports::identify_sentences(evaluation.record, templates);
     return evaluation;
 }

@@ -92,6 +92,10 @@ void print_set_up(reports::RotaryTable& rotary, const reports::Result& result) {
 
 }  // namespace
 
+void report_result(reports::Result& result, CoverageChoice choice) {
+    Reporter(choice, result.coverage_probability).report(result);
+}
+
 void report_rotary_results(reports::EvaluationRecord& record, CoverageChoice choice) {
     reports::RotaryTable& rotary = *record.rotary;
     const Reporter reporter(choice, record.coverage_probability);

@@ -13,4 +13,8 @@ namespace gumcert::app {
 /// \param record  of a rotary table, with its Monte Carlo where there is one
 void report_rotary_results(reports::EvaluationRecord& record, engine::CoverageChoice choice);
 
+/// The same of a result with a coverage probability of its own: `reported` of it, where its trials have something to
+/// say.
+void report_result(reports::Result& result, engine::CoverageChoice choice);
+
 }  // namespace gumcert::app

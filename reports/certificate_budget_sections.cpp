@@ -216,8 +216,9 @@ struct ResultList {
     std::vector<const Result*> results;
 };
 
+/// \param argument  label of the points, with its unit
 void result_table(CertificateBuilder& builder, const Wording& words, const ResultList& list, std::size_t number,
-                  const std::vector<CoverageGroup>& groups) {
+                  const std::vector<CoverageGroup>& groups, const Column& argument) {
     const bool points = !list.quantity.empty();
     const std::string unit = list.results.front()->printed.unit;
     const double p = list.results.front()->coverage_probability;
@@ -238,7 +239,7 @@ void result_table(CertificateBuilder& builder, const Wording& words, const Resul
         with_interval = with_interval || !of.printed_low.empty();
         one_p = one_p && r->coverage_probability == p;
     }
-    std::vector<Column> columns = {{words("label", points ? "point" : "name"), ""}};
+    std::vector<Column> columns = {points ? argument : Column{words("label", "name"), ""}};
     if (described) {
         columns.push_back({words("label", "description"), ""});
     }
@@ -273,7 +274,7 @@ void result_table(CertificateBuilder& builder, const Wording& words, const Resul
         const ReportedResult& of = reported[i];
         std::vector<Text> row = {points ? r->point : r->name};
         if (described) {
-            row.push_back(r->description_by_language.empty() ? Text(r->description)
+            row.push_back(r->description_by_language.empty() ? described_result(r->description, words)
                                                              : words.localised(r->description_by_language));
         }
         row.push_back(of.printed.value);
@@ -322,8 +323,10 @@ void results(CertificateBuilder& builder, const Wording& words, const Evaluation
         (found == lists.end() ? lists.emplace_back(ResultList{.quantity = quantity, .results = {}}) : *found)
             .results.push_back(&r);
     }
+    const Column argument = record.circle_closure ? Column{words("label", "angle"), gum::unit_for_people("deg"), true}
+                                                  : Column{words("label", "point"), ""};
     for (std::size_t i = 0; i < lists.size(); ++i) {
-        result_table(builder, words, lists[i], i, groups);
+        result_table(builder, words, lists[i], i, groups, argument);
     }
     coverage(builder, words, record.results, groups);
     builder.paragraph(words("sentence", "validity"));
@@ -411,7 +414,8 @@ std::vector<Text> budget_line(const BudgetRow& row, const Result& result, bool p
     const auto bracketed = [&](const std::string& text) { return part && !text.empty() ? "(" + text + ")" : text; };
     const bool is_joint = row.role == "fit" || row.role == "fit_data";
     return {is_joint ? words.filled("label", row.role == "fit" ? "fit_of" : "data_of", {{"name", row.input}})
-                     : Text(row.input),
+            : row.role == "scatter" ? words("label", "scatter_of_readings")
+                                    : Text(row.input),
             with_unit(row.printed.value, gum::unit_for_people(row.unit)),
             with_unit(row.printed.u, gum::unit_for_people(difference_unit(row.unit))),
             distribution_name(row.distribution, words),

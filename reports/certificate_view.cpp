@@ -8,6 +8,7 @@
 #include "reports/certificate_plots.h"
 #include "reports/certificate_rotary_sections.h"
 #include "reports/certificate_statement_sections.h"
+#include "reports/circle_closure_sections.h"
 #include "reports/comparison_identity.h"
 #include "reports/comparison_sections.h"
 #include "reports/record/canonical_json.h"
@@ -392,6 +393,7 @@ void certificate_sections(CertificateBuilder& builder, const Wording& words, con
         reliability(builder, words, *record.rotary);
         geometry(builder, words, *record.rotary);
     }
+    circle_closure_section(builder, words, record);
     if (record.comparison) {
         reference_comparison_section(builder, words, *record.comparison);
     }

@@ -90,9 +90,15 @@ Text result_meaning(const std::string& table, const std::string& result, const T
     return meaning.empty() ? recorded : meaning;
 }
 
+Text described_result(const std::string& recorded, const Wording& words) {
+    return words.has("result_description", recorded) ? words("result_description", recorded) : Text(recorded);
+}
+
 Text result_meaning(const certificate::CertifiedTable& table, const certificate::CertifiedColumn& column,
                     const Wording& words) {
-    return result_meaning(table.id, column.result, words.localised(column.name), words);
+    const Text recorded =
+        column.name.by_language.empty() ? described_result(column.name.plain, words) : words.localised(column.name);
+    return result_meaning(table.id, column.result, recorded, words);
 }
 
 std::string name_in_table(const std::string& table, const std::string& result) {

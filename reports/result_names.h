@@ -19,6 +19,9 @@ namespace gumcert::reports {
 [[nodiscard]] Text result_meaning(const certificate::CertifiedTable& table, const certificate::CertifiedColumn& column,
                                   const Wording& words);
 
+/// What the program itself describes a result as: "deviation of the table"; any other text is printed as it is.
+[[nodiscard]] Text described_result(const std::string& recorded, const Wording& words);
+
 /// Name of a result where its table stands: "EXA" for "range_EXA" in the table of the ranges.
 [[nodiscard]] std::string name_in_table(const std::string& table, const std::string& result);
 

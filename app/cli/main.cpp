@@ -110,6 +110,7 @@ CLI::App& add_run(CLI::App& program, Arguments& a) {
     add_covariance_option(command, a.documents);
     command.footer(
         "Example: gumcert run examples/rotary_table/job.json -o /tmp/certificate\n"
+        "Kinds of jobs: budget, rotary_table, circle_closure and comparison, each explained in docs/KIND_job.md.\n"
         "Writes record.json, covariance.csv, certificate.html, certificate.pdf and certificate.xml (the digital\n"
         "certificate), all or none; of a comparison record.json, comparison.html, comparison.pdf and\n"
         "comparison.csv. Without certificate data in the job the documents are specimens\n"

@@ -265,7 +265,7 @@ void print_summary(const reports::EvaluationRecord& record) {
             fmt::print("\nMonte Carlo: {}\n", rotary.monte_carlo->statement);
         }
     }
-    if (record.kind == "budget") {
+    if (record.kind == "budget" || record.kind == "circle_closure") {
         print_results(record);
     }
     if (record.comparison && record.comparison->form == "laboratories") {

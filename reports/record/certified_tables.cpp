@@ -134,6 +134,22 @@ std::vector<CertifiedTable> tables_of_results(const std::vector<Result>& results
     return out;
 }
 
+/// The points of a circle closure are angles.
+void put_angles(const CircleClosure& closure, std::vector<CertifiedTable>& tables) {
+    for (CertifiedTable& table : tables) {
+        const bool of_artefact = table.columns.front().result == closure.artefact;
+        const std::vector<double>& angles = of_artefact ? closure.side_angles_deg : closure.step_angles_deg;
+        if (table.argument && table.argument->values.size() == angles.size()) {
+            table.argument->name = "angle";
+            table.argument->unit = "deg";
+            table.argument->printed_unit = gum::unit_for_people("deg");
+            for (std::size_t i = 0; i < angles.size(); ++i) {
+                table.argument->values[i] = angles[i];
+            }
+        }
+    }
+}
+
 CertifiedTable error_motions(const RotaryTable& r) {
     CertifiedTable table{.id = "error_motions",
                          .argument = CertifiedTable::Argument{.name = "angle",
@@ -209,7 +225,11 @@ const Result* result_of(const EvaluationRecord& record, const CertifiedTable& ta
 
 std::vector<CertifiedTable> certified_tables(const EvaluationRecord& record) {
     if (!record.rotary) {
-        return tables_of_results(record.results, "results");
+        std::vector<CertifiedTable> tables = tables_of_results(record.results, "results");
+        if (record.circle_closure) {
+            put_angles(*record.circle_closure, tables);
+        }
+        return tables;
     }
     const RotaryTable& r = *record.rotary;
     std::vector<CertifiedTable> tables = tables_of_results(record.results, "set_up");

@@ -104,7 +104,7 @@ void describe(Archive& a, Struct& r) {
     a("share", r.share, Range::not_negative);
     a("source", r.source);
     a.added("components", r.components);
-    a.added("role", r.role, {"", "fit", "fit_data", "fit_parameter"});
+    a.added("role", r.role, {"", "fit", "fit_data", "fit_parameter", "scatter"});
     a.group("printed", [&](auto& b) {
         b.added("value", r.printed.value);
         b("u", r.printed.u);
@@ -795,10 +795,90 @@ void describe(Archive& a, Struct& r) {
     a.added("fixture_budget", r.fixture_budget);
 }
 
+template <class Archive, Is<ClosureSeriesRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("position", r.position, Range::not_negative);
+    a("repetition", r.repetition);
+    a("readings", r.readings, Range::positive);
+    a("zero", r.zero);
+    a("drift", r.drift);
+    a("residual_rms", r.residual_rms, Range::not_negative);
+    a("misclosure", r.misclosure);
+    a.group("printed", [&](auto& b) {
+        b("zero", r.printed.zero);
+        b("drift", r.printed.drift);
+        b("residual_rms", r.printed.residual_rms);
+        b("misclosure", r.printed.misclosure);
+    });
+}
+
+template <class Archive, Is<ClosureResidualRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("position", r.position, Range::not_negative);
+    a("step", r.step, Range::not_negative);
+    a("side", r.side, Range::not_negative);
+    a("repetition", r.repetition);
+    a("reading", r.reading);
+    a("residual", r.residual);
+    a("redundancy", r.redundancy, Range::probability);
+    a.group("printed", [&](auto& b) {
+        b("reading", r.printed.reading);
+        b("residual", r.printed.residual);
+    });
+}
+
+template <class Archive, Is<ClosureTestRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name, {"stated", "repetition", "reading", "misclosure"});
+    a("statistic", r.statistic, Range::not_negative);
+    a("nu", r.nu, Range::positive);
+    a("nu_reference", r.nu_reference, Range::positive);
+    a("p_value", r.p_value, Range::probability);
+    a("accepted", r.accepted);
+    a.group("printed", [&](auto& b) {
+        b("statistic", r.printed.statistic);
+        b("nu", r.printed.nu);
+        b("nu_reference", r.printed.nu_reference);
+        b("p_value", r.printed.p_value);
+    });
+}
+
+template <class Archive, Is<CircleClosure> Struct>
+void describe(Archive& a, Struct& r) {
+    a("table", r.table);
+    a("artefact", r.artefact);
+    a("artefact_description", r.artefact_description);
+    a("unit", r.unit);
+    a("numbering", r.numbering, {"with", "against"});
+    a("sense", r.sense, {"positive", "negative"});
+    a("drift", r.drift, {"none", "linear"});
+    a("steps", r.steps, Range::positive);
+    a("positions", r.positions, Range::positive);
+    a("step_angles_deg", r.step_angles_deg);
+    a("side_angles_deg", r.side_angles_deg);
+    a("full", r.full);
+    a("readings", r.readings, Range::positive);
+    a("unknowns", r.unknowns, Range::positive);
+    a("degrees_of_freedom", r.degrees_of_freedom, Range::not_negative);
+    a("residual_standard_deviation", r.residual_standard_deviation, Range::not_negative);
+    a("u_reading", r.u_reading, Range::not_negative);
+    a("nu_reading", r.nu_reading, Range::positive);
+    a("u_reading_from", r.u_reading_from, {"residuals", "stated"});
+    a("condition_number", r.condition_number, Range::positive);
+    a("tests", r.tests);
+    a("series", r.series);
+    a("residuals", r.residuals);
+    a.group("printed", [&](auto& b) {
+        b("residual_standard_deviation", r.printed.residual_standard_deviation);
+        b("u_reading", r.printed.u_reading);
+        b("unit", r.printed.unit);
+    });
+}
+
 template <class Archive, Is<EvaluationRecord> Struct>
 void describe(Archive& a, Struct& r) {
     a.constant("schema", EvaluationRecord::k_schema);
-    a("kind", r.kind, {"budget", "rotary_table", "comparison"});
+    a("kind", r.kind, {"budget", "rotary_table", "circle_closure", "comparison"});
     a("title", r.title);
     a("software", r.software);
     a("coverage_probability", r.coverage_probability, Range::probability);
@@ -818,6 +898,7 @@ void describe(Archive& a, Struct& r) {
     a.added("variance_analyses", r.variance_analyses);
     a.added("outliers", r.outliers);
     a("rotary", r.rotary);
+    a.added("circle_closure", r.circle_closure);
     a("comparison", r.comparison);
     a.added("certificate", r.certificate);
     a("diagnostics", r.diagnostics);
@@ -850,6 +931,25 @@ void check_monte_carlo(const MonteCarloSummary& m, const std::string& at, const 
     }
     if (!m.histogram.empty() && !(m.histogram_low < m.histogram_high)) {
         report(at + "/histogram/high", shortest(m.histogram_high), "must be above the low end");
+    }
+}
+
+/// What must hold between the parts of a circle closure. Calls `report(pointer, what, rule)` for each breach.
+template <class Report>
+void check_closure(const CircleClosure& c, const Report& report) {
+    const auto length = [&](const std::string& at, std::size_t found, std::int64_t expected, const char* rule) {
+        if (std::cmp_not_equal(found, expected)) {
+            report(at, std::to_string(found) + " items", "must be " + std::to_string(expected) + ", " + rule);
+        }
+    };
+    length("/step_angles_deg", c.step_angles_deg.size(), c.steps, "one a step");
+    length("/side_angles_deg", c.side_angles_deg.size(), c.steps, "one a side");
+    length("/residuals", c.residuals.size(), c.readings, "one a reading");
+    for (std::size_t i = 0; i < c.residuals.size(); ++i) {
+        if (c.residuals[i].step > c.steps || c.residuals[i].side >= c.steps || c.residuals[i].position >= c.steps) {
+            report("/residuals/" + std::to_string(i), "a step, side or position beyond the circle",
+                   "they are numbered from 0; the closing reading is at the step after the last one");
+        }
     }
 }
 
@@ -2050,6 +2150,11 @@ EvaluationRecord record_from_json(const std::string& text, const std::string& wh
     if (record.rotary) {
         check_rotary(*record.rotary, [&](const std::string& at, std::string what, std::string rule) {
             report("/rotary" + at, std::move(what), std::move(rule));
+        });
+    }
+    if (record.circle_closure) {
+        check_closure(*record.circle_closure, [&](const std::string& at, std::string what, std::string rule) {
+            report("/circle_closure" + at, std::move(what), std::move(rule));
         });
     }
     if (record.comparison) {

@@ -3,6 +3,7 @@
 #include "certificate/certified_results.h"
 #include "gum/quantity/diagnostic.h"
 #include "reports/record/budget_evaluation.h"
+#include "reports/record/circle_closure_evaluation.h"
 #include "reports/record/comparison_evaluation.h"
 #include "reports/record/identified_sentence.h"
 
@@ -58,7 +59,7 @@ struct BudgetRow {
     std::vector<BudgetRow> components;  ///< the parts of an input that is a sum, as table H.1 of the GUM shows them
     /// "" for an input. "fit" for all parameters of a fit together, their covariances included; its components are
     /// "fit_data", what comes from each column of the data (their squares add up to that of the row), and
-    /// "fit_parameter", each parameter alone, which do not add up
+    /// "fit_parameter", each parameter alone, which do not add up. "scatter" for the readings of a circle closure
     std::string role = {};
     struct {
         std::string value, u, nu, sensitivity, contribution, share;  ///< share in percent; value without its unit
@@ -481,7 +482,7 @@ struct EvaluationRecord {
     static constexpr const char* k_schema = "gumcert/record/1";
 
     Software software;
-    std::string kind;  ///< "budget", "rotary_table" or "comparison"
+    std::string kind;  ///< "budget", "rotary_table", "circle_closure" or "comparison"
     std::string title;
     double coverage_probability = 0.9545;
     std::string printed_coverage;  ///< "95.45 %"
@@ -498,6 +499,7 @@ struct EvaluationRecord {
     std::vector<VarianceAnalysis> variance_analyses;
     std::vector<OutlyingReading> outliers;
     std::optional<RotaryTable> rotary;
+    std::optional<CircleClosure> circle_closure;
     std::optional<Comparison> comparison;
     std::optional<certificate::Certificate> certificate;  ///< where the job states certificate data
     std::vector<gum::Diagnostic> diagnostics;

@@ -29,6 +29,8 @@ SOURCES = (
     "app/budget_record.cpp",
     "app/certified_scope.cpp",
     "app/certify.cpp",
+    "app/circle_closure_findings.cpp",
+    "app/compared_job_side.cpp",
     "app/evaluate_budget.cpp",
     "app/evaluate_laboratories.cpp",
     "app/fit_scatter.cpp",

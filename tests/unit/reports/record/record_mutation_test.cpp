@@ -15,7 +15,7 @@ TEST(Mutations, RecordEndsInARecordOrARefusal) {
         ",", "}",  "]",       "\"u\"",    "\"value\"", "\"U\"",    "\"En\"",     "NaN",     "\"k\"", "\"all\"",
         "µ", "\n", "\\u0007", "\"none\"", "\"id\"",    "\"form\"", "\"points\"", "\"unit\""};
     test::run_word_mutations(
-        {.target = "record", .seeds = 7, .accepted_seeds = 7, .words = k_words, .random_seed = 20261121, .count = 2000},
+        {.target = "record", .seeds = 8, .accepted_seeds = 8, .words = k_words, .random_seed = 20261121, .count = 2000},
         fuzz::record);
 }
 
