@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/compared_job_side.h"
 #include "app/comparison_print.h"
 #include "app/evaluate_comparison.h"
 #include "app/method_comparison.h"
@@ -28,6 +29,9 @@ std::string name_of(const engine::MethodPoint& point) {
 }
 
 MethodSide side_of(const ComparisonJob& job, const MethodComparisonRequest& request, const ComparisonSide& side) {
+    if (side.has_job()) {
+        return side_of_job(side, request.unit, job.coverage_probability);
+    }
     if (side.budget) {
         MethodBudget budget{*side.budget, side.budget_file, side.name, side.budget_points, {}};
         for (const engine::MethodPoint& point : request.points) {
@@ -123,7 +127,16 @@ reports::Comparison evaluate_methods(const ComparisonJob& job, std::vector<gum::
     const MethodComparisonRequest& request = *job.methods;
     MethodSide method = side_of(job, request, request.laboratory);
     MethodSide reference = side_of(job, request, request.reference);
+    const bool takes_mean_off = request.laboratory.has_job() || request.reference.has_job();
+    if (takes_mean_off) {
+        take_off_mean(method, job.coverage_probability);
+        take_off_mean(reference, job.coverage_probability);
+        reference.remarks.push_back("The mean of the " + std::to_string(request.points.size()) +
+                                    " compared angles was taken off both sides, with its covariance: the zero of a "
+                                    "deviation of an angle is a convention, and so is a constant difference.");
+    }
     MethodComparison comparison = method_comparison(job, method, reference);
+    comparison.mean_taken_off = takes_mean_off;
 
     reports::Comparison record;
     record.form = "methods";

@@ -356,6 +356,16 @@ void add_audited(const reports::Comparison& record, const Row& of, ComparisonSum
     row.count_above_1_audited = above;
 }
 
+/// The differences as a line is fitted to them. Where the mean was taken off, their covariance is singular in its
+/// direction: a variance there, as large as that of a point, leaves the slope as it is and makes the constant 0.
+gum::MethodDifferences for_bias_line(const MethodComparison& comparison, gum::MethodDifferences differences) {
+    if (comparison.mean_taken_off) {
+        const auto n = static_cast<double>(differences.covariance.rows());
+        differences.covariance.array() += differences.covariance.trace() / (n * n);
+    }
+    return differences;
+}
+
 std::optional<reports::BiasLineSummary> bias_of(const MethodComparison& comparison,
                                                 const gum::MethodDifferences& differences, const Row& of) {
     Eigen::VectorXd t(differences.d.size());
@@ -366,7 +376,7 @@ std::optional<reports::BiasLineSummary> bias_of(const MethodComparison& comparis
         }
         t(static_cast<Index>(i)) = comparison.bias_against_position ? *point.position : point.reference_value;
     }
-    const std::optional<gum::BiasLine> line = gum::bias_line(differences, t);
+    const std::optional<gum::BiasLine> line = gum::bias_line(for_bias_line(comparison, differences), t);
     if (!line) {
         return std::nullopt;
     }

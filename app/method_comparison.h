@@ -29,6 +29,7 @@ struct MethodComparison {
     bool correlation_unknown = false;      ///< both methods may share a standard: E_n for the worst plausible r too
     double coverage_probability = 0.9545;
     bool bias_against_position = false;  ///< else against the reference value
+    bool mean_taken_off = false;         ///< of both sides: their covariance says nothing of what all points share
     double audited_factor = 1.0, reference_audited_factor = 1.0;
     std::map<std::string, double> published_mean_abs_En = {};  ///< by direction
     std::string printed_unit = "um";                           ///< as the record writes it; D and U are printed in it

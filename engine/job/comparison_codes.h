@@ -64,6 +64,7 @@ inline constexpr InputCode k_check_without_criterion{
 inline constexpr InputCode k_reserved_direction{"GC-INPUT-0539", "a direction with the name that all together have"};
 inline constexpr InputCode k_degrees_of_freedom_of_nothing{"GC-INPUT-0540",
                                                            "degrees of freedom without an uncertainty"};
+inline constexpr InputCode k_compared_job{"GC-INPUT-0541", "a job that cannot be one side of a comparison"};
 
 // Warnings: the input is accepted, and a person should look at it.
 inline constexpr InputCode k_warn_no_result{"GC-WARN-0020", "a participant without a single result"};
@@ -116,6 +117,7 @@ inline constexpr std::array k_comparison_codes{k_comparison_form,
                                                k_check_without_criterion,
                                                k_reserved_direction,
                                                k_degrees_of_freedom_of_nothing,
+                                               k_compared_job,
                                                k_warn_no_result,
                                                k_warn_small_coverage_factor,
                                                k_warn_exact_assigned_value,

@@ -22,6 +22,9 @@
 
 namespace gumcert::engine {
 
+struct RotaryTableJob;
+struct CircleClosureJob;
+
 // Values and uncertainties of a comparison stay in the unit of its item, as the laboratories state them: nothing is
 // combined across units, and a conversion to SI and back could change the last digit of a participant's result.
 
@@ -167,6 +170,15 @@ struct ComparisonSide {
     /// One a point of the comparison: its position among the points of the budget (0 for a budget without points).
     /// With a budget `value`, `uncertainty` and `covariance` are empty: they follow from its evaluation.
     std::vector<std::size_t> budget_points = {};
+    /// A job that measured the deviations of an angle over the turn: one of these two. Its points are angles; values,
+    /// uncertainties and covariance follow from its evaluation, as they do with a budget.
+    std::shared_ptr<const RotaryTableJob> rotary_table = {};
+    std::shared_ptr<const CircleClosureJob> circle_closure = {};
+    std::string job_file = {};
+    bool of_artefact = false;                  ///< of a circle closure: what stands on the table, not the table
+    std::vector<std::size_t> job_angles = {};  ///< one a point of the comparison: its position among the angles
+    [[nodiscard]] bool has_job() const { return rotary_table || circle_closure; }
+
     std::optional<double> cmc_U;
     double audited_factor = 1.0;  ///< on every uncertainty, once the finding is corrected
     std::string audit_finding;

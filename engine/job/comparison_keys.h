@@ -70,8 +70,8 @@ inline constexpr std::array<std::string_view, 5> k_sigma_keys{"percent", "mass_f
 inline constexpr std::array<std::string_view, 5> k_reference_value_keys{"value", "u", "U", "k", "nu"};
 inline constexpr std::array<std::string_view, 4> k_vector_keys{"name", "items", "correlation", "reference_correlation"};
 
-inline constexpr std::array<std::string_view, 6> k_side_keys{"name",   "points", "covariance",
-                                                             "budget", "cmc_U",  "audited"};
+inline constexpr std::array<std::string_view, 8> k_side_keys{"name", "points", "covariance", "budget",
+                                                             "job",  "of",     "cmc_U",      "audited"};
 inline constexpr std::array<std::string_view, 9> k_point_keys{"point", "direction", "position", "value",   "u",
                                                               "U",     "k",         "nu",       "u_common"};
 inline constexpr auto k_point_keys_and_bare = joined(k_point_keys, k_bare_keys);

@@ -96,6 +96,8 @@ private:
 
     // ---- both sides together ----------------------------------------------------------------------------------------
 
+    static constexpr std::size_t k_least_angles = 3;
+
     /// The points of the comparison: those of the laboratory, or of the reference where only it lists them, or those
     /// of the budget of the laboratory. Brings the reference into this order.
     bool match(SideReading& laboratory, SideReading& reference) {
@@ -113,6 +115,8 @@ private:
                 name_points_of_budget(*side, other->points);
             }
         }
+        drop_angles_without_counterpart(laboratory, reference);
+        drop_angles_without_counterpart(reference, laboratory);
         const bool has_reference = has_counterparts(laboratory, reference, "reference");
         const bool has_laboratory = has_counterparts(reference, laboratory, "laboratory");
         if (!has_reference || !has_laboratory) {
@@ -193,6 +197,34 @@ private:
         }
     }
 
+    /// A job has angles that the other method did not measure: they are left out.
+    void drop_angles_without_counterpart(SideReading& side, const SideReading& other) {
+        if (!side.has_job) {
+            return;
+        }
+        std::set<PointKey> known;
+        for (const SidePoint& point : other.points) {
+            known.insert(key_of(point.point));
+        }
+        std::vector<SidePoint> kept;
+        std::vector<std::size_t> angles;
+        for (std::size_t i = 0; i < side.points.size(); ++i) {
+            if (known.contains(key_of(side.points[i].point))) {
+                kept.push_back(std::move(side.points[i]));
+                angles.push_back(side.side.job_angles[i]);
+            }
+        }
+        if (kept.size() < k_least_angles) {
+            root_.refuse(k_compared_job, side.key,
+                         std::to_string(kept.size()) + " angles of the job " + in_quotes(side.side.job_file) +
+                             " were measured on the other side",
+                         "deviations of an angle are compared at 3 angles at least, because their mean is taken off",
+                         "measure common angles; points of a table are named by the angle in degrees, \"30\"");
+        }
+        side.points = std::move(kept);
+        side.side.job_angles = std::move(angles);
+    }
+
     /// Refuses the points of one side that the other one does not have. \return true when there are none
     static bool has_counterparts(const SideReading& side, const SideReading& other, const std::string& name_of_other) {
         std::set<PointKey> known;
@@ -249,6 +281,14 @@ private:
 
     void finish(SideReading& read, std::span<const std::size_t> order, ComparisonSide& side) {
         side = std::move(read.side);
+        if (side.has_job()) {
+            std::vector<std::size_t> angles(order.size());
+            for (std::size_t i = 0; i < order.size(); ++i) {
+                angles[order[i]] = side.job_angles[i];
+            }
+            side.job_angles = std::move(angles);
+            return;
+        }
         if (side.budget) {
             find_points_of_budget(read.key, side);
             return;

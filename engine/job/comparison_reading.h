@@ -42,6 +42,7 @@ public:
     ComparisonBudgets(const FileSource& source, JobFiles& files) : source_(source), files_(files) {}
     /// \return null when it was refused; the problems are told with the others
     [[nodiscard]] std::shared_ptr<const BudgetJob> read(const std::string& name);
+    [[nodiscard]] const FileSource& source() const { return source_; }
 
 private:
     const FileSource& source_;

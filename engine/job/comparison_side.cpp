@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "engine/job/comparison_compared_job.h"
 #include "engine/job/comparison_keys.h"
 
 namespace gumcert::engine {
@@ -66,6 +67,17 @@ private:
         if (const auto audited = object.optional_object("audited", k_audited_factor_keys)) {
             side_.side.audited_factor = audited->required_number("factor", k_audited_factor).value_or(1.0);
             side_.side.audit_finding = audited->required_name("finding", 1000).value_or("");
+        }
+        if (object.has("job")) {
+            side_.has_job = true;
+            side_.has_points = true;
+            read_compared_job(reading_, object, unit_, side_);
+            return;
+        }
+        if (object.has("of")) {
+            object.refuse(k_compared_job, "of", "\"of\" without \"job\"",
+                          "\"of\" says which result of a job of kind \"circle_closure\" is compared",
+                          "remove it, or add \"job\"");
         }
         if (object.has("budget")) {
             read_budget(object);

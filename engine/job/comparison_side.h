@@ -31,6 +31,7 @@ struct SideReading {
     std::optional<std::string> covariance_name;
     bool has_points = false;  ///< it lists them, whether with values or as names of those of a budget
     bool has_budget = false;  ///< it names one, which perhaps could not be read
+    bool has_job = false;     ///< it names one, which perhaps could not be read; its points are the angles of the job
     bool is_whole = true;     ///< nothing was refused that may have hidden a point or a number
 };
 

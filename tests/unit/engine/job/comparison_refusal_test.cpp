@@ -526,6 +526,8 @@ std::vector<BadComparison> bad_of_methods() {
          R"("lab": "lab.csv", "reference": {"points": "reference.csv", "covariance": "v.csv"})",
          tables_with("v.csv", "0.04,0,0,0\n0,0.04,0,0\n0,0,0.04,0\n0,0,0,0.04\n"), k_stated_beside_budget,
          "reference.csv:2:16", "u_common beside a covariance"},
+        {"of_without_job", R"("lab": {"points": "lab.csv", "of": "table"}, "reference": "reference.csv")",
+         tables_with("v.csv", "1\n"), k_compared_job, "#/lab/of", "\"of\" without \"job\""},
         {"value_beside_budget",
          R"("participants": [{"id": "A", "value": 1, "budget": "b.json"},
             {"id": "B", "value": 1, "u": 1}], "unit": "um")",

@@ -1,0 +1,92 @@
+#include "app/compared_job_side.h"
+
+#include <cmath>
+#include <utility>
+
+#include "app/evaluate_circle_closure.h"
+#include "app/evaluate_rotary_table.h"
+#include "engine/job/circle_closure_job.h"
+#include "engine/job/rotary_table_job.h"
+#include "gum/coverage.h"
+
+namespace gumcert::app {
+
+namespace {
+
+using Eigen::Index;
+
+/// The rows of a result that are compared, in the unit of the comparison.
+/// \param covariance  of all its outputs, by row and column
+template <typename Covariance>
+MethodSide side_of_outputs(const gum::UncertaintyBudget& propagation, const Covariance& covariance,
+                           const std::vector<Index>& rows, const gum::Unit& unit, double coverage_probability) {
+    const double scale = unit.difference_from_si(1.0);
+    MethodSide side;
+    for (const Index row : rows) {
+        const double nu = propagation.effective_degrees_of_freedom(row);
+        const double k = gum::coverage_factor(coverage_probability, nu);
+        const double u = scale * propagation.standard_uncertainty(row);
+        side.value.push_back(scale * propagation.value(row));
+        side.uncertainty.push_back({.u = u, .U = k * u, .k = k, .degrees_of_freedom = nu});
+    }
+    const auto n = static_cast<Index>(rows.size());
+    side.covariance.resize(n, n);
+    for (Index i = 0; i < n; ++i) {
+        for (Index j = 0; j < n; ++j) {
+            side.covariance(i, j) =
+                scale * scale * covariance(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)]);
+        }
+    }
+    return side;
+}
+
+}  // namespace
+
+MethodSide side_of_job(const engine::ComparisonSide& side, const gum::Unit& unit, double coverage_probability) {
+    constexpr std::size_t k_motions = 6;
+    constexpr std::size_t k_first_rotation = 3;
+    std::vector<Index> rows;
+    MethodSide out;
+    if (side.circle_closure) {
+        engine::CircleClosureJob job = *side.circle_closure;
+        job.monte_carlo.reset();
+        for (const std::size_t angle : side.job_angles) {
+            rows.push_back(static_cast<Index>(angle + (side.of_artefact ? job.measurement.steps : 0)));
+        }
+        const gum::Propagation propagation = evaluate_circle_closure(job, 1).propagation;
+        out = side_of_outputs(propagation, propagation.covariance, rows, unit, coverage_probability);
+    } else {
+        engine::RotaryTableJob job = *side.rotary_table;
+        job.monte_carlo.reset();
+        job.reference.reset();
+        const auto axial = static_cast<std::size_t>(engine::axial_coordinate(job.measurement.axis));
+        for (const std::size_t angle : side.job_angles) {
+            rows.push_back(static_cast<Index>(k_motions * angle + k_first_rotation + axial));
+        }
+        const QuantityUncertainty reported = evaluate_rotary_table(job, 1).reported;
+        out = side_of_outputs(reported.budget, reported.covariance, rows, unit, coverage_probability);
+    }
+    out.remarks.push_back("Values, uncertainties and covariance of " + side.name + " come from the job " +
+                          side.job_file + ", evaluated by the law of propagation.");
+    return out;
+}
+
+void take_off_mean(MethodSide& side, double coverage_probability) {
+    const auto n = static_cast<Index>(side.value.size());
+    const Eigen::MatrixXd D =
+        Eigen::MatrixXd::Identity(n, n) - Eigen::MatrixXd::Constant(n, n, 1.0 / static_cast<double>(n));
+    const Eigen::VectorXd x = D * Eigen::Map<const Eigen::VectorXd>(side.value.data(), n);
+    const Eigen::MatrixXd V = D * side.covariance * D.transpose();
+    side.covariance = 0.5 * (V + V.transpose());
+    for (Index i = 0; i < n; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        engine::ResultUncertainty& u = side.uncertainty[at];
+        side.value[at] = x(i);
+        u.u = std::sqrt(std::max(side.covariance(i, i), 0.0));
+        u.k = gum::coverage_factor(coverage_probability, u.degrees_of_freedom);
+        u.U = u.k * u.u;
+        u.stated_as_expanded = false;
+    }
+}
+
+}  // namespace gumcert::app

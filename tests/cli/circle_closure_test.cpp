@@ -1,0 +1,113 @@
+// Circle closure as a user meets it: all documents of a job, with and without certificate data, in four languages, what
+// is refused, and the comparison with the other method.
+#include "tests/cli/job_files.h"
+#include "tests/cli/program.h"
+
+#define VALIJSON_USE_EXCEPTIONS 1
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+
+namespace gumcert::cli {
+namespace {
+
+using nlohmann::json;
+
+fs::path closure_example() {
+    return fs::path(GUMCERT_SOURCE_DIR) / "examples" / "circle_closure";
+}
+
+class CircleClosureProgram : public ProgramTest {
+protected:
+    /// A copy of the examples of circle closure. \return the job
+    [[nodiscard]] fs::path copied(const std::string& job) const {
+        for (const fs::directory_entry& entry : fs::directory_iterator(closure_example())) {
+            write_bytes(folder() / "closure" / entry.path().filename(), bytes_of(entry.path()));
+        }
+        (void)copy_of_example(folder() / "rotary_table");
+        return folder() / "closure" / job;
+    }
+};
+
+TEST_F(CircleClosureProgram, WritesAllDocuments) {
+    const Ended ended = gumcert({"run", copied("indexing_tables.json").string(), "-o", (folder() / "out").string(),
+                                 "--share", GUMCERT_SOURCE_DIR, "--language", "de,en"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    for (const char* const name : {"record.json", "certificate.html", "certificate.pdf", "certificate.xml"}) {
+        EXPECT_TRUE(fs::exists(folder() / "out" / name)) << name;
+    }
+    const json record = json::parse(bytes_of(folder() / "out" / "record.json"));
+    EXPECT_EQ(record["kind"], "circle_closure");
+    const json schema_document = json::parse(bytes_of(fs::path(GUMCERT_SOURCE_DIR) / "schemas/record-1.schema.json"));
+    valijson::Schema schema;
+    valijson::SchemaParser(valijson::SchemaParser::kDraft7)
+        .populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_document), schema);
+    valijson::Validator validator;
+    EXPECT_TRUE(validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(record), nullptr));
+    json broken = record;
+    broken["circle_closure"]["numbering"] = "sideways";
+    EXPECT_FALSE(validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(broken), nullptr));
+    EXPECT_EQ(record["results"].size(), 26U);
+    EXPECT_EQ(record["circle_closure"]["drift"], "linear");
+    const std::string html = bytes_of(folder() / "out" / "certificate.html");
+    EXPECT_NE(html.find("Kreisschluss"), std::string::npos);
+    EXPECT_NE(html.find("closing difference"), std::string::npos);
+    const Ended dcc =
+        gumcert({"check", "dcc", (folder() / "out" / "certificate.xml").string(), "--share", GUMCERT_SOURCE_DIR});
+    EXPECT_EQ(dcc.code, 0) << dcc.out << dcc.err;
+}
+
+TEST_F(CircleClosureProgram, PrintsInEveryLanguage) {
+    const fs::path record = folder() / "record.json";
+    ASSERT_EQ(gumcert({"evaluate", copied("job.json").string(), "-o", record.string()}).code, 0);
+    for (const auto& [language, word] : {std::pair("en", "Circle closure"), std::pair("de", "Kreisschluss"),
+                                         std::pair("es", "Cierre del círculo"), std::pair("zh-Hant", "圓周封閉")}) {
+        const fs::path file = folder() / (std::string(language) + ".txt");
+        const Ended ended = gumcert({"render", record.string(), "--format", "text", "--language", language, "-o",
+                                     file.string(), "--share", GUMCERT_SOURCE_DIR});
+        ASSERT_EQ(ended.code, 0) << ended.err;
+        EXPECT_NE(bytes_of(file).find(word), std::string::npos) << language;
+    }
+}
+
+TEST_F(CircleClosureProgram, RefusesWithPlaceAndCode) {
+    const fs::path job = copied("job.json");
+    replace_in(job, "\"steps\": 36", "\"steps\": 35");
+    const Ended ended = gumcert({"evaluate", job.string(), "--json-messages"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_NE(ended.err.find("readings.csv:"), std::string::npos) << ended.err;
+    EXPECT_NE(ended.err.find("GC-INPUT-0112"), std::string::npos) << ended.err;
+    replace_in(job, "\"steps\": 35", "\"steps\": 36");
+    write_bytes(folder() / "closure" / "readings.csv", "position,step,reading\n0,0,1\n0,1,1\n0,2,1\n");
+    const Ended few = gumcert({"check", job.string()});
+    EXPECT_NE(few.code, 0);
+    EXPECT_NE((few.out + few.err).find("GC-CLOSURE-000"), std::string::npos) << few.out << few.err;
+}
+
+TEST_F(CircleClosureProgram, ComparesBothMethods) {
+    const fs::path job = copied("comparison.json");
+    const fs::path out = folder() / "out";
+    const Ended ended = gumcert({"run", job.string(), "-o", out.string(), "--share", GUMCERT_SOURCE_DIR});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const json record = json::parse(bytes_of(out / "record.json"));
+    EXPECT_EQ(record["comparison"]["points"].size(), 36U);
+    EXPECT_TRUE(fs::exists(out / "comparison.pdf"));
+    // Fewer angles on one side: those in common are compared.
+    std::string half = "point,value,u\n";
+    for (int angle = 0; angle < 360; angle += 30) {
+        half += std::to_string(angle) + ",0,0.5\n";
+    }
+    write_bytes(folder() / "closure" / "points.csv", half);
+    replace_in(job, R"({ "name": "multilateration", "job": "../rotary_table/job.json" })", R"("points.csv")");
+    const Ended few = gumcert({"compare", job.string(), "-o", (folder() / "few.json").string()});
+    ASSERT_EQ(few.code, 0) << few.err;
+    EXPECT_EQ(json::parse(bytes_of(folder() / "few.json"))["comparison"]["points"].size(), 12U);
+    replace_in(job, "\"unit\": \"arcsec\"", "\"unit\": \"mm\"");
+    const Ended refused = gumcert({"compare", job.string(), "--json-messages"});
+    EXPECT_EQ(refused.code, 3);
+    EXPECT_NE(refused.err.find("GC-INPUT-0318"), std::string::npos) << refused.err;
+}
+
+}  // namespace
+}  // namespace gumcert::cli
