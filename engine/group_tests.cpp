@@ -276,6 +276,7 @@ public:
                 result_.tests.push_back(candidate->test);
             }
         }
+        complete_visits();
         // What says no cause is of use only where no cause is found.
         if (std::none_of(result_.tests.begin(), result_.tests.end(),
                          [](const GroupTest& test) { return test.suspicious; })) {
@@ -346,7 +347,7 @@ private:
         for (std::size_t g = 0; g < visits_.size(); ++g) {
             if (tests_[g].is_controlled) {
                 result_.visits.push_back(
-                    {adjustment_.visits()[g], tests_[g].error, result_.scale / std::sqrt(tests_[g].spread)});
+                    {adjustment_.visits()[g], tests_[g].error, used_scale_ / std::sqrt(tests_[g].spread)});
             }
         }
     }
@@ -356,6 +357,7 @@ private:
         GroupTest test;
         test.kind = kind;
         test.degrees_of_freedom = degrees_of_freedom;
+        test.family = count;
         test.chi_square = chi_square;
         test.p_value = options_.chi_square_upper_tail(chi_square, degrees_of_freedom);
         const double level = options_.alpha / static_cast<double>(std::max<std::size_t>(count, 1));
@@ -458,6 +460,30 @@ private:
             }
         }
         return best;
+    }
+
+    /// The largest test of visits of each of both kinds, where none of that kind was the largest of all.
+    void complete_visits() {
+        const auto none = [this](GroupKind kind) {
+            return std::none_of(result_.tests.begin(), result_.tests.end(),
+                                [kind](const GroupTest& test) { return test.kind == kind; });
+        };
+        std::optional<Candidate> length;
+        std::optional<Candidate> pose;
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            if (!visits_.is_out(g) && tests_[g].is_controlled) {
+                take(length, {length_test(g, tests_[g]), {}});
+            }
+            if (!visits_.is_out(g) && tests_[g].pose_rank > 0) {
+                take(pose, {pose_test(g, tests_[g]), {}});
+            }
+        }
+        if (length && !length->test.suspicious && none(GroupKind::visit_length)) {
+            result_.tests.push_back(length->test);
+        }
+        if (pose && !pose->test.suspicious && none(GroupKind::visit_pose)) {
+            result_.tests.push_back(pose->test);
+        }
     }
 
     /// Visits of one station with the same dead path, in the order in which they were measured.

@@ -36,6 +36,7 @@ struct GroupTest {
     /// deviate.
     double chi_square = 0.0;
     int degrees_of_freedom = 1;
+    std::size_t family = 1;       ///< tests of its kind, among which the level is divided
     double p_value = 1.0;         ///< probability of a chi-square as large as this where nothing is wrong
     double critical_value = 0.0;  ///< of chi-square: the family of its kind exceeds it with the probability alpha
     /// Visit and change: error of the distances; pose: rms of what it does to the distances; drift: error at the last

@@ -1,0 +1,76 @@
+#include "engine/harmonics.h"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace gumcert::engine {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double k_full_turn = 2.0 * std::numbers::pi;
+
+/// One column of ones, then cosine and sine of every order.
+MatrixXd design(const Eigen::Ref<const VectorXd>& angles, int orders) {
+    MatrixXd columns = MatrixXd::Ones(angles.size(), 1 + 2 * orders);
+    for (int k = 1; k <= orders; ++k) {
+        columns.col(2 * k - 1) = (k * angles.array()).cos();
+        columns.col(2 * k) = (k * angles.array()).sin();
+    }
+    return columns;
+}
+
+/// Along the direction in which the amplitude grows; of an amplitude of zero the mean of all directions.
+double uncertainty_of_amplitude(double a, double b, const Eigen::Matrix2d& covariance) {
+    const double square = a * a + b * b;
+    const double variance =
+        square > 0.0 ? (a * a * covariance(0, 0) + 2.0 * a * b * covariance(0, 1) + b * b * covariance(1, 1)) / square
+                     : 0.5 * covariance.trace();
+    return std::sqrt(std::max(0.0, variance));
+}
+
+}  // namespace
+
+int resolved_orders(const Eigen::Ref<const VectorXd>& angles, int most) {
+    if (angles.size() < 3) {
+        return 0;
+    }
+    double gap = angles[0] + k_full_turn - angles[angles.size() - 1];
+    for (Index i = 1; i < angles.size(); ++i) {
+        gap = std::max(gap, angles[i] - angles[i - 1]);
+    }
+    // Strictly below half the turns a gap: the order n/2 of n equal steps has no sine.
+    const int orders = static_cast<int>(std::ceil(std::numbers::pi / gap * (1.0 - 1e-9))) - 1;
+    return std::clamp(orders, 0, most);
+}
+
+HarmonicAnalysis analyse_harmonics(const Eigen::Ref<const VectorXd>& angles, const Eigen::Ref<const VectorXd>& values,
+                                   const Eigen::Ref<const MatrixXd>& covariance, int orders) {
+    const MatrixXd columns = design(angles, orders);
+    const MatrixXd gain =  // (2 orders + 1)×n
+        columns.householderQr().solve(MatrixXd::Identity(angles.size(), angles.size()));
+    const VectorXd coefficients = gain * values;
+    const MatrixXd spread = gain * covariance * gain.transpose();
+    HarmonicAnalysis result;
+    result.mean = coefficients[0];
+    result.rms_rest = (values - columns * coefficients).norm() / std::sqrt(static_cast<double>(angles.size()));
+    for (int k = 1; k <= orders; ++k) {
+        const double a = coefficients[2 * k - 1];
+        const double b = coefficients[2 * k];
+        const double phase = std::atan2(b, a);
+        result.orders.push_back(
+            {.order = k,
+             .amplitude = std::hypot(a, b),
+             .phase = phase < 0.0 ? phase + k_full_turn : phase,
+             .u_amplitude = uncertainty_of_amplitude(a, b, spread.block<2, 2>(2 * k - 1, 2 * k - 1))});
+    }
+    return result;
+}
+
+}  // namespace gumcert::engine
