@@ -10,6 +10,7 @@
 #include "app/document_units.h"
 #include "app/record_parts.h"
 #include "app/reference_comparison.h"
+#include "app/rotary_evidence.h"
 #include "app/rotary_findings.h"
 #include "app/rotary_monte_carlo_record.h"
 #include "app/rotary_reported_results.h"
@@ -321,6 +322,7 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const R
     const double k = gum::coverage_factor(job.coverage_probability, std::numeric_limits<double>::infinity());
     fill_adjustment(rotary, solution, measurement, propagation, k);
     rotary.fixture_budget = result.fixture.record;
+    fill_evidence(rotary, job, result);
     record.rotary = std::move(rotary);
     record.diagnostics.insert(record.diagnostics.end(), result.fixture.notes.begin(), result.fixture.notes.end());
     note_outliers(record, measurement.outliers);

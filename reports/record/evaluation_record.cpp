@@ -588,6 +588,7 @@ void describe(Archive& a, Struct& r) {
     a("minimal_detectable_bias_um", r.minimal_detectable_bias_um);
     a("flagged", r.flagged);
     a("removed", r.removed);
+    a.added("printed_length", r.printed_length);
 }
 
 template <class Archive, Is<FlaggedDistance> Struct>
@@ -659,6 +660,8 @@ void describe(Archive& a, Struct& r) {
         b("s_down", r.printed_s_down);
         b("reversal", r.printed_reversal);
     });
+    a.added("runs_up", r.runs_up);
+    a.added("runs_down", r.runs_down);
 }
 
 template <class Archive, Is<PositioningAccuracy> Struct>
@@ -707,6 +710,128 @@ void describe(Archive& a, Struct& r) {
     a.added("nu_eff", r.nu_eff, Range::positive);
     a.added("monte_carlo", r.monte_carlo);
     a.added("reported", r.reported);
+}
+
+template <class Archive, Is<GroupTestRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("kind", r.kind);
+    a("tests", r.tests, Range::positive);
+    a("test_value", r.test_value, Range::not_negative);
+    a("degrees_of_freedom", r.degrees_of_freedom, Range::positive);
+    a("critical_value", r.critical_value, Range::not_negative);
+    a("p_value", r.p_value, Range::probability);
+    a("station", r.station);
+    a("reflector", r.reflector);
+    a("pass", r.pass);
+    a("angle_deg", r.angle_deg);
+    a("estimate", r.estimate);
+    a("unit", r.unit, {"um", "1"});
+    a("minimal_detectable", r.minimal_detectable, Range::not_negative);
+    a("suspicious", r.suspicious);
+    a.group("printed", [&](auto& b) {
+        b("test_value", r.printed.test_value);
+        b("critical_value", r.printed.critical_value);
+        b("p_value", r.printed.p_value);
+        b("angle", r.printed.angle);
+        b("estimate", r.printed.estimate);
+        b("minimal_detectable", r.printed.minimal_detectable);
+    });
+}
+
+template <class Archive, Is<GroupTestSummary> Struct>
+void describe(Archive& a, Struct& r) {
+    a("alpha", r.alpha, Range::probability);
+    a("scale", r.scale, Range::not_negative);
+    a("kinds", r.kinds);
+    a.group("printed", [&](auto& b) { b("scale", r.printed_scale); });
+}
+
+template <class Archive, Is<VisitRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("station", r.station);
+    a("pass", r.pass);
+    a("direction", r.direction, {"+", "-"});
+    a("angle_deg", r.angle_deg);
+    a("deviation_um", r.deviation_um);
+    a("limit_um", r.limit_um, Range::not_negative);
+    a("axial_arcsec", r.axial_arcsec);
+}
+
+template <class Archive, Is<SensePoint> Struct>
+void describe(Archive& a, Struct& r) {
+    a("angle_deg", r.angle_deg);
+    a("value", r.value);
+    a("u", r.u);
+    a("U", r.U);
+}
+
+template <class Archive, Is<SenseCurve> Struct>
+void describe(Archive& a, Struct& r) {
+    a("direction", r.direction, {"+", "-"});
+    a("points", r.points);
+}
+
+template <class Archive, Is<HarmonicOrder> Struct>
+void describe(Archive& a, Struct& r) {
+    a("order", r.order, Range::positive);
+    a("amplitude", r.amplitude, Range::not_negative);
+    a("u", r.u, Range::not_negative);
+    a("U", r.U, Range::not_negative);
+    a("phase_deg", r.phase_deg);
+    a.group("printed", [&](auto& b) {
+        b("amplitude", r.printed.amplitude);
+        b("U", r.printed.U);
+        b("phase", r.printed.phase);
+    });
+}
+
+template <class Archive, Is<HarmonicRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("unit", r.unit, {"um", "arcsec"});
+    a("orders", r.orders);
+    a("rms_rest", r.rms_rest, Range::not_negative);
+    a.group("printed", [&](auto& b) { b("rest", r.printed_rest); });
+}
+
+template <class Archive, Is<StationEnvironment> Struct>
+void describe(Archive& a, Struct& r) {
+    a("station", r.station);
+    a("fixture_degC", r.fixture_degC);
+    a("u_fixture_K", r.u_fixture_K, Range::not_negative);
+    a("air_degC", r.air_degC);
+    a("pressure_hPa", r.pressure_hPa);
+    a("humidity_percent", r.humidity_percent);
+    a("expansion_um", r.expansion_um);
+    a.group("printed", [&](auto& b) {
+        b("fixture", r.printed.fixture);
+        b("u_fixture", r.printed.u_fixture);
+        b("air", r.printed.air);
+        b("pressure", r.printed.pressure);
+        b("humidity", r.printed.humidity);
+        b("expansion", r.printed.expansion);
+    });
+}
+
+template <class Archive, Is<Environment> Struct>
+void describe(Archive& a, Struct& r) {
+    a("reference_degC", r.reference_degC);
+    a("expansion_per_K", r.expansion_per_K);
+    a("u_expansion_per_K", r.u_expansion_per_K, Range::not_negative);
+    a("largest_distance_mm", r.largest_distance_mm, Range::not_negative);
+    a("largest_share", r.largest_share);
+    a("stations", r.stations);
+    a.group("printed", [&](auto& b) {
+        b("reference", r.printed.reference);
+        b("expansion", r.printed.expansion);
+        b("u_expansion", r.printed.u_expansion);
+        b("largest_distance", r.printed.largest_distance);
+        b("largest_share", r.printed.largest_share);
+        b("lowest", r.printed.lowest);
+        b("highest", r.printed.highest);
+        b("least_expansion", r.printed.least_expansion);
+        b("most_expansion", r.printed.most_expansion);
+    });
 }
 
 template <class Archive, Is<InputFile> Struct>
@@ -793,6 +918,11 @@ void describe(Archive& a, Struct& r) {
     a.added("iso230_2", r.iso230_2);
     a.added("monte_carlo", r.monte_carlo);
     a.added("fixture_budget", r.fixture_budget);
+    a.added("group_tests", r.group_tests);
+    a.added("visits", r.visits);
+    a.added("sense_curves", r.sense_curves);
+    a.added("harmonics", r.harmonics);
+    a.added("environment", r.environment);
 }
 
 template <class Archive, Is<ClosureSeriesRow> Struct>

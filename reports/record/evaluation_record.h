@@ -6,6 +6,7 @@
 #include "reports/record/circle_closure_evaluation.h"
 #include "reports/record/comparison_evaluation.h"
 #include "reports/record/identified_sentence.h"
+#include "reports/record/rotary_evidence.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -222,6 +223,7 @@ struct ReliabilityRow {
     double angle_deg = 0.0;
     double residual_um = 0.0, redundancy_number = 0.0, test_value = 0.0, minimal_detectable_bias_um = 0.0;
     bool flagged = false, removed = false;
+    std::string printed_length = {};  ///< [mm], as read; of small measurements only, whose annex lists the distances
 };
 
 /// A flagged distance, as a document lists it, in the order in which they were found.
@@ -267,6 +269,7 @@ struct PositioningTarget {
     double angle_deg = 0.0;
     std::optional<double> mean_up, mean_down, s_up, s_down, reversal;
     std::string printed_angle, printed_mean_up, printed_mean_down, printed_s_up, printed_s_down, printed_reversal;
+    std::vector<double> runs_up = {}, runs_down = {};  ///< deviations of the single runs
 };
 
 /// Accuracy and repeatability of positioning about the axis (ISO 230-2), [arcsec].
@@ -341,6 +344,11 @@ struct RotaryTable {
     std::optional<PositioningAccuracy> iso230_2;
     std::optional<RotaryMonteCarlo> monte_carlo;
     std::optional<FixtureBudget> fixture_budget;
+    std::optional<GroupTestSummary> group_tests = {};
+    std::vector<VisitRow> visits = {};            ///< in the order of the measurement
+    std::vector<SenseCurve> sense_curves = {};    ///< positive approach first; empty where one sense was measured
+    std::vector<HarmonicRow> harmonics = {};      ///< empty where the angles do not cover the circle
+    std::optional<Environment> environment = {};  ///< with an environment file
 };
 
 /// One compared value: of a method against a reference method at one point, or of a laboratory for one item. Units are

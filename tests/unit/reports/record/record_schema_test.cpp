@@ -1,7 +1,7 @@
 #include "reports/record/evaluation_record.h"
 #include "tests/support/sample_budget_record.h"
 #include "tests/support/sample_comparison_record.h"
-#include "tests/support/sample_record.h"
+#include "tests/support/sample_evidence.h"
 
 #define VALIJSON_USE_EXCEPTIONS 1
 #include <gtest/gtest.h>
@@ -54,6 +54,7 @@ protected:
 TEST_F(RecordSchema, AcceptsAWholeRecord) {
     const json record = json::parse(to_canonical_json(test::sample_record()));
     EXPECT_TRUE(accepts(record)) << messages_;
+    EXPECT_TRUE(accepts(json::parse(to_canonical_json(test::record_with_evidence())))) << messages_;
     EvaluationRecord small = test::sample_record();
     small.rotary.reset();
     small.comparison.reset();

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gumcert::reports {
+
+// What a record holds of a rotary table beside its results: what the distances say of the measurement itself, and the
+// curves in the forms in which a machine builder reads them. Printed texts are made by the application.
+
+/// The largest of the tests of one kind of groups of distances.
+struct GroupTestRow {
+    std::string kind;         ///< "visit_length", "visit_pose", "dead_path_change", "drift" …
+    std::int64_t tests = 1;   ///< of the kind, among which its level is divided
+    double test_value = 0.0;  ///< chi-square
+    std::int64_t degrees_of_freedom = 1;
+    double critical_value = 0.0;  ///< of chi-square
+    double p_value = 1.0;
+    std::string station = {}, reflector = {}, pass = {};  ///< "" where the kind has none
+    std::optional<double> angle_deg = {};
+    double estimate = 0.0;
+    std::string unit = "um";                        ///< of the estimate: "um", or "1" for a ratio
+    std::optional<double> minimal_detectable = {};  ///< in `unit`; none: not stated
+    bool suspicious = false;
+    struct {
+        std::string test_value = {}, critical_value = {}, p_value = {}, angle = {}, estimate = {};
+        std::string minimal_detectable = {};
+    } printed = {};
+};
+
+struct GroupTestSummary {
+    double alpha = 0.001;             ///< probability that a sound measurement makes any group of one kind suspicious
+    double scale = 1.0;               ///< robust standard deviation of the test values of the visits
+    std::vector<GroupTestRow> kinds;  ///< suspicious ones first, the least probable one first of all
+    std::string printed_scale;
+};
+
+/// One visit of the table to an angle: what its distances deviate by from what all other visits say.
+struct VisitRow {
+    std::string station, pass, direction;  ///< direction "+" or "-"
+    double angle_deg = 0.0;
+    std::optional<double> deviation_um = {};  ///< observed minus predicted, mean of its distances; none: not controlled
+    std::optional<double> limit_um = {};      ///< of its magnitude: the largest of all visits exceeds it with alpha
+    std::optional<double> axial_arcsec = {};  ///< rotation of the table about its axis beyond the adjusted curve
+};
+
+/// The six error motions of one sense of approach at one angle, [µm] and [arcsec].
+struct SensePoint {
+    double angle_deg = 0.0;
+    std::array<double, 6> value{}, u{}, U{};
+};
+
+struct SenseCurve {
+    std::string direction;  ///< "+" or "-"
+    std::vector<SensePoint> points;
+};
+
+struct HarmonicOrder {
+    std::int64_t order = 1;
+    double amplitude = 0.0, u = 0.0, U = 0.0;  ///< in the unit of the error motion
+    double phase_deg = 0.0;                    ///< 0 to 360: A cos(k θ - phase)
+    struct {
+        std::string amplitude = {}, U = {}, phase = {};
+    } printed = {};
+};
+
+/// One error motion as a sum of harmonics.
+struct HarmonicRow {
+    std::string name, unit;  ///< "EXA", "um"
+    std::vector<HarmonicOrder> orders;
+    double rms_rest = 0.0;  ///< of the curve without these orders and without its mean
+    std::string printed_rest;
+};
+
+/// Temperatures and air about one station, and what the thermal expansion of the fixture did there.
+struct StationEnvironment {
+    std::string station;
+    double fixture_degC = 20.0, u_fixture_K = 0.0;
+    std::optional<double> air_degC = {}, pressure_hPa = {}, humidity_percent = {};
+    double expansion_um = 0.0;  ///< of the largest distance in the fixture, corrected
+    struct {
+        std::string fixture = {}, u_fixture = {}, air = {}, pressure = {}, humidity = {}, expansion = {};
+    } printed = {};
+};
+
+struct Environment {
+    double reference_degC = 20.0, expansion_per_K = 0.0, u_expansion_per_K = 0.0;
+    double largest_distance_mm = 0.0;  ///< between two points of the fixture
+    double largest_share = 0.0;        ///< of the expansion in the variance of an error motion, mean over the angles
+    std::vector<StationEnvironment> stations;
+    struct {
+        std::string reference = {}, expansion = {}, u_expansion = {}, largest_distance = {}, largest_share = {};
+        std::string lowest = {}, highest = {}, least_expansion = {}, most_expansion = {};  ///< over the stations
+    } printed = {};
+};
+
+}  // namespace gumcert::reports
