@@ -2,6 +2,7 @@
 
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
+#include "reports/certificate_evidence_sections.h"
 #include "reports/reported_results.h"
 #include "reports/result_names.h"
 #include "reports/rotary_plots.h"
@@ -301,6 +302,11 @@ void targets(CertificateBuilder& builder, const Wording& words, const Positionin
     for (const std::string& remark : p.remarks) {
         builder.paragraph(words.sentence(remark));
     }
+    constexpr std::size_t k_most_targets = 120;  // the diagram shows more of them than a table of pages
+    if (p.targets.size() > k_most_targets) {
+        builder.paragraph(words.fill("targets_in_record", {{"count", std::to_string(p.targets.size())}}));
+        return;
+    }
     if (p.targets.empty()) {
         return;
     }
@@ -360,12 +366,14 @@ void positioning(CertificateBuilder& builder, const Wording& words, const Rotary
         parameter_table(builder, words, "positioning", words("sentence", "positioning_table"), "positioning",
                         r.iso230_2->parameters);
     }
+    positioning_figure(builder, words, r);
     targets(builder, words, *r.iso230_2);
 }
 
 void positioning_targets(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
     if (r.iso230_2) {
         runs(builder, words, *r.iso230_2);
+        positioning_figure(builder, words, r);
         targets(builder, words, *r.iso230_2);
     }
 }
@@ -674,9 +682,6 @@ void geometry(CertificateBuilder& builder, const Wording& words, const RotaryTab
     if (const std::optional<LayoutPlot> plot = layout_plot(r, words)) {
         layout_figure(builder, words, *plot, "figure_layout", layout_magnification(*plot).stations);
     }
-    if (const std::optional<LayoutPlot> plot = reflector_plot(r, words)) {
-        layout_figure(builder, words, *plot, "figure_reflectors", layout_magnification(*plot).reflectors);
-    }
     Rows rows;
     for (const Station& s : r.stations) {
         rows.push_back(coordinates(s.name, s.printed_position, s.printed_U));
@@ -695,6 +700,9 @@ void geometry(CertificateBuilder& builder, const Wording& words, const RotaryTab
     builder.table("dead-paths", words("sentence", "dead_paths"),
                   {{words("label", "dead_path"), ""}, {"l0", "mm", true}, {words("label", "U"), "mm", true}}, rows);
 
+    if (const std::optional<LayoutPlot> plot = reflector_plot(r, words)) {
+        layout_figure(builder, words, *plot, "figure_reflectors", layout_magnification(*plot).reflectors);
+    }
     rows.clear();
     for (const Reflector& m : r.reflectors) {
         rows.push_back(coordinates(m.name, m.printed_position, m.printed_U));

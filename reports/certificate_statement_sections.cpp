@@ -13,8 +13,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numeric>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -257,6 +259,20 @@ void conditions_section(CertificateBuilder& builder, const Wording& words, const
     builder.table("conditions", words("statement", "conditions_table"), columns, lines);
 }
 
+/// The tables of a rotary table in the order in which they are read: what it does as a whole, its axis, then angle by
+/// angle, and the set-up of the fixture last. Others as they are certified.
+std::vector<std::size_t> reading_order(const Certificate& certificate) {
+    static constexpr std::array<std::string_view, 6> k_order = {"ranges",        "positioning", "location_errors",
+                                                                "error_motions", "reversal",    "set_up"};
+    std::vector<std::size_t> order(certificate.tables.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto rank = [&](std::size_t i) {
+        return std::find(k_order.begin(), k_order.end(), certificate.tables[i].id) - k_order.begin();
+    };
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+    return order;
+}
+
 }  // namespace
 
 void findings_section(CertificateBuilder& builder, const Wording& words, const Certificate& certificate) {
@@ -301,15 +317,7 @@ void result_sections(CertificateBuilder& builder, const Wording& words, const Ev
     }
     const auto shown = [&](const CertifiedValue& v) { return !overview.separates() || !overview.is_outside(v); };
     const std::size_t absent_before = builder.absent_cells();
-    for (std::size_t i = 0; i < certificate.tables.size(); ++i) {
-        const CertifiedTable& table = certificate.tables[i];
-        certified_table(builder, words, table, "certified-" + std::to_string(i), shown, overview);
-        if (table.argument && !record.rotary) {
-            certified_meanings(builder, words, table);
-        }
-    }
-    legend(builder, words, overview, builder.absent_cells() > absent_before);
-    for (std::size_t i = 0; i < certificate.tables.size(); ++i) {
+    const auto figure = [&](std::size_t i) {
         const Text name = certified_table_name(certificate.tables[i], words);
         const std::string id = "plot-certified-" + std::to_string(i);
         if (const auto plot = certified_plot(certificate.tables[i], name.first(), words, id)) {
@@ -319,6 +327,20 @@ void result_sections(CertificateBuilder& builder, const Wording& words, const Ev
             }
             builder.figure(plot->id, caption, plot->description, svg(*plot));
         }
+    };
+    for (const std::size_t i : reading_order(certificate)) {
+        const CertifiedTable& table = certificate.tables[i];
+        if (record.rotary) {
+            figure(i);  // the curves before pages of their numbers
+        }
+        certified_table(builder, words, table, "certified-" + std::to_string(i), shown, overview);
+        if (table.argument && !record.rotary) {
+            certified_meanings(builder, words, table);
+        }
+    }
+    legend(builder, words, overview, builder.absent_cells() > absent_before);
+    for (std::size_t i = 0; i < certificate.tables.size() && !record.rotary; ++i) {
+        figure(i);
     }
 }
 

@@ -4,6 +4,7 @@
 #include "gum/quantity/unit.h"
 #include "reports/certificate_budget_sections.h"
 #include "reports/certificate_builder.h"
+#include "reports/certificate_evidence_sections.h"
 #include "reports/certificate_identity_sections.h"
 #include "reports/certificate_plots.h"
 #include "reports/certificate_rotary_sections.h"
@@ -159,10 +160,40 @@ void ranges(CertificateBuilder& builder, const Wording& words, const RotaryTable
                   rows);
 }
 
+/// Curves of the error motions, of a certificate whose tables and figures show what is certified.
+void error_motion_curves(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
+    if (!r.sense_curves.empty()) {
+        builder.section("error_motions");
+        figure(builder, words("sentence", "figure_errors_by_sense"), error_motion_plot(r, words));
+    }
+}
+
+/// Which of many angles a table lists: at equal steps, and those where an error motion is extreme.
+std::vector<bool> listed_angles(const RotaryTable& r) {
+    constexpr std::size_t k_most_angles = 120;  // three pages
+    constexpr std::size_t k_about = 72;         // five degrees of a full turn
+    std::vector<bool> listed(r.errors.size(), r.errors.size() <= k_most_angles);
+    if (r.errors.size() <= k_most_angles) {
+        return listed;
+    }
+    const std::size_t step = (r.errors.size() + k_about - 1) / k_about;
+    for (std::size_t i = 0; i < r.errors.size(); i += step) {
+        listed[i] = true;
+    }
+    for (std::size_t m = 0; m < 6; ++m) {
+        const auto less = [m](const ErrorsAtAngle& a, const ErrorsAtAngle& b) {
+            return a.errors[m].value < b.errors[m].value;
+        };
+        const auto [low, high] = std::minmax_element(r.errors.begin(), r.errors.end(), less);
+        listed[static_cast<std::size_t>(low - r.errors.begin())] = true;
+        listed[static_cast<std::size_t>(high - r.errors.begin())] = true;
+    }
+    return listed;
+}
+
 void error_motions(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
     builder.section("error_motions");
     ranges(builder, words, r);
-    figure(builder, words("sentence", "figure_errors"), error_motion_plot(r, words));
     std::vector<Column> columns = {{words("label", "angle"), "°", true}};
     std::vector<std::pair<Text, std::size_t>> groups = {{"", 1}};
     for (std::size_t i = 0; i < 6; ++i) {
@@ -172,7 +203,12 @@ void error_motions(CertificateBuilder& builder, const Wording& words, const Rota
         groups.emplace_back(r.error_names[i], 2);
     }
     Rows rows;
-    for (const ErrorsAtAngle& at : r.errors) {
+    const std::vector<bool> listed = listed_angles(r);
+    for (std::size_t i = 0; i < r.errors.size(); ++i) {
+        if (!listed[i]) {
+            continue;
+        }
+        const ErrorsAtAngle& at = r.errors[i];
         std::vector<Text> row = {at.printed_angle};
         for (const ErrorValue& e : at.errors) {
             row.push_back(e.printed.value);
@@ -180,7 +216,12 @@ void error_motions(CertificateBuilder& builder, const Wording& words, const Rota
         }
         rows.push_back(std::move(row));
     }
-    builder.table("errors", words("sentence", "table_errors"), columns, rows, groups);
+    const bool thinned = rows.size() < r.errors.size();
+    const Text caption = !thinned ? words("sentence", "table_errors")
+                                  : words("sentence", "table_errors") + " " +
+                                        words.fill("thinned_angles", {{"listed", std::to_string(rows.size())},
+                                                                      {"all", std::to_string(r.errors.size())}});
+    builder.table("errors", caption, columns, rows, groups);
 }
 
 /// Least and greatest coverage factor and effective degrees of freedom of everything that is reported.
@@ -336,15 +377,19 @@ void input(CertificateBuilder& builder, const Wording& words, const EvaluationRe
                   rows);
 }
 
-/// What a record without certificate data shows, in the order of an evaluation.
+/// What a record without certificate data shows: first what a machine builder looks for, then how it was found.
 void specimen_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
-    identification(builder, words, record);
     if (record.rotary) {
+        overview(builder, words, record);
+        error_motions(builder, words, *record.rotary);
+        positioning(builder, words, *record.rotary);
+        harmonics(builder, words, *record.rotary);
+        identification(builder, words, record);
         conventions(builder, words, *record.rotary);
         set_up(builder, words, record);
         location_errors(builder, words, *record.rotary);
-        error_motions(builder, words, *record.rotary);
-        positioning(builder, words, *record.rotary);
+    } else {
+        identification(builder, words, record);
     }
     if (!record.rotary && !record.results.empty()) {
         budget_results(builder, words, record);
@@ -359,16 +404,18 @@ void specimen_sections(CertificateBuilder& builder, const Wording& words, const 
 void certified_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     findings_section(builder, words, *record.certificate);
     method_sections(builder, words, record);
+    result_sections(builder, words, record);
     if (record.rotary) {
         conventions(builder, words, *record.rotary);
     }
-    result_sections(builder, words, record);
     closing_sections(builder, words, record);
     // What the scope covers are the certified tables: nothing else of the document claims the accreditation.
     builder.annexes(record.certificate->symbol);
     identification(builder, words, record);
     if (record.rotary) {
+        error_motion_curves(builder, words, *record.rotary);
         positioning_targets(builder, words, *record.rotary);
+        harmonics(builder, words, *record.rotary);
     }
     if (!record.rotary && !record.results.empty()) {
         budget_sections(builder, words, record);
@@ -389,7 +436,9 @@ void certificate_sections(CertificateBuilder& builder, const Wording& words, con
     if (record.rotary) {
         fixture(builder, words, *record.rotary);
         rotary_monte_carlo(builder, words, record);
+        environment(builder, words, *record.rotary);
         adjustment(builder, words, *record.rotary);
+        group_tests(builder, words, *record.rotary);
         reliability(builder, words, *record.rotary);
         geometry(builder, words, *record.rotary);
     }
@@ -513,6 +562,13 @@ nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::
         messages(builder, words, without_file_names(record));
     }
     input(builder, words, record);
+    if (record.rotary) {
+        builder.annexes(record.certificate && record.certificate->symbol);
+        if (record.comparison) {
+            reference_comparison_points(builder, words, *record.comparison);
+        }
+        distances_as_read(builder, words, *record.rotary);
+    }
 
     view["language"] = words.language();
     view["mark"] = is_comparison ? json::array() : certificate_marks(words, record);

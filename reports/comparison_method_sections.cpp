@@ -418,7 +418,13 @@ void reference_comparison_section(CertificateBuilder& builder, const Wording& wo
         budget_table(builder, words, "reference-budget", words("sentence", "reference_budget"), c.reference_budget,
                      "µm");
     }
-    point_table(builder, words, c);
+}
+
+void reference_comparison_points(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    if (!c.points.empty()) {
+        builder.section("comparison_points");
+        point_table(builder, words, c);
+    }
 }
 
 }  // namespace gumcert::reports

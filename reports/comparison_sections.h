@@ -16,4 +16,7 @@ void comparison_report_sections(CertificateBuilder& builder, const Wording& word
 /// The comparison of a rotary table with its reference method, as a section of its certificate.
 void reference_comparison_section(CertificateBuilder& builder, const Wording& words, const Comparison& comparison);
 
+/// Its points with E_n: an annex.
+void reference_comparison_points(CertificateBuilder& builder, const Wording& words, const Comparison& comparison);
+
 }  // namespace gumcert::reports

@@ -74,18 +74,18 @@ Ticks nice_ticks(double low, double high, int most) {
     }
 }
 
-Ticks angle_ticks(double low, double high) {
+Ticks angle_ticks(double low, double high, int most) {
     if (high - low < 10.0) {
-        return nice_ticks(low, high, 8);
+        return nice_ticks(low, high, most);
     }
     for (const double step : {5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0}) {
         const double from = std::floor(low / step + 1e-9) * step;
         const double to = std::ceil(high / step - 1e-9) * step;
-        if (to - from <= 8.5 * step) {
+        if (to - from <= (most + 0.5) * step) {
             return {.low = from, .high = to, .step = step, .decimals = 0};
         }
     }
-    return nice_ticks(low, high, 8);
+    return nice_ticks(low, high, most);
 }
 
 void Drawing::line(double x1, double y1, double x2, double y2, const char* style) {
@@ -137,6 +137,8 @@ void Drawing::marker(PlotMarker kind, double x, double y, double r) {
         case PlotMarker::cross:
             line(x - r, y - r, x + r, y + r, "stroke=\"#000000\" stroke-width=\"1.2\"");
             line(x - r, y + r, x + r, y - r, "stroke=\"#000000\" stroke-width=\"1.2\"");
+            return;
+        case PlotMarker::none:
             return;
     }
 }

@@ -31,8 +31,9 @@ struct Ticks {
 /// Steps of 1, 2 or 5 times a power of ten that cover [low, high] with at most `most` intervals.
 [[nodiscard]] Ticks nice_ticks(double low, double high, int most);
 
-/// Steps that divide a circle, for angles in degrees; other axes fall back to decimal steps.
-[[nodiscard]] Ticks angle_ticks(double low, double high);
+/// Steps that divide a circle, for angles in degrees, with at most `most` intervals; other axes fall back to decimal
+/// steps.
+[[nodiscard]] Ticks angle_ticks(double low, double high, int most = 8);
 
 /// The elements of a drawing, in the order in which they are painted.
 class Drawing {

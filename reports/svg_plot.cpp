@@ -25,6 +25,9 @@ constexpr double k_key = 20.0;      // the key above the panels
 constexpr double k_between = 14.0;  // between columns
 constexpr const char* k_grid = "stroke=\"#e2e2e2\" stroke-width=\"0.6\"";
 constexpr const char* k_tick = "stroke=\"#000000\" stroke-width=\"0.8\"";
+constexpr const char* k_solid = "fill=\"none\" stroke=\"#000000\" stroke-width=\"1\"";
+constexpr const char* k_dashed = "fill=\"none\" stroke=\"#000000\" stroke-width=\"1\" stroke-dasharray=\"5 2.5\"";
+constexpr const char* k_edge = "fill=\"none\" stroke=\"#555555\" stroke-width=\"0.8\" stroke-dasharray=\"2 2\"";
 constexpr std::size_t k_many = 150;  // points of a series above which they are drawn as one path
 
 /// One path of dots for points too many to be told apart one by one. Dots that fall on the same place are drawn once.
@@ -41,11 +44,55 @@ void draw_dense(Drawing& drawing, const std::vector<PlotPoint>& sorted, const Pl
     drawing.body += "\" fill=\"none\" stroke=\"#000000\" stroke-width=\"1.6\"/>\n";
 }
 
+/// Of points too many to be told apart, those at the edges of every place: the lowest and the highest curve, and the
+/// lowest and the highest end of U.
+std::vector<PlotPoint> thinned(const std::vector<PlotPoint>& sorted, const PlotFrame& frame) {
+    if (static_cast<double>(sorted.size()) <= 4.0 * frame.width) {
+        return sorted;
+    }
+    std::vector<PlotPoint> kept;
+    for (std::size_t from = 0; from < sorted.size();) {
+        const auto place = [&](std::size_t i) { return std::floor(frame.px(sorted[i].x)); };
+        std::size_t to = from;
+        std::array<std::size_t, 4> extremes = {from, from, from, from};
+        for (; to < sorted.size() && place(to) == place(from); ++to) {
+            const auto take = [&](std::size_t at, double candidate, double present) {
+                extremes.at(at) = candidate > present ? to : extremes.at(at);
+            };
+            const PlotPoint& p = sorted[to];
+            take(0, p.y, sorted[extremes[0]].y);
+            take(1, -p.y, -sorted[extremes[1]].y);
+            take(2, p.y + p.U, sorted[extremes[2]].y + sorted[extremes[2]].U);
+            take(3, p.U - p.y, sorted[extremes[3]].U - sorted[extremes[3]].y);
+        }
+        std::sort(extremes.begin(), extremes.end());
+        for (std::size_t i = 0; i < extremes.size(); ++i) {
+            if (i == 0 || extremes.at(i) != extremes.at(i - 1)) {
+                kept.push_back(sorted[extremes.at(i)]);
+            }
+        }
+        from = to;
+    }
+    return kept;
+}
+
+void draw_curve(Drawing& drawing, const std::vector<PlotPoint>& sorted, const PlotFrame& frame, double shift,
+                double sign_of_U, const char* style) {
+    std::vector<std::pair<double, double>> curve;
+    for (const PlotPoint& p : sorted) {
+        curve.emplace_back(frame.px(p.x) + shift, frame.py(p.y + sign_of_U * p.U));
+    }
+    drawing.points("polyline", curve, style);
+}
+
 void draw_series(Drawing& drawing, const PlotSeries& series, const PlotFrame& frame) {
     std::vector<PlotPoint> sorted = series.points;
     std::stable_sort(sorted.begin(), sorted.end(), [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
     const double radius = sorted.size() > 80 ? 1.3 : 2.2;
     const auto x = [&](const PlotPoint& p) { return frame.px(p.x) + series.shift; };
+    if (series.joined || series.bars == PlotBars::band) {
+        sorted = thinned(sorted, frame);
+    }
     if (sorted.size() > k_many && series.marker == PlotMarker::disc && !series.joined) {
         draw_dense(drawing, sorted, frame, series.shift);
         return;
@@ -70,12 +117,16 @@ void draw_series(Drawing& drawing, const PlotSeries& series, const PlotFrame& fr
             }
         }
     }
-    if (series.joined) {
-        std::vector<std::pair<double, double>> curve;
-        for (const PlotPoint& p : sorted) {
-            curve.emplace_back(x(p), frame.py(p.y));
+    if (series.bars == PlotBars::edges) {
+        for (const double sign : {-1.0, 1.0}) {
+            draw_curve(drawing, sorted, frame, series.shift, sign, k_edge);
         }
-        drawing.points("polyline", curve, "fill=\"none\" stroke=\"#000000\" stroke-width=\"1\"");
+    }
+    if (series.joined) {
+        draw_curve(drawing, sorted, frame, series.shift, 0.0, series.dashed ? k_dashed : k_solid);
+    }
+    if (series.joined && sorted.size() > k_many) {
+        return;  // markers would hide the curve
     }
     for (const PlotPoint& p : sorted) {
         drawing.marker(series.marker, x(p), frame.py(p.y), radius);
@@ -111,9 +162,42 @@ void draw_panel(Drawing& drawing, const PlotPanel& panel, const PlotFrame& frame
             draw_series(drawing, series, frame);
         }
     }
+    for (const PlotMark& mark : panel.marks) {
+        const double at = frame.px(mark.x);
+        drawing.line(at, frame.y, at, frame.bottom(),
+                     "stroke=\"#000000\" stroke-width=\"0.7\" stroke-dasharray=\"2 2\"");
+        drawing.text(at + 2.5, frame.y + 10.0, mark.label, "start", 9.0);
+    }
     draw_outline(drawing, frame);
     draw_across_ticks(drawing, frame, with_axis);
     drawing.upright_text(frame.x - 38.0, frame.y + 0.5 * frame.height, panel.y_label, 11.0);
+}
+
+/// A low panel from zero up, with ticks at both ends only.
+void draw_strip(Drawing& drawing, const PlotPanel& panel, const PlotFrame& frame, bool with_axis) {
+    drawing.rectangle(frame.x, frame.y, frame.width, frame.height, "fill=\"#ffffff\" stroke=\"none\"");
+    draw_across_grid(drawing, frame);
+    draw_up_ticks(drawing, frame);
+    for (const PlotSeries& series : panel.strip) {
+        draw_series(drawing, series, frame);
+    }
+    draw_outline(drawing, frame);
+    draw_across_ticks(drawing, frame, with_axis);
+    drawing.text(frame.x + 4.0, frame.y + 9.5, panel.strip_label, "start", 9.0);
+}
+
+/// Zero and a step far enough above the strip that its label stands over it.
+Ticks strip_ticks(const PlotPanel& panel) {
+    double most = 0.0;
+    for (const PlotSeries& series : panel.strip) {
+        for (const PlotPoint& p : series.points) {
+            most = std::max(most, p.y);
+        }
+    }
+    Ticks ticks = nice_ticks(0.0, most > 0.0 ? 2.0 * most : 1.0, 4);
+    const double high = ticks.high;
+    ticks.step = high;
+    return ticks;
 }
 
 /// A rectangle in the style of the part of that number: eight fillings that differ in grey and hatching.
@@ -150,6 +234,22 @@ void fill_part(Drawing& drawing, double x, double y, double width, double height
     }
 }
 
+/// The marker of a series, or what stands in its place where its points have none.
+void draw_key_symbol(Drawing& drawing, const PlotSeries& series, double x, double y) {
+    const std::vector<std::pair<double, double>> line = {{x - 10.0, y}, {x + 4.0, y}};
+    if (series.marker != PlotMarker::none) {
+        drawing.marker(series.marker, x, y, 2.6);
+    } else if (series.bars == PlotBars::band) {
+        drawing.rectangle(x - 10.0, y - 4.0, 14.0, 8.0, "fill=\"#cfcfcf\" stroke=\"none\"");
+    } else if (series.bars == PlotBars::edges) {
+        drawing.points("polyline", line, k_edge);
+        return;
+    }
+    if (series.joined) {
+        drawing.points("polyline", line, series.dashed ? k_dashed : k_solid);
+    }
+}
+
 /// The key above the panels, in as many lines as it needs.
 /// \return its height
 double draw_key(Drawing& drawing, const std::vector<PlotSeries>& series) {
@@ -164,7 +264,7 @@ double draw_key(Drawing& drawing, const std::vector<PlotSeries>& series) {
             x = k_left + 6.0;
             y += k_line;
         }
-        drawing.marker(s.marker, x, y, 2.6);
+        draw_key_symbol(drawing, s, x, y);
         drawing.text(x + 8.0, y + 3.5, s.label, "start", 10.5);
         x += room + 18.0;
     }
@@ -215,6 +315,11 @@ void require_finite(const Plot& plot) {
                 require_ordinary(plot.id + ", " + panel.heading, {p.x, p.y, p.U});
             }
         }
+        for (const PlotSeries& series : panel.strip) {
+            for (const PlotPoint& p : series.points) {
+                require_ordinary(plot.id + ", " + panel.heading, {p.x, p.y, p.U});
+            }
+        }
     }
 }
 
@@ -241,7 +346,7 @@ std::string svg(const Plot& plot) {
     Ticks across;
     if (x_low <= x_high) {
         across = plot.x_is_number  ? number_ticks(x_low, x_high, 8)
-                 : plot.x_is_angle ? angle_ticks(x_low, x_high)
+                 : plot.x_is_angle ? angle_ticks(x_low, x_high, plot.columns > 2 ? 4 : 8)
                                    : nice_ticks(x_low, x_high, 8);
     }
 
@@ -250,7 +355,8 @@ std::string svg(const Plot& plot) {
     const int columns = std::max(1, plot.columns);
     const int rows = (count + columns - 1) / columns;
     const double top = draw_key(drawing, key);
-    const double panel_pitch = k_head + plot.panel_height + k_foot;
+    const double strip = plot.strip_height > 0.0 ? plot.strip_height + k_foot : 0.0;
+    const double panel_pitch = k_head + plot.panel_height + strip + k_foot;
     const double height = top + rows * panel_pitch - k_foot + k_axis;
     const double column_width = (k_drawing_width - (columns - 1) * k_between) / columns;
 
@@ -275,9 +381,16 @@ std::string svg(const Plot& plot) {
             }
         }
         const bool lowest = row == rows - 1 || i == count - 1;
-        draw_panel(drawing, panel, frame, lowest);
+        draw_panel(drawing, panel, frame, lowest && strip == 0.0);
+        PlotFrame below = frame;
+        if (strip > 0.0) {
+            below.y = frame.bottom() + k_foot;
+            below.height = plot.strip_height;
+            below.up = strip_ticks(panel);
+            draw_strip(drawing, panel, below, lowest);
+        }
         if (lowest) {
-            draw_across_title(drawing, frame, plot.x_label);
+            draw_across_title(drawing, below, plot.x_label);
         }
     }
 
@@ -437,8 +550,8 @@ std::string svg(const HistogramPlot& plot) {
 
 std::string svg(const StackedPlot& plot) {
     constexpr double k_texts = 70.0;  // room for the text at the end of a bar
-    constexpr double k_pitch = 23.0;
-    constexpr double k_bar = 16.0;
+    constexpr double k_pitch = 20.0;
+    constexpr double k_bar = 14.0;
     constexpr double k_line = 16.0;  // of the key
     double labels = 44.0;            // room for the names
     for (const StackedBar& bar : plot.bars) {

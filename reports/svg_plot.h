@@ -5,8 +5,9 @@
 
 namespace gumcert::reports {
 
-enum class PlotMarker { disc, ring, square, triangle, cross };
-enum class PlotBars { none, bars, band };  ///< how the expanded uncertainty is drawn
+enum class PlotMarker { disc, ring, square, triangle, cross, none };
+/// How the expanded uncertainty is drawn; `edges` are dashed lines at y - U and y + U.
+enum class PlotBars { none, bars, band, edges };
 
 /// One value with its expanded uncertainty, in the units of the axes; U = 0: none is drawn.
 struct PlotPoint {
@@ -19,11 +20,18 @@ struct PlotSeries {
     PlotMarker marker = PlotMarker::disc;
     PlotBars bars = PlotBars::none;
     bool joined = false;  ///< neighbours in x are joined by a line
+    bool dashed = false;  ///< this line is dashed
     double shift = 0.0;   ///< horizontal displacement in drawing units, so that bars of two series stand side by side
 };
 
 struct PlotLimit {
     double y = 0.0;
+    std::string label;
+};
+
+/// An upright line across a panel, with a text at its upper end.
+struct PlotMark {
+    double x = 0.0;
     std::string label;
 };
 
@@ -34,6 +42,10 @@ struct PlotPanel {
     std::vector<PlotLimit> limits;  ///< dashed horizontal lines; always inside the panel
     /// Greatest magnitude of the vertical axis; what is beyond it is drawn at the edge. 0: as the points need it.
     double y_most = 0.0;
+    std::vector<PlotMark> marks = {};
+    /// Curves of a low panel of their own below this one, from zero up, where Plot::strip_height is not 0.
+    std::vector<PlotSeries> strip = {};
+    std::string strip_label = {};
 };
 
 /// Panels in rows of `columns`, filled column by column; all share the horizontal axis.
@@ -49,6 +61,7 @@ struct Plot {
     bool x_is_number = false;     ///< of a point: ticks are whole numbers
     /// Drawing units that stay free between points and frame; 0: the outermost points may lie on it.
     double margin = 0.0;
+    double strip_height = 0.0;  ///< of the low panels below the panels
 };
 
 /// One horizontal bar of a bar plot, with the text that stands at its end.
@@ -110,6 +123,7 @@ struct DensityPlot {
 
 /// A plot as a whole SVG 1.1 document: lines, rectangles, polygons, circles, paths and plain text elements only.
 ///
+/// A curve of more points than the drawing can show keeps the least and the greatest of every place.
 /// Series differ by marker and filling, not by colour; numbers are fixed texts, so the same plot has the same bytes.
 /// \throws gum::NoResultError if a number is not finite
 [[nodiscard]] std::string svg(const Plot& plot);

@@ -52,9 +52,10 @@ TEST(CertificateView, SectionsComeInTheOrderOfACertificate) {
     for (const json& section : view["sections"]) {
         ids.push_back(section["id"]);
     }
-    EXPECT_THAT(ids, ::testing::ElementsAre("identification", "conventions", "set_up", "error_motions", "positioning",
-                                            "uncertainty", "fixture", "monte_carlo", "adjustment", "reliability",
-                                            "geometry", "comparison", "messages", "input"));
+    EXPECT_THAT(ids,
+                ::testing::ElementsAre("overview", "error_motions", "positioning", "identification", "conventions",
+                                       "set_up", "uncertainty", "fixture", "monte_carlo", "adjustment", "reliability",
+                                       "geometry", "comparison", "messages", "input", "comparison_points"));
 }
 
 TEST(CertificateView, DecimalSignsStandBelowEachOther) {
