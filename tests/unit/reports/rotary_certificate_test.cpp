@@ -222,8 +222,8 @@ TEST(RotaryCertificate, ARecordWithoutTheNewPartsHasNoEmptyPlaces) {
     for (const json& section : view["sections"]) {
         ids.push_back(section["id"]);
     }
-    EXPECT_THAT(ids, ElementsAre("identification", "conventions", "set_up", "error_motions", "uncertainty",
-                                 "adjustment", "geometry", "comparison", "messages", "input"));
+    EXPECT_THAT(ids, ElementsAre("overview", "error_motions", "identification", "conventions", "set_up", "uncertainty",
+                                 "adjustment", "geometry", "comparison", "messages", "input", "comparison_points"));
     EXPECT_TRUE(block(view, "figure", "plot-layout").is_null());
     EXPECT_THAT(rows_of(view, "variance-components")[0],
                 ElementsAre("length noise", "0.0512", "0.0011", "µm", "812.0", "estimated"));

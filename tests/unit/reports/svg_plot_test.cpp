@@ -1,11 +1,16 @@
 #include "reports/svg_plot.h"
 
 #include "gum/quantity/diagnostic.h"
+#include "reports/polar_plot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
 
 namespace gumcert::reports {
 namespace {
@@ -61,6 +66,55 @@ TEST(SvgPlot, DegenerateScalesStillHaveAPlot) {
     Plot empty = one_panel(0.0, 1.0);
     empty.panels[0].series.clear();
     EXPECT_THAT(svg(empty), HasSubstr("</svg>"));
+}
+
+TEST(SvgPlot, ThinsCurvesAndKeepsTheirExtremes) {
+    Plot plot = one_panel(0.0, 1.0);
+    PlotSeries& curve = plot.panels[0].series[0];
+    plot.panels[0].limits.clear();
+    curve.bars = PlotBars::none;
+    curve.marker = PlotMarker::none;
+    curve.label.clear();  // no key: the curve is the first polyline
+    curve.points.clear();
+    for (int i = 0; i < 20000; ++i) {
+        curve.points.push_back({.x = 0.018 * i, .y = i == 7777 ? 10.0 : i == 7778 ? -10.0 : 0.0, .U = 0.0});
+    }
+    const std::string text = svg(plot);
+    const std::size_t at = text.find("<polyline points=\"") + 18;
+    std::istringstream points(text.substr(at, text.find('"', at) - at));
+    std::vector<double> heights;
+    for (std::string point; points >> point;) {
+        heights.push_back(std::stod(point.substr(point.find(',') + 1)));
+    }
+    EXPECT_LT(heights.size(), 1500U);
+    EXPECT_GT(heights.size(), 300U);
+    std::sort(heights.begin(), heights.end());
+    EXPECT_NEAR(heights.back() - heights.front(), plot.panel_height, 0.1) << "both extremes are drawn";
+    EXPECT_GT(heights[1] - heights[0], 0.4 * plot.panel_height);
+}
+
+TEST(PolarPlot, IsAClosedCurveAboutTheCircleOfZero) {
+    PolarPlot plot{.id = "p", .title = "t", .description = "d", .panels = {{.heading = "h", .points = {}}}};
+    for (int i = 0; i < 4; ++i) {
+        plot.panels[0].points.push_back({.x = 90.0 * i, .y = i == 1 ? 2.0 : 0.0, .U = 0.1});
+    }
+    const std::string text = svg(plot);
+    const std::size_t at = text.find("<polyline points=\"") + 18;
+    std::istringstream points(text.substr(at, text.find('"', at) - at));
+    std::vector<std::string> corners;
+    for (std::string point; points >> point;) {
+        corners.push_back(point);
+    }
+    ASSERT_EQ(corners.size(), 5U);
+    EXPECT_EQ(corners.front(), corners.back());
+    // 90° is above the centre, farther from it than the zero of 270° below.
+    const auto height = [&](std::size_t i) { return std::stod(corners[i].substr(corners[i].find(',') + 1)); };
+    const double centre = height(0);
+    EXPECT_GT(centre - height(1), height(3) - centre + 10.0);
+    plot.is_closed = false;
+    EXPECT_NE(svg(plot), text);
+    plot.panels[0].points[0].y = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(static_cast<void>(svg(plot)), gum::NoResultError);
 }
 
 DensityPlot density() {
