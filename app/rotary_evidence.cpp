@@ -129,7 +129,8 @@ void fill_sense_curves(reports::RotaryTable& rotary, const engine::RotaryTableMo
         return;
     }
     const engine::NormalEquations normal = model.solved().adjustment().linearise();
-    const gum::Propagation& propagation = result.propagation;
+    const gum::UncertaintyBudget& propagation = result.reported.budget;
+    const engine::AnglewiseCovariance& covariance = result.reported.covariance;
     rotary.sense_curves = {{.direction = "+", .points = {}}, {.direction = "-", .points = {}}};
     for (const engine::SenseDeviation& from :
          engine::sense_deviations(model.solved(), normal, normal.bordered_covariance())) {
@@ -140,9 +141,8 @@ void fill_sense_curves(reports::RotaryTable& rotary, const engine::RotaryTableMo
             const Eigen::Index error = 6 * static_cast<Eigen::Index>(from.angle) + c;
             const Eigen::Index reversal = result.solution.quantities.reversal + c;
             const double unit = c < 3 ? k_um.si : k_arcsec.si;
-            const double variance = propagation.covariance(error, error) +
-                                    2.0 * half * propagation.covariance(error, reversal) +
-                                    half * half * propagation.covariance(reversal, reversal) + from.covariance(c, c);
+            const double variance = covariance(error, error) + 2.0 * half * covariance(error, reversal) +
+                                    half * half * covariance(reversal, reversal) + from.covariance(c, c);
             const auto at = static_cast<std::size_t>(c);
             point.value[at] =
                 (propagation.value[error] + half * propagation.value[reversal] + from.deviation[c]) / unit;
@@ -184,7 +184,8 @@ reports::HarmonicRow harmonic_row(const std::string& name, const DocumentUnit& u
 }
 
 void fill_harmonics(reports::RotaryTable& rotary, const RotaryTableMeasurement& measurement,
-                    const gum::Propagation& propagation) {
+                    const QuantityUncertainty& reported) {
+    const gum::UncertaintyBudget& propagation = reported.budget;
     const auto count = static_cast<Eigen::Index>(measurement.angles.size());
     const Eigen::VectorXd angles = Eigen::Map<const Eigen::VectorXd>(measurement.angles.data(), count);
     const int orders = engine::resolved_orders(angles, k_most_orders);
@@ -193,8 +194,13 @@ void fill_harmonics(reports::RotaryTable& rotary, const RotaryTableMeasurement& 
     }
     for (Eigen::Index c = 0; c < 6; ++c) {
         const auto of_motion = Eigen::seqN(c, count, 6);
-        const engine::HarmonicAnalysis analysis = engine::analyse_harmonics(
-            angles, propagation.value(of_motion), propagation.covariance(of_motion, of_motion), orders);
+        const auto covariance_of = [&](const Eigen::MatrixXd& combinations) -> Eigen::MatrixXd {
+            Eigen::MatrixXd of_all = Eigen::MatrixXd::Zero(combinations.rows(), reported.covariance.rows());
+            of_all(Eigen::all, of_motion) = combinations;
+            return reported.covariance.of_combinations(of_all);
+        };
+        const engine::HarmonicAnalysis analysis =
+            engine::analyse_harmonics(angles, propagation.value(of_motion), covariance_of, orders);
         const double k = propagation.coverage_factor(of_motion).maxCoeff();
         rotary.harmonics.push_back(
             harmonic_row(rotary.error_names[static_cast<std::size_t>(c)], c < 3 ? k_um : k_arcsec, analysis, k));
@@ -333,7 +339,7 @@ void fill_evidence(reports::RotaryTable& rotary, const engine::RotaryTableJob& j
                     result.solution.groups ? result.solution.groups->visits : none);
         fill_sense_curves(rotary, *model, result);
     }
-    fill_harmonics(rotary, measurement, result.propagation);
+    fill_harmonics(rotary, measurement, result.reported);
     fill_environment(rotary, job);
     fill_runs(rotary, *result.parameter_model);
     fill_lengths(rotary, measurement);

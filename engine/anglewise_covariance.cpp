@@ -42,6 +42,17 @@ Eigen::RowVectorXd AnglewiseCovariance::row(Eigen::Index row) const {
     return result;
 }
 
+Eigen::MatrixXd AnglewiseCovariance::of_combinations(const Eigen::Ref<const Eigen::MatrixXd>& combinations) const {
+    const Eigen::MatrixXd cross = (combinations * half_) * (combinations * shared_).transpose();
+    Eigen::MatrixXd result = cross + cross.transpose();
+    const Eigen::Index size = own_.cols();
+    for (Eigen::Index i = 0; i < own_.rows(); i += size) {
+        const auto of_angle = combinations.middleCols(i, size);
+        result.noalias() += of_angle * own_.middleRows(i, size) * of_angle.transpose();
+    }
+    return result;
+}
+
 Eigen::MatrixXd AnglewiseCovariance::dense() const {
     TallMatrix left(rows(), 2 * shared_.cols());
     TallMatrix right(rows(), 2 * shared_.cols());

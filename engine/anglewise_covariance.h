@@ -32,6 +32,8 @@ public:
     [[nodiscard]] Eigen::MatrixXd of_angle(Eigen::Index angle) const;
     /// All elements of one row, m.
     [[nodiscard]] Eigen::RowVectorXd row(Eigen::Index row) const;
+    /// Covariance of combinations C of the quantities, k×m: C V Cᵀ, k×k.
+    [[nodiscard]] Eigen::MatrixXd of_combinations(const Eigen::Ref<const Eigen::MatrixXd>& combinations) const;
     /// All elements; proportional to their number.
     [[nodiscard]] Eigen::MatrixXd dense() const;
 

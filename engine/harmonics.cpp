@@ -51,12 +51,14 @@ int resolved_orders(const Eigen::Ref<const VectorXd>& angles, int most) {
 }
 
 HarmonicAnalysis analyse_harmonics(const Eigen::Ref<const VectorXd>& angles, const Eigen::Ref<const VectorXd>& values,
-                                   const Eigen::Ref<const MatrixXd>& covariance, int orders) {
+                                   const std::function<MatrixXd(const MatrixXd&)>& covariance_of, int orders) {
     const MatrixXd columns = design(angles, orders);
-    const MatrixXd gain =  // (2 orders + 1)×n
-        columns.householderQr().solve(MatrixXd::Identity(angles.size(), angles.size()));
+    const Eigen::HouseholderQR<MatrixXd> factor(columns);
+    const MatrixXd basis = factor.householderQ() * MatrixXd::Identity(angles.size(), columns.cols());
+    const auto triangle = factor.matrixQR().topRows(columns.cols()).triangularView<Eigen::Upper>();
+    const MatrixXd gain = triangle.solve(basis.transpose());  // (2 orders + 1)×n
     const VectorXd coefficients = gain * values;
-    const MatrixXd spread = gain * covariance * gain.transpose();
+    const MatrixXd spread = covariance_of(gain);
     HarmonicAnalysis result;
     result.mean = coefficients[0];
     result.rms_rest = (values - columns * coefficients).norm() / std::sqrt(static_cast<double>(angles.size()));

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <vector>
 
 namespace gumcert::engine {
@@ -28,10 +29,10 @@ struct HarmonicAnalysis {
 
 /// Fourier coefficients of a curve by least squares, all values with the same weight: for equally spaced angles the
 /// discrete Fourier transform.
-/// \param covariance  of the values, n×n, in the square of their unit
-/// \param orders      from resolved_orders()
-[[nodiscard]] HarmonicAnalysis analyse_harmonics(const Eigen::Ref<const Eigen::VectorXd>& angles,
-                                                 const Eigen::Ref<const Eigen::VectorXd>& values,
-                                                 const Eigen::Ref<const Eigen::MatrixXd>& covariance, int orders);
+/// \param covariance_of  covariance of combinations c of the values, k×n: c V cᵀ, k×k, in the square of their unit
+/// \param orders         from resolved_orders()
+[[nodiscard]] HarmonicAnalysis analyse_harmonics(
+    const Eigen::Ref<const Eigen::VectorXd>& angles, const Eigen::Ref<const Eigen::VectorXd>& values,
+    const std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>& covariance_of, int orders);
 
 }  // namespace gumcert::engine

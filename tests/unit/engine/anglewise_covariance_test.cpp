@@ -39,6 +39,10 @@ TEST(AnglewiseCovariance, ElementsRowsAnglesAndTheWholeAgree) {
         EXPECT_LT((covariance.dense() - expected).cwiseAbs().maxCoeff(), tolerance);
         EXPECT_EQ(covariance.dense(), covariance.dense().transpose());
         EXPECT_LT((covariance.diagonal() - expected.diagonal()).cwiseAbs().maxCoeff(), tolerance);
+        const Eigen::MatrixXd combinations = random(3, rows, noise);
+        const Eigen::MatrixXd combined = combinations * expected * combinations.transpose();
+        EXPECT_LT((covariance.of_combinations(combinations) - combined).cwiseAbs().maxCoeff(),
+                  1e-12 * combined.cwiseAbs().maxCoeff());
         for (Eigen::Index i = 0; i < rows; ++i) {
             EXPECT_LT((covariance.row(i) - expected.row(i)).cwiseAbs().maxCoeff(), tolerance);
             for (Eigen::Index j = 0; j < rows; ++j) {

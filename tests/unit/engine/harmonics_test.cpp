@@ -10,6 +10,11 @@
 namespace gumcert::engine {
 namespace {
 
+/// Covariance of combinations, from the whole matrix.
+auto of(const Eigen::MatrixXd& covariance) {
+    return [covariance](const Eigen::MatrixXd& c) -> Eigen::MatrixXd { return c * covariance * c.transpose(); };
+}
+
 constexpr double k_turn = 2.0 * std::numbers::pi;
 
 Eigen::VectorXd equal_steps(int count) {
@@ -22,7 +27,7 @@ TEST(Harmonics, OfEquallySpacedAnglesAreTheDiscreteFourierTransform) {
     Eigen::VectorXd values(n);
     values << 3.1, -0.4, 2.2, 5.0, -1.3, 0.2, 0.9, -2.5, 1.1, 4.4, -0.7, 0.3;
     const Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(n, n) * 0.04;
-    const HarmonicAnalysis found = analyse_harmonics(angles, values, covariance, 5);
+    const HarmonicAnalysis found = analyse_harmonics(angles, values, of(covariance), 5);
     ASSERT_EQ(found.orders.size(), 5U);
     EXPECT_NEAR(found.mean, values.mean(), 1e-14);
     for (const Harmonic& h : found.orders) {
@@ -50,7 +55,7 @@ TEST(Harmonics, OfUnequalAnglesAreThoseOfTheCurve) {
     }
     const Eigen::VectorXd values = 2.0 + 1.5 * (angles.array() - 0.4).cos() + 0.25 * (3.0 * angles.array() - 5.0).cos();
     const HarmonicAnalysis found =
-        analyse_harmonics(angles, values, Eigen::MatrixXd::Zero(15, 15), resolved_orders(angles, 4));
+        analyse_harmonics(angles, values, of(Eigen::MatrixXd::Zero(15, 15)), resolved_orders(angles, 4));
     ASSERT_EQ(found.orders.size(), 4U);
     EXPECT_NEAR(found.mean, 2.0, 1e-13);
     EXPECT_NEAR(found.orders[0].amplitude, 1.5, 1e-13);
@@ -67,9 +72,9 @@ TEST(Harmonics, HaveTheUncertaintyOfCorrelatedValues) {
     const Eigen::VectorXd angles = equal_steps(8);
     const Eigen::VectorXd shape = angles.array().cos();
     const Eigen::MatrixXd covariance = 0.01 * shape * shape.transpose();
-    const HarmonicAnalysis along = analyse_harmonics(angles, 3.0 * shape, covariance, 3);
+    const HarmonicAnalysis along = analyse_harmonics(angles, 3.0 * shape, of(covariance), 3);
     EXPECT_NEAR(along.orders[0].u_amplitude, 0.1, 1e-14);
-    const HarmonicAnalysis across = analyse_harmonics(angles, 3.0 * angles.array().sin(), covariance, 3);
+    const HarmonicAnalysis across = analyse_harmonics(angles, 3.0 * angles.array().sin(), of(covariance), 3);
     EXPECT_NEAR(across.orders[0].u_amplitude, 0.0, 1e-8);
     EXPECT_NEAR(along.orders[1].u_amplitude, 0.0, 1e-8);
 }
