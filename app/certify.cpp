@@ -12,6 +12,7 @@
 #include "app/certified_texts.h"
 #include "app/certified_traceability.h"
 #include "app/circle_closure_findings.h"
+#include "app/environment_findings.h"
 #include "app/record_parts.h"
 #include "app/reported_result.h"
 #include "app/rotary_findings.h"
@@ -359,6 +360,8 @@ void certify(EvaluationRecord& record, CertificateData data, Profile profile, co
     audit.insert(audit.end(), adjustment.begin(), adjustment.end());
     const std::vector<Finding> closure = circle_closure_findings(record);
     audit.insert(audit.end(), closure.begin(), closure.end());
+    const std::vector<Finding> environment = environment_findings(record);
+    audit.insert(audit.end(), environment.begin(), environment.end());
     const std::vector<Finding> traceability = traceability_findings(record);
     audit.insert(audit.end(), traceability.begin(), traceability.end());
     certificate::pass_gates(*record.certificate, audit);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <string>
+#include <utility>
 
 #include "app/remark.h"
 #include "engine/group_notes.h"
@@ -18,7 +20,9 @@ using reports::AdjustmentSummary;
 using reports::EvaluationRecord;
 using reports::RotaryTable;
 
-constexpr double k_refuted = 0.001;       // p-value below which nobody takes the residuals for chance
+constexpr double k_refuted = 0.001;  // p-value below which nobody takes the residuals for chance
+constexpr const char* k_implausible_angle = "GC-ANGLE-0001";
+constexpr const char* k_fixture_component = "fixture CMM";  // as a record names it
 constexpr double k_most_left_out = 0.05;  // of all distances: a twentieth is no longer single gross errors
 
 std::string chi_square_of(const AdjustmentSummary& a) {
@@ -73,6 +77,36 @@ Remark left_out(std::size_t count, std::int64_t all) {
             .accredited = FindingSeverity::critical};
 }
 
+/// The component of the fixture that the distances give, where it refutes the stated covariance from above. The message
+/// of the adjustment itself warns of smaller doubts, and of both sides.
+std::vector<Remark> refuted_fixture(const RotaryTable& rotary) {
+    std::vector<Remark> remarks;
+    for (const reports::VarianceComponent& c : rotary.variance_components) {
+        if (c.name != k_fixture_component || c.used || !c.estimated || !c.stated || !c.degrees_of_freedom ||
+            *c.stated <= 0.0) {
+            continue;
+        }
+        const double nu = *c.degrees_of_freedom;
+        const double ratio = c.value / *c.stated;
+        if (nu <= 0.0 || gum::chi_square_upper_tail(nu * ratio * ratio, nu) >= k_refuted) {
+            continue;
+        }
+        remarks.push_back(
+            {.message = {.code = "GC-VARIANCE-0003",
+                         .where = "variance components, fixture CMM",
+                         .what = "the distances refute the stated covariance of the fixture: they give a "
+                                 "standard uncertainty of " +
+                                 c.printed.value + " µm for a coordinate, and " + c.printed_stated + " µm is stated",
+                         .rule = {},
+                         .action = "Measure the fixture again, or correct the uncertainty of its "
+                                   "coordinates and evaluate anew."},
+             .id = "G05",
+             .clause = "ISO/IEC 17025:2017, 7.7.1",
+             .accredited = FindingSeverity::critical});
+    }
+    return remarks;
+}
+
 std::vector<Remark> remarks_of(const EvaluationRecord& record) {
     std::vector<Remark> remarks;
     if (!record.rotary) {
@@ -104,12 +138,15 @@ std::vector<gum::Diagnostic> rotary_remarks(const EvaluationRecord& record) {
 std::vector<certificate::Finding> rotary_findings(const EvaluationRecord& record) {
     std::vector<Remark> remarks = remarks_of(record);
     for (const gum::Diagnostic& message : record.diagnostics) {
-        if (record.rotary && message.code == engine::k_suspicious_group) {
+        if (record.rotary && (message.code == engine::k_suspicious_group || message.code == k_implausible_angle)) {
             remarks.push_back({.message = message,
                                .id = "G04",
                                .clause = "ISO/IEC 17025:2017, 7.7.1",
                                .accredited = FindingSeverity::critical});
         }
+    }
+    if (record.rotary) {
+        std::ranges::move(refuted_fixture(*record.rotary), std::back_inserter(remarks));
     }
     return findings_of(std::move(remarks), record);
 }

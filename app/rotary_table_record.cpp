@@ -230,6 +230,24 @@ void fill_budget(reports::RotaryTable& rotary, const RotaryTableSolution& soluti
     }
 }
 
+void fill_exclusions(reports::RotaryTable& rotary, const RotaryTableJob& job) {
+    for (const engine::Exclusion& from : job.exclusions) {
+        reports::ExcludedDistances row;
+        row.station = from.station.value_or("");
+        row.reflector = from.reflector.value_or("");
+        row.pass = from.pass.value_or("");
+        row.direction = from.direction.value_or("");
+        row.angle = from.angle_deg ? shortest(*from.angle_deg) : "";
+        if (from.lines) {
+            const auto& [first, last] = *from.lines;
+            row.lines = std::to_string(first) + (first == last ? "" : "–" + std::to_string(last));
+        }
+        row.count = static_cast<std::int64_t>(from.count);
+        row.reason = from.reason;
+        rotary.exclusions.push_back(std::move(row));
+    }
+}
+
 /// What a reader must know of outlying distances before the numbers.
 void note_outliers(reports::EvaluationRecord& record, const engine::OutlierOptions& options) {
     const std::size_t found = record.rotary->flagged.size();
@@ -323,6 +341,7 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const R
     fill_adjustment(rotary, solution, measurement, propagation, k);
     rotary.fixture_budget = result.fixture.record;
     fill_evidence(rotary, job, result);
+    fill_exclusions(rotary, job);
     record.rotary = std::move(rotary);
     record.diagnostics.insert(record.diagnostics.end(), result.fixture.notes.begin(), result.fixture.notes.end());
     note_outliers(record, measurement.outliers);

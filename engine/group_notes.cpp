@@ -60,8 +60,10 @@ std::string what_of(const GroupTest& test) {
                              " from the first visit to the last (root mean square of the stations)"
                        : "the distances drift by " + size_of(test.estimate) + " from the first visit to the last";
         case GroupKind::angle_index:
-            return std::string("the distances of this station agree with the others when its angles are one step ") +
-                   (test.estimate > 0.0 ? "higher" : "lower");
+            return "the distances of this station agree with the others when its angles are " +
+                   (std::abs(test.estimate) < 1.5 ? std::string("one step")
+                                                  : digits(std::abs(test.estimate), 6) + " steps") +
+                   (test.estimate > 0.0 ? " higher" : " lower");
         case GroupKind::succession:
             return "successive visits deviate alike: their autocorrelation coefficient is " + digits(test.estimate, 2);
         case GroupKind::station:
@@ -72,6 +74,31 @@ std::string what_of(const GroupTest& test) {
             return "the distances put it " + size_of(test.estimate) + " away from its stated coordinates";
     }
     return "";
+}
+
+/// What to write into the job to leave the group out, for the kinds that can be left out.
+std::string exclusion_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
+    std::string selectors;
+    switch (test.kind) {
+        case GroupKind::visit_length:
+        case GroupKind::visit_pose:
+            selectors = "\"station\": \"" + measurement.stations[test.station] + "\", \"pass\": \"" +
+                        measurement.passes[test.pass] +
+                        "\", \"angle_deg\": " + digits(measurement.angles_deg[test.angle], 12);
+            break;
+        case GroupKind::angle_index:
+        case GroupKind::station:
+            selectors = "\"station\": \"" + measurement.stations[test.station] + "\"";
+            break;
+        case GroupKind::reflector:
+            selectors = "\"reflector\": \"" + measurement.reflectors[test.reflector] + "\"";
+            break;
+        case GroupKind::dead_path_change:
+        case GroupKind::drift:
+        case GroupKind::succession:
+            return "";
+    }
+    return " The job leaves these distances out with \"exclude\": [{ " + selectors + ", \"reason\": \"why\" }].";
 }
 
 std::string action_of(const GroupTest& test) {
@@ -113,7 +140,7 @@ std::vector<gum::Diagnostic> group_notes(const GroupTests& groups, const RotaryT
                              .rule =
                                  "one sound measurement in a thousand exceeds such a limit; what exceeds it belongs "
                                  "to the measurement and not to the repeatability of the table",
-                             .action = action_of(test),
+                             .action = action_of(test) + exclusion_of(test, measurement),
                              .severity = gum::Severity::warning});
         }
     }

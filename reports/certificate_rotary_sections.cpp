@@ -233,6 +233,30 @@ void variance_components(CertificateBuilder& builder, const Wording& words, cons
                   words("sentence", in_depth ? "variance_components_in_depth" : "variance_components"), columns, rows);
 }
 
+/// What the laboratory left out, with its reasons.
+void excluded_distances(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
+    if (r.exclusions.empty()) {
+        return;
+    }
+    const std::vector<Column> columns = {{words("label", "station"), ""},
+                                         {words("label", "reflector"), ""},
+                                         {words("label", "pass"), ""},
+                                         {words("label", "direction"), ""},
+                                         {words("label", "angle"), "°"},
+                                         {words("label", "lines"), ""},
+                                         {words("label", "count_left_out"), "", true},
+                                         {words("label", "reason"), ""}};
+    Rows rows;
+    const Text all = words("value", "all");
+    for (const ExcludedDistances& e : r.exclusions) {
+        const auto named = [&](const std::string& text) { return text.empty() ? all : Text(text); };
+        rows.push_back({named(e.station), named(e.reflector), named(e.pass),
+                        named(e.direction == "-" ? "−" : e.direction), e.angle.empty() ? all : words.number(e.angle),
+                        named(e.lines), std::to_string(e.count), e.reason});
+    }
+    builder.table("exclusions", words("sentence", "exclusions"), columns, rows);
+}
+
 void flagged_distances(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
     const Text alpha = words.number(plain(r.outlier_alpha));
     const Text critical = words.number(r.printed_critical_value);
@@ -564,6 +588,7 @@ void adjustment(CertificateBuilder& builder, const Wording& words, const RotaryT
         }
         builder.figure(plot.id, caption, plot.description, svg(plot));
     }
+    excluded_distances(builder, words, r);
     flagged_distances(builder, words, r);
 }
 

@@ -102,6 +102,7 @@ inline constexpr InputCode k_fixture_budget_output{"GC-INPUT-0230",
                                                    "the fixture budget has not one output of the unit of a length"};
 inline constexpr InputCode k_fixture_budget_differs{"GC-INPUT-0231",
                                                     "fixture budget and coordinates file state different values"};
+inline constexpr InputCode k_bad_exclusion{"GC-INPUT-0232", "an exclusion that names no distance, or has no reason"};
 
 // Budget jobs.
 inline constexpr InputCode k_no_statement{"GC-INPUT-0300", "an input without a statement of what is known of it"};
@@ -248,6 +249,7 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_layout_too_large,
                                           k_fixture_budget_output,
                                           k_fixture_budget_differs,
+                                          k_bad_exclusion,
                                           k_no_statement,
                                           k_two_statements,
                                           k_incomplete_statement,

@@ -18,6 +18,7 @@
 #include "engine/job/job_files.h"
 #include "engine/job/json_document.h"
 #include "engine/job/reference_budget.h"
+#include "engine/job/rotary_table_exclusion.h"
 #include "engine/job/rotary_table_study.h"
 #include "gum/quantity/units.h"
 
@@ -33,7 +34,7 @@ using Words = std::span<const std::string_view>;
 
 // ---- keys -----------------------------------------------------------------------------------------------------------
 
-constexpr std::array<std::string_view, 21> k_job_keys{"schema",
+constexpr std::array<std::string_view, 22> k_job_keys{"schema",
                                                       "kind",
                                                       "title",
                                                       "axis",
@@ -48,6 +49,7 @@ constexpr std::array<std::string_view, 21> k_job_keys{"schema",
                                                       "table_repeatability",
                                                       "variance_components",
                                                       "outliers",
+                                                      "exclude",
                                                       "reference_method",
                                                       "monte_carlo",
                                                       "simulation",
@@ -95,6 +97,8 @@ const std::vector<JobKeys>& all_keys() {
                                  {"/monte_carlo/adaptive", k_adaptive_keys}};
         const std::span<const JobKeys> studies = rotary_table_study_keys();
         all.insert(all.end(), studies.begin(), studies.end());
+        const std::span<const JobKeys> exclusions = exclusion_keys();
+        all.insert(all.end(), exclusions.begin(), exclusions.end());
         return all;
     }();
     return k_all;
@@ -305,6 +309,7 @@ private:
         if (coordinates) {
             read_fixture(std::move(*coordinates));
         }
+        job_.exclusions = read_exclusions(*document, *root, problems);
         if (lengths) {
             read_lengths(std::move(*lengths), *root);
         }
@@ -760,6 +765,11 @@ private:
             const auto angle = table.number(i, c_angle, k_angle);
             const auto length = table.number(i, c_length, k_length);
             const auto dead_path = table.name(i, c_dead_path);
+            if (station && reflector && pass && direction && angle &&
+                is_excluded(
+                    {*station, *reflector, *pass, k_directions[*direction], *angle, table.cell(i, c_station).line})) {
+                continue;
+            }
             if (station) {
                 // Also of a row with another problem: else its station would be missing elsewhere, too.
                 stations_.index(*station);
@@ -768,6 +778,11 @@ private:
                 rows.push_back({i, stations_.index(*station), lengths_reflectors_.index(*reflector),
                                 passes_.index(*pass), dead_paths_.index(*dead_path), *direction, *angle, *length, 0});
             }
+        }
+        refuse_idle_exclusions();
+        if (rows.empty() && problems.refusals() == 0) {
+            problems.refuse(k_bad_exclusion, root.where("exclude"), "every distance is left out",
+                            "a measurement has distances", "leave some in");
         }
         lengths_are_whole_ = problems.refusals() == 0;
         first_row_of_station_.assign(stations_.size(), 0);
@@ -787,6 +802,30 @@ private:
             check_units_and_span(rows, root, problems);
         }
         store_lengths(rows);
+    }
+
+    /// Counts the distance for the first entry that names it.
+    bool is_excluded(const ExclusionKeys& distance) {
+        bool excluded = false;
+        for (std::size_t i = 0; i < job_.exclusions.size(); ++i) {
+            if (selects(job_.exclusions[i], distance)) {
+                job_.exclusions[i].count += excluded ? std::size_t{0} : std::size_t{1};
+                excluded = true;
+            }
+        }
+        return excluded;
+    }
+
+    void refuse_idle_exclusions() const {
+        for (const Exclusion& exclusion : job_.exclusions) {
+            if (exclusion.count == 0) {
+                problems_->refuse(k_bad_exclusion, exclusion.where,
+                                  "no distance of the lengths file agrees with it that an entry before it does not "
+                                  "leave out",
+                                  "an entry of \"exclude\" leaves out at least one distance",
+                                  "correct it, or remove it");
+            }
+        }
     }
 
     void find_angles(std::vector<Row>& rows) {

@@ -16,6 +16,7 @@
 #include "engine/job/file_source.h"
 #include "engine/job/job_kind.h"
 #include "engine/job/monte_carlo_request.h"
+#include "engine/job/rotary_table_exclusion.h"
 #include "engine/rotary_table_measurement.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/units.h"
@@ -88,6 +89,7 @@ struct RotaryTableJob {
     Eigen::VectorXd stated_fixture_u;
     std::optional<SimulationRequest> simulation;
     std::optional<PlanRequest> plan;
+    std::vector<Exclusion> exclusions;         ///< what the laboratory left out; not in `measurement`
     bool has_lengths = true;                   ///< false: a layout for `plan` or `simulate` without measured lengths
     std::vector<StationAir> air;               ///< per station; empty without an environment file
     double reference_temperature_degC = 20.0;  ///< of the fixture coordinates

@@ -794,6 +794,18 @@ void describe(Archive& a, Struct& r) {
     a.group("printed", [&](auto& b) { b("rest", r.printed_rest); });
 }
 
+template <class Archive, Is<ExcludedDistances> Struct>
+void describe(Archive& a, Struct& r) {
+    a("station", r.station);
+    a("reflector", r.reflector);
+    a("pass", r.pass);
+    a("direction", r.direction, {"", "+", "-"});
+    a("angle", r.angle);
+    a("lines", r.lines);
+    a("count", r.count, Range::not_negative);
+    a("reason", r.reason);
+}
+
 template <class Archive, Is<StationEnvironment> Struct>
 void describe(Archive& a, Struct& r) {
     a("station", r.station);
@@ -923,6 +935,7 @@ void describe(Archive& a, Struct& r) {
     a.added("sense_curves", r.sense_curves);
     a.added("harmonics", r.harmonics);
     a.added("environment", r.environment);
+    a.added("exclusions", r.exclusions);
 }
 
 template <class Archive, Is<ClosureSeriesRow> Struct>

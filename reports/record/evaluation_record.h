@@ -312,6 +312,16 @@ struct RangeRow {
     std::optional<ReportedResult> reported = {};  ///< as ErrorValue::reported
 };
 
+/// Distances that the laboratory left out by the job: those that agree with everything that is named. "" and none: all.
+struct ExcludedDistances {
+    std::string station, reflector, pass;
+    std::string direction;  ///< "+", "-" or ""
+    std::string angle;      ///< printed, in degrees
+    std::string lines;      ///< "14" or "14–20" of the lengths file
+    std::int64_t count = 0;
+    std::string reason;  ///< as the laboratory states it
+};
+
 struct RotaryTable {
     std::string axis;   ///< "A", "B" or "C"
     std::string datum;  ///< "axis_average_line" or "home"
@@ -345,10 +355,11 @@ struct RotaryTable {
     std::optional<RotaryMonteCarlo> monte_carlo;
     std::optional<FixtureBudget> fixture_budget;
     std::optional<GroupTestSummary> group_tests = {};
-    std::vector<VisitRow> visits = {};            ///< in the order of the measurement
-    std::vector<SenseCurve> sense_curves = {};    ///< positive approach first; empty where one sense was measured
-    std::vector<HarmonicRow> harmonics = {};      ///< empty where the angles do not cover the circle
-    std::optional<Environment> environment = {};  ///< with an environment file
+    std::vector<VisitRow> visits = {};               ///< in the order of the measurement
+    std::vector<SenseCurve> sense_curves = {};       ///< positive approach first; empty where one sense was measured
+    std::vector<HarmonicRow> harmonics = {};         ///< empty where the angles do not cover the circle
+    std::optional<Environment> environment = {};     ///< with an environment file
+    std::vector<ExcludedDistances> exclusions = {};  ///< in the order of the job
 };
 
 /// One compared value: of a method against a reference method at one point, or of a laboratory for one item. Units are

@@ -31,6 +31,7 @@ SOURCES = (
     "app/certify.cpp",
     "app/circle_closure_findings.cpp",
     "app/compared_job_side.cpp",
+    "app/environment_findings.cpp",
     "app/evaluate_budget.cpp",
     "app/evaluate_laboratories.cpp",
     "app/fit_scatter.cpp",

@@ -363,6 +363,8 @@ inline reports::EvaluationRecord sample_record() {
                      .statement =
                          "Monte Carlo of the whole measurement: every input was drawn from its own "
                          "distribution, and every trial was adjusted anew."};
+    t.exclusions = {{"P1", "R2", "", "+", "30", "14–20", 7, "The beam was broken by a person."},
+                    {"", "", "P1-1", "", "", "", 36, "The table was warming up."}};
     t.fixture_budget = {.method = "budget",
                         .file = "fixture_budget.json",
                         .largest = {{"maximum permissible error of the CMM",

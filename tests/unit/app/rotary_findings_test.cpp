@@ -79,6 +79,28 @@ TEST(RotaryFindings, SuspiciousGroupsBlockAnAccreditedCertificate) {
     EXPECT_EQ(rotary_findings(record).front().severity, FindingSeverity::major);
 }
 
+TEST(RotaryFindings, ARefutedFixtureBlocksAnAccreditedCertificate) {
+    EvaluationRecord record = record_with(100.0, 0.48);
+    reports::VarianceComponent fixture;
+    fixture.name = "fixture CMM";
+    fixture.value = 1.9;
+    fixture.stated = 1.0;
+    fixture.estimated = true;
+    fixture.used = false;
+    fixture.degrees_of_freedom = 12.0;  // 12 · 1.9² = 43.3: p = 2e-5
+    record.rotary->variance_components = {fixture};
+    EXPECT_EQ(ids(record), Ids{"G05"});
+    EXPECT_EQ(rotary_findings(record).front().severity, FindingSeverity::critical);
+
+    record.rotary->variance_components.front().value = 1.6;  // 30.7: p = 2e-3
+    EXPECT_EQ(ids(record), Ids());
+    record.rotary->variance_components.front().value = 0.3;  // stated on the safe side
+    EXPECT_EQ(ids(record), Ids());
+    record.rotary->variance_components.front() = fixture;
+    record.rotary->variance_components.front().used = true;  // estimated, and in the weights
+    EXPECT_EQ(ids(record), Ids());
+}
+
 TEST(RotaryFindings, OfOtherRecordsAreNone) {
     EXPECT_TRUE(rotary_findings(EvaluationRecord()).empty());
     EXPECT_TRUE(rotary_remarks(EvaluationRecord()).empty());

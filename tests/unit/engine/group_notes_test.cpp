@@ -45,6 +45,12 @@ TEST(GroupNotes, SayWhichGroupByHowMuchAndWhatToDo) {
     const auto visit = group_notes({.tests = {suspicious(GroupKind::visit_length)}, .visits = {}}, two_stations());
     EXPECT_EQ(visit[0].where, "station P2, pass up, 15°");
     EXPECT_THAT(visit[0].what, HasSubstr("off by 5.04 µm alike"));
+    EXPECT_THAT(visit[0].action,
+                HasSubstr(R"("exclude": [{ "station": "P2", "pass": "up", "angle_deg": 15, "reason": "why" }].)"));
+    EXPECT_THAT(group_notes({.tests = {suspicious(GroupKind::reflector)}, .visits = {}}, two_stations())[0].action,
+                HasSubstr(R"("exclude": [{ "reflector": "R3", "reason": "why" }].)"));
+    EXPECT_THAT(group_notes({.tests = {suspicious(GroupKind::drift)}, .visits = {}}, two_stations())[0].action,
+                testing::Not(HasSubstr("exclude")));
     EXPECT_EQ(group_notes({.tests = {suspicious(GroupKind::reflector)}, .visits = {}}, two_stations())[0].where,
               "fixture, reflector R3");
 }

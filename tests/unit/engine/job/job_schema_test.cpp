@@ -51,6 +51,8 @@ Files complete_campaign(bool with_budget = false) {
         "certificate": {"customer": {}}, "notes": "n", "variance_components": "estimate",
         "table_repeatability": {"mode": "given", "u_linear_um": 0.3, "u_axial_arcsec": 0.2, "u_tilt_arcsec": 0.1},
         "outliers": {"test": "data_snooping", "alpha": 0.001, "action": "remove"},
+        "exclude": [{"station": "P1", "reflector": "R1", "pass": "P1+", "direction": "+", "angle_deg": 45,
+            "lines": [2, 200], "reason": "The beam was broken"}],
         "simulation": {"runs": 20, "seed": 7, "set_up_offset_um": 5, "set_up_tilt_arcsec": 10, "error_linear_um": 3,
             "error_angular_arcsec": 4, "outliers": {"count": 2, "size_um": 5}, "angle_counts": [12, 36],
             "table_repeatability": {"u_linear_um": 0.1, "u_axial_arcsec": 0, "u_tilt_arcsec": 0.3}},
@@ -117,6 +119,9 @@ TEST_F(JobSchemaTest, HasTheKeysOfTheReader) {
                 self(self, followed(value));
             }
         }
+        if (node.contains("items")) {
+            self(self, followed(node.at("items")));
+        }
     };
     count(count, schema_of(""));
     EXPECT_EQ(objects, rotary_table_job_keys().size());
@@ -139,15 +144,20 @@ TEST_F(JobSchemaTest, AgreesWithTheReaderOnEveryKey) {
             return changed;
         };
         for (const JobKeys& object : rotary_table_job_keys()) {
-            if (!complete.contains(json::json_pointer(std::string(object.pointer)))) {
+            // Of a list its first element stands for all.
+            std::string place(object.pointer);
+            if (const std::size_t star = place.find('*'); star != std::string::npos) {
+                place.replace(star, 1, "0");
+            }
+            if (!complete.contains(json::json_pointer(place))) {
                 continue;
             }
             for (const std::string_view key : object.keys) {
-                const std::string pointer = std::string(object.pointer) + "/" + std::string(key);
+                const std::string pointer = place + "/" + std::string(key);
                 if (!complete.contains(json::json_pointer(pointer))) {
                     continue;
                 }
-                used.insert(pointer);
+                used.insert(std::string(object.pointer) + "/" + std::string(key));
                 // Every key is read: a value of the wrong type is refused at its place, or at that of its element.
                 json wrong = complete;
                 wrong[json::json_pointer(pointer)] = json::array({true});
@@ -164,11 +174,11 @@ TEST_F(JobSchemaTest, AgreesWithTheReaderOnEveryKey) {
                     continue;
                 }
                 json without = complete;
-                without.at(json::json_pointer(std::string(object.pointer))).erase(std::string(key));
+                without.at(json::json_pointer(place)).erase(std::string(key));
                 EXPECT_EQ(accepts(without), refusals(with_job(without)).empty()) << pointer;
             }
             json unknown = complete;
-            unknown[json::json_pointer(std::string(object.pointer) + "/unheard_of")] = 1;
+            unknown[json::json_pointer(place + "/unheard_of")] = 1;
             EXPECT_FALSE(accepts(unknown)) << object.pointer;
             EXPECT_FALSE(refusals(with_job(unknown)).empty()) << object.pointer;
         }

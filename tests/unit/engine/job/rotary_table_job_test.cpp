@@ -450,6 +450,26 @@ const std::vector<BadInput>& bad_inputs() {
         {"humidity", with("environment.csv", "1011.6,50", "1011.6,150"), k_csv_out_of_range, "environment.csv:2:27",
          "150 % in column humidity_percent"},
 
+        // ---- exclusions
+        {"exclusion_without_reason", with_key(R"("exclude": [{"station": "P1"}])"), k_missing_key,
+         "job.json#/exclude/0 (line 1, column 15)", "the key \"reason\" is missing"},
+        {"exclusion_with_a_dash", with_key(R"("exclude": [{"station": "P1", "reason": "-"}])"), k_bad_exclusion,
+         "job.json#/exclude/0/reason (line 1, column 43)", "the reason \"-\" says nothing"},
+        {"exclusion_of_nothing_named", with_key(R"("exclude": [{"reason": "Beam was broken"}])"), k_bad_exclusion,
+         "job.json#/exclude/0 (line 1, column 15)", "no distance is named"},
+        {"exclusion_that_matches_nothing",
+         with_key(R"("exclude": [{"station": "P1", "angle_deg": 46, "reason": "Beam was broken"}])"), k_bad_exclusion,
+         "job.json#/exclude/0 (line 1, column 15)", "no distance of the lengths file agrees"},
+        {"exclusion_said_twice", with_key(R"("exclude": [{"pass": "P1+", "angle_deg": 45, "reason": "Beam was broken"},
+            {"station": "P1", "pass": "P1+", "angle_deg": 45, "reason": "Beam was broken"}])"),
+         k_bad_exclusion, "job.json#/exclude/1 (line 2, column 13)", "that an entry before it does not leave out"},
+        {"exclusion_of_lines_in_disorder", with_key(R"("exclude": [{"lines": [9, 8], "reason": "Beam was broken"}])"),
+         k_bad_exclusion, "job.json#/exclude/0/lines (line 1, column 25)", "lines 9 to 8"},
+        {"exclusion_of_everything", with_key(R"("exclude": [{"lines": [2, 1000], "reason": "Beam was broken"}])"),
+         k_bad_exclusion, "job.json#/exclude (line 1, column 14)", "every distance is left out"},
+        {"exclusion_is_no_object", with_key(R"("exclude": ["P1"])"), k_wrong_type,
+         "job.json#/exclude/0 (line 1, column 15)", "an entry of \"exclude\" is an object"},
+
         // ---- reference method
         {"reading_direction", with("dial_indicator.csv", "x,0.0", "a,0.0"), k_csv_unknown_choice,
          "dial_indicator.csv:2:1", "must be x, y or z"},
@@ -640,6 +660,43 @@ TEST(RotaryTableJob, ReadsEveryOption) {
     EXPECT_DOUBLE_EQ(m.length_uncertainty.u_proportional, 5e-7);
     EXPECT_DOUBLE_EQ(m.temperature_difference(0), -0.25);
     EXPECT_EQ(job.reference_temperature_degC, 20.5);
+}
+
+TEST(RotaryTableJob, LeavesOutWhatTheLaboratoryExcludes) {
+    Files files = small_campaign();
+    with_key(R"("exclude": [{"station": "P1", "direction": "+", "angle_deg": 45, "reason": "Beam was broken"},
+        {"reflector": "R2", "pass": "P1+", "reason": "Reflector was loose"},
+        {"lines": [190, 193], "reason": "Table was moving"}])")(files);
+    const RotaryTableJob job = read(files);
+    ASSERT_EQ(job.exclusions.size(), 3U);
+    EXPECT_EQ(job.exclusions[0].count, 4U);
+    EXPECT_EQ(job.exclusions[1].count, 7U) << "eight angles, one of them is left out by the first entry";
+    EXPECT_EQ(job.exclusions[2].count, 4U);
+    EXPECT_EQ(job.exclusions[1].reason, "Reflector was loose");
+    EXPECT_EQ(job.measurement.lengths.size(), 192U - 15U);
+    for (const LengthObservation& length : job.measurement.lengths) {
+        EXPECT_FALSE(length.station == 0 && length.angle == 1 && length.approach == Approach::positive);
+        EXPECT_FALSE(length.reflector == 1 && length.pass == 0);
+        EXPECT_LT(length.line, 190U);
+    }
+
+    // A station of which nothing is left is no station of the measurement.
+    files = small_campaign();
+    replace(files["environment.csv"], "P1,20.25,0.03,20.3,1011.6,50\n", "");
+    replace(files["stations.csv"], "P1,500,-800,-300,20\n", "");
+    replace(files["lengths.csv"], "P3,R1", "P2,R1");
+    with_key(R"("exclude": [{"station": "P1", "reason": "Moved during the work"},
+        {"lines": [130, 130], "reason": "Written wrongly"}])")(files);
+    EXPECT_THAT(read(files).measurement.stations, ElementsAre("P2", "P3"));
+
+    // What is left must still be a measurement.
+    files = small_campaign();
+    with_key(R"("exclude": [{"angle_deg": 45, "direction": "+", "reason": "Beam was broken"},
+        {"angle_deg": 45, "station": "P1", "reason": "Beam was broken"},
+        {"angle_deg": 45, "station": "P2", "reason": "Beam was broken"}])")(files);
+    const auto found = refusals(files);
+    ASSERT_EQ(found.size(), 1U) << texts(found);
+    EXPECT_EQ(found.front().code, k_too_few_at_angle.code);
 }
 
 TEST(RotaryTableJob, AcceptsBomCrlfAndOtherColumnOrders) {

@@ -1,0 +1,110 @@
+#include "engine/job/rotary_table_exclusion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "certificate/stated_text.h"
+
+namespace gumcert::engine {
+
+namespace {
+
+constexpr std::array<std::string_view, 7> k_keys{"station",   "reflector", "pass",  "direction",
+                                                 "angle_deg", "lines",     "reason"};
+constexpr std::array<JobKeys, 1> k_objects{{{"/exclude/*", k_keys}}};
+constexpr double k_same_angle_deg = 1e-9;
+constexpr std::size_t k_longest_reason = 1000;
+constexpr NumberRange k_angle{
+    .low = -3600.0, .high = 3600.0, .unit = "°", .hint = "check the unit: angles are in degrees"};
+constexpr NumberRange k_line{.low = 2.0, .high = 1e7, .hint = "the first line of the file holds the names of columns"};
+
+std::optional<std::pair<std::size_t, std::size_t>> read_lines(const JsonObject& object) {
+    const std::optional<std::vector<double>> lines = object.required_numbers("lines", 2, k_line);
+    if (!lines) {
+        return std::nullopt;
+    }
+    const bool whole = std::ranges::all_of(*lines, [](double line) { return line == std::floor(line); });
+    if (!whole || lines->front() > lines->back()) {
+        object.refuse(k_bad_exclusion, "lines", "lines " + shortest(lines->front()) + " to " + shortest(lines->back()),
+                      "lines are two whole numbers, the first and the last line", "correct the numbers");
+        return std::nullopt;
+    }
+    return std::pair{static_cast<std::size_t>(lines->front()), static_cast<std::size_t>(lines->back())};
+}
+
+std::optional<Exclusion> read_exclusion(const JsonObject& object) {
+    Exclusion exclusion;
+    exclusion.where = object.where();
+    exclusion.station = object.optional_name("station");
+    exclusion.reflector = object.optional_name("reflector");
+    exclusion.pass = object.optional_name("pass");
+    constexpr std::array<std::pair<std::string_view, const char*>, 2> k_directions{{{"+", "+"}, {"-", "-"}}};
+    if (const auto direction = object.optional_choice<const char*>("direction", k_directions)) {
+        exclusion.direction = *direction;
+    }
+    exclusion.angle_deg = object.optional_number("angle_deg", k_angle);
+    if (object.has("lines")) {
+        exclusion.lines = read_lines(object);
+    }
+    // What could not be read would select more than was meant.
+    const bool is_whole = exclusion.station.has_value() == object.has("station") &&
+                          exclusion.reflector.has_value() == object.has("reflector") &&
+                          exclusion.pass.has_value() == object.has("pass") &&
+                          exclusion.direction.has_value() == object.has("direction") &&
+                          exclusion.angle_deg.has_value() == object.has("angle_deg") &&
+                          exclusion.lines.has_value() == object.has("lines");
+    const std::optional<std::string> reason = object.required_name("reason", k_longest_reason);
+    if (!reason || !is_whole) {
+        return std::nullopt;
+    }
+    if (!certificate::is_stated(*reason)) {
+        object.refuse(k_bad_exclusion, "reason", "the reason " + in_quotes(*reason) + " says nothing",
+                      "what is left out is left out for a reason, which the documents print", "state the reason");
+    }
+    exclusion.reason = *reason;
+    const bool selects_something =
+        std::ranges::any_of(k_keys, [&](std::string_view key) { return key != "reason" && object.has(key); });
+    if (!selects_something) {
+        object.refuse(k_bad_exclusion, "", "no distance is named",
+                      "an entry of \"exclude\" has a station, reflector, pass, direction, angle_deg or lines",
+                      "name the distances, or remove the entry");
+        return std::nullopt;
+    }
+    return exclusion;
+}
+
+}  // namespace
+
+bool selects(const Exclusion& exclusion, const ExclusionKeys& distance) {
+    const auto agrees = [](const std::optional<std::string>& wanted, std::string_view is) {
+        return !wanted || *wanted == is;
+    };
+    return agrees(exclusion.station, distance.station) && agrees(exclusion.reflector, distance.reflector) &&
+           agrees(exclusion.pass, distance.pass) && agrees(exclusion.direction, distance.direction) &&
+           (!exclusion.angle_deg || std::abs(*exclusion.angle_deg - distance.angle_deg) <= k_same_angle_deg) &&
+           (!exclusion.lines || (exclusion.lines->first <= distance.line && distance.line <= exclusion.lines->second));
+}
+
+std::vector<Exclusion> read_exclusions(const JsonDocument& document, const JsonObject& root, ProblemList& problems) {
+    std::vector<Exclusion> exclusions;
+    const nlohmann::json* entries = root.optional_array("exclude");
+    for (std::size_t i = 0; entries != nullptr && i < entries->size(); ++i) {
+        const std::string pointer = child_pointer(root.pointer("exclude"), i);
+        if (!(*entries)[i].is_object()) {
+            problems.refuse(k_wrong_type, document.where(pointer), described((*entries)[i]),
+                            "an entry of \"exclude\" is an object", "write { … } with the distances and the reason");
+            continue;
+        }
+        if (std::optional<Exclusion> exclusion = read_exclusion(JsonObject(document, pointer, k_keys, problems))) {
+            exclusions.push_back(std::move(*exclusion));
+        }
+    }
+    return exclusions;
+}
+
+std::span<const JobKeys> exclusion_keys() {
+    return k_objects;
+}
+
+}  // namespace gumcert::engine
