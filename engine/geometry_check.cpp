@@ -381,6 +381,24 @@ gum::Diagnostic refusal(std::string where, std::string what, std::string rule, s
             std::move(rule), std::move(action), gum::Severity::error};
 }
 
+/// Whether three stations or more stand on one line, within a thousandth of its length.
+bool stand_on_one_line(const std::vector<Eigen::Vector3d>& stations) {
+    constexpr double k_flat = 1e-3;
+    if (stations.size() < 3) {
+        return false;
+    }
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& station : stations) {
+        mean += station / static_cast<double>(stations.size());
+    }
+    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+    for (const Eigen::Vector3d& station : stations) {
+        scatter += (station - mean) * (station - mean).transpose();
+    }
+    const Eigen::Vector3d spread = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvalues();
+    return spread[1] < k_flat * k_flat * spread[2];
+}
+
 gum::Diagnostic undetermined_poses(const RotaryTableMeasurement& measurement, const Involved& involved) {
     const std::size_t angle = *involved.angles.begin();
     const AngleCoverage coverage = coverage_of(measurement, angle);
@@ -424,10 +442,22 @@ gum::Diagnostic undetermined_station(const RotaryTableMeasurement& measurement, 
 
 }  // namespace
 
+std::optional<gum::Diagnostic> stations_on_one_line(const std::vector<Eigen::Vector3d>& stations) {
+    if (!stand_on_one_line(stations)) {
+        return std::nullopt;
+    }
+    return refusal("stations", "all " + std::to_string(stations.size()) + " stations stand on one line",
+                   "a turn of the table about the line that joins the stations changes no distance",
+                   "move one station away from the line, by about the distance of the others from each other");
+}
+
 gum::Diagnostic undetermined(const RotaryTableMeasurement& measurement, const RankReport& rank,
                              const std::vector<Eigen::Vector3d>& stations) {
     const Involved involved = involved_in(measurement, rank);
     const std::string what = "not determined: " + involved.names;
+    if (const std::optional<gum::Diagnostic> line = stations_on_one_line(stations)) {
+        return *line;
+    }
     if (!involved.angles.empty()) {
         return undetermined_poses(measurement, involved);
     }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <vector>
 
 #include "engine/adjustment.h"
@@ -18,6 +19,10 @@ namespace gumcert::engine {
 /// \return code GC-RANK-0001, severity error
 [[nodiscard]] gum::Diagnostic undetermined(const RotaryTableMeasurement& measurement, const RankReport& rank,
                                            const std::vector<Eigen::Vector3d>& stations = {});
+
+/// Stations from which no measurement determines the poses: three or more on one line, in T, [m].
+/// \return code GC-RANK-0001, severity error; nothing where they stand otherwise
+[[nodiscard]] std::optional<gum::Diagnostic> stations_on_one_line(const std::vector<Eigen::Vector3d>& stations);
 
 /// \throws gum::NoResultError always, with `undetermined()`
 [[noreturn]] void refuse_undetermined(const RotaryTableMeasurement& measurement, const RankReport& rank,

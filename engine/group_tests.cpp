@@ -26,6 +26,7 @@ constexpr double k_spread_of_robust_scale = 1.17;         // times 1/sqrt(n): st
 constexpr double k_deviate_of_power = 0.841621233572914;  // of the normal distribution, for 80 %
 constexpr double k_controlled = 1e-9;            // share of the weight of a group below which nothing else controls it
 constexpr std::size_t k_most_suspects = 40;      // groups that are taken away one after the other
+constexpr int k_most_steps = 18;                 // by which the angles of a station are looked at to be off
 constexpr std::size_t k_fewest_for_scatter = 8;  // visits: fewer say nothing of a scatter
 
 /// Value of chi-square that is exceeded with a probability.
@@ -618,9 +619,8 @@ private:
         return test;
     }
 
-    /// A station whose angles are one step off, forwards or backwards. Its place takes up the step itself; what is left
-    /// is that the table deviates at the next angle in another way than at this one: R(-s) E(θ+s) R(s) in place of
-    /// E(θ).
+    /// A station whose angles are some steps off. Its place takes up the steps themselves; what is left is that the
+    /// table deviates at the other angle in another way than at this one: R(-s) E(θ+s) R(s) in place of E(θ).
     [[nodiscard]] std::optional<Candidate> best_index() {
         const RotaryTableMeasurement& measurement = adjustment_.measurement();
         const std::size_t angles = measurement.angles.size();
@@ -629,16 +629,19 @@ private:
         }
         const MatrixXd poses = adjustment_.poses();
         const double step = measurement.angles[1] - measurement.angles[0];
+        const int most = std::min(static_cast<int>(angles) / 2, k_most_steps);
         std::optional<Candidate> best;
         moved_.resize(measurement.stations.size(), false);
         for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
             if (moved_[j]) {
                 continue;
             }
-            for (const bool forwards : {true, false}) {
+            for (int steps = -most; steps <= most; ++steps) {
+                if (steps == 0 || (2 * steps == -static_cast<int>(angles))) {
+                    continue;  // half a turn backwards is half a turn forwards
+                }
                 const Eigen::Matrix3d turn =
-                    Eigen::AngleAxisd(forwards ? step : -step,
-                                      Eigen::Vector3d::Unit(axial_coordinate(measurement.axis)))
+                    Eigen::AngleAxisd(steps * step, Eigen::Vector3d::Unit(axial_coordinate(measurement.axis)))
                         .toRotationMatrix();
                 Visits::Effect effect(visits_.size());
                 for (std::size_t g = 0; g < visits_.size(); ++g) {
@@ -647,7 +650,7 @@ private:
                         continue;
                     }
                     const std::size_t other =
-                        forwards ? (visit.angle + 1) % angles : (visit.angle + angles - 1) % angles;
+                        (visit.angle + angles + static_cast<std::size_t>(steps + static_cast<int>(angles))) % angles;
                     Eigen::Matrix<double, 6, 1> change;
                     change << turn.transpose() * poses.col(static_cast<Index>(other)).head<3>(),
                         turn.transpose() * poses.col(static_cast<Index>(other)).tail<3>();
@@ -660,10 +663,10 @@ private:
                     continue;
                 }
                 const double deviate = projection.weighted[0] / std::sqrt(spread) / std::max(used_scale_, pose_scale_);
-                GroupTest test = judged(GroupKind::angle_index, deviate * deviate, 1, 2 * measurement.stations.size());
+                GroupTest test = judged(GroupKind::angle_index, deviate * deviate, 1,
+                                        2 * static_cast<std::size_t>(most) * measurement.stations.size());
                 test.station = j;
-                test.estimate = (forwards ? 1.0 : -1.0) * projection.weighted[0] / spread;
-                test.minimal_detectable = detectable(test, spread);
+                test.estimate = steps;
                 take(best, {test, [this, effect, j] {
                                 visits_.take_away(effect, 1);
                                 moved_[j] = true;

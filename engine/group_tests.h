@@ -17,7 +17,7 @@ enum class GroupKind {
     visit_pose,        ///< a visit in which the table stood elsewhere
     dead_path_change,  ///< one error of all distances of a station from some visit on: an interrupted beam
     drift,             ///< an error of the distances of a station, or of all, that grows from visit to visit
-    angle_index,       ///< the angles of a station are those of the neighbours, one step off
+    angle_index,       ///< the angles of a station are some steps off
     succession,        ///< successive visits deviate alike
     station,           ///< the visits of one station scatter more than those of all others
     reflector,         ///< a point of the fixture that is not where its coordinates say
@@ -40,8 +40,9 @@ struct GroupTest {
     double p_value = 1.0;         ///< probability of a chi-square as large as this where nothing is wrong
     double critical_value = 0.0;  ///< of chi-square: the family of its kind exceeds it with the probability alpha
     /// Visit and change: error of the distances; pose: rms of what it does to the distances; drift: error at the last
-    /// visit less that at the first, rms where every station has its own; reflector: displacement, [m]. Succession:
-    /// autocorrelation coefficient of lag 1. Station: ratio of the standard deviations of its visits and of the others.
+    /// visit less that at the first, rms where every station has its own; reflector: displacement, [m]; angle index:
+    /// steps. Succession: autocorrelation coefficient of lag 1. Station: ratio of the standard deviations of its visits
+    /// and of the others.
     double estimate = 0.0;
     double minimal_detectable = 0.0;  ///< found with a probability of 80 %, in the unit of `estimate`; 0: not stated
     bool suspicious = false;

@@ -26,6 +26,20 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
+std::string micrometres(double length) {
+    std::array<char, 32> buffer{};
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), length / gum::k_micrometre,
+                                   std::chars_format::general, 3)
+                         .ptr;
+    return std::string(buffer.data(), end) + " µm";
+}
+
+std::string degrees(double angle) {
+    std::array<char, 32> buffer{};
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), angle).ptr;
+    return std::string(buffer.data(), end) + "°";
+}
+
 /// Whether distances that were left out are many of one visit or of one reflector: then it may be the group that is
 /// wrong, and what is left of it does not say so any more.
 bool is_concentrated(const RotaryTableMeasurement& measurement, const std::vector<bool>& active) {
@@ -164,6 +178,76 @@ std::vector<std::size_t> find_gross_deviations(JointAdjustment& adjustment, cons
     return found;
 }
 
+/// The step in a sequence of values that leaves least of their absolute deviations from the medians of both sides.
+struct Step {
+    std::size_t first = 0;                         ///< value after the step; 0: none
+    double size = 0.0, before = 0.0, after = 0.0;  ///< mean absolute deviations without and with the step
+};
+Step largest_step(const std::vector<double>& values) {
+    const auto spread = [&](std::size_t from, std::size_t to, double& middle) {
+        std::vector<double> part(values.begin() + static_cast<std::ptrdiff_t>(from),
+                                 values.begin() + static_cast<std::ptrdiff_t>(to));
+        middle = upper_median(part);
+        double sum = 0.0;
+        for (const double value : part) {
+            sum += std::abs(value - middle);
+        }
+        return sum;
+    };
+    Step step;
+    double middle = 0.0;
+    step.before = spread(0, values.size(), middle);
+    step.after = step.before;
+    for (std::size_t k = 2; k + 2 <= values.size(); ++k) {
+        double low = 0.0;
+        double high = 0.0;
+        const double left = spread(0, k, low) + spread(k, values.size(), high);
+        if (left < step.after) {
+            step = {k, high - low, step.before, left};
+        }
+    }
+    return step;
+}
+
+/// An interrupted beam so large that the adjustment does not survive it: at the start values the distances of a station
+/// from some visit on all deviate alike, by far more than anything else.
+void refuse_interrupted_beams(const JointAdjustment& adjustment) {
+    constexpr double k_smallest = 100.0 * gum::k_micrometre;
+    constexpr double k_left = 0.2;  // of the deviations
+    const RotaryTableMeasurement& measurement = adjustment.measurement();
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> sequences;  // by station and dead path
+    for (std::size_t v = 0; v < adjustment.visits().size(); ++v) {
+        const Visit& visit = adjustment.visits()[v];
+        sequences[{visit.station, measurement.lengths[visit.observations.front()].dead_path}].push_back(v);
+    }
+    std::vector<gum::Diagnostic> problems;
+    for (const auto& [key, sequence] : sequences) {
+        std::vector<double> values;
+        for (const std::size_t v : sequence) {
+            const Eigen::VectorXd residual = adjustment.adjustment().residual(v);
+            std::vector<double> of_visit(residual.begin(), residual.end());
+            values.push_back(upper_median(of_visit));
+        }
+        const Step step = largest_step(values);
+        if (step.first == 0 || std::abs(step.size) < k_smallest || step.after > k_left * step.before) {
+            continue;
+        }
+        const Visit& visit = adjustment.visits()[sequence[step.first]];
+        problems.push_back({"GC-ADJUST-0014",
+                            "station " + measurement.stations[visit.station] + ", pass " +
+                                measurement.passes[visit.pass] + ", " + degrees(measurement.angles_deg[visit.angle]),
+                            "from this visit on all distances of the station are off by about " +
+                                micrometres(std::abs(step.size)) + " alike",
+                            "distances of one dead path have one constant",
+                            "the beam was interrupted there: give the "
+                            "distances from there on a dead path of their own",
+                            gum::Severity::error});
+    }
+    if (!problems.empty()) {
+        throw gum::NoResultError(std::move(problems));
+    }
+}
+
 /// Adjustment and weights that agree with each other.
 class Iteration {
 public:
@@ -268,23 +352,23 @@ TestLimits test_limits(const EvaluationOptions& options, const VarianceComponent
     return limits;
 }
 
-// Above this, leaving a distance out moves the solution so far that the derivatives are taken anew before the next one:
-// its second-order effect on the others is about the square of this over the length, some nanometres.
+// Above this, leaving a distance out moves the solution so far that its second-order effect on the others, about the
+// square of this over the length, is more than some nanometres.
 constexpr double k_linear_reach = 50.0 * gum::k_micrometre;
+
+/// Errors below this are not told from what a larger one does to the linearised model: the derivatives are taken anew
+/// before such a distance is left out.
+double second_order_effect(double error) {
+    constexpr double k_safety = 10.0;
+    constexpr double k_short_length = 0.3;  // [m]
+    return k_safety * error * error / k_short_length;
+}
 // Share of flagged distances above which it is hardly the distances that are wrong.
 constexpr double k_many_outliers = 0.05;
 // Probability that a sound measurement makes a group of one of the eight kinds suspicious.
 constexpr double k_group_level = 0.001;
 // Probability of warning of a fixture that is as stated.
 constexpr double k_fixture_test_level = 0.01;
-
-std::string micrometres(double length) {
-    std::array<char, 32> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), length / gum::k_micrometre,
-                                   std::chars_format::general, 3)
-                         .ptr;
-    return std::string(buffer.data(), end) + " µm";
-}
 
 /// Tests of the groups with the distances that were left out; none where that adjustment does not converge.
 std::optional<GroupTests> groups_with_all(const JointAdjustment& adjustment, const std::vector<bool>& active,
@@ -419,6 +503,35 @@ void note_outliers(RotaryTableSolution& solution, const RotaryTableMeasurement& 
     }
 }
 
+/// An angle at which the table stands far from where the others let expect it: perhaps the file states another angle
+/// than the one that was measured. All six error motions of an angle are free, so that nothing else tells.
+void note_implausible_angles(RotaryTableSolution& solution, const RotaryTableMeasurement& measurement) {
+    constexpr double k_smallest = 180.0 * gum::k_arcsecond;
+    constexpr double k_times_median = 20.0;
+    const int axial = 3 + axial_coordinate(measurement.axis);
+    std::vector<double> motions;
+    for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
+        motions.push_back(solution.values[static_cast<Eigen::Index>(6 * i) + axial]);
+    }
+    std::vector<double> sorted = motions;
+    const double middle = upper_median(sorted);
+    for (double& value : sorted) {
+        value = std::abs(value - middle);
+    }
+    const double limit = std::max(k_smallest, k_times_median * upper_median(sorted));
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+        const double off = motions[i] - middle;
+        if (std::abs(off) > limit) {
+            solution.notes.push_back(
+                {"GC-ANGLE-0001", degrees(measurement.angles_deg[i]),
+                 "the table stands " + degrees(std::round(off / gum::k_degree * 1e4) / 1e4) +
+                     " from the angle that the file states, far more than at the other angles",
+                 "an angle that is stated wrongly at all stations is taken for an error motion of the table",
+                 "see whether the angle is mistyped, and correct the lengths file", gum::Severity::warning});
+        }
+    }
+}
+
 }  // namespace
 
 RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, const EvaluationOptions& options,
@@ -451,6 +564,9 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
     };
     std::ranges::for_each(gross, set_aside);
     const StartValues start = find_start_values(measurement, active);
+    if (const std::optional<gum::Diagnostic> line = stations_on_one_line(start.stations)) {
+        throw gum::NoResultError(*line);
+    }
     JointAdjustment first(measurement, active, RigidMotion{}, start, stochastic);
     const auto require_rank = [&](const JointAdjustment& adjustment) {
         const RankReport rank = adjustment.adjustment().linearise().rank(options.solver.rank_tolerance);
@@ -465,6 +581,9 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
     rough.step_tolerance = 1e-3;
     SolveSummary summary = first.adjustment().solve(rough);
     const double misfit = std::sqrt(summary.chi_square / static_cast<double>(measurement.lengths.size()));
+    if (!summary.converged || misfit > k_gross_misfit) {
+        refuse_interrupted_beams(JointAdjustment(measurement, active, RigidMotion{}, start, stochastic));
+    }
     if (snooping && outliers.action == OutlierAction::remove && (!summary.converged || misfit > k_gross_misfit)) {
         JointAdjustment robust(measurement, active, RigidMotion{}, start, stochastic);
         for (const std::size_t i : find_gross_deviations(robust, rough)) {
@@ -508,13 +627,16 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
             iteration.settle(adjustment, stochastic, 3, 0.05, rough);
             limits = test_limits(options, iteration.step.components[length_noise]);
             OneAtATime search(adjustment, *iteration.normal, iteration.covariance);
+            double largest = 0.0;
             while (const auto suspect = search.largest(limits.critical_value)) {
+                const double size = std::abs(suspect->estimated_error);
+                largest = std::max(largest, size);
+                if (changed && largest > k_linear_reach && size < second_order_effect(largest)) {
+                    break;
+                }
                 leave_out(*suspect);
                 search.leave_out(suspect->length);
                 changed = true;
-                if (std::abs(suspect->estimated_error) > k_linear_reach) {
-                    break;
-                }
             }
         }
         if (!changed) {
@@ -531,21 +653,15 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
                 leave_out(*suspect);
                 changed = true;
             } else {
-                // A distance that was left out in the shadow of a larger one comes back when it agrees after all, the
-                // one that agrees best first, and once only: what is then found again stays out.
-                std::size_t best = active.size();
-                for (std::size_t i = 0; i < active.size(); ++i) {
-                    if (!active[i] && !reinserted[i] && std::abs(rows[i].test_value) <= limits.critical_value &&
-                        (best == active.size() || std::abs(rows[i].test_value) < std::abs(rows[best].test_value))) {
-                        best = i;
-                    }
-                }
-                if (best < active.size()) {
-                    active[best] = true;
-                    reinserted[best] = true;
-                    changed = true;
-                    for (OutlierFinding& finding : found) {
-                        finding.came_back = finding.came_back || finding.length == best;
+                // Distances that were left out in the shadow of larger ones come back when they agree after all, and
+                // once only: what is then found again stays out.
+                for (OutlierFinding& finding : found) {
+                    const std::size_t i = finding.length;
+                    if (!active[i] && !reinserted[i] && std::abs(rows[i].test_value) <= limits.critical_value) {
+                        active[i] = true;
+                        reinserted[i] = true;
+                        finding.came_back = true;
+                        changed = true;
                     }
                 }
             }
@@ -705,6 +821,7 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
              "measure more reflectors, or rely on the uncertainty budget of the CMM", gum::Severity::note});
     }
     note_outliers(solution, measurement, settled);
+    note_implausible_angles(solution, measurement);
     if (solution.groups) {
         std::ranges::move(group_notes(*solution.groups, measurement), std::back_inserter(solution.notes));
     }

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "engine/datum.h"
 #include "engine/geometry_check.h"
@@ -66,6 +67,15 @@ struct Positions {
 struct StationFit {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     double misfit = std::numeric_limits<double>::infinity();
+    double tilt = 0.0;  ///< of the set-up with which the station was found, [rad]
+
+    /// Misfit with a fixture that stands as fixtures stand: a table that turns the other way looks like one whose axis
+    /// is turned over.
+    [[nodiscard]] double upright_misfit() const {
+        constexpr double k_overturned = 0.5;  // [rad]
+        constexpr double k_hopeless = 1.0;    // [m]
+        return tilt > k_overturned ? k_hopeless : misfit;
+    }
 };
 
 /// All that is needed of a measurement, and the robust descent.
@@ -108,10 +118,12 @@ public:
 
     /// Set-up, stations and their misfits. \throws gum::NoResultError
     void run() {
-        fits_.resize(stations_.size());
-        for (std::size_t j = 0; j < stations_.size(); ++j) {
-            fits_[j] = fit_alone(j);
-        }
+        fit_each();
+        finish();
+    }
+
+    /// All stations together, from each on its own.
+    void finish() {
         std::vector<std::size_t> all(stations_.size());
         for (std::size_t j = 0; j < all.size(); ++j) {
             all[j] = j;
@@ -141,6 +153,19 @@ public:
         }
         return start;
     }
+
+    /// Each station on its own. \return their misfits, [m]
+    std::vector<double> fit_each() {
+        std::vector<double> misfits;
+        fits_.resize(stations_.size());
+        for (std::size_t j = 0; j < stations_.size(); ++j) {
+            fits_[j] = fit_alone(j);
+            misfits.push_back(fits_[j].upright_misfit());
+        }
+        return misfits;
+    }
+    /// One station on its own.
+    [[nodiscard]] StationFit fit_of(std::size_t station) const { return fit_alone(station); }
 
     [[nodiscard]] const std::vector<StationData>& stations() const { return stations_; }
     /// Deviations from the medians of the dead paths, and these medians.
@@ -409,6 +434,7 @@ private:
         fits[j].position = from;
         Eigen::Vector4d own = set_up;
         descend({j}, own, fits, free_set_up, free_set_up ? k_coarse_step : k_fine_step);
+        fits[j].tilt = own.tail<2>().norm();
         return fits[j];
     }
 
@@ -759,6 +785,161 @@ private:
     std::vector<StationFit> fits_;
 };
 
+// ---- wrong labels ---------------------------------------------------------------------------------------------------
+
+// What a rigid body leaves of the distances of a station: error motions and set-up errors. Labels that are wrong leave
+// centimetres; with the right ones next to nothing of that is left.
+constexpr double k_wrong_labels = 1.0 * gum::k_millimetre;
+constexpr double k_share_with_right_labels = 0.05;
+
+/// What the file may say wrongly of the distances of one station.
+struct LabelHypothesis {
+    bool other_sense = false;           ///< the table turned the other way
+    std::size_t first = 0, second = 0;  ///< reflectors that are interchanged; equal: none
+    friend bool operator==(const LabelHypothesis&, const LabelHypothesis&) = default;
+};
+
+/// The measurement with the distances of one station as the hypothesis reads them.
+RotaryTableMeasurement relabelled(RotaryTableMeasurement measurement, std::size_t station,
+                                  const LabelHypothesis& hypothesis) {
+    for (LengthObservation& length : measurement.lengths) {
+        if (length.station != station) {
+            continue;
+        }
+        if (length.reflector == hypothesis.first) {
+            length.reflector = hypothesis.second;
+        } else if (length.reflector == hypothesis.second) {
+            length.reflector = hypothesis.first;
+        }
+    }
+    if (hypothesis.other_sense) {
+        const double home = measurement.angles[measurement.home];
+        for (double& angle : measurement.angles) {
+            angle = 2.0 * home - angle;
+        }
+    }
+    return measurement;
+}
+
+class LabelSearch {
+public:
+    explicit LabelSearch(const RotaryTableMeasurement& measurement) : measurement_(measurement) {
+        hypotheses_.push_back({true, 0, 0});
+        for (std::size_t a = 0; a < measurement.reflectors.size(); ++a) {
+            for (std::size_t b = a + 1; b < measurement.reflectors.size(); ++b) {
+                hypotheses_.push_back({false, a, b});
+            }
+        }
+    }
+
+    /// \param misfits  of the stations, each on its own, [m]
+    void refuse(const std::vector<double>& misfits) const {
+        std::vector<std::optional<LabelHypothesis>> causes(misfits.size());
+        std::vector<gum::Diagnostic> problems;
+        for (std::size_t j = 0; j < misfits.size(); ++j) {
+            if (misfits[j] > k_wrong_labels) {
+                causes[j] = cause_of(j, misfits[j]);
+                if (!causes[j]) {
+                    refuse_two_places(j, misfits[j]);
+                }
+            }
+        }
+        const bool common =
+            causes[0] && std::ranges::all_of(causes, [&](const auto& cause) { return cause == causes[0]; });
+        for (std::size_t j = 0; j < causes.size() && !(common && j > 0); ++j) {
+            if (causes[j]) {
+                problems.push_back(diagnostic(*causes[j], common ? "" : measurement_.stations[j]));
+            }
+        }
+        if (!problems.empty()) {
+            throw gum::NoResultError(std::move(problems));
+        }
+    }
+
+private:
+    /// The hypothesis with the smallest misfit, where that is small enough.
+    [[nodiscard]] std::optional<LabelHypothesis> cause_of(std::size_t station, double misfit) const {
+        const std::vector<bool> active = of_station(station, std::nullopt);
+        std::optional<LabelHypothesis> best;
+        double least = k_share_with_right_labels * misfit;
+        for (const LabelHypothesis& hypothesis : hypotheses_) {
+            const RotaryTableMeasurement other = relabelled(measurement_, station, hypothesis);
+            const double reached = StartSearch(other, active).fit_of(station).upright_misfit();
+            if (reached < least) {
+                least = reached;
+                best = hypothesis;
+            }
+        }
+        return best;
+    }
+
+    /// Passes of a station that each have a place of their own.
+    void refuse_two_places(std::size_t station, double misfit) const {
+        constexpr double k_same_place = 0.02;  // [m]
+        std::optional<std::pair<std::size_t, Eigen::Vector3d>> first;
+        for (std::size_t pass = 0; pass < measurement_.passes.size(); ++pass) {
+            const std::vector<bool> active = of_station(station, pass);
+            if (std::ranges::count(active, true) < 8) {
+                continue;
+            }
+            const StationFit fit = StartSearch(measurement_, active).fit_of(station);
+            if (!(fit.upright_misfit() < k_share_with_right_labels * misfit)) {
+                return;
+            }
+            if (!first) {
+                first = {pass, fit.position};
+            } else if ((fit.position - first->second).norm() > k_same_place) {
+                throw gum::NoResultError(gum::Diagnostic{
+                    "GC-ADJUST-0013", "lengths, station " + measurement_.stations[station],
+                    "its passes were measured from places that are " + size_text(fit.position - first->second) +
+                        " apart: " + measurement_.passes[first->first] + " and " + measurement_.passes[pass],
+                    "a station stands in one place",
+                    "see whether stations are interchanged in one of the passes, or "
+                    "give the place of its own a station name of its own",
+                    gum::Severity::error});
+            }
+        }
+    }
+
+    [[nodiscard]] std::vector<bool> of_station(std::size_t station, std::optional<std::size_t> pass) const {
+        std::vector<bool> active;
+        for (const LengthObservation& length : measurement_.lengths) {
+            active.push_back(length.station == station && (!pass || length.pass == *pass));
+        }
+        return active;
+    }
+
+    [[nodiscard]] static std::string size_text(const Eigen::Vector3d& way) {
+        return std::to_string(std::llround(way.norm() / gum::k_millimetre)) + " mm";
+    }
+
+    /// \param station  "" for all
+    [[nodiscard]] gum::Diagnostic diagnostic(const LabelHypothesis& cause, const std::string& station) const {
+        const std::string where = station.empty() ? "lengths" : "lengths, station " + station;
+        if (cause.other_sense) {
+            return {"GC-ADJUST-0013",
+                    where,
+                    "the distances agree with a table that turns the other way than the angles say",
+                    "angles are positive about the axis of the table frame by the right-hand rule",
+                    "reverse the sign of the angles, or see whether the coordinates of the fixture are those of a "
+                    "right-handed frame",
+                    gum::Severity::error};
+        }
+        const std::string a = measurement_.reflectors[cause.first];
+        const std::string b = measurement_.reflectors[cause.second];
+        return {"GC-ADJUST-0013",
+                where,
+                "the distances agree when the reflectors " + a + " and " + b + " are interchanged",
+                "a reflector has the same name in the lengths and in the coordinates of the fixture",
+                station.empty() ? "interchange the names in the fixture file or in the lengths"
+                                : "interchange the names in the lengths of this station",
+                gum::Severity::error};
+    }
+
+    const RotaryTableMeasurement& measurement_;
+    std::vector<LabelHypothesis> hypotheses_;
+};
+
 }  // namespace
 
 StartValues find_start_values(const RotaryTableMeasurement& measurement, const std::vector<bool>& active) {
@@ -772,7 +953,11 @@ std::vector<std::size_t> find_gross_errors(const RotaryTableMeasurement& measure
     constexpr double k_smallest = 0.02;  // [m]
     constexpr double k_factor = 15.0;    // times the standard deviation that the median absolute deviation stands for
     StartSearch search(measurement, {});
-    search.run();
+    const std::vector<double> misfits = search.fit_each();
+    if (!misfits.empty() && *std::ranges::max_element(misfits) > k_wrong_labels) {
+        LabelSearch(measurement).refuse(misfits);
+    }
+    search.finish();
     std::vector<std::pair<double, std::size_t>> found;  // negative size first, so that the largest comes first
     for (std::size_t j = 0; j < search.stations().size(); ++j) {
         const StationData& data = search.stations()[j];

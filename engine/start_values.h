@@ -40,7 +40,10 @@ struct StartValues {
 /// robust start values (median and median absolute deviation). Largest first; no more than one in twenty and one.
 /// Nothing is found in a dead path with fewer than three lengths: there is no telling which one is wrong.
 ///
-/// \throws gum::NoResultError  as find_start_values()
+/// Distances of a station that no position explains are tried with other labels: the table turning the other way, two
+/// reflectors interchanged, passes from two places. The one that makes the misfit vanish is told, and nothing is found.
+///
+/// \throws gum::NoResultError  as find_start_values(), and GC-ADJUST-0013 for wrong labels
 [[nodiscard]] std::vector<std::size_t> find_gross_errors(const RotaryTableMeasurement& measurement);
 
 }  // namespace gumcert::engine
