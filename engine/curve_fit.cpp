@@ -14,6 +14,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/number_texts.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::engine {
@@ -37,9 +38,7 @@ std::string number_text(double value) {
     if (std::isnan(value)) {
         return "NaN";
     }
-    std::array<char, 32> buffer{};
-    const std::to_chars_result result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-    return {buffer.data(), result.ptr};
+    return shortest_text(value);
 }
 
 /// The decimal number that a double was read from: its shortest digits, with the precision that sums are kept in. Data

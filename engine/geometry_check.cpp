@@ -17,6 +17,7 @@
 
 #include "engine/datum.h"
 #include "engine/joint_adjustment.h"
+#include "engine/number_texts.h"
 #include "gum/quantity/units.h"
 
 namespace gumcert::engine {
@@ -46,11 +47,7 @@ std::string rounded(double value, int digits) {
     const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
     const double unit = std::pow(10.0, exponent - digits + 1);
     const double nearest = std::round(value / unit) * unit;
-    std::array<char, 64> buffer{};
-    const int decimals = std::clamp(digits - 1 - exponent, 0, 12);
-    const auto end =
-        std::to_chars(buffer.data(), buffer.data() + buffer.size(), nearest, std::chars_format::fixed, decimals).ptr;
-    return {buffer.data(), end};
+    return fixed_text(nearest, std::clamp(digits - 1 - exponent, 0, 12));
 }
 
 std::string in_mm(double metres) {
@@ -60,11 +57,7 @@ std::string in_mm(double metres) {
 }
 
 std::string in_degrees(double radians) {
-    std::array<char, 32> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(),
-                                   std::round(radians / gum::k_degree * 10.0) / 10.0, std::chars_format::fixed, 1)
-                         .ptr;
-    return std::string(buffer.data(), end) + "°";
+    return fixed_text(std::round(radians / gum::k_degree * 10.0) / 10.0, 1) + "°";
 }
 
 /// How the reflectors look from a station over all angles at which it saw them, set-up errors and motions left out.
@@ -311,11 +304,8 @@ Involved involved_in(const RotaryTableMeasurement& measurement, const RankReport
 }
 
 std::string angle_in_words(const RotaryTableMeasurement& measurement, std::size_t angle) {
-    std::array<char, 32> buffer{};
-    const double degrees = angle < measurement.angles_deg.size() ? measurement.angles_deg[angle]
-                                                                 : measurement.angles[angle] / gum::k_degree;
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), degrees).ptr;
-    return std::string(buffer.data(), end) + "°";
+    return degrees_text(angle < measurement.angles_deg.size() ? measurement.angles_deg[angle]
+                                                              : measurement.angles[angle] / gum::k_degree);
 }
 
 struct AngleCoverage {

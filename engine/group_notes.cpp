@@ -1,10 +1,9 @@
 #include "engine/group_notes.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <string>
 
+#include "engine/number_texts.h"
 #include "gum/quantity/units.h"
 
 namespace gumcert::engine {
@@ -13,20 +12,13 @@ namespace {
 
 constexpr std::size_t k_most_notes = 5;
 
-std::string digits(double value, int count) {
-    std::array<char, 32> buffer{};
-    const auto end =
-        std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, count).ptr;
-    return {buffer.data(), end};
-}
-
 std::string size_of(double length) {
     const double size = std::abs(length) / gum::k_micrometre;
-    return size < 999.5 ? digits(size, 3) + " µm" : digits(size / 1000.0, 3) + " mm";
+    return size < 999.5 ? significant_text(size, 3) + " µm" : significant_text(size / 1000.0, 3) + " mm";
 }
 
 std::string chi_square_of(double value) {
-    return value < 1000.0 ? digits(value, 3) : digits(std::round(value), 12);
+    return value < 1000.0 ? significant_text(value, 3) : significant_text(std::round(value), 12);
 }
 
 /// "station P1, pass P1-1+, 105°"
@@ -39,7 +31,8 @@ std::string place_of(const GroupTest& test, const RotaryTableMeasurement& measur
     }
     std::string place = "station " + measurement.stations[test.station];
     if (test.pass != GroupTest::k_none && test.kind != GroupKind::drift) {
-        place += ", pass " + measurement.passes[test.pass] + ", " + digits(measurement.angles_deg[test.angle], 8) + "°";
+        place += ", pass " + measurement.passes[test.pass] + ", " +
+                 significant_text(measurement.angles_deg[test.angle], 8) + "°";
     }
     return place;
 }
@@ -62,12 +55,13 @@ std::string what_of(const GroupTest& test) {
         case GroupKind::angle_index:
             return "the distances of this station agree with the others when its angles are " +
                    (std::abs(test.estimate) < 1.5 ? std::string("one step")
-                                                  : digits(std::abs(test.estimate), 6) + " steps") +
+                                                  : significant_text(std::abs(test.estimate), 6) + " steps") +
                    (test.estimate > 0.0 ? " higher" : " lower");
         case GroupKind::succession:
-            return "successive visits deviate alike: their autocorrelation coefficient is " + digits(test.estimate, 2);
+            return "successive visits deviate alike: their autocorrelation coefficient is " +
+                   significant_text(test.estimate, 2);
         case GroupKind::station:
-            return "the visits of this station scatter " + digits(test.estimate, 2) +
+            return "the visits of this station scatter " + significant_text(test.estimate, 2) +
                    " times as much as those of the "
                    "others";
         case GroupKind::reflector:
@@ -84,7 +78,7 @@ std::string exclusion_of(const GroupTest& test, const RotaryTableMeasurement& me
         case GroupKind::visit_pose:
             selectors = "\"station\": \"" + measurement.stations[test.station] + "\", \"pass\": \"" +
                         measurement.passes[test.pass] +
-                        "\", \"angle_deg\": " + digits(measurement.angles_deg[test.angle], 12);
+                        "\", \"angle_deg\": " + significant_text(measurement.angles_deg[test.angle], 12);
             break;
         case GroupKind::angle_index:
         case GroupKind::station:

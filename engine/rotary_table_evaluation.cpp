@@ -3,8 +3,6 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <iterator>
@@ -17,6 +15,7 @@
 #include "engine/geometry_check.h"
 #include "engine/group_notes.h"
 #include "engine/median.h"
+#include "engine/number_texts.h"
 #include "engine/station_covariance.h"
 #include "gum/quantity/units.h"
 
@@ -27,17 +26,7 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 std::string micrometres(double length) {
-    std::array<char, 32> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), length / gum::k_micrometre,
-                                   std::chars_format::general, 3)
-                         .ptr;
-    return std::string(buffer.data(), end) + " µm";
-}
-
-std::string degrees(double angle) {
-    std::array<char, 32> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), angle).ptr;
-    return std::string(buffer.data(), end) + "°";
+    return significant_text(length / gum::k_micrometre, 3) + " µm";
 }
 
 /// Whether distances that were left out are many of one visit or of one reflector: then it may be the group that is
@@ -235,7 +224,8 @@ void refuse_interrupted_beams(const JointAdjustment& adjustment) {
         const Visit& visit = adjustment.visits()[sequence[step.first]];
         problems.push_back({"GC-ADJUST-0014",
                             "station " + measurement.stations[visit.station] + ", pass " +
-                                measurement.passes[visit.pass] + ", " + degrees(measurement.angles_deg[visit.angle]),
+                                measurement.passes[visit.pass] + ", " +
+                                degrees_text(measurement.angles_deg[visit.angle]),
                             "from this visit on all distances of the station are off by about " +
                                 micrometres(std::abs(step.size)) + " alike",
                             "distances of one dead path have one constant",
@@ -523,8 +513,8 @@ void note_implausible_angles(RotaryTableSolution& solution, const RotaryTableMea
         const double off = motions[i] - middle;
         if (std::abs(off) > limit) {
             solution.notes.push_back(
-                {"GC-ANGLE-0001", degrees(measurement.angles_deg[i]),
-                 "the table stands " + degrees(std::round(off / gum::k_degree * 1e4) / 1e4) +
+                {"GC-ANGLE-0001", degrees_text(measurement.angles_deg[i]),
+                 "the table stands " + degrees_text(std::round(off / gum::k_degree * 1e4) / 1e4) +
                      " from the angle that the file states, far more than at the other angles",
                  "an angle that is stated wrongly at all stations is taken for an error motion of the table",
                  "see whether the angle is mistyped, and correct the lengths file", gum::Severity::warning});

@@ -68,7 +68,7 @@ constexpr double k_most_sensitivity_coefficients = 2e8;
 [[nodiscard]] double sensitivity_coefficient_count(const RotaryTableMeasurement& measurement);
 
 /// Refuses, before anything is computed, a measurement whose sensitivity coefficients cannot be held.
-/// 	hrows gum::NoResultError  GC-ADJUST-0008 with the number of angles that can be evaluated
+/// \throws gum::NoResultError  GC-ADJUST-0008 with the number of angles that can be evaluated
 void require_evaluable_size(const RotaryTableMeasurement& measurement);
 
 /// The adjustment of a rotary table as a measurement model for the GUM layer.

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -18,6 +17,7 @@
 #include "engine/geometry_check.h"
 #include "engine/joint_adjustment.h"
 #include "engine/median.h"
+#include "engine/number_texts.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/units.h"
 
@@ -746,10 +746,7 @@ private:
         const double unit = std::pow(10.0, -decimals);
         value = std::round(value / gum::k_millimetre / unit) * unit;
         value = value == 0.0 ? 0.0 : value;  // no minus sign on a zero
-        std::array<char, 64> buffer{};
-        const auto end =
-            std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, decimals).ptr;
-        return {buffer.data(), end};
+        return fixed_text(value, decimals);
     }
 
     [[nodiscard]] static std::string in_millimetres(const Eigen::Vector3d& position) {

@@ -7,6 +7,7 @@
 
 #include "engine/job/comparison_keys.h"
 #include "engine/job/comparison_participants.h"
+#include "engine/number_texts.h"
 
 namespace gumcert::engine {
 
@@ -198,7 +199,7 @@ private:
                 k_comparison_correlations, where(child_pointer("/groups", group)),
                 "r = " + shortest(r) + " cannot hold between all " + std::to_string(members.size()) +
                     " participants of the group " + in_quotes(group) + ": the smallest eigenvalue of their matrix is " +
-                    eigenvalue_text(smallest),
+                    significant_text(smallest, 3),
                 "n results that are all correlated alike have r of at least -1/(n - 1)", "correct r");
         }
     }
@@ -245,7 +246,7 @@ private:
         reading_.problems.refuse(k_comparison_correlations, where(last),
                                  "the correlations of " + list_of(culprits) +
                                      " cannot hold together: the smallest eigenvalue of their matrix is " +
-                                     eigenvalue_text(negative->eigenvalue),
+                                     significant_text(negative->eigenvalue, 3),
                                  "a correlation matrix is positive semi-definite",
                                  "correct the correlations of these participants");
     }
@@ -325,7 +326,8 @@ std::optional<Eigen::MatrixXd> read_correlation_matrix(const ComparisonReading& 
         }
         return refuse(k_comparison_correlations,
                       "the correlations of " + list_of(culprits) +
-                          " cannot hold together: the smallest eigenvalue is " + eigenvalue_text(negative->eigenvalue),
+                          " cannot hold together: the smallest eigenvalue is " +
+                          significant_text(negative->eigenvalue, 3),
                       "a correlation matrix is positive semi-definite");
     }
     return matrix;

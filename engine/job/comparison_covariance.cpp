@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/number_texts.h"
+
 namespace gumcert::engine {
 
 namespace {
@@ -79,7 +81,7 @@ private:
         problems_.refuse(k_comparison_covariance, where_,
                          "the covariances of the points " + list_of(culprits) +
                              " cannot hold together: the smallest eigenvalue of their correlation matrix is " +
-                             eigenvalue_text(negative->eigenvalue),
+                             significant_text(negative->eigenvalue, 3),
                          "a covariance matrix is positive semi-definite", "correct the matrix");
         return false;
     }

@@ -4,8 +4,6 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -466,12 +464,6 @@ std::string list_of(const std::vector<std::string>& names, std::size_t most) {
         text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + in_quotes(names[i]);
     }
     return names.size() > shown ? text + " and " + std::to_string(names.size() - shown) + " more" : text;
-}
-
-std::string eigenvalue_text(double eigenvalue) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), eigenvalue, std::chars_format::general, 3);
-    return {text.data(), end.ptr};
 }
 
 std::optional<NegativeEigenvalue> negative_eigenvalue(const Eigen::MatrixXd& correlation) {

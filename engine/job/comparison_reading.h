@@ -169,8 +169,6 @@ struct NegativeEigenvalue {
     double eigenvalue = 0.0;            ///< the smallest one
     std::vector<std::size_t> culprits;  ///< rows with the largest parts in its eigenvector
 };
-/// An eigenvalue for a message: three digits.
-[[nodiscard]] std::string eigenvalue_text(double eigenvalue);
 [[nodiscard]] std::optional<NegativeEigenvalue> negative_eigenvalue(const Eigen::MatrixXd& correlation);
 
 /// An array of texts. \return those that could be read
