@@ -11,14 +11,8 @@
 
 #include "engine/datum.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/register_widths.h"
 
-// The same instructions for wider registers where the machine has them. FMA stays out: it would round differently.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define GUMCERT_WIDE_CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define GUMCERT_WIDE_CLONES
-#endif
 // Inside a function with clones everything must be inlined, or it would be compiled for the narrow registers alone.
 #define GUMCERT_INLINE __attribute__((always_inline)) inline
 

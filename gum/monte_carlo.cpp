@@ -282,9 +282,9 @@ public:
           draws_(model.inputs(), options.seed, options.streams, &workers_),
           m_(static_cast<Eigen::Index>(model.outputs().size())),
           scratch_(workers_.size()) {
-        // Wide models are evaluated in parts of a block, so that the drawn values stay near the processor.
-        const std::uint64_t most = (std::uint64_t{1} << 19) / static_cast<std::uint64_t>(draws_.size() + m_ + 1);
-        rows_ = std::clamp<std::uint64_t>(most / 8 * 8, 64, k_block);
+        // Wide models are evaluated in parts of a block, so that the drawn values stay near the processor: a megabyte.
+        const std::uint64_t most = (std::uint64_t{1} << 17) / static_cast<std::uint64_t>(draws_.size() + m_ + 1);
+        rows_ = std::clamp<std::uint64_t>(most / 32 * 32, 32, k_block);
     }
 
     [[nodiscard]] Eigen::Index outputs() const { return m_; }

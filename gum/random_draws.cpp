@@ -20,15 +20,8 @@
 #include "gum/distribution_quantile.h"
 #include "gum/propagation.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/register_widths.h"
 #include "gum/worker_threads.h"
-
-// The same instructions for wider registers where the machine has them. FMA stays out: it would round differently.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define GUMCERT_WIDE_CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define GUMCERT_WIDE_CLONES
-#endif
 
 namespace gumcert::gum {
 namespace {

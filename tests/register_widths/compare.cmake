@@ -1,0 +1,18 @@
+# Runs the same trials in registers of each width: every bit must be the same.
+#   cmake -DRELEASED=<program> -DOTHERS=<program>[,<program>…] -P compare.cmake
+string(REPLACE "," ";" others "${OTHERS}")
+execute_process(COMMAND ${RELEASED} OUTPUT_VARIABLE expected COMMAND_ERROR_IS_FATAL ANY)
+string(LENGTH "${expected}" length)
+if(length LESS 10000)
+    message(FATAL_ERROR "only ${length} characters of results")
+endif()
+foreach(program IN LISTS others)
+    execute_process(COMMAND ${program} OUTPUT_VARIABLE found RESULT_VARIABLE code)
+    if(code EQUAL 77)
+        message(STATUS "${program}: skipped, ${found}")
+    elseif(NOT code EQUAL 0)
+        message(FATAL_ERROR "${program}: ended with ${code}")
+    elseif(NOT found STREQUAL expected)
+        message(FATAL_ERROR "${program}: other bits than ${RELEASED}")
+    endif()
+endforeach()
