@@ -16,9 +16,8 @@ namespace {
 using Eigen::Index;
 
 /// The rows of a result that are compared, in the unit of the comparison.
-/// \param covariance  of all its outputs, by row and column
-template <typename Covariance>
-MethodSide side_of_outputs(const gum::UncertaintyBudget& propagation, const Covariance& covariance,
+/// \param covariance  of these rows, in SI
+MethodSide side_of_outputs(const gum::UncertaintyBudget& propagation, const Eigen::MatrixXd& covariance,
                            const std::vector<Index>& rows, const gum::Unit& unit, double coverage_probability) {
     const double scale = unit.difference_from_si(1.0);
     MethodSide side;
@@ -29,14 +28,7 @@ MethodSide side_of_outputs(const gum::UncertaintyBudget& propagation, const Cova
         side.value.push_back(scale * propagation.value(row));
         side.uncertainty.push_back({.u = u, .U = k * u, .k = k, .degrees_of_freedom = nu});
     }
-    const auto n = static_cast<Index>(rows.size());
-    side.covariance.resize(n, n);
-    for (Index i = 0; i < n; ++i) {
-        for (Index j = 0; j < n; ++j) {
-            side.covariance(i, j) =
-                scale * scale * covariance(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)]);
-        }
-    }
+    side.covariance = scale * scale * covariance;
     return side;
 }
 
@@ -54,7 +46,7 @@ MethodSide side_of_job(const engine::ComparisonSide& side, const gum::Unit& unit
             rows.push_back(static_cast<Index>(angle + (side.of_artefact ? job.measurement.steps : 0)));
         }
         const gum::Propagation propagation = evaluate_circle_closure(job, 1).propagation;
-        out = side_of_outputs(propagation, propagation.covariance, rows, unit, coverage_probability);
+        out = side_of_outputs(propagation, propagation.covariance(rows, rows), rows, unit, coverage_probability);
     } else {
         engine::RotaryTableJob job = *side.rotary_table;
         job.monte_carlo.reset();
@@ -64,7 +56,7 @@ MethodSide side_of_job(const engine::ComparisonSide& side, const gum::Unit& unit
             rows.push_back(static_cast<Index>(k_motions * angle + k_first_rotation + axial));
         }
         const QuantityUncertainty reported = evaluate_rotary_table(job, 1).reported;
-        out = side_of_outputs(reported.budget, reported.covariance, rows, unit, coverage_probability);
+        out = side_of_outputs(reported.budget, reported.covariance.of(rows), rows, unit, coverage_probability);
     }
     out.remarks.push_back("Values, uncertainties and covariance of " + side.name + " come from the job " +
                           side.job_file + ", evaluated by the law of propagation.");

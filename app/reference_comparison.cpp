@@ -159,12 +159,7 @@ MethodComparison method_comparison(const RotaryTableJob& job, const QuantityUnce
                                      .reference_k = of_reference.k,
                                      .reference_nu = finite_or_none(of_reference.degrees_of_freedom)});
     }
-    const auto m = static_cast<Eigen::Index>(rows.size());
-    comparison.covariance.resize(m, m);
-    for (Eigen::Index i = 0; i < m; ++i) {
-        comparison.covariance.row(i) = displacement.covariance.row(rows[static_cast<std::size_t>(i)])(rows) /
-                                       (gum::k_micrometre * gum::k_micrometre);
-    }
+    comparison.covariance = displacement.covariance.of(rows) / (gum::k_micrometre * gum::k_micrometre);
     comparison.correlation_unknown = job.reference->correlation == ReferenceCorrelation::unknown;
     comparison.reference_audited_factor = job.reference->audited_factor;
     for (std::size_t d = 0; d < k_directions.size(); ++d) {

@@ -18,6 +18,15 @@ double AnglewiseCovariance::operator()(Eigen::Index row, Eigen::Index column) co
     return value;
 }
 
+Eigen::MatrixXd AnglewiseCovariance::of(const std::vector<Eigen::Index>& quantities) const {
+    const auto n = static_cast<Eigen::Index>(quantities.size());
+    Eigen::MatrixXd result(n, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        result.row(i) = row(quantities[static_cast<std::size_t>(i)])(quantities);
+    }
+    return result;
+}
+
 Eigen::VectorXd AnglewiseCovariance::diagonal() const {
     Eigen::VectorXd result = 2.0 * half_.cwiseProduct(shared_).rowwise().sum();
     for (Eigen::Index i = 0; i < own_.rows(); ++i) {

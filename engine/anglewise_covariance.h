@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
 #include "engine/adjustment.h"
 
 namespace gumcert::engine {
@@ -26,6 +28,8 @@ public:
     [[nodiscard]] Eigen::Index rows() const { return shared_.rows(); }
     /// Of two quantities.
     [[nodiscard]] double operator()(Eigen::Index row, Eigen::Index column) const;
+    /// Of some quantities with each other, n×n.
+    [[nodiscard]] Eigen::MatrixXd of(const std::vector<Eigen::Index>& quantities) const;
     /// Variances of all quantities.
     [[nodiscard]] Eigen::VectorXd diagonal() const;
     /// Covariance of the quantities of one angle, q×q.

@@ -703,12 +703,14 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
     const AnglewiseMap map = reported_map(adjustment, normal, solution.datum);
     solution.covariance = covariance_of(map, adjustment, normal, covariance);
 
+    solution.station_covariance = covariance_of_stations(adjustment, normal, covariance, solution.datum);
     for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
         const auto block = adjustment.station_block(j);
         const Eigen::VectorXd& value = adjustment.adjustment().parameters(block);
+        const auto at = 3 * static_cast<Eigen::Index>(j);
         StationEstimate station;
         station.position = solution.datum.world * value.head<3>();
-        station.covariance = station_covariance(adjustment, normal, covariance, solution.datum, j);
+        station.covariance = solution.station_covariance.block<3, 3>(at, at);
         station.u = station.covariance.diagonal().cwiseSqrt();
         station.scale_deviation = value[3];
         if (const Eigen::Index column = normal.column(block, 3); column >= 0) {

@@ -75,6 +75,7 @@ struct RotaryTableSolution {
     Eigen::VectorXd values;          ///< of the reported quantities
     AnglewiseCovariance covariance;  ///< of the reported quantities, from the normal equations
     std::vector<StationEstimate> stations;
+    Eigen::MatrixXd station_covariance;  ///< of all positions, x1 y1 z1 x2 …, [m²]; empty with the sequential method
     Eigen::VectorXd dead_paths, u_dead_paths;  ///< [m]
     Eigen::MatrixX3d fixture, u_fixture;       ///< adjusted coordinates at the reference temperature, [m]
     std::vector<Eigen::Matrix3d> fixture_position_covariance;  ///< of each reflector's coordinates, [m²]

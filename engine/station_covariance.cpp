@@ -4,9 +4,11 @@
 
 namespace gumcert::engine {
 
-Eigen::Matrix3d station_covariance(const JointAdjustment& adjustment, const NormalEquations& normal,
-                                   const BorderedCovariance& covariance, const DatumSolution& datum,
-                                   std::size_t station) {
+namespace {
+
+/// ∂(position of a station in the frame of the datum)/∂(parameters of the solver), 3×p.
+Eigen::MatrixXd position_by_parameter(const JointAdjustment& adjustment, const NormalEquations& normal,
+                                      const DatumSolution& datum, std::size_t station) {
     const auto block = adjustment.station_block(station);
     const Eigen::Vector3d position = adjustment.adjustment().parameters(block).head<3>();
     const Eigen::MatrixXd by_pose = point_displacement(position) * datum.world_map;
@@ -22,6 +24,26 @@ Eigen::Matrix3d station_covariance(const JointAdjustment& adjustment, const Norm
             }
         }
     }
+    return by_parameter;
+}
+
+}  // namespace
+
+Eigen::MatrixXd covariance_of_stations(const JointAdjustment& adjustment, const NormalEquations& normal,
+                                       const BorderedCovariance& covariance, const DatumSolution& datum) {
+    const std::size_t stations = adjustment.measurement().stations.size();
+    Eigen::MatrixXd by_parameter(3 * static_cast<Eigen::Index>(stations), normal.parameter_count());
+    for (std::size_t j = 0; j < stations; ++j) {
+        by_parameter.middleRows<3>(3 * static_cast<Eigen::Index>(j)) =
+            position_by_parameter(adjustment, normal, datum, j);
+    }
+    return covariance.times_left(by_parameter) * by_parameter.transpose();
+}
+
+Eigen::Matrix3d station_covariance(const JointAdjustment& adjustment, const NormalEquations& normal,
+                                   const BorderedCovariance& covariance, const DatumSolution& datum,
+                                   std::size_t station) {
+    const Eigen::MatrixXd by_parameter = position_by_parameter(adjustment, normal, datum, station);
     return covariance.times_left(by_parameter) * by_parameter.transpose();
 }
 

@@ -10,8 +10,11 @@
 
 namespace gumcert::engine {
 
-/// Covariance of the position of a station in the frame of the datum, [m²]: the position of the solver, moved by the
-/// motion of the world that the datum makes of the poses.
+/// Covariance of the positions of all stations in the frame of the datum, 3n×3n in the order x1 y1 z1 x2 …, [m²]: the
+/// positions of the solver, moved by the motion of the world that the datum makes of the poses.
+[[nodiscard]] Eigen::MatrixXd covariance_of_stations(const JointAdjustment& adjustment, const NormalEquations& normal,
+                                                     const BorderedCovariance& covariance, const DatumSolution& datum);
+/// Of one station.
 [[nodiscard]] Eigen::Matrix3d station_covariance(const JointAdjustment& adjustment, const NormalEquations& normal,
                                                  const BorderedCovariance& covariance, const DatumSolution& datum,
                                                  std::size_t station);

@@ -21,6 +21,11 @@ TEST(StationCovariance, IsThatOfThePositionMovedByTheWorldOfTheDatum) {
         const JointAdjustment& solved = std::dynamic_pointer_cast<const RotaryTableModel>(solution.model)->solved();
         const NormalEquations normal = solved.adjustment().linearise();
         const Eigen::MatrixXd dense = normal.covariance();
+        const auto count = static_cast<Eigen::Index>(campaign.measurement.stations.size());
+        const Eigen::MatrixXd all =
+            covariance_of_stations(solved, normal, normal.bordered_covariance(), solution.datum);
+        ASSERT_EQ(all.rows(), 3 * count);
+        Eigen::MatrixXd all_rows(3 * count, normal.parameter_count());
         for (std::size_t j = 0; j < campaign.measurement.stations.size(); ++j) {
             const auto block = solved.station_block(j);
             const Eigen::Vector3d position = solved.adjustment().parameters(block).head<3>();
@@ -36,11 +41,14 @@ TEST(StationCovariance, IsThatOfThePositionMovedByTheWorldOfTheDatum) {
             for (int c = 0; c < 3; ++c) {
                 rows(c, normal.column(block, c)) += 1.0;
             }
+            all_rows.middleRows<3>(3 * static_cast<Eigen::Index>(j)) = rows;
             const Eigen::Matrix3d expected = rows * dense * rows.transpose();
             const Eigen::Matrix3d found =
                 station_covariance(solved, normal, normal.bordered_covariance(), solution.datum, j);
             EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-9 * expected.cwiseAbs().maxCoeff()) << j;
         }
+        const Eigen::MatrixXd expected = all_rows * dense * all_rows.transpose();
+        EXPECT_LT((all - expected).cwiseAbs().maxCoeff(), 1e-9 * expected.cwiseAbs().maxCoeff());
     }
 }
 
