@@ -220,7 +220,7 @@ ScopeAnswer scope_of(const certificate::CertificateData& data, const ScopePlace&
                      const CapabilityInputs& inputs) {
     ScopeAnswer best;
     for (const ScopeEntry& entry : data.accreditation->scope) {
-        if (!certificate::is_named(entry.results, place.column.result)) {
+        if (!certificate::is_covered(entry.results, place.column.result)) {
             continue;
         }
         ScopeAnswer answer = answer_of(data, entry, place, inputs);

@@ -107,6 +107,9 @@ void print_rotary(reports::RotaryTable& rotary, const Tables& tables) {
     for (reports::RangeRow& range : rotary.ranges) {
         take(range.printed, tables.find("ranges", "range_" + range.name));
     }
+    for (reports::TableParameter& parameter : rotary.axis_line) {
+        take(parameter.printed, tables.find("axis_line", parameter.name));
+    }
     for (reports::TableParameter& parameter : rotary.location_errors) {
         take(parameter.printed, tables.find("location_errors", parameter.name));
     }

@@ -321,8 +321,10 @@ std::vector<Finding> validation_findings(const EvaluationRecord& record) {
     for (const reports::RangeRow& range : rotary.ranges) {
         note_reported(findings, "range_" + range.name, range);
     }
-    for (const reports::TableParameter& parameter : rotary.location_errors) {
-        note_reported(findings, parameter.name, parameter);
+    for (const auto* const parameters : {&rotary.axis_line, &rotary.location_errors}) {
+        for (const reports::TableParameter& parameter : *parameters) {
+            note_reported(findings, parameter.name, parameter);
+        }
     }
     if (rotary.iso230_2) {
         for (const reports::TableParameter& parameter : rotary.iso230_2->parameters) {

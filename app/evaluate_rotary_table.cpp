@@ -146,6 +146,10 @@ RotaryTableResult evaluate_rotary_table(RotaryTableJob& job, unsigned threads, c
             std::make_shared<engine::TableParameterModel>(solution.model, measurement, solution.datum);
     }
     result.parameters = gum::propagate(*result.parameter_model, probability);
+    if (job.machine_frame) {
+        result.location_errors =
+            evaluate_location_errors(job, solution, result.reported.budget, result.reported.covariance);
+    }
     if (job.reference) {
         const engine::ContactPointModel contact(solution.model, measurement, solution.datum,
                                                 job.reference->contact_point);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/fixture_budget.h"
+#include "app/location_errors.h"
 #include "engine/anglewise_covariance.h"
 #include "engine/job/rotary_table_job.h"
 #include "engine/rotary_table_evaluation.h"
@@ -41,7 +42,8 @@ struct RotaryTableResult {
     engine::RotaryTableSolution solution;
     QuantityUncertainty reported;  ///< of the reported quantities
     std::shared_ptr<const engine::TableParameterModel> parameter_model;
-    gum::UncertaintyBudget parameters;                 ///< ranges, location errors, positioning (ISO 230-2)
+    gum::UncertaintyBudget parameters;                 ///< ranges, axis average line, positioning (ISO 230-2)
+    std::optional<LocationErrors> location_errors;     ///< where the job knows the frame of the machine
     std::optional<QuantityUncertainty> contact_point;  ///< of the comparison: x, y, z at every angle
     std::optional<RotaryTableMonteCarlo> monte_carlo;
     FixtureUncertainty fixture;      ///< where the covariance of the fixture comes from

@@ -68,10 +68,10 @@ void fill_monte_carlo(reports::EvaluationRecord& record, const engine::RotaryTab
         rotary.ranges[c].monte_carlo = of(first + layout.ranges + static_cast<Eigen::Index>(c), c < 3 ? k_um : k_arcsec,
                                           "range of " + rotary.ranges[c].name);
     }
-    for (std::size_t i = 0; i < rotary.location_errors.size(); ++i) {
-        reports::TableParameter& parameter = rotary.location_errors[i];
-        parameter.monte_carlo = of(first + layout.location_errors + static_cast<Eigen::Index>(i),
-                                   parameter_unit(parameter), parameter.name);
+    for (std::size_t i = 0; i < rotary.axis_line.size(); ++i) {
+        reports::TableParameter& parameter = rotary.axis_line[i];
+        parameter.monte_carlo =
+            of(first + layout.axis_line + static_cast<Eigen::Index>(i), parameter_unit(parameter), parameter.name);
     }
     const std::vector<std::string>& names = result.parameter_model->parameters()->short_names();
     for (std::size_t i = 0; rotary.iso230_2 && i < rotary.iso230_2->parameters.size(); ++i) {

@@ -110,8 +110,10 @@ void report_rotary_results(reports::EvaluationRecord& record, CoverageChoice cho
     for (std::size_t i = 0; i < rotary.ranges.size(); ++i) {
         reporter.report(rotary.ranges[i], rotary.error_units[i], rotary.ranges[i].k);
     }
-    for (reports::TableParameter& parameter : rotary.location_errors) {
-        reporter.report(parameter, parameter.unit, parameter.k);
+    for (auto* const parameters : {&rotary.axis_line, &rotary.location_errors}) {
+        for (reports::TableParameter& parameter : *parameters) {
+            reporter.report(parameter, parameter.unit, parameter.k);
+        }
     }
     if (rotary.iso230_2) {
         for (reports::TableParameter& parameter : rotary.iso230_2->parameters) {

@@ -331,6 +331,9 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const R
                                   c < 3 ? k_um : k_arcsec))});
     }
     fill_table_parameters(rotary, *result.parameter_model, measurement, result.parameters);
+    if (result.location_errors) {
+        fill_location_errors(rotary, job, *result.location_errors);
+    }
     if (!covariance_file.empty()) {
         rotary.covariance_file = covariance_file;
     }
@@ -344,6 +347,10 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const R
     fill_exclusions(rotary, job);
     record.rotary = std::move(rotary);
     record.diagnostics.insert(record.diagnostics.end(), result.fixture.notes.begin(), result.fixture.notes.end());
+    if (result.location_errors) {
+        const std::vector<gum::Diagnostic>& notes = result.location_errors->notes;
+        record.diagnostics.insert(record.diagnostics.end(), notes.begin(), notes.end());
+    }
     note_outliers(record, measurement.outliers);
     const std::vector<gum::Diagnostic> remarks = rotary_remarks(record);
     record.diagnostics.insert(record.diagnostics.end(), remarks.begin(), remarks.end());

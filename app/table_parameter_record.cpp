@@ -21,18 +21,8 @@ constexpr std::size_t k_runs_of_the_standard = 5;
 reports::TableParameter parameter_of(const engine::TableParameters& parameters,
                                      const gum::UncertaintyBudget& propagation, Eigen::Index index) {
     const auto at = static_cast<std::size_t>(index);
-    const DocumentUnit& unit = unit_of(parameters.outputs()[at]);
-    const Reported numbers = reported(propagation, index, unit);
-    return {.name = parameters.short_names()[at],
-            .description = parameters.descriptions()[at],
-            .unit = unit.record,
-            .value = numbers.value,
-            .u = numbers.u,
-            .U = numbers.U,
-            .k = numbers.k,
-            .nu_eff = numbers.nu_eff,
-            .printed = numbers.text,
-            .monte_carlo = {}};
+    return table_parameter(propagation, index, unit_of(parameters.outputs()[at]), parameters.short_names()[at],
+                           parameters.descriptions()[at]);
 }
 
 /// Smallest and largest number of runs of one sense over the targets that have any.
@@ -126,6 +116,22 @@ reports::PositioningAccuracy positioning_of(const engine::TableParameterModel& m
 
 }  // namespace
 
+reports::TableParameter table_parameter(const gum::UncertaintyBudget& propagation, Eigen::Index index,
+                                        const DocumentUnit& unit, const std::string& name,
+                                        const std::string& description) {
+    const Reported numbers = reported(propagation, index, unit);
+    return {.name = name,
+            .description = description,
+            .unit = unit.record,
+            .value = numbers.value,
+            .u = numbers.u,
+            .U = numbers.U,
+            .k = numbers.k,
+            .nu_eff = numbers.nu_eff,
+            .printed = numbers.text,
+            .monte_carlo = {}};
+}
+
 bool rests_on_scatter(const std::string& short_name) {
     return short_name.starts_with('R') || short_name.starts_with('A');
 }
@@ -178,7 +184,7 @@ void fill_table_parameters(reports::RotaryTable& rotary, const engine::TablePara
         rotary.ranges.push_back(std::move(row));
     }
     for (Eigen::Index i = 0; i < 4; ++i) {
-        rotary.location_errors.push_back(parameter_of(from, parameters, layout.location_errors + i));
+        rotary.axis_line.push_back(parameter_of(from, parameters, layout.axis_line + i));
     }
     if (layout.positioning_count > 0) {
         rotary.iso230_2 = positioning_of(model, measurement, parameters);

@@ -65,7 +65,7 @@ struct CertifiedColumn {
 };
 
 struct CertifiedTable {
-    /// "results" of a budget; "set_up", "error_motions", "reversal", "ranges", "location_errors", "positioning" of a
+    /// "results" of a budget; "set_up", "error_motions", "reversal", "ranges", "axis_line", "positioning" of a
     /// rotary table: the wording has a name for each
     std::string id;
     struct Argument {

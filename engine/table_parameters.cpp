@@ -94,7 +94,7 @@ Tilt tilt_about(RotaryAxis axis, int cross) {
     return cross == (k + 1) % 3 ? Tilt{(k + 2) % 3, -1.0} : Tilt{(k + 1) % 3, 1.0};
 }
 
-Eigen::Matrix4d location_error_derivatives(RotaryAxis axis, const Eigen::Vector4d& set_up) {
+Eigen::Matrix4d axis_line_derivatives(RotaryAxis axis, const Eigen::Vector4d& set_up) {
     const AxisInFixture line = axis_in_fixture(axis, set_up);
     const int k = axial_coordinate(axis);
     const auto cross = cross_coordinates(axis);
@@ -166,7 +166,7 @@ Eigen::VectorXd visit_positions(const JointAdjustment& solved, const Eigen::Ref<
     return positions;
 }
 
-Eigen::Vector4d location_errors(RotaryAxis axis, const Eigen::Vector4d& set_up) {
+Eigen::Vector4d axis_line(RotaryAxis axis, const Eigen::Vector4d& set_up) {
     const AxisInFixture line = axis_in_fixture(axis, set_up);
     const auto cross = cross_coordinates(axis);
     Eigen::Vector4d result;
@@ -179,11 +179,10 @@ Eigen::Vector4d location_errors(RotaryAxis axis, const Eigen::Vector4d& set_up) 
     return result;
 }
 
-std::array<std::string, 4> location_error_names(RotaryAxis axis) {
+std::array<std::string, 4> axis_line_names(RotaryAxis axis) {
     const auto cross = cross_coordinates(axis);
-    const std::string letter(1, "ABC"[axial_coordinate(axis)]);
-    return {std::string("E") + "XYZ"[cross[0]] + "0" + letter, std::string("E") + "XYZ"[cross[1]] + "0" + letter,
-            std::string("E") + "ABC"[cross[0]] + "0" + letter, std::string("E") + "ABC"[cross[1]] + "0" + letter};
+    return {std::string("axis_") + "xyz"[cross[0]], std::string("axis_") + "xyz"[cross[1]],
+            std::string("axis_") + "abc"[cross[0]], std::string("axis_") + "abc"[cross[1]]};
 }
 
 TableParameters::TableParameters(const RotaryTableMeasurement& measurement, const DatumSolution& datum,
@@ -215,11 +214,11 @@ TableParameters::TableParameters(const RotaryTableMeasurement& measurement, cons
     for (std::size_t k = 0; k < 6; ++k) {
         add("range of " + names[k], names[k], "range of " + names[k] + " over the angles", k >= 3);
     }
-    const auto locations = location_error_names(axis_);
+    const auto lines = axis_line_names(axis_);
     const auto cross = cross_coordinates(axis_);
     for (std::size_t k = 0; k < 4; ++k) {
         const std::string coordinate(1, "xyz"[cross[k % 2]]);
-        add(locations[k], locations[k],
+        add(lines[k], lines[k],
             k < 2 ? "position of the axis average line along " + coordinate + " in the frame of the fixture"
                   : "tilt of the axis average line about " + coordinate + " in the frame of the fixture",
             k >= 2);
@@ -263,7 +262,7 @@ void TableParameters::values(const Eigen::Ref<const Eigen::VectorXd>& reported,
         }
         result[layout_.ranges + k] = highest - lowest;
     }
-    result.segment<4>(layout_.location_errors) = engine::location_errors(axis_, set_up_on_average_line(reported));
+    result.segment<4>(layout_.axis_line) = engine::axis_line(axis_, set_up_on_average_line(reported));
     if (!stated_.empty()) {
         const PositioningAccuracy accuracy = evaluate_positioning(runs_, visit_positions);
         for (std::size_t k = 0; k < stated_.size(); ++k) {
@@ -287,8 +286,8 @@ TableParameters::Derivatives TableParameters::derivatives(
         result.by_reported(layout_.ranges + k, highest) += 1.0;
         result.by_reported(layout_.ranges + k, lowest) -= 1.0;
     }
-    result.by_reported.middleRows<4>(layout_.location_errors) =
-        location_error_derivatives(axis_, set_up_on_average_line(reported)) * to_average_line_;
+    result.by_reported.middleRows<4>(layout_.axis_line) =
+        axis_line_derivatives(axis_, set_up_on_average_line(reported)) * to_average_line_;
     if (!stated_.empty()) {
         const Eigen::MatrixXd all = positioning_derivatives(runs_, visit_positions);
         for (std::size_t k = 0; k < stated_.size(); ++k) {

@@ -65,21 +65,21 @@ public:
 
 /// Where the kinds of parameters stand among the outputs of `TableParameters`.
 struct TableParameterLayout {
-    Eigen::Index ranges = 0;           ///< six ISO 230-7 ranges, always first
-    Eigen::Index location_errors = 6;  ///< four
-    Eigen::Index positioning = 10;     ///< ISO 230-2, those that the runs allow
+    Eigen::Index ranges = 0;        ///< six ISO 230-7 ranges, always first
+    Eigen::Index axis_line = 6;     ///< four
+    Eigen::Index positioning = 10;  ///< ISO 230-2, those that the runs allow
     Eigen::Index positioning_count = 0;
 };
 
-/// Parameters of a rotary table that standards name: ranges of the error motions, location errors of the axis average
-/// line, and accuracy and repeatability of positioning.
+/// Parameters of a rotary table: ranges of the error motions, the axis average line in the frame of the fixture, and
+/// accuracy and repeatability of positioning.
 ///
 /// - "range of EXA" …: max - min of each error motion over the angles, in the datum of the result (ISO 230-7).
-/// - EY0A EZ0A EB0A EC0A for A, EX0B EZ0B EA0B EC0B for B, EX0C EY0C EA0C EB0C for C: the axis average line in the
-///   frame of the fixture: the point where it pierces the plane through the origin of the fixture across the axis, and
-///   its direction as right-handed tilts about the two cross axes, each the angle of its projection along that cross
-///   axis. To first order -O and -S of T_s, whose inverse they are made of. They belong to the axis average line
-///   whatever the datum of the result.
+/// - axis_y axis_z axis_b axis_c for A, and so on: the axis average line in the frame of the fixture, which the set-up
+///   makes and which is no property of the machine (LocationErrorModel is): the point where it pierces the plane
+///   through the origin of the fixture across the axis, and its direction as right-handed tilts about the two cross
+///   axes, each the angle of its projection along that cross axis. To first order -O and -S of T_s, whose inverse they
+///   are made of. They belong to the axis average line whatever the datum of the result.
 /// - M, E, E_up … A_down (ISO 230-2): of the axial rotation. A run is a pass; the runs of a target are all visits of
 ///   that angle in one sense. The deviations hold the noise of the measurement besides that of the table.
 ///
@@ -95,7 +95,9 @@ public:
                     const Eigen::VectorXd& reported, std::vector<Visit> visits, const VisitPositionGains& gains);
 
     [[nodiscard]] const std::vector<gum::OutputQuantity>& outputs() const override { return outputs_; }
-    [[nodiscard]] const std::vector<std::string>& short_names() const { return short_names_; }  ///< "EXA", "EY0A", "M"
+    [[nodiscard]] const std::vector<std::string>& short_names() const {
+        return short_names_;
+    }  ///< "EXA", "axis_y", "M"
     [[nodiscard]] const std::vector<std::string>& descriptions() const { return descriptions_; }
     [[nodiscard]] const TableParameterLayout& layout() const { return layout_; }
     /// One target an angle; of visits whose position is determined.
@@ -127,11 +129,11 @@ private:
     TableParameterLayout layout_;
 };
 
-/// Location errors of the axis from the set-up: two [m] and two [rad] in the order of their names, from (O, O, S, S)
-/// across the axis in the order of `across_axis`.
-[[nodiscard]] Eigen::Vector4d location_errors(RotaryAxis axis, const Eigen::Vector4d& set_up);
-/// Names of the same in the same order: "EY0A" ….
-[[nodiscard]] std::array<std::string, 4> location_error_names(RotaryAxis axis);
+/// The axis average line in the frame of the fixture: two [m] and two [rad] in the order of their names, from (O, O, S,
+/// S) across the axis in the order of `across_axis`.
+[[nodiscard]] Eigen::Vector4d axis_line(RotaryAxis axis, const Eigen::Vector4d& set_up);
+/// Names of the same in the same order: "axis_y" ….
+[[nodiscard]] std::array<std::string, 4> axis_line_names(RotaryAxis axis);
 
 /// The parameters of a table as a measurement model for the law of propagation: inputs of the model of the table,
 /// outputs of `TableParameters`.
@@ -139,7 +141,7 @@ class TableParameterModel final : public gum::MeasurementModel {
 public:
     /// Of the joint method, with everything that the runs allow.
     TableParameterModel(std::shared_ptr<const RotaryTableModel> table, const DatumSolution& datum);
-    /// Of any model of the reported quantities (sequential method): ranges and location errors.
+    /// Of any model of the reported quantities (sequential method): ranges and the axis average line.
     TableParameterModel(std::shared_ptr<const gum::MeasurementModel> table, const RotaryTableMeasurement& measurement,
                         const DatumSolution& datum);
 

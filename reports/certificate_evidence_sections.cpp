@@ -64,6 +64,10 @@ void overview_table(CertificateBuilder& builder, const Wording& words, const Rot
     for (const TableParameter& p : r.location_errors) {
         rows.push_back(parameter_row(p, "location_errors", words));
     }
+    // Where the axis is in the machine is known, where it is in the fixture is for the annex.
+    for (const TableParameter& p : r.location_errors.empty() ? r.axis_line : std::vector<TableParameter>()) {
+        rows.push_back(parameter_row(p, "axis_line", words));
+    }
     if (!rows.empty()) {
         builder.table("overview", words("sentence", "overview_table"),
                       {{words("label", "name"), ""},

@@ -168,6 +168,9 @@ std::vector<Compared> all_compared(const Wording& words, const EvaluationRecord&
     for (const Reversal& reversal : r.reversal) {
         add(words("label", "reversal"), reversal.name + ", " + words("label", "reversal"), reversal.value);
     }
+    for (const TableParameter& p : r.axis_line) {
+        add(words("label", "axis_line"), p.name, p);
+    }
     for (const TableParameter& p : r.location_errors) {
         add(words("label", "location_errors"), p.name, p);
     }
@@ -374,11 +377,24 @@ void budget_table(CertificateBuilder& builder, const Wording& words, const std::
                   rows);
 }
 
-void location_errors(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
-    if (!r.location_errors.empty()) {
-        parameter_table(builder, words, "location-errors", words("sentence", "location_errors"), "location_errors",
-                        r.location_errors);
+void axis_line(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
+    if (!r.axis_line.empty()) {
+        parameter_table(builder, words, "axis-line", words("sentence", "axis_line"), "axis_line", r.axis_line);
     }
+}
+
+void location_errors(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
+    if (r.location_errors.empty() || !r.machine_frame) {
+        return;
+    }
+    const MachineFrame& frame = *r.machine_frame;
+    builder.section("location_errors");
+    builder.paragraph(words.fill(frame.by == "stations" ? "machine_by_stations" : "machine_by_probing",
+                                 {{"count", std::to_string(frame.points.size())},
+                                  {"residual", words.number(frame.printed_residual)},
+                                  {"p", words.number(frame.printed_p)}}));
+    parameter_table(builder, words, "location-errors", words("sentence", "location_errors"), "location_errors",
+                    r.location_errors);
 }
 
 void positioning(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {

@@ -16,7 +16,9 @@ void budget_table(CertificateBuilder& builder, const Wording& words, const std::
 // Sections and parts of sections of a rotary table. Each one writes nothing where the record does not hold what it is
 // about, as records of earlier releases do not.
 
-/// Location errors of the axis average line (ISO 230-7): part of the section on the set-up.
+/// The axis average line in the frame of the fixture: part of the section on the set-up.
+void axis_line(CertificateBuilder& builder, const Wording& words, const RotaryTable& rotary);
+/// Location errors of the axis in the frame of the machine, with how that frame is known: a section of its own.
 void location_errors(CertificateBuilder& builder, const Wording& words, const RotaryTable& rotary);
 
 /// Accuracy and repeatability of positioning (ISO 230-2).

@@ -262,8 +262,8 @@ void conditions_section(CertificateBuilder& builder, const Wording& words, const
 /// The tables of a rotary table in the order in which they are read: what it does as a whole, its axis, then angle by
 /// angle, and the set-up of the fixture last. Others as they are certified.
 std::vector<std::size_t> reading_order(const Certificate& certificate) {
-    static constexpr std::array<std::string_view, 6> k_order = {"ranges",        "positioning", "location_errors",
-                                                                "error_motions", "reversal",    "set_up"};
+    static constexpr std::array<std::string_view, 7> k_order = {
+        "ranges", "positioning", "location_errors", "axis_line", "error_motions", "reversal", "set_up"};
     std::vector<std::size_t> order(certificate.tables.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto rank = [&](std::size_t i) {

@@ -382,12 +382,13 @@ void specimen_sections(CertificateBuilder& builder, const Wording& words, const 
     if (record.rotary) {
         overview(builder, words, record);
         error_motions(builder, words, *record.rotary);
+        location_errors(builder, words, *record.rotary);
         positioning(builder, words, *record.rotary);
         harmonics(builder, words, *record.rotary);
         identification(builder, words, record);
         conventions(builder, words, *record.rotary);
         set_up(builder, words, record);
-        location_errors(builder, words, *record.rotary);
+        axis_line(builder, words, *record.rotary);
     } else {
         identification(builder, words, record);
     }

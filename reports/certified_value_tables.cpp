@@ -223,8 +223,8 @@ void argument_table(CertificateBuilder& builder, const Wording& words, const Cer
 }  // namespace
 
 Text certified_table_name(const CertifiedTable& table, const Wording& words) {
-    static const std::set<std::string> known = {"results", "set_up",          "error_motions", "reversal",
-                                                "ranges",  "location_errors", "positioning"};
+    static const std::set<std::string> known = {"results", "set_up",    "error_motions",   "reversal",
+                                                "ranges",  "axis_line", "location_errors", "positioning"};
     return known.contains(table.id) ? words("table_name", table.id)
                                     : words.filled("table_name", "other", {{"name", table.id}});
 }

@@ -69,8 +69,10 @@ std::vector<ReportedQuantity> quantities_of(const RotaryTable& rotary, const Wor
     for (const RangeRow& range : rotary.ranges) {
         add(words("label", "range") + Text(" " + range.name), range.reported);
     }
-    for (const TableParameter& parameter : rotary.location_errors) {
-        add(parameter.name, parameter.reported);
+    for (const auto* const parameters : {&rotary.axis_line, &rotary.location_errors}) {
+        for (const TableParameter& parameter : *parameters) {
+            add(parameter.name, parameter.reported);
+        }
     }
     if (rotary.iso230_2) {
         for (const TableParameter& parameter : rotary.iso230_2->parameters) {

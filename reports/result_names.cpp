@@ -29,14 +29,17 @@ std::string coordinate_of(char letter) {
         case 'x':
         case 'X':
         case 'A':
+        case 'a':
             return "x";
         case 'y':
         case 'Y':
         case 'B':
+        case 'b':
             return "y";
         case 'z':
         case 'Z':
         case 'C':
+        case 'c':
             return "z";
         default:
             return "";
@@ -55,6 +58,16 @@ Text set_up_meaning(const std::string& result, const Wording& words) {
     return known ? along(offset ? "offset" : "tilt", coordinate, words) : Text();
 }
 
+/// "axis_y", "axis_b"
+Text axis_line_meaning(const std::string& result, const Wording& words) {
+    if (result.size() != 6 || !result.starts_with("axis_")) {
+        return {};
+    }
+    const std::string coordinate = coordinate_of(result[5]);
+    const bool linear = result[5] >= 'x';
+    return coordinate.empty() ? Text() : along(linear ? "location" : "orientation", coordinate, words);
+}
+
 /// "EY0A": E, the coordinate or the angle, 0, the axis (ISO 230-7).
 Text location_meaning(const std::string& result, const Wording& words) {
     if (result.size() != 4 || result[0] != 'E' || result[2] != '0') {
@@ -62,7 +75,7 @@ Text location_meaning(const std::string& result, const Wording& words) {
     }
     const std::string coordinate = coordinate_of(result[1]);
     const bool linear = result[1] >= 'X';
-    return coordinate.empty() ? Text() : along(linear ? "location" : "orientation", coordinate, words);
+    return coordinate.empty() ? Text() : along(linear ? "location_error" : "orientation_error", coordinate, words);
 }
 
 Text positioning_meaning(const std::string& result, const Wording& words) {
@@ -84,6 +97,8 @@ Text result_meaning(const std::string& table, const std::string& result, const T
         meaning = set_up_meaning(result, words);
     } else if (table == "location_errors") {
         meaning = location_meaning(result, words);
+    } else if (table == "axis_line") {
+        meaning = axis_line_meaning(result, words);
     } else if (table == "positioning") {
         meaning = positioning_meaning(result, words);
     }

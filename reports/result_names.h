@@ -11,7 +11,7 @@ namespace gumcert::reports {
 // Names that the program itself gives to results, sources of uncertainty and distributions are in the wording; every
 // other text is printed as the record holds it.
 
-/// What a result of a rotary table stands for: "O_y" of "set_up", "EY0A" of "location_errors", "E_up" of "positioning".
+/// What a result of a rotary table stands for: "O_y" of "set_up", "axis_y" of "axis_line", "E_up" of "positioning".
 /// \param table     id of the certified table
 /// \param recorded  what is printed for any other result, in the languages of the document
 [[nodiscard]] Text result_meaning(const std::string& table, const std::string& result, const Text& recorded,

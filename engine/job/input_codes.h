@@ -103,6 +103,7 @@ inline constexpr InputCode k_fixture_budget_output{"GC-INPUT-0230",
 inline constexpr InputCode k_fixture_budget_differs{"GC-INPUT-0231",
                                                     "fixture budget and coordinates file state different values"};
 inline constexpr InputCode k_bad_exclusion{"GC-INPUT-0232", "an exclusion that names no distance, or has no reason"};
+inline constexpr InputCode k_bad_machine_frame{"GC-INPUT-0236", "points that do not tell the frame of the machine"};
 
 // Budget jobs.
 inline constexpr InputCode k_no_statement{"GC-INPUT-0300", "an input without a statement of what is known of it"};
@@ -250,6 +251,7 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_fixture_budget_output,
                                           k_fixture_budget_differs,
                                           k_bad_exclusion,
+                                          k_bad_machine_frame,
                                           k_no_statement,
                                           k_two_statements,
                                           k_incomplete_statement,

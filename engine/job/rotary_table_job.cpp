@@ -17,6 +17,7 @@
 #include "engine/job/csv_table.h"
 #include "engine/job/job_files.h"
 #include "engine/job/json_document.h"
+#include "engine/job/machine_frame_reading.h"
 #include "engine/job/reference_budget.h"
 #include "engine/job/rotary_table_exclusion.h"
 #include "engine/job/rotary_table_study.h"
@@ -34,7 +35,7 @@ using Words = std::span<const std::string_view>;
 
 // ---- keys -----------------------------------------------------------------------------------------------------------
 
-constexpr std::array<std::string_view, 22> k_job_keys{"schema",
+constexpr std::array<std::string_view, 23> k_job_keys{"schema",
                                                       "kind",
                                                       "title",
                                                       "axis",
@@ -50,6 +51,7 @@ constexpr std::array<std::string_view, 22> k_job_keys{"schema",
                                                       "variance_components",
                                                       "outliers",
                                                       "exclude",
+                                                      "machine_frame",
                                                       "reference_method",
                                                       "monte_carlo",
                                                       "simulation",
@@ -97,8 +99,9 @@ const std::vector<JobKeys>& all_keys() {
                                  {"/monte_carlo/adaptive", k_adaptive_keys}};
         const std::span<const JobKeys> studies = rotary_table_study_keys();
         all.insert(all.end(), studies.begin(), studies.end());
-        const std::span<const JobKeys> exclusions = exclusion_keys();
-        all.insert(all.end(), exclusions.begin(), exclusions.end());
+        for (const std::span<const JobKeys> more : {exclusion_keys(), machine_frame_keys()}) {
+            all.insert(all.end(), more.begin(), more.end());
+        }
         return all;
     }();
     return k_all;
@@ -276,6 +279,7 @@ private:
         const std::optional<std::string> fixture_name = name_in(fixture, "coordinates", true);
         const std::optional<std::string> covariance_name = name_in(fixture, "covariance", false);
         const std::optional<std::string> budget_name = name_in(fixture, "budget", false);
+        std::optional<MachineFrameRequest> machine = read_machine_frame(*root);
         if (fixture) {
             read_fixture_options(*fixture, observations && observations->has("environment"));
         }
@@ -304,6 +308,7 @@ private:
         std::optional<File> environment = open(environment_name);
         std::optional<File> coordinates = open(fixture_name);
         std::optional<File> covariance = open(covariance_name);
+        std::optional<File> machine_points = machine ? open(machine->coordinates) : std::nullopt;
         std::optional<File> readings = open(readings_name);
         std::optional<File> description = open(description_name);
         if (coordinates) {
@@ -330,6 +335,9 @@ private:
         }
         if (covariance) {
             read_covariance(*covariance);
+        }
+        if (machine_points) {
+            read_frame_of_machine(*root, std::move(*machine), std::move(*machine_points));
         }
         if (reference) {
             ReferenceMethod& method = job_.reference.emplace();
@@ -1160,6 +1168,30 @@ private:
             observation.line = lengths_table_->cell(row.table_row, c_station).line;
             measurement.lengths.push_back(observation);
         }
+    }
+
+    // ---- the frame of the machine -----------------------------------------------------------------------------------
+
+    void read_frame_of_machine(const JsonObject& root, MachineFrameRequest&& machine, File&& file) {
+        const bool stations = machine.frame.by == MachineFramePoints::stations;
+        const RotaryTableMeasurement& measurement = job_.measurement;
+        if (measurement.datum != Datum::axis_average_line) {
+            root.refuse(k_bad_machine_frame, "machine_frame", "the datum is that of the home angle",
+                        "location errors are those of the axis average line",
+                        "choose \"datum\": \"axis_average_line\"");
+            return;
+        }
+        if (stations && measurement.method != AdjustmentMethod::joint) {
+            root.refuse(k_bad_machine_frame, "machine_frame", "the machine is known by its stations",
+                        "the covariance of the stations is that of the joint adjustment",
+                        "choose \"method\": \"joint\", or probe the reflectors");
+            return;
+        }
+        if (measurement.reflectors.empty() || measurement.stations.empty()) {
+            return;  // their own files were refused
+        }
+        job_.machine_frame = read_machine_points(std::move(machine), std::move(file),
+                                                 stations ? measurement.stations : measurement.reflectors);
     }
 
     // ---- stations and environment -----------------------------------------------------------------------------------

@@ -17,6 +17,7 @@
 #include "engine/job/job_kind.h"
 #include "engine/job/monte_carlo_request.h"
 #include "engine/job/rotary_table_exclusion.h"
+#include "engine/machine_frame.h"
 #include "engine/rotary_table_measurement.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/units.h"
@@ -89,15 +90,16 @@ struct RotaryTableJob {
     Eigen::VectorXd stated_fixture_u;
     std::optional<SimulationRequest> simulation;
     std::optional<PlanRequest> plan;
-    std::vector<Exclusion> exclusions;         ///< what the laboratory left out; not in `measurement`
-    bool has_lengths = true;                   ///< false: a layout for `plan` or `simulate` without measured lengths
-    std::vector<StationAir> air;               ///< per station; empty without an environment file
-    double reference_temperature_degC = 20.0;  ///< of the fixture coordinates
-    nlohmann::json document;                   ///< the job file as read
+    std::optional<MachineFrame> machine_frame;  ///< where the location errors of the axis are asked for
+    std::vector<Exclusion> exclusions;          ///< what the laboratory left out; not in `measurement`
+    bool has_lengths = true;                    ///< false: a layout for `plan` or `simulate` without measured lengths
+    std::vector<StationAir> air;                ///< per station; empty without an environment file
+    double reference_temperature_degC = 20.0;   ///< of the fixture coordinates
+    nlohmann::json document;                    ///< the job file as read
     std::optional<certificate::CertificateData> certificate;  ///< from the job or a file of its own
     /// Names as the job gives them, each once: the job file, lengths, stations, environment, fixture coordinates,
-    /// fixture covariance, readings and description of the reference method, budget of the reference with its files,
-    /// certificate, fixture budget with its files.
+    /// fixture covariance, points of the machine frame, readings and description of the reference method, budget of the
+    /// reference with its files, certificate, fixture budget with its files.
     std::vector<std::string> files;
     std::vector<gum::Diagnostic> warnings;
 };

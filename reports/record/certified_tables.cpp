@@ -234,7 +234,8 @@ std::vector<CertifiedTable> certified_tables(const EvaluationRecord& record) {
     const RotaryTable& r = *record.rotary;
     std::vector<CertifiedTable> tables = tables_of_results(record.results, "set_up");
     for (const CertifiedTable& table :
-         {error_motions(r), reversal(r), ranges(r), parameters("location_errors", r.location_errors),
+         {error_motions(r), reversal(r), ranges(r), parameters("axis_line", r.axis_line),
+          parameters("location_errors", r.location_errors),
           parameters("positioning", r.iso230_2 ? r.iso230_2->parameters : std::vector<TableParameter>())}) {
         if (!table.columns.empty()) {
             tables.push_back(table);

@@ -14,7 +14,7 @@ namespace gumcert::reports {
 ///
 /// Budget: tables "results"; results of the same points share one, with the argument "point" (names, no numbers); those
 /// without points are columns of one value. Rotary table: "set_up", "error_motions" (argument "angle" in deg),
-/// "reversal" (columns `reversal_EXA` …), "ranges" (`range_EXA` …), "location_errors", "positioning"; those that the
+/// "reversal" (columns `reversal_EXA` …), "ranges" (`range_EXA` …), "axis_line", "positioning"; those that the
 /// record has.
 ///
 /// k and effective degrees of freedom are printed as certificate/statement_of_uncertainty.h says. Coverage intervals

@@ -891,6 +891,28 @@ void describe(Archive& a, Struct& r) {
     a("unit", r.unit);
 }
 
+template <class Archive, Is<MachinePoint> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("residual_um", r.residual_um);
+    a("u_um", r.u_um, Range::positive);
+}
+
+template <class Archive, Is<MachineFrame> Struct>
+void describe(Archive& a, Struct& r) {
+    a("by", r.by);
+    a("source", r.source);
+    a("nominal_point_mm", r.nominal_point_mm);
+    a("points", r.points);
+    a("chi_square", r.chi_square, Range::not_negative);
+    a("degrees_of_freedom", r.degrees_of_freedom, Range::not_negative);
+    a("p_value", r.p_value, Range::probability);
+    a.group("printed", [&](auto& b) {
+        b("p", r.printed_p);
+        b("residual", r.printed_residual);
+    });
+}
+
 template <class Archive, Is<RotaryTable> Struct>
 void describe(Archive& a, Struct& r) {
     a("axis", r.axis, {"A", "B", "C"});
@@ -926,7 +948,9 @@ void describe(Archive& a, Struct& r) {
     });
     a.added("fixture_reliability", r.fixture_reliability);
     a.added("external_reliability", r.external_reliability);
+    a.added("axis_line", r.axis_line);
     a.added("location_errors", r.location_errors);
+    a.added("machine_frame", r.machine_frame);
     a.added("iso230_2", r.iso230_2);
     a.added("monte_carlo", r.monte_carlo);
     a.added("fixture_budget", r.fixture_budget);
@@ -1189,6 +1213,7 @@ void check_rotary(const RotaryTable& r, const Report& report) {
             }
         }
     };
+    parameters("/axis_line", r.axis_line);
     parameters("/location_errors", r.location_errors);
     if (r.iso230_2) {
         const std::vector<TableParameter>& all = r.iso230_2->parameters;
@@ -2287,6 +2312,12 @@ EvaluationRecord record_from_json(const std::string& text, const std::string& wh
     describe(reader, record);
     reader.finish();
     problems.throw_if_any();
+    if (record.rotary && !record.rotary->machine_frame && record.rotary->axis_line.empty()) {
+        // Records without a frame of the machine gave the axis in the frame of the fixture the names of location
+        // errors.
+        record.rotary->axis_line = std::move(record.rotary->location_errors);
+        record.rotary->location_errors.clear();
+    }
     const auto report = [&](const std::string& at, std::string what, std::string rule) {
         problems.add("GC-RECORD-0017", at, std::move(what), std::move(rule), k_restore);
     };

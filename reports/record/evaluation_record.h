@@ -252,9 +252,9 @@ struct ExternalReliability {
     double at_angle_deg = 0.0, minimal_detectable_bias_um = 0.0;
 };
 
-/// One number derived from the error motions: a location error of the axis, a parameter of ISO 230-2.
+/// One number derived from the error motions: where the axis is, a parameter of ISO 230-2.
 struct TableParameter {
-    std::string name;  ///< "EY0A", "R_up"
+    std::string name;  ///< "axis_y", "R_up"
     std::string description;
     std::string unit;  ///< "um" or "arcsec"
     double value = 0.0, u = 0.0, U = 0.0, k = 2.0;
@@ -262,6 +262,23 @@ struct TableParameter {
     Printed printed;
     std::optional<MonteCarloSummary> monte_carlo;
     std::optional<ReportedResult> reported = {};  ///< as ErrorValue::reported
+};
+
+/// A point that is known in the frame of the machine.
+struct MachinePoint {
+    std::string name;
+    std::array<double, 3> residual_um{};  ///< machine - measurement carried to it
+    double u_um = 0.0;                    ///< of each coordinate in the machine
+};
+
+/// The reference frame of the machine, in which location errors are stated.
+struct MachineFrame {
+    std::string by;  ///< "probing" of reflectors, "stations"
+    std::string source;
+    std::array<double, 3> nominal_point_mm{};
+    std::vector<MachinePoint> points;
+    double chi_square = 0.0, degrees_of_freedom = 0.0, p_value = 1.0;
+    std::string printed_p, printed_residual;  ///< rms, [µm]
 };
 
 /// Deviations of the axial rotation at one target position (ISO 230-2), [arcsec].
@@ -350,7 +367,10 @@ struct RotaryTable {
     std::string printed_critical_value;
     std::vector<FixtureReliabilityRow> fixture_reliability;
     std::vector<ExternalReliability> external_reliability;  ///< one a reported quantity
-    std::vector<TableParameter> location_errors;            ///< of the axis average line in the frame of the fixture
+    std::vector<TableParameter> axis_line;                  ///< of the axis average line in the frame of the fixture
+    /// Of the axis in the frame of the machine (ISO 230-7); empty without such a frame, or where it is refuted.
+    std::vector<TableParameter> location_errors = {};
+    std::optional<MachineFrame> machine_frame = {};
     std::optional<PositioningAccuracy> iso230_2;
     std::optional<RotaryMonteCarlo> monte_carlo;
     std::optional<FixtureBudget> fixture_budget;

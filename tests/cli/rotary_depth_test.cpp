@@ -108,7 +108,7 @@ TEST_F(RotaryDepth, MonteCarloChecksEveryReportedQuantity) {
             expect_block(result.at("monte_carlo"), name);
             ++blocks;
         }
-        for (const char* const list : {"ranges", "reversal", "location_errors"}) {
+        for (const char* const list : {"ranges", "reversal", "axis_line"}) {
             for (const json& parameter : rotary.at(list)) {
                 expect_block(parameter.at("monte_carlo"), parameter.at("name"));
                 ++blocks;
@@ -226,11 +226,11 @@ TEST_F(RotaryDepth, PositioningParametersFollowFromTheRuns) {
     }
 }
 
-TEST_F(RotaryDepth, LocationErrorsHaveTheLettersOfTheAxis) {
+TEST_F(RotaryDepth, AxisLineHasTheLettersAcrossTheAxis) {
     const std::map<std::string, std::pair<std::string, std::vector<std::string>>> campaigns{
-        {"a_axis", {"A", {"EY0A", "EZ0A", "EB0A", "EC0A"}}},
-        {"b_axis_perfect_table", {"B", {"EX0B", "EZ0B", "EA0B", "EC0B"}}},
-        {"c_axis_single_target", {"C", {"EX0C", "EY0C", "EA0C", "EB0C"}}}};
+        {"a_axis", {"A", {"axis_y", "axis_z", "axis_b", "axis_c"}}},
+        {"b_axis_perfect_table", {"B", {"axis_x", "axis_z", "axis_a", "axis_c"}}},
+        {"c_axis_single_target", {"C", {"axis_x", "axis_y", "axis_a", "axis_b"}}}};
     for (const auto& [campaign, expected] : campaigns) {
         if (!fs::exists(shared_campaign(campaign) / "job.json")) {
             GTEST_SKIP() << shared_campaign(campaign) << " is absent";
@@ -242,12 +242,13 @@ TEST_F(RotaryDepth, LocationErrorsHaveTheLettersOfTheAxis) {
         EXPECT_EQ(rotary.at("axis"), expected.first);
         const json truth = json::parse(bytes_of(shared_campaign(campaign) / "truth.json"));
         std::vector<std::string> names;
-        for (const json& parameter : rotary.at("location_errors")) {
+        for (const json& parameter : rotary.at("axis_line")) {
             const std::string name = parameter.at("name");
             names.push_back(name);
             // Place of the axis seen from the fixture: the axis of the set-up with the opposite sign.
-            const bool linear = name[1] >= 'X';
-            const auto c = static_cast<std::size_t>(name[1] - (linear ? 'X' : 'A'));
+            const char letter = name.back();
+            const bool linear = letter >= 'x';
+            const auto c = static_cast<std::size_t>(letter - (linear ? 'x' : 'a'));
             const double value = parameter.at("value");
             EXPECT_EQ(parameter.at("unit"), linear ? "um" : "arcsec") << name;
             EXPECT_NEAR(value, -rotary.at("set_up")[linear ? "O_um" : "S_arcsec"][c].get<double>(), 0.01) << name;

@@ -39,6 +39,7 @@ SOURCES = (
     "app/laboratory_data.cpp",
     "app/laboratory_item.cpp",
     "app/laboratory_notes.cpp",
+    "app/location_errors.cpp",
     "app/reported_covariance.cpp",
     "app/reported_result.cpp",
     "app/rotary_findings.cpp",
@@ -51,6 +52,10 @@ SOURCES = (
 # Literals of these sources that are no sentences of a record, or end the program in place of a record.
 NOT_IN_RECORDS = (
     "Monte Carlo, ",
+    # Names of results, which reports/result_names.cpp words.
+    "position of the axis along ",
+    "tilt of the axis about ",
+    " in the frame of the machine",
 )
 
 LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')

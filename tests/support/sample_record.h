@@ -316,12 +316,11 @@ inline reports::EvaluationRecord sample_record() {
                                           .at_angle_deg = 90.0,
                                           .minimal_detectable_bias_um = 0.35});
     }
-    t.location_errors = {
-        table_parameter("EY0A", "position of the axis average line along y", -59.43, 0.147, "um"),
-        table_parameter("EZ0A", "position of the axis average line along z", 192.61, 0.151, "um"),
-        table_parameter("EB0A", "orientation of the axis average line about y", -50.782, 0.122, "arcsec"),
-        table_parameter("EC0A", "orientation of the axis average line about z", 108.704, 0.131, "arcsec")};
-    t.location_errors[2].monte_carlo = trials_of(-50.782, 0.122, false);
+    t.axis_line = {table_parameter("axis_y", "position of the axis average line along y", -59.43, 0.147, "um"),
+                   table_parameter("axis_z", "position of the axis average line along z", 192.61, 0.151, "um"),
+                   table_parameter("axis_b", "orientation of the axis average line about y", -50.782, 0.122, "arcsec"),
+                   table_parameter("axis_c", "orientation of the axis average line about z", 108.704, 0.131, "arcsec")};
+    t.axis_line[2].monte_carlo = trials_of(-50.782, 0.122, false);
 
     PositioningAccuracy positioning;
     positioning.runs_up = 5;
@@ -359,7 +358,7 @@ inline reports::EvaluationRecord sample_record() {
                      .mean_steps = 2.31,
                      .compared = 238,
                      .validated = 235,
-                     .not_validated = {"EXA(30)", "EBA range", "EB0A"},
+                     .not_validated = {"EXA(30)", "EBA range", "axis_b"},
                      .statement =
                          "Monte Carlo of the whole measurement: every input was drawn from its own "
                          "distribution, and every trial was adjusted anew."};

@@ -645,7 +645,7 @@ EvaluationRecord confirmed(EvaluationRecord record) {
         for (reports::Reversal& reversal : record.rotary->reversal) {
             confirm(reversal.value.monte_carlo);
         }
-        for (reports::TableParameter& parameter : record.rotary->location_errors) {
+        for (reports::TableParameter& parameter : record.rotary->axis_line) {
             confirm(parameter.monte_carlo);
         }
         if (record.rotary->iso230_2) {

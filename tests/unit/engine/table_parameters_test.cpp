@@ -1,4 +1,4 @@
-// Ranges, location errors and ISO 230-2 parameters of a table, and their sensitivities.
+// Ranges, the axis average line and ISO 230-2 parameters of a table, and their sensitivities.
 #include "engine/table_parameters.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ std::shared_ptr<const RotaryTableModel> joint_model(const RotaryTableSolution& s
     return std::dynamic_pointer_cast<const RotaryTableModel>(solution.model);
 }
 
-/// Location errors from the 4×4 matrix of T_s, inverted as any matrix; the line through two points of the axis.
+/// The axis from the 4×4 matrix of T_s, inverted as any matrix; the line through two points of the axis.
 Eigen::Vector4d by_geometry(RotaryAxis axis, const Vector6& set_up) {
     const int k = axial_coordinate(axis);
     Eigen::Matrix4d table_from_fixture = Eigen::Matrix4d::Identity();
@@ -68,11 +68,12 @@ Eigen::Vector4d by_geometry(RotaryAxis axis, const Vector6& set_up) {
     }
 }
 
-TEST(LocationErrors, AreTheAxisInTheFrameOfTheFixture) {
-    const std::array<std::array<std::string, 4>, 3> names{
-        {{"EY0A", "EZ0A", "EB0A", "EC0A"}, {"EX0B", "EZ0B", "EA0B", "EC0B"}, {"EX0C", "EY0C", "EA0C", "EB0C"}}};
+TEST(AxisLine, IsTheAxisInTheFrameOfTheFixture) {
+    const std::array<std::array<std::string, 4>, 3> names{{{"axis_y", "axis_z", "axis_b", "axis_c"},
+                                                           {"axis_x", "axis_z", "axis_a", "axis_c"},
+                                                           {"axis_x", "axis_y", "axis_a", "axis_b"}}};
     for (const RotaryAxis axis : {RotaryAxis::a, RotaryAxis::b, RotaryAxis::c}) {
-        EXPECT_EQ(location_error_names(axis), names[static_cast<std::size_t>(axis)]);
+        EXPECT_EQ(axis_line_names(axis), names[static_cast<std::size_t>(axis)]);
         const auto across = across_axis(axis);
         const Eigen::Vector4d across_values{1e-3, -0.7e-3, 3e-3, 2e-3};  // [m], [rad]
         Vector6 set_up = Vector6::Zero();
@@ -80,7 +81,7 @@ TEST(LocationErrors, AreTheAxisInTheFrameOfTheFixture) {
             set_up[across[static_cast<std::size_t>(c)]] = across_values[c];
             set_up[3 + across[static_cast<std::size_t>(c)]] = across_values[2 + c];
         }
-        const Eigen::Vector4d found = location_errors(axis, across_values);
+        const Eigen::Vector4d found = axis_line(axis, across_values);
         EXPECT_LT((found - by_geometry(axis, set_up)).cwiseAbs().maxCoeff(), 1e-15);
         // To first order the set-up with the other sign: offsets to the product of offset and tilt, tilts likewise.
         for (int c = 0; c < 2; ++c) {
@@ -94,7 +95,7 @@ TEST(LocationErrors, AreTheAxisInTheFrameOfTheFixture) {
 
 class ParametersOfATable : public testing::TestWithParam<std::tuple<RotaryAxis, Datum>> {};
 
-TEST_P(ParametersOfATable, LocationErrorsAreThoseOfTheAverageLineInAnyDatum) {
+TEST_P(ParametersOfATable, AxisLineIsThatOfTheAverageInAnyDatum) {
     const auto [axis, datum] = GetParam();
     CampaignPlan plan = plan_of(axis, Datum::axis_average_line);  // the truth obeys it
     plan.noise = 0.0;
@@ -105,7 +106,7 @@ TEST_P(ParametersOfATable, LocationErrorsAreThoseOfTheAverageLineInAnyDatum) {
     const TableParameterModel model(joint_model(solution), solution.datum);
     const Eigen::VectorXd values = model.evaluate(gum::input_estimates(model));
     const Eigen::Vector4d expected = by_geometry(axis, campaign.truth.set_up);
-    const Eigen::Vector4d found = values.segment<4>(model.parameters()->layout().location_errors);
+    const Eigen::Vector4d found = values.segment<4>(model.parameters()->layout().axis_line);
     // The truth obeys its datum to first order: products of error motions of micrometres and seconds of arc are left.
     EXPECT_LT((found - expected).head<2>().cwiseAbs().maxCoeff(), 5e-9);
     EXPECT_LT((found - expected).tail<2>().cwiseAbs().maxCoeff(), 5e-9);
@@ -119,7 +120,7 @@ TEST_P(ParametersOfATable, LocationErrorsAreThoseOfTheAverageLineInAnyDatum) {
     }
     const auto names = error_motion_names(axis);
     EXPECT_EQ(model.outputs()[0].name, "range of " + names[0]);
-    EXPECT_EQ(model.outputs()[9].name, location_error_names(axis)[3]);
+    EXPECT_EQ(model.outputs()[9].name, axis_line_names(axis)[3]);
     EXPECT_EQ(model.outputs()[10].name, "M");
     EXPECT_EQ(model.outputs().size(), 22U);
     EXPECT_EQ(model.parameters()->descriptions().size(), 22U);
@@ -408,7 +409,7 @@ TEST(TableParameterModel, VisitThatDoesNotSeeTheRotationIsNoRun) {
     EXPECT_TRUE(std::isfinite(model.rms_position_uncertainty()));
 }
 
-TEST(TableParameterModel, SequentialMethodHasRangesAndLocationErrors) {
+TEST(TableParameterModel, SequentialMethodHasRangesAndAxisLine) {
     CampaignPlan plan;
     plan.angles_deg = synthetic::full_turn(12);
     Campaign campaign = simulate(plan);

@@ -53,7 +53,7 @@ TEST(EvidenceSections, BeginWithWhatTheTableDoes) {
     EXPECT_EQ(rows[6][0], "A");
     EXPECT_EQ(rows[7][0], "R");
     EXPECT_EQ(rows[8][0], "E");
-    EXPECT_EQ(rows[9][0], "EY0A");
+    EXPECT_EQ(rows[9][0], "axis_y");
     const std::string text = text_of(record);
     EXPECT_THAT(text, HasSubstr("Groups of distances 1 kinds were tested; none is suspicious."));
     EvaluationRecord suspicious = record;

@@ -28,9 +28,9 @@ protected:
 TEST_F(Names, OfTheProgramAreInEveryLanguage) {
     EXPECT_EQ(german("set_up", "O_y"), "Versatz der Vorrichtung längs y gegen die Drehachse");
     EXPECT_EQ(german("set_up", "S_z"), "Neigung der Vorrichtung um z gegen die Drehachse");
-    EXPECT_EQ(german("location_errors", "EX0C"),
+    EXPECT_EQ(german("axis_line", "axis_x"),
               "Ort der mittleren Achslinie längs x im Koordinatensystem der Vorrichtung");
-    EXPECT_EQ(german("location_errors", "EB0A"),
+    EXPECT_EQ(german("axis_line", "axis_b"),
               "Neigung der mittleren Achslinie um y im Koordinatensystem der Vorrichtung");
     for (const char* parameter :
          {"M", "E", "E_up", "E_down", "R", "R_up", "R_down", "B", "B_mean", "A", "A_up", "A_down"}) {
@@ -45,8 +45,8 @@ TEST_F(Names, OfAnythingElseAreThoseOfTheRecord) {
     EXPECT_EQ(german("results", "O_y"), "recorded");
     EXPECT_EQ(german("set_up", "O_w"), "recorded");
     EXPECT_EQ(german("set_up", "O_"), "recorded");
-    EXPECT_EQ(german("location_errors", "EY1A"), "recorded");
-    EXPECT_EQ(german("location_errors", ""), "recorded");
+    EXPECT_EQ(german("axis_line", "EY1A"), "recorded");
+    EXPECT_EQ(german("axis_line", ""), "recorded");
     EXPECT_EQ(german("positioning", "Q"), "recorded");
     EXPECT_EQ(source_name("somebody's source", words_).first(), "somebody's source");
     EXPECT_EQ(distribution_name("own", words_).first(), "own");

@@ -33,19 +33,19 @@ std::string text_of(const EvaluationRecord& record) {
     return squeezed(render_text(record, assets()));
 }
 
-TEST(RotaryCertificate, LocationErrorsSayWhereMonteCarloAgrees) {
-    const auto rows = rows_of(view_of(test::sample_record()), "location-errors");
+TEST(RotaryCertificate, AxisLineSaysWhereMonteCarloAgrees) {
+    const auto rows = rows_of(view_of(test::sample_record()), "axis-line");
     ASSERT_EQ(rows.size(), 4U);
-    EXPECT_THAT(rows[0], ElementsAre("EY0A", "position of the axis average line along y in the frame of the fixture",
+    EXPECT_THAT(rows[0], ElementsAre("axis_y", "position of the axis average line along y in the frame of the fixture",
                                      "−59.43", "0.29", "µm", "2.00", "380", "validated"));
     EXPECT_EQ(rows[2].back(), "not validated");
     EvaluationRecord without = test::sample_record();
-    for (TableParameter& p : without.rotary->location_errors) {
+    for (TableParameter& p : without.rotary->axis_line) {
         p.monte_carlo.reset();
         p.nu_eff.reset();
     }
-    EXPECT_EQ(rows_of(view_of(without), "location-errors")[0].size(), 7U);
-    EXPECT_EQ(rows_of(view_of(without), "location-errors")[0].back(), "∞");
+    EXPECT_EQ(rows_of(view_of(without), "axis-line")[0].size(), 7U);
+    EXPECT_EQ(rows_of(view_of(without), "axis-line")[0].back(), "∞");
 }
 
 TEST(RotaryCertificate, PositioningHasParametersAndTargets) {
@@ -157,7 +157,7 @@ TEST(RotaryCertificate, MonteCarloNamesWhatIsNotValidated) {
         }
     }
     r.rotary->ranges.clear();
-    r.rotary->location_errors.clear();
+    r.rotary->axis_line.clear();
     EXPECT_THAT(text_of(r), HasSubstr("The law of propagation is validated for every quantity that was compared"));
 }
 
@@ -193,7 +193,7 @@ TEST(RotaryCertificate, HasThePlotsWithTextsForScreenReaders) {
 TEST(RotaryCertificate, ARecordWithoutTheNewPartsHasNoEmptyPlaces) {
     EvaluationRecord old = test::sample_record();
     RotaryTable& r = *old.rotary;
-    r.location_errors.clear();
+    r.axis_line.clear();
     r.iso230_2.reset();
     r.monte_carlo.reset();
     r.fixture_budget.reset();

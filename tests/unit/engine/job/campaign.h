@@ -65,6 +65,11 @@ inline Files small_campaign() {
     return files;
 }
 
+/// Its reflectors in the frame of a machine.
+inline std::string small_machine_points() {
+    return "reflector,x_mm,y_mm,z_mm,u_um\nR1,533.25,136.5,5.25,2\nR2,585.5,28.25,72.0,2\nR3,652.75,-99.5,117.25,2\n";
+}
+
 /// Line of lengths.csv of the small campaign.
 constexpr std::size_t lengths_line(std::size_t pass, std::size_t angle, std::size_t reflector) {
     return 2 + 32 * pass + 4 * angle + reflector;

@@ -59,6 +59,11 @@ Files complete_campaign(bool with_budget = false) {
         "plan": {"angles_deg": {"first": -90, "step": 30, "count": 12}, "senses": "both", "dead_paths": "reflector",
             "targets": {"linear_um": 0.5, "angular_arcsec": 0.7}, "least_distance_mm": 300,
             "station_region": {"x_mm": [0, 1000], "y_mm": [-500, 500], "z_mm": [0, 0], "step_mm": 100}},)");
+    if (with_budget) {  // location errors are those of the other datum
+        replace(job, R"("datum": "home")", R"("datum": "axis_average_line", "machine_frame": {"by": "probing",
+            "coordinates": "machine.csv", "nominal_point_mm": [100, 0, 0], "source": "probed"})");
+        files["machine.csv"] = test::small_machine_points();
+    }
     for (int i = 0; i < 12; ++i) {
         for (int j = 0; j < 12; ++j) {
             files["covariance.csv"] += (j == 0 ? "" : ",") + std::string(i != j ? "0" : i == 1 ? "0.25" : "0.16");

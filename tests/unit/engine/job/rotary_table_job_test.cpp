@@ -60,6 +60,17 @@ std::function<void(Files&)> with_content(const std::string& file, const std::str
     return [=](Files& files) { files[file] = content; };
 }
 
+/// A frame of the machine by its points, and other keys beside it.
+std::function<void(Files&)> with_machine(const std::string& points, const std::string& keys = {},
+                                         const std::string& by = "probing") {
+    return [=](Files& files) {
+        files["machine.csv"] = points;
+        replace(files.at("job.json"), "{",
+                "{ \"machine_frame\": {\"by\": \"" + by +
+                    "\", \"coordinates\": \"machine.csv\", \"nominal_point_mm\": [0, 0, 0]}, " + keys);
+    };
+}
+
 /// Adds keys at the top of the job; they stand in line 1.
 std::function<void(Files&)> with_key(const std::string& keys) {
     return [=](Files& files) { replace(files.at("job.json"), "{", "{ " + keys + ","); };
@@ -449,6 +460,26 @@ const std::vector<BadInput>& bad_inputs() {
          "101160 hPa"},
         {"humidity", with("environment.csv", "1011.6,50", "1011.6,150"), k_csv_out_of_range, "environment.csv:2:27",
          "150 % in column humidity_percent"},
+
+        // ---- the frame of the machine
+        {"machine_frame_without_by",
+         with_key(R"("machine_frame": {"coordinates": "m.csv", "nominal_point_mm": [0,0,0]})"), k_missing_key,
+         "job.json#/machine_frame (line 1, column 20)", "the key \"by\" is missing"},
+        {"machine_frame_nominal", with_key(R"("machine_frame": {"by": "probing", "nominal_point_mm": [0, 0]})"),
+         k_wrong_type, "job.json#/machine_frame/nominal_point_mm (line 1, column 56)", ""},
+        {"machine_frame_of_the_home_datum", with_machine(test::small_machine_points(), "\"datum\": \"home\", "),
+         k_bad_machine_frame, "job.json#/machine_frame (line 1, column 20)", "the datum is that of the home angle"},
+        {"machine_frame_of_stations_sequential",
+         with_machine("station,x_mm,y_mm,z_mm,u_um\n", "\"method\": \"sequential\", ", "stations"), k_bad_machine_frame,
+         "job.json#/machine_frame (line 1, column 20)", "the machine is known by its stations"},
+        {"machine_point_unknown", with_machine(test::small_machine_points() + "R9,1,2,3,2\n"), k_bad_machine_frame,
+         "machine.csv:5:1", "the reflector \"R9\" is not in the measurement"},
+        {"machine_point_twice", with_machine(test::small_machine_points() + "R1,1,2,3,2\n"), k_repeated_name,
+         "machine.csv:5:1", "the reflector \"R1\" has another row"},
+        {"machine_points_too_few", with_machine("reflector,x_mm,y_mm,z_mm,u_um\nR1,1,2,3,2\nR2,4,5,9,2\n"),
+         k_bad_machine_frame, "job.json#/machine_frame (line 1, column 20)", "2 reflectors"},
+        {"machine_point_u_zero", with_machine("reflector,x_mm,y_mm,z_mm,u_um\nR1,1,2,3,0\n"), k_csv_out_of_range,
+         "machine.csv:2:10", "0 µm in column u_um"},
 
         // ---- exclusions
         {"exclusion_without_reason", with_key(R"("exclude": [{"station": "P1"}])"), k_missing_key,

@@ -109,8 +109,8 @@ TEST(EvaluationRecord, HoldsWhatTheAdjustmentSaysInDepth) {
     EXPECT_EQ(r["flagged"][0]["found_with"], "58.7 (3.89)");
     EXPECT_EQ(r["fixture_reliability"][4]["coordinate"], "y");
     EXPECT_EQ(r["external_reliability"].size(), 220U);
-    EXPECT_EQ(r["location_errors"][3]["name"], "EC0A");
-    EXPECT_EQ(r["monte_carlo"]["not_validated"], json({"EXA(30)", "EBA range", "EB0A"}));
+    EXPECT_EQ(r["axis_line"][3]["name"], "axis_c");
+    EXPECT_EQ(r["monte_carlo"]["not_validated"], json({"EXA(30)", "EBA range", "axis_b"}));
     EXPECT_EQ(r["fixture_budget"]["largest"][0]["u"], 0.24);
 }
 
@@ -118,8 +118,8 @@ TEST(EvaluationRecord, HoldsWhatTheAdjustmentSaysInDepth) {
 json of_the_first_release() {
     json r = sample_json();
     json& rotary = r["rotary"];
-    for (const char* key : {"fixture_reliability", "external_reliability", "location_errors", "iso230_2", "monte_carlo",
-                            "fixture_budget"}) {
+    for (const char* key :
+         {"fixture_reliability", "external_reliability", "axis_line", "iso230_2", "monte_carlo", "fixture_budget"}) {
         rotary.erase(key);
     }
     for (json& row : rotary["errors"]) {
@@ -251,8 +251,8 @@ TEST(EvaluationRecord, RefusesPartsOfTheRotaryTableThatDoNotFit) {
                     r["iso230_2"]["U"].erase("M");
                 }),
                 HasSubstr("/iso230_2/parameters/0/name — \"P\" — must be a parameter of ISO 230-2"));
-    EXPECT_THAT(refused([](json& r) { r["location_errors"][1]["name"] = "EY0A"; }),
-                HasSubstr("/location_errors/1/name — \"EY0A\" — a parameter is listed once"));
+    EXPECT_THAT(refused([](json& r) { r["axis_line"][1]["name"] = "axis_y"; }),
+                HasSubstr("/axis_line/1/name — \"axis_y\" — a parameter is listed once"));
     EXPECT_THAT(refused([](json& r) { r["stations"][0]["covariance_mm2"][0][1] = 1; }),
                 HasSubstr("/stations/0/covariance_mm2/0/1"));
     EXPECT_THAT(refused([](json& r) { r["stations"][0]["covariance_mm2"].erase(2); }),

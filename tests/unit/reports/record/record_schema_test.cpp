@@ -180,7 +180,7 @@ TEST_F(RecordSchema, RefusesWhatTheReaderRefuses) {
         [](json& r) { r["rotary"]["iso230_2"]["parameters"][0]["name"] = "P"; },
         [](json& r) { r["rotary"]["iso230_2"]["parameters"][0].erase("monte_carlo"); },
         [](json& r) { r["rotary"]["iso230_2"]["targets"][0]["s_up"] = -1; },
-        [](json& r) { r["rotary"]["location_errors"][0]["unit"] = "mm"; },
+        [](json& r) { r["rotary"]["axis_line"][0]["unit"] = "mm"; },
         [](json& r) { r["rotary"]["errors"][0]["EXA"]["monte_carlo"]["u"] = -1; },
         [](json& r) { r["rotary"]["ranges"][0]["u"] = -1; },
         [](json& r) { r["rotary"]["stations"][0]["covariance_mm2"][0].push_back(0); },

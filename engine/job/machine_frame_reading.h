@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/job/job_files.h"
+#include "engine/job/job_kind.h"
+#include "engine/job/json_document.h"
+#include "engine/machine_frame.h"
+
+namespace gumcert::engine {
+
+/// The key `machine_frame` without its file.
+struct MachineFrameRequest {
+    MachineFrame frame;  ///< without points
+    std::optional<std::string> coordinates;
+    std::string where;
+};
+
+/// \return nothing when the key is absent or was refused
+[[nodiscard]] std::optional<MachineFrameRequest> read_machine_frame(const JsonObject& root);
+
+/// Reads the coordinates: a row for each of at least 3 reflectors or stations of the measurement.
+/// \param names  of the reflectors or stations of the measurement, in its order
+/// \return nothing when anything was refused
+[[nodiscard]] std::optional<MachineFrame> read_machine_points(MachineFrameRequest request, JobFiles::File file,
+                                                              const std::vector<std::string>& names);
+
+/// The keys of `machine_frame`, object by object.
+[[nodiscard]] std::span<const JobKeys> machine_frame_keys();
+
+}  // namespace gumcert::engine
