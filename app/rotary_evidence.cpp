@@ -33,9 +33,18 @@ const char* sign_of(Approach approach) {
     return approach == Approach::positive ? "+" : "-";
 }
 
-/// A kind whose estimate is a number and not a length.
-bool is_ratio(GroupKind kind) {
-    return kind == GroupKind::angle_index || kind == GroupKind::succession || kind == GroupKind::station;
+/// The unit of what a kind estimates: "um", "ppm", or "1" for a number of steps or a ratio; and its value.
+std::pair<const char*, double> unit_of(GroupKind kind) {
+    switch (kind) {
+        case GroupKind::angle_index:
+        case GroupKind::succession:
+        case GroupKind::station:
+            return {"1", 1.0};
+        case GroupKind::fixture_scale:
+            return {"ppm", 1e-6};
+        default:
+            return {"um", gum::k_micrometre};
+    }
 }
 
 reports::GroupTestRow group_row(const GroupTest& test, const RotaryTableMeasurement& measurement) {
@@ -58,8 +67,8 @@ reports::GroupTestRow group_row(const GroupTest& test, const RotaryTableMeasurem
             row.printed.angle = shortest(*row.angle_deg);
         }
     }
-    const double unit = is_ratio(test.kind) ? 1.0 : gum::k_micrometre;
-    row.unit = is_ratio(test.kind) ? "1" : "um";
+    const auto [name_of_unit, unit] = unit_of(test.kind);
+    row.unit = name_of_unit;
     row.estimate = test.estimate / unit;
     if (test.minimal_detectable > 0.0) {
         row.minimal_detectable = test.minimal_detectable / unit;
@@ -98,9 +107,11 @@ void fill_visits(reports::RotaryTable& rotary, const engine::RotaryTableModel& m
                  const engine::VisitPositionGains& gains, const std::vector<engine::VisitDeviation>& deviations) {
     const RotaryTableMeasurement& measurement = model.measurement();
     const std::vector<engine::Visit>& visits = model.solved().visits();
-    const double limit = deviations.empty() ? 0.0
-                                            : gum::two_sided_normal_critical_value(engine::GroupTestOptions{}.alpha /
-                                                                                   static_cast<double>(visits.size()));
+    const double limit = deviations.empty()
+                             ? 0.0
+                             : gum::two_sided_normal_critical_value(engine::share_of_level(GroupKind::visit_length) *
+                                                                    engine::GroupTestOptions{}.alpha /
+                                                                    static_cast<double>(visits.size()));
     auto deviation = deviations.begin();
     for (std::size_t v = 0; v < visits.size(); ++v) {
         const engine::Visit& visit = visits[v];
@@ -324,6 +335,8 @@ const char* group_kind_name(GroupKind kind) {
             return "station";
         case GroupKind::reflector:
             return "reflector";
+        case GroupKind::fixture_scale:
+            return "fixture_scale";
     }
     return "";
 }

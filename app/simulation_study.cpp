@@ -36,6 +36,7 @@ RotaryTableMeasurement with_findings(const RotaryTableMeasurement& measurement,
                                      const engine::RotaryTableSolution& joint) {
     RotaryTableMeasurement result = measurement;
     result.lengths.clear();
+    result.times.clear();
     for (std::size_t i = 0; i < measurement.lengths.size(); ++i) {
         if (!joint.reliability[i].removed) {
             result.lengths.push_back(measurement.lengths[i]);

@@ -56,6 +56,7 @@ void lay_out(RotaryTableMeasurement& measurement, bool both_senses, bool dead_pa
     measurement.passes.clear();
     measurement.dead_paths.clear();
     measurement.lengths.clear();
+    measurement.times.clear();
     for (std::size_t j = 0; j < stations; ++j) {
         for (std::size_t m = 0; m < (dead_path_per_reflector ? reflectors : 1); ++m) {
             measurement.dead_paths.push_back(measurement.stations[j] +
@@ -117,6 +118,7 @@ RotaryTableMeasurement with_full_turn(const RotaryTableMeasurement& measurement,
     std::vector<std::optional<std::size_t>> used(measurement.dead_paths.size());
     result.dead_paths.clear();
     result.lengths.clear();
+    result.times.clear();
     for (auto begin = pattern.begin(); begin != pattern.end();) {
         auto end = begin;
         while (end != pattern.end() && end->first.first == begin->first.first) {

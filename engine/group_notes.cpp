@@ -26,6 +26,9 @@ std::string place_of(const GroupTest& test, const RotaryTableMeasurement& measur
     if (test.kind == GroupKind::reflector) {
         return "fixture, reflector " + measurement.reflectors[test.reflector];
     }
+    if (test.kind == GroupKind::fixture_scale) {
+        return "fixture";
+    }
     if (test.station == GroupTest::k_none) {
         return "lengths";
     }
@@ -37,7 +40,21 @@ std::string place_of(const GroupTest& test, const RotaryTableMeasurement& measur
     return place;
 }
 
-std::string what_of(const GroupTest& test) {
+/// The size of the fixture is the effect; the temperature that it means at the stated expansion is the likely cause.
+/// The estimate is that of the stated coordinates, which are too large where the fixture is smaller.
+std::string scale_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
+    const double size = std::abs(test.estimate);
+    const bool is_smaller = test.estimate > 0.0;
+    std::string text = "the distances put the whole fixture " + significant_text(size * 1e6, 3) + " ppm " +
+                       (is_smaller ? "smaller" : "larger") + " than its coordinates at its temperature";
+    if (measurement.expansion > 0.0) {
+        text += ", as if it were " + significant_text(size / measurement.expansion, 2) + " K " +
+                (is_smaller ? "colder" : "warmer") + " than stated";
+    }
+    return text;
+}
+
+std::string what_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
     switch (test.kind) {
         case GroupKind::visit_length:
             return "all distances of this visit are off by " + size_of(test.estimate) + " alike";
@@ -66,6 +83,8 @@ std::string what_of(const GroupTest& test) {
                    "others";
         case GroupKind::reflector:
             return "the distances put it " + size_of(test.estimate) + " away from its stated coordinates";
+        case GroupKind::fixture_scale:
+            return scale_of(test, measurement);
     }
     return "";
 }
@@ -90,6 +109,7 @@ std::string exclusion_of(const GroupTest& test, const RotaryTableMeasurement& me
         case GroupKind::dead_path_change:
         case GroupKind::drift:
         case GroupKind::succession:
+        case GroupKind::fixture_scale:
             return "";
     }
     return " The job leaves these distances out with \"exclude\": [{ " + selectors + ", \"reason\": \"why\" }].";
@@ -106,8 +126,9 @@ std::string action_of(const GroupTest& test) {
         case GroupKind::dead_path_change:
             return "If the beam was interrupted there, give the distances from there on a dead path of their own.";
         case GroupKind::drift:
-            return "Look at the temperatures and at the supports of stations and table; measure in both senses, or let "
-                   "it settle and measure again.";
+            return "Look at the temperatures and at the supports of stations and table; measure in both senses, and "
+                   "the "
+                   "first angle again at the end of each run, or let it settle and measure again.";
         case GroupKind::angle_index:
             return "Correct the angles of this station in the lengths file.";
         case GroupKind::succession:
@@ -117,6 +138,10 @@ std::string action_of(const GroupTest& test) {
             return "Look at this station: its support, its line of sight, its angles.";
         case GroupKind::reflector:
             return "Measure the reflector again with the CMM, and check that it has not moved in its holder.";
+        case GroupKind::fixture_scale:
+            return "Look at the temperature of the fixture, at its expansion coefficient and at the reference "
+                   "temperature of its coordinates; then at the scale of the distances, as of the refractive index of "
+                   "the air, which does the same.";
     }
     return "";
 }
@@ -129,11 +154,11 @@ std::vector<gum::Diagnostic> group_notes(const GroupTests& groups, const RotaryT
         if (test.suspicious && notes.size() < k_most_notes) {
             notes.push_back({.code = k_suspicious_group,
                              .where = place_of(test, measurement),
-                             .what = what_of(test) + " (chi-square " + chi_square_of(test.chi_square) + ", limit " +
-                                     chi_square_of(test.critical_value) + ")",
+                             .what = what_of(test, measurement) + " (chi-square " + chi_square_of(test.chi_square) +
+                                     ", limit " + chi_square_of(test.critical_value) + ")",
                              .rule =
-                                 "one sound measurement in a thousand exceeds such a limit; what exceeds it belongs "
-                                 "to the measurement and not to the repeatability of the table",
+                                 "of a hundred sound measurements one exceeds any such limit at most; what exceeds it "
+                                 "belongs to the measurement and not to the repeatability of the table",
                              .action = action_of(test) + exclusion_of(test, measurement),
                              .severity = gum::Severity::warning});
         }

@@ -28,6 +28,7 @@ constexpr double k_controlled = 1e-9;            // share of the weight of a gro
 constexpr std::size_t k_most_suspects = 40;      // groups that are taken away one after the other
 constexpr int k_most_steps = 18;                 // by which the angles of a station are looked at to be off
 constexpr std::size_t k_fewest_for_scatter = 8;  // visits: fewer say nothing of a scatter
+constexpr std::size_t k_drift_hypotheses = 3;    // all stations alike, each its own, one station
 
 /// Value of chi-square that is exceeded with a probability.
 double critical_chi_square(const GroupTestOptions& options, double probability, int degrees_of_freedom) {
@@ -260,6 +261,7 @@ public:
     GroupTests run() {
         find_scale();
         sequences();
+        estimate_drifts();
         std::vector<std::optional<Candidate>> last;
         for (std::size_t round = 0; round < std::min(k_most_suspects, visits_.size() / 4); ++round) {
             last = {best_visit(), best_change(), best_drift(), best_index()};
@@ -284,7 +286,7 @@ public:
             search_succession();
             search_stations();
         }
-        search_reflectors();
+        search_fixture();
         std::stable_sort(result_.tests.begin(), result_.tests.end(), [](const GroupTest& a, const GroupTest& b) {
             return a.suspicious != b.suspicious ? a.suspicious : a.suspicious && is_less_probable(a, b);
         });
@@ -361,8 +363,9 @@ private:
         test.family = count;
         test.chi_square = chi_square;
         test.p_value = options_.chi_square_upper_tail(chi_square, degrees_of_freedom);
-        const double level = options_.alpha / static_cast<double>(std::max<std::size_t>(count, 1));
-        const auto [limit, is_new] = limits_.try_emplace({degrees_of_freedom, count}, 0.0);
+        const double level =
+            share_of_level(kind) * options_.alpha / static_cast<double>(std::max<std::size_t>(count, 1));
+        const auto [limit, is_new] = limits_.try_emplace({degrees_of_freedom, level}, 0.0);
         if (is_new) {
             limit->second = critical_chi_square(options_, level, degrees_of_freedom);
         }
@@ -504,8 +507,23 @@ private:
             by_path[{visit.station, path}].push_back(g);
         }
         for (auto& [key, sequence] : by_path) {
+            std::ranges::stable_sort(sequence, {}, [this](std::size_t g) { return time_of(g); });
             sequences_.push_back(std::move(sequence));
         }
+    }
+
+    /// Mean time of the distances of a visit, else its place in the measurement.
+    [[nodiscard]] double time_of(std::size_t g) const {
+        const std::vector<double>& times = adjustment_.measurement().times;
+        if (times.empty()) {
+            return static_cast<double>(g);
+        }
+        const std::vector<std::size_t>& observations = adjustment_.visits()[g].observations;
+        double sum = 0.0;
+        for (const std::size_t i : observations) {
+            sum += times[i];
+        }
+        return sum / static_cast<double>(observations.size());
     }
 
     void keep(std::vector<GroupTest> all) {
@@ -519,6 +537,12 @@ private:
         }
     }
 
+    static void add_errors(GroupTest& test, const Visits::Column& column, double size) {
+        for (const auto& [visit, value] : column) {
+            test.errors.emplace_back(visit, size * value);
+        }
+    }
+
     [[nodiscard]] std::optional<GroupTest> column_test(GroupKind kind, const Visits::Column& column,
                                                        std::size_t count) const {
         const Visits::Projection projection = visits_.projection({column});
@@ -529,6 +553,7 @@ private:
         const double deviate = projection.weighted[0] / std::sqrt(spread) / used_scale_;
         GroupTest test = judged(kind, deviate * deviate, 1, count);
         test.estimate = projection.weighted[0] / spread;
+        add_errors(test, column, test.estimate);
         test.minimal_detectable = detectable(test, spread);
         return test;
     }
@@ -574,37 +599,84 @@ private:
         return best;
     }
 
-    /// Of every sequence, of all sequences alike, and of each sequence its own, jointly.
-    [[nodiscard]] std::optional<Candidate> best_drift() {
-        std::vector<Visits::Column> columns;
-        std::vector<std::size_t> first;
-        Visits::Column common;
+    /// Drifts that are tested: columns with the value -1/2 at the first visit and 1/2 at the last one.
+    struct Drifts {
+        std::vector<Visits::Column> each;  ///< of every sequence
+        std::vector<std::size_t> first;    ///< visit of each
+        Visits::Column common;             ///< one rate of all sequences; 1 over the longest one
+    };
+    [[nodiscard]] Drifts drifts() const {
+        Drifts result;
+        const bool has_times = !adjustment_.measurement().times.empty();
+        std::vector<std::vector<double>> times;
+        double longest = 0.0;
         for (const auto& sequence : sequences_) {
-            if (sequence.size() < 3) {
+            times.emplace_back();
+            for (std::size_t k = 0; k < sequence.size(); ++k) {
+                times.back().push_back(has_times ? time_of(sequence[k]) : static_cast<double>(k));
+            }
+            longest = std::max(longest, times.back().back() - times.back().front());
+        }
+        for (std::size_t s = 0; s < sequences_.size(); ++s) {
+            const double duration = times[s].back() - times[s].front();
+            if (sequences_[s].size() < 3 || !(duration > 0.0)) {
                 continue;
             }
             Visits::Column column;
-            const auto last = static_cast<double>(sequence.size() - 1);
-            for (std::size_t k = 0; k < sequence.size(); ++k) {
-                column.emplace_back(sequence[k], static_cast<double>(k) / last - 0.5);
+            for (std::size_t k = 0; k < sequences_[s].size(); ++k) {
+                const double value = (times[s][k] - times[s].front()) / duration - 0.5;
+                column.emplace_back(sequences_[s][k], value);
+                result.common.emplace_back(sequences_[s][k], value * duration / longest);
             }
-            common.insert(common.end(), column.begin(), column.end());
-            columns.push_back(std::move(column));
-            first.push_back(sequence.front());
+            result.each.push_back(std::move(column));
+            result.first.push_back(sequences_[s].front());
         }
-        const std::size_t count = columns.size() + 2;
+        return result;
+    }
+
+    /// What there is to know of drifts before anything is taken away.
+    void estimate_drifts() {
+        const Drifts all = drifts();
+        const auto add = [this](const Visits::Column& column, std::size_t station, std::size_t count) {
+            const Visits::Projection projection = visits_.projection({column});
+            const double spread = projection.spread(0, 0);
+            if (spread > k_controlled * projection.weight) {
+                result_.drifts.push_back({station, projection.weighted[0] / spread, used_scale_ / std::sqrt(spread),
+                                          detectable(judged(GroupKind::drift, 0.0, 1, count), spread)});
+            }
+        };
+        for (std::size_t k = 0; k < all.each.size(); ++k) {
+            add(all.each[k], adjustment_.visits()[all.first[k]].station, drift_tests(all.each.size()));
+        }
+        if (all.each.size() > 1) {
+            add(all.common, GroupTest::k_none, k_drift_hypotheses);
+        }
+    }
+
+    /// Tests among which the level of drift is divided for one sequence.
+    static std::size_t drift_tests(std::size_t sequences) { return sequences > 1 ? k_drift_hypotheses * sequences : 1; }
+
+    /// Of every sequence, of all sequences alike, and of each sequence its own, jointly.
+    [[nodiscard]] std::optional<Candidate> best_drift() {
+        const Drifts all = drifts();
+        const std::size_t count = all.each.size() > 1 ? all.each.size() + 2 : 1;
         std::optional<Candidate> best;
-        for (std::size_t k = 0; k < columns.size(); ++k) {
-            if (std::optional<GroupTest> test = column_test(GroupKind::drift, columns[k], count)) {
-                place(*test, first[k]);
-                take(best, {*test, [this, column = columns[k]] { visits_.take_away({column}); }});
+        const auto consider = [&](std::optional<GroupTest> test, const std::vector<Visits::Column>& columns) {
+            if (test) {
+                test->family = count;
+                take(best, {*test, [this, columns] { visits_.take_away(columns); }});
             }
+        };
+        for (std::size_t k = 0; k < all.each.size(); ++k) {
+            std::optional<GroupTest> test = column_test(GroupKind::drift, all.each[k], drift_tests(all.each.size()));
+            if (test) {
+                place(*test, all.first[k]);
+            }
+            consider(test, {all.each[k]});
         }
-        if (columns.size() > 1) {
-            if (const std::optional<GroupTest> test = column_test(GroupKind::drift, common, count)) {
-                take(best, {*test, [this, common] { visits_.take_away({common}); }});
-            }
-            take(best, {joint_drift(columns, count), [this, columns] { visits_.take_away(columns); }});
+        if (all.each.size() > 1) {
+            consider(column_test(GroupKind::drift, all.common, k_drift_hypotheses), {all.common});
+            consider(joint_drift(all.each, k_drift_hypotheses), all.each);
         }
         return best;
     }
@@ -616,6 +688,9 @@ private:
         GroupTest test = judged(GroupKind::drift, projection.weighted.dot(drifts) / (used_scale_ * used_scale_),
                                 std::max(inverted.rank, 1), count);
         test.estimate = drifts.norm() / std::sqrt(static_cast<double>(drifts.size()));
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            add_errors(test, columns[k], drifts[static_cast<Index>(k)]);
+        }
         return test;
     }
 
@@ -744,35 +819,89 @@ private:
         keep(std::move(all));
     }
 
-    /// Points of the fixture, one at a time: the coordinates of the least probable one are left out before the next.
-    void search_reflectors() {
+    /// V⁻¹v and M of the coordinates of the fixture, less what is already explained.
+    struct FixtureMisfit {
+        VectorXd weighted;
+        MatrixXd spread;
+        double least = 0.0;  ///< of the weight of a coordinate, below which nothing else controls it
+
+        void take_away(const MatrixXd& effect) {
+            const MatrixXd across = spread * effect;
+            const MatrixXd inverse =
+                pseudo_inverse(effect.transpose() * across, least * effect.colwise().squaredNorm().maxCoeff()).inverse;
+            weighted -= across * (inverse * (effect.transpose() * weighted).eval());
+            spread -= across * inverse * across.transpose();
+        }
+    };
+
+    static MatrixXd effect_of_point(std::size_t point, Index coordinates) {
+        MatrixXd effect = MatrixXd::Zero(coordinates, 3);
+        effect.block<3, 3>(static_cast<Index>(3 * point), 0).setIdentity();
+        return effect;
+    }
+    /// Coordinates of the fixture: what a relative change of its size does to them.
+    [[nodiscard]] MatrixXd effect_of_scale() const {
+        const Eigen::MatrixX3d& points = adjustment_.measurement().fixture;
+        return points.transpose().reshaped(points.size(), 1);
+    }
+
+    [[nodiscard]] std::optional<GroupTest> reflector_test(const FixtureMisfit& misfit, std::size_t point,
+                                                          std::size_t points) const {
+        const auto at = static_cast<Index>(3 * point);
+        const Inverted inverted = pseudo_inverse(misfit.spread.block<3, 3>(at, at), misfit.least);
+        if (inverted.rank == 0) {
+            return std::nullopt;
+        }
+        const Eigen::Vector3d pull = misfit.weighted.segment<3>(at);
+        const Eigen::Vector3d error = inverted.inverse * pull;
+        GroupTest test = judged(GroupKind::reflector, pull.dot(error), inverted.rank, points);
+        test.reflector = point;
+        test.estimate = error.norm();
+        test.minimal_detectable =
+            (std::sqrt(test.critical_value) + k_deviate_of_power) * std::sqrt(inverted.inverse.trace() / inverted.rank);
+        return test;
+    }
+
+    /// The scale of the fixture is controlled where the distances know theirs.
+    [[nodiscard]] std::optional<GroupTest> scale_test(const FixtureMisfit& misfit) const {
+        const VectorXd effect = effect_of_scale();
+        const double spread = effect.dot(misfit.spread * effect);
+        if (!(spread > misfit.least * effect.squaredNorm())) {
+            return std::nullopt;
+        }
+        const double pull = effect.dot(misfit.weighted);
+        GroupTest test = judged(GroupKind::fixture_scale, pull * pull / spread, 1, 1);
+        test.estimate = pull / spread;
+        test.minimal_detectable = (std::sqrt(test.critical_value) + k_deviate_of_power) / std::sqrt(spread);
+        return test;
+    }
+
+    /// The fixture as a whole and its points, one at a time: what is least probable is taken away before the next.
+    void search_fixture() {
         auto [whitening, weighted, spread] = spread_of(normal_.groups()[adjustment_.fixture_prior()], covariance_);
-        const double least = 1e-6 * whitening.colwise().squaredNorm().minCoeff();
+        FixtureMisfit misfit{weighted, spread, 1e-6 * whitening.colwise().squaredNorm().minCoeff()};
         const auto points = static_cast<std::size_t>(weighted.size() / 3);
         std::vector<bool> out(points, false);
+        bool is_scaled = false;
         // Three points make a frame: of as many nothing controls the others.
         for (std::size_t round = 0; round + 3 < points; ++round) {
             std::optional<GroupTest> worst;
             for (std::size_t m = 0; m < points; ++m) {
-                if (out[m]) {
-                    continue;
-                }
-                const auto at = static_cast<Index>(3 * m);
-                const Inverted inverted = pseudo_inverse(spread.block<3, 3>(at, at), least);
-                if (inverted.rank == 0) {
-                    continue;
-                }
-                const Eigen::Vector3d pull = weighted.segment<3>(at);
-                const Eigen::Vector3d error = inverted.inverse * pull;
-                GroupTest test = judged(GroupKind::reflector, pull.dot(error), inverted.rank, points);
-                test.reflector = m;
-                test.estimate = error.norm();
-                test.minimal_detectable = (std::sqrt(test.critical_value) + k_deviate_of_power) *
-                                          std::sqrt(inverted.inverse.trace() / inverted.rank);
-                if (!worst || test.p_value < worst->p_value ||
-                    (test.p_value == worst->p_value && test.chi_square > worst->chi_square)) {
+                const std::optional<GroupTest> test = out[m] ? std::nullopt : reflector_test(misfit, m, points);
+                if (test && (!worst || is_less_probable(*test, *worst))) {
                     worst = test;
                 }
+            }
+            const std::optional<GroupTest> scale = is_scaled ? std::nullopt : scale_test(misfit);
+            if (scale && round == 0 && !scale->suspicious) {
+                result_.tests.push_back(*scale);
+            }
+            const bool is_scale = scale && scale->suspicious && (!worst || is_less_probable(*scale, *worst));
+            if (is_scale) {
+                result_.tests.push_back(*scale);
+                misfit.take_away(effect_of_scale());
+                is_scaled = true;
+                continue;
             }
             if (!worst || (!worst->suspicious && round > 0)) {
                 return;
@@ -781,11 +910,7 @@ private:
             if (!worst->suspicious) {
                 return;
             }
-            const auto at = static_cast<Index>(3 * worst->reflector);
-            const MatrixXd across = spread.middleCols<3>(at);
-            const MatrixXd inverse = pseudo_inverse(spread.block<3, 3>(at, at), least).inverse;
-            weighted -= across * (inverse * weighted.segment<3>(at).eval());
-            spread -= across * inverse * across.transpose();
+            misfit.take_away(effect_of_point(worst->reflector, weighted.size()));
             out[worst->reflector] = true;
         }
     }
@@ -798,13 +923,35 @@ private:
     std::vector<MatrixXd> poses_;
     std::vector<VisitTest> tests_;
     std::vector<std::vector<std::size_t>> sequences_;
-    mutable std::map<std::pair<int, std::size_t>, double> limits_;  ///< by degrees of freedom and number of tests
-    double used_scale_ = 1.0, pose_scale_ = 1.0;                    ///< of common errors, of poses
-    std::vector<bool> moved_;                                       ///< by station: its angles were found to be others
+    mutable std::map<std::pair<int, double>, double> limits_;  ///< by degrees of freedom and level
+    double used_scale_ = 1.0, pose_scale_ = 1.0;               ///< of common errors, of poses
+    std::vector<bool> moved_;                                  ///< by station: its angles were found to be others
     GroupTests result_;
 };
 
 }  // namespace
+
+double share_of_level(GroupKind kind) {
+    switch (kind) {
+        case GroupKind::drift:
+            return 0.40;
+        case GroupKind::visit_length:
+            return 0.30;
+        case GroupKind::dead_path_change:
+            return 0.08;
+        case GroupKind::reflector:
+            return 0.06;
+        case GroupKind::visit_pose:
+            return 0.02;
+        case GroupKind::succession:
+        case GroupKind::station:
+            return 0.015;
+        case GroupKind::angle_index:
+        case GroupKind::fixture_scale:
+            return 0.005;
+    }
+    return 0.0;
+}
 
 GroupTests test_groups(const JointAdjustment& adjustment, const NormalEquations& normal,
                        const BorderedCovariance& covariance, const GroupTestOptions& options) {

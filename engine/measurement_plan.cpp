@@ -84,6 +84,7 @@ RotaryTableMeasurement part_of(const RotaryTableMeasurement& from, const std::ve
     const auto angle = renumbered(angles);
     std::vector<bool> paths(from.dead_paths.size(), false);
     result.lengths.clear();
+    result.times.clear();
     for (const LengthObservation& length : from.lengths) {
         if (stations[length.station] && reflectors[length.reflector] && angles[length.angle]) {
             paths[length.dead_path] = true;
@@ -246,6 +247,7 @@ RotaryTableMeasurement with_twice_the_angles(const RotaryTableMeasurement& measu
     }
     result.home = 2 * measurement.home;
     result.lengths.clear();
+    result.times.clear();
     for (LengthObservation length : measurement.lengths) {
         length.angle *= 2;
         result.lengths.push_back(length);

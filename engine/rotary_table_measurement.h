@@ -74,8 +74,9 @@ struct RotaryTableMeasurement {
     std::size_t home = 0;            ///< index of the home angle
 
     std::vector<LengthObservation> lengths;
-    Eigen::MatrixX3d fixture;                                   ///< reflectors×3, [m]
-    Eigen::MatrixXd fixture_covariance;                         ///< 3n×3n, order x1 y1 z1 x2 …, [m²]
+    std::vector<double> times;           ///< one a length, from any origin, [s]; empty: known by their order only
+    Eigen::MatrixX3d fixture;            ///< reflectors×3, [m]
+    Eigen::MatrixXd fixture_covariance;  ///< 3n×3n, order x1 y1 z1 x2 …, [m²]
     std::vector<std::optional<Eigen::Vector3d>> station_start;  ///< per station, in T, [m]; empty when not known
     Eigen::VectorXd temperature_difference;  ///< fixture temperature minus reference temperature, per station, [K]
     Eigen::VectorXd u_temperature;           ///< its standard uncertainty, per station, [K]

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -67,14 +68,14 @@ struct Positions {
 struct StationFit {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     double misfit = std::numeric_limits<double>::infinity();
-    double tilt = 0.0;  ///< of the set-up with which the station was found, [rad]
+    Eigen::Vector4d set_up = Eigen::Vector4d::Zero();  ///< with which the station was found
 
     /// Misfit with a fixture that stands as fixtures stand: a table that turns the other way looks like one whose axis
     /// is turned over.
     [[nodiscard]] double upright_misfit() const {
         constexpr double k_overturned = 0.5;  // [rad]
         constexpr double k_hopeless = 1.0;    // [m]
-        return tilt > k_overturned ? k_hopeless : misfit;
+        return set_up.tail<2>().norm() > k_overturned ? k_hopeless : misfit;
     }
 };
 
@@ -166,6 +167,11 @@ public:
     }
     /// One station on its own.
     [[nodiscard]] StationFit fit_of(std::size_t station) const { return fit_alone(station); }
+
+    /// Deviations of a station with a fit of its own, and the medians of its dead paths.
+    [[nodiscard]] std::pair<Eigen::VectorXd, Eigen::VectorXd> deviations(std::size_t j, const StationFit& fit) const {
+        return deviations(j, fit.set_up, fit.position);
+    }
 
     [[nodiscard]] const std::vector<StationData>& stations() const { return stations_; }
     /// Deviations from the medians of the dead paths, and these medians.
@@ -434,7 +440,7 @@ private:
         fits[j].position = from;
         Eigen::Vector4d own = set_up;
         descend({j}, own, fits, free_set_up, free_set_up ? k_coarse_step : k_fine_step);
-        fits[j].tilt = own.tail<2>().norm();
+        fits[j].set_up = own;
         return fits[j];
     }
 
@@ -937,7 +943,141 @@ private:
     std::vector<LabelHypothesis> hypotheses_;
 };
 
+// ---- interrupted beams ----------------------------------------------------------------------------------------------
+
+/// Where the beam of a station was interrupted.
+struct Interruption {
+    std::size_t first = 0;                                  ///< length after it, of the measurement
+    double size = 0.0;                                      ///< [m]
+    double left = std::numeric_limits<double>::infinity();  ///< mean absolute deviation with it, [m]
+};
+
+class InterruptionSearch {
+public:
+    explicit InterruptionSearch(const RotaryTableMeasurement& measurement) : split_(measurement) {
+        split_.dead_paths.emplace_back();
+    }
+
+    /// The interruption of a station that leaves least of its deviations, where that is little enough.
+    [[nodiscard]] std::optional<Interruption> of_station(std::size_t station) {
+        constexpr double k_smallest = 0.1 * gum::k_millimetre;
+        constexpr double k_share_left = 0.2;
+        active_.clear();
+        std::map<std::size_t, std::vector<std::vector<std::size_t>>> by_path;  // visits of each, in their order
+        std::map<std::pair<std::size_t, std::size_t>, std::pair<std::size_t, std::size_t>> places;
+        for (std::size_t i = 0; i < split_.lengths.size(); ++i) {
+            const LengthObservation& length = split_.lengths[i];
+            active_.push_back(length.station == station);
+            if (active_.back()) {
+                const auto [place, is_new] = places.try_emplace({length.pass, length.angle}, length.dead_path, 0);
+                auto& visits = by_path[place->second.first];
+                if (is_new) {
+                    place->second.second = visits.size();
+                    visits.emplace_back();
+                }
+                visits[place->second.second].push_back(i);
+            }
+        }
+        const double before = deviation(station).left;
+        Interruption best;
+        for (const auto& [path, visits] : by_path) {
+            const Interruption found = best_of(station, visits);
+            if (found.left < best.left) {
+                best = found;
+            }
+        }
+        if (best.left < k_share_left * before && std::abs(best.size) > k_smallest) {
+            return best;
+        }
+        return std::nullopt;
+    }
+
+private:
+    /// Every visit of a short sequence; of a long one equal steps first, and then the neighbours of the best.
+    Interruption best_of(std::size_t station, const std::vector<std::vector<std::size_t>>& visits) {
+        constexpr std::size_t k_steps = 24;
+        constexpr std::size_t k_fewest = 2;  // on either side: of one visit it is that visit
+        if (visits.size() < 2 * k_fewest) {
+            return {};
+        }
+        std::size_t from = k_fewest;
+        std::size_t to = visits.size() - k_fewest;
+        Interruption best;
+        for (std::size_t step = (to - from) / k_steps + 1; step > 0; step = step == 1 ? 0 : step / k_steps + 1) {
+            std::size_t place = from;
+            for (std::size_t k = from; k <= to; k += step) {
+                const Interruption found = interrupted_at(station, visits, k);
+                if (found.left < best.left) {
+                    best = found;
+                    place = k;
+                }
+            }
+            from = std::max(k_fewest, place - std::min(place, step));
+            to = std::min(visits.size() - k_fewest, place + step);
+        }
+        return best;
+    }
+
+    Interruption interrupted_at(std::size_t station, const std::vector<std::vector<std::size_t>>& visits,
+                                std::size_t first) {
+        const std::size_t own = split_.dead_paths.size() - 1;
+        std::vector<std::pair<std::size_t, std::size_t>> before;  // length and its dead path
+        for (std::size_t k = first; k < visits.size(); ++k) {
+            for (const std::size_t i : visits[k]) {
+                before.emplace_back(i, split_.lengths[i].dead_path);
+                split_.lengths[i].dead_path = own;
+            }
+        }
+        Interruption found = deviation(station);
+        found.first = visits[first].front();
+        for (const auto& [i, path] : before) {
+            split_.lengths[i].dead_path = path;
+        }
+        return found;
+    }
+
+    /// What a fit of the station leaves, and the dead path that was split off less the one before.
+    [[nodiscard]] Interruption deviation(std::size_t station) const {
+        const StartSearch search(split_, active_);
+        const StationFit fit = search.fit_of(station);
+        const auto [deviations, centres] = search.deviations(station, fit);
+        Interruption result;
+        result.left = deviations.cwiseAbs().mean();
+        const std::vector<std::size_t>& names = search.stations()[station].path_name;
+        if (!names.empty() && names.back() == split_.dead_paths.size() - 1) {
+            result.size = centres[0] - centres[centres.size() - 1];
+        }
+        return result;
+    }
+
+    RotaryTableMeasurement split_;
+    std::vector<bool> active_;
+};
+
 }  // namespace
+
+void refuse_interrupted_beams(const RotaryTableMeasurement& measurement) {
+    std::vector<gum::Diagnostic> problems;
+    InterruptionSearch search(measurement);
+    for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
+        const std::optional<Interruption> found = search.of_station(j);
+        if (!found) {
+            continue;
+        }
+        const LengthObservation& length = measurement.lengths[found->first];
+        problems.push_back({"GC-ADJUST-0014",
+                            "station " + measurement.stations[j] + ", pass " + measurement.passes[length.pass] + ", " +
+                                degrees_text(measurement.angles_deg[length.angle]),
+                            "from this visit on all distances of the station are off by about " +
+                                fixed_text(std::abs(found->size) / gum::k_micrometre, 0) + " µm alike",
+                            "distances of one dead path have one constant",
+                            "the beam was interrupted there: give the distances from there on a dead path of their own",
+                            gum::Severity::error});
+    }
+    if (!problems.empty()) {
+        throw gum::NoResultError(std::move(problems));
+    }
+}
 
 StartValues find_start_values(const RotaryTableMeasurement& measurement, const std::vector<bool>& active) {
     StartSearch search(measurement, active);

@@ -131,7 +131,7 @@ Text subject_of(const GroupTestRow& row, const Wording& words) {
 void group_table(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
     Rows rows;
     for (const GroupTestRow& row : r.group_tests->kinds) {
-        const Text unit = row.unit == "um" ? " µm" : "";
+        const Text unit = row.unit == "um" ? " µm" : row.unit == "ppm" ? " · 10⁻⁶" : "";
         const auto with_unit = [&](const std::string& printed) {
             return printed.empty() ? Text() : words.number(printed) + unit;
         };

@@ -161,6 +161,8 @@ constexpr NumberRange k_length{
     .low = -100'000.0, .high = 100'000.0, .unit = "mm", .hint = "check the unit: lengths are in millimetres"};
 constexpr NumberRange k_angle{
     .low = -3600.0, .high = 3600.0, .unit = "°", .hint = "check the unit: angles are in degrees"};
+// From any origin: the beginning of the day, of the measurement, or of the epoch of a data logger.
+constexpr NumberRange k_time{.low = -1e11, .high = 1e11, .unit = "s", .hint = "check the unit: times are in seconds"};
 constexpr NumberRange k_temperature{
     .low = -50.0, .high = 100.0, .unit = "°C", .hint = "check the unit: temperatures are in degrees Celsius"};
 
@@ -230,6 +232,7 @@ private:
         double angle_deg = 0.0;
         double length_mm = 0.0;
         std::size_t angle = 0;  ///< in angles_deg_
+        double time = 0.0;      ///< [s], where the file has times
     };
 
     // ---- files ------------------------------------------------------------------------------------------------------
@@ -751,13 +754,23 @@ private:
 
     // ---- lengths ----------------------------------------------------------------------------------------------------
 
-    enum LengthsColumn : std::size_t { c_station, c_reflector, c_pass, c_direction, c_angle, c_length, c_dead_path };
+    enum LengthsColumn : std::size_t {
+        c_station,
+        c_reflector,
+        c_pass,
+        c_direction,
+        c_angle,
+        c_length,
+        c_dead_path,
+        c_time
+    };
 
     void read_lengths(File&& file, const JsonObject& root) {
         static constexpr std::array<std::string_view, 7> k_columns{"station",   "reflector", "pass",     "direction",
                                                                    "angle_deg", "length_mm", "dead_path"};
         static constexpr std::array<std::string_view, 2> k_directions{"+", "-"};
-        lengths_table_ = read_csv_table(std::move(file.bytes), k_columns, {}, *file.problems);
+        static constexpr std::array<std::string_view, 1> k_more_columns{"time_s"};
+        lengths_table_ = read_csv_table(std::move(file.bytes), k_columns, k_more_columns, *file.problems);
         if (!lengths_table_) {
             return;
         }
@@ -773,6 +786,7 @@ private:
             const auto angle = table.number(i, c_angle, k_angle);
             const auto length = table.number(i, c_length, k_length);
             const auto dead_path = table.name(i, c_dead_path);
+            const auto time = table.has_column(c_time) ? table.number(i, c_time, k_time) : std::optional(0.0);
             if (station && reflector && pass && direction && angle &&
                 is_excluded(
                     {*station, *reflector, *pass, k_directions[*direction], *angle, table.cell(i, c_station).line})) {
@@ -782,9 +796,10 @@ private:
                 // Also of a row with another problem: else its station would be missing elsewhere, too.
                 stations_.index(*station);
             }
-            if (station && reflector && pass && direction && angle && length && dead_path) {
+            if (station && reflector && pass && direction && angle && length && dead_path && time) {
                 rows.push_back({i, stations_.index(*station), lengths_reflectors_.index(*reflector),
-                                passes_.index(*pass), dead_paths_.index(*dead_path), *direction, *angle, *length, 0});
+                                passes_.index(*pass), dead_paths_.index(*dead_path), *direction, *angle, *length, 0,
+                                *time});
             }
         }
         refuse_idle_exclusions();
@@ -1167,6 +1182,9 @@ private:
             observation.length = row.length_mm * k_millimetre;
             observation.line = lengths_table_->cell(row.table_row, c_station).line;
             measurement.lengths.push_back(observation);
+            if (lengths_table_->has_column(c_time)) {
+                measurement.times.push_back(row.time);
+            }
         }
     }
 

@@ -725,7 +725,7 @@ void describe(Archive& a, Struct& r) {
     a("pass", r.pass);
     a("angle_deg", r.angle_deg);
     a("estimate", r.estimate);
-    a("unit", r.unit, {"um", "1"});
+    a("unit", r.unit, {"um", "ppm", "1"});
     a("minimal_detectable", r.minimal_detectable, Range::not_negative);
     a("suspicious", r.suspicious);
     a.group("printed", [&](auto& b) {

@@ -27,15 +27,27 @@ enum class Blunder {
     swapped_reflectors_of_station,
     wrong_sense,  ///< of rotation, in the whole file
     hot_fixture,  ///< its temperature wrong by 2 K to 10 K, either way
+    // Kinds that came later stand at the end: the seeds of the others mean the same campaigns as before.
+    large_jump,           ///< interrupted beam of one station, 1 mm to 20 mm
+    closed_drift,         ///< drift of one station, whose first angle is measured again at the end of each run
+    closed_drift_of_all,  ///< the same of all stations
 };
 
-inline constexpr std::array<std::pair<Blunder, const char*>, 12> k_blunders{
+/// Whether the first angle is measured again at the end of each run.
+inline bool is_closed(Blunder blunder) {
+    return blunder == Blunder::closed_drift || blunder == Blunder::closed_drift_of_all;
+}
+
+inline constexpr std::array<std::pair<Blunder, const char*>, 15> k_blunders{
     {{Blunder::none, "none"},
      {Blunder::outliers, "outliers"},
      {Blunder::visit, "visit"},
      {Blunder::jump, "jump"},
+     {Blunder::large_jump, "large jump"},
      {Blunder::drift, "drift"},
+     {Blunder::closed_drift, "drift, runs closed"},
      {Blunder::drift_of_all, "drift of all stations"},
+     {Blunder::closed_drift_of_all, "drift of all stations, runs closed"},
      {Blunder::angle_index, "angle index"},
      {Blunder::displaced_reflector, "displaced reflector"},
      {Blunder::swapped_reflectors, "swapped reflectors"},
@@ -52,8 +64,9 @@ struct Planted {
 };
 
 /// A table with a repeatability of its own, whose components are estimated; a fixture of steel at 20 °C.
-inline Campaign sound_campaign(std::uint64_t seed, int angles = 24) {
+inline Campaign sound_campaign(std::uint64_t seed, int angles = 24, bool closed = false) {
     CampaignPlan plan;
+    plan.closed_runs = closed;
     plan.angles_deg = full_turn(angles);
     plan.table_linear = 0.15e-6;
     plan.table_axial = 1.5e-6;
@@ -104,11 +117,26 @@ inline void add_outliers(Planted& planted, Noise& draw) {
     }
 }
 
-/// An error that grows over the visits of a station, in the order of its angles.
+/// An error that grows over the visits of a station, in the order of its angles; a visit that closes the run has all of
+/// it and a step more.
 inline void add_drift(RotaryTableMeasurement& m, std::size_t station, double size) {
+    std::size_t first = m.passes.size();
     for (LengthObservation& length : m.lengths) {
         if (length.station == station) {
-            length.length += size * static_cast<double>(length.angle) / static_cast<double>(m.angles.size() - 1);
+            first = std::min(first, length.pass);
+            const std::size_t visit = length.pass == first ? length.angle : m.angles.size();
+            length.length += size * static_cast<double>(visit) / static_cast<double>(m.angles.size() - 1);
+        }
+    }
+}
+
+/// An interrupted beam: all distances of the station from an angle on, which leaves some visits on either side.
+inline void add_jump(Planted& planted) {
+    RotaryTableMeasurement& m = planted.measurement;
+    planted.angle = 3 + planted.angle % (m.angles.size() - 5);
+    for (LengthObservation& length : m.lengths) {
+        if (length.station == planted.station && length.angle >= planted.angle) {
+            length.length += planted.size;
         }
     }
 }
@@ -118,7 +146,7 @@ inline void add_drift(RotaryTableMeasurement& m, std::size_t station, double siz
 /// The same seed means the same campaign with the same blunder.
 inline Planted plant(Blunder blunder, std::uint64_t seed, int angles = 24) {
     using namespace planting;
-    Planted planted{.measurement = sound_campaign(seed, angles).measurement};
+    Planted planted{.measurement = sound_campaign(seed, angles, is_closed(blunder)).measurement};
     RotaryTableMeasurement& m = planted.measurement;
     constexpr std::uint64_t k_far_away = 0x9E3779B97F4A7C15U;  // from the seeds of the campaigns
     Noise draw(k_far_away + std::uint64_t{1000003} * seed + static_cast<std::uint64_t>(blunder));
@@ -144,18 +172,19 @@ inline Planted plant(Blunder blunder, std::uint64_t seed, int angles = 24) {
             break;
         case Blunder::jump:
             planted.size = sign * log_uniform(draw, 1e-6, 1e-3);
-            planted.angle = 3 + planted.angle % (m.angles.size() - 5);
-            for (LengthObservation& length : m.lengths) {
-                if (length.station == planted.station && length.angle >= planted.angle) {
-                    length.length += planted.size;
-                }
-            }
+            add_jump(planted);
+            break;
+        case Blunder::large_jump:
+            planted.size = sign * log_uniform(draw, 1e-3, 20e-3);
+            add_jump(planted);
             break;
         case Blunder::drift:
+        case Blunder::closed_drift:
             planted.size = sign * log_uniform(draw, 0.5e-6, 5e-6);
             add_drift(m, planted.station, planted.size);
             break;
         case Blunder::drift_of_all:
+        case Blunder::closed_drift_of_all:
             planted.size = sign * log_uniform(draw, 0.5e-6, 5e-6);
             for (std::size_t j = 0; j < m.stations.size(); ++j) {
                 add_drift(m, j, planted.size * (0.75 + 0.5 * draw.uniform()));

@@ -72,6 +72,7 @@ struct CampaignPlan {
     std::size_t runs = 1;               ///< of every station, in each sense
     bool both_senses = false;           ///< every run up and down, else up only
     bool one_reflector_a_pass = false;  ///< the table is driven once a reflector: one distance a visit
+    bool closed_runs = false;           ///< the first angle again at the end of each run, as a pass of its own
     DeadPaths dead_paths = DeadPaths::per_station;
     bool start_values = false;                                  ///< stations given to about a centimetre, else none
     Eigen::Vector2d offset{59.4 * k_um, 192.6 * k_um};          ///< O across the axis, [m]
@@ -289,10 +290,14 @@ inline Campaign simulate(const CampaignPlan& plan) {
         for (std::size_t run = 0; run < plan.runs * groups * (plan.both_senses ? 2 : 1); ++run) {
             const bool down = plan.both_senses && run % 2 == 1;
             const std::size_t group = (plan.both_senses ? run / 2 : run) % groups;
-            const std::size_t pass = measurement.passes.size();
+            std::size_t pass = measurement.passes.size();
             measurement.passes.push_back(measurement.stations[station] + "/" + std::to_string(run + 1));
-            for (Eigen::Index step = 0; step < angles; ++step) {
-                const Eigen::Index i = down ? angles - 1 - step : step;
+            for (Eigen::Index step = 0; step < angles + (plan.closed_runs ? 1 : 0); ++step) {
+                if (step == angles) {
+                    pass = measurement.passes.size();
+                    measurement.passes.push_back(measurement.passes.back() + " closed");
+                }
+                const Eigen::Index i = down ? angles - 1 - step % angles : step % angles;
                 Vector6 pose = truth.errors.col(i) + (plan.both_senses ? (down ? -0.5 : 0.5) : 0.0) * truth.reversal;
                 for (int c = 0; c < 6; ++c) {
                     pose[c] += plan.noise * spread[c] * noise.normal();

@@ -32,9 +32,9 @@ GroupTest suspicious(GroupKind kind) {
 }
 
 TEST(GroupNotes, SayWhichGroupByHowMuchAndWhatToDo) {
-    for (const GroupKind kind :
-         {GroupKind::visit_length, GroupKind::visit_pose, GroupKind::dead_path_change, GroupKind::drift,
-          GroupKind::angle_index, GroupKind::succession, GroupKind::station, GroupKind::reflector}) {
+    for (const GroupKind kind : {GroupKind::visit_length, GroupKind::visit_pose, GroupKind::dead_path_change,
+                                 GroupKind::drift, GroupKind::angle_index, GroupKind::succession, GroupKind::station,
+                                 GroupKind::reflector, GroupKind::fixture_scale}) {
         const auto notes = group_notes({.tests = {suspicious(kind)}, .visits = {}}, two_stations());
         ASSERT_EQ(notes.size(), 1U);
         EXPECT_EQ(notes[0].code, k_suspicious_group);
@@ -53,6 +53,24 @@ TEST(GroupNotes, SayWhichGroupByHowMuchAndWhatToDo) {
                 testing::Not(HasSubstr("exclude")));
     EXPECT_EQ(group_notes({.tests = {suspicious(GroupKind::reflector)}, .visits = {}}, two_stations())[0].where,
               "fixture, reflector R3");
+}
+
+TEST(GroupNotes, SayTheTemperatureThatAScaledFixtureMeans) {
+    RotaryTableMeasurement measurement = two_stations();
+    GroupTest scaled = suspicious(GroupKind::fixture_scale);
+    scaled.estimate = 46e-6;  // of the stated coordinates: the fixture itself is smaller
+    const auto without = group_notes({.tests = {scaled}, .visits = {}}, measurement);
+    EXPECT_EQ(without[0].where, "fixture");
+    EXPECT_THAT(without[0].what, testing::StartsWith("the distances put the whole fixture 46 ppm smaller than its "
+                                                     "coordinates at its temperature (chi-square"));
+    measurement.expansion = 11.5e-6;
+    EXPECT_THAT(group_notes({.tests = {scaled}, .visits = {}}, measurement)[0].what,
+                HasSubstr("as if it were 4 K colder than stated"));
+    scaled.estimate = -46e-6;
+    const auto warmer = group_notes({.tests = {scaled}, .visits = {}}, measurement);
+    EXPECT_THAT(warmer[0].what, HasSubstr("46 ppm larger"));
+    EXPECT_THAT(warmer[0].what, HasSubstr("4 K warmer"));
+    EXPECT_THAT(warmer[0].action, HasSubstr("temperature of the fixture"));
 }
 
 TEST(GroupNotes, SayNothingOfGroupsThatAreNotSuspicious) {

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "engine/rotary_table_evaluation.h"
+#include "tests/support/planted_blunders.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {
@@ -140,6 +141,65 @@ TEST(GroupTests, FindDrift) {
         EXPECT_TRUE(groups.tests.front().kind == GroupKind::drift || groups.tests.front().kind == GroupKind::succession)
             << told(groups);
     }
+}
+
+/// The same drift by the order of the rows and by times is told with one size; the rows may then stand in any order.
+TEST(GroupTests, TakeADriftFromTheTimesOfTheDistances) {
+    RotaryTableMeasurement measurement = campaign(40).measurement;
+    const std::size_t angles = measurement.angles.size();
+    for (LengthObservation& length : measurement.lengths) {
+        // Measured from the middle onwards, then from the first angle: the file has the rows by angle.
+        const std::size_t order = (length.angle + angles / 2) % angles;
+        measurement.times.push_back(60.0 * static_cast<double>(order));
+        if (length.station == 3) {
+            length.length += 4e-6 * static_cast<double>(order) / static_cast<double>(angles - 1);
+        }
+    }
+    const GroupTests groups = tests_of(measurement);
+    const GroupTest& first = groups.tests.front();
+    EXPECT_EQ(first.kind, GroupKind::drift) << told(groups);
+    EXPECT_EQ(first.station, 3U);
+    EXPECT_NEAR(first.estimate, 4e-6, 1e-6);
+    measurement.times.clear();  // by its order this is a jump in the middle, and a drift on either side
+    EXPECT_NE(tests_of(measurement).tests.front().kind, GroupKind::drift);
+}
+
+/// The first angle measured again at the end: what the table cannot imitate.
+TEST(GroupTests, KnowADriftOfAllStationsBetterWhereRunsAreClosed) {
+    const auto u_of_common = [](bool closed) {
+        const GroupTests groups = tests_of(synthetic::sound_campaign(5, 24, closed).measurement);
+        for (const DriftEstimate& drift : groups.drifts) {
+            if (drift.station == GroupTest::k_none) {
+                EXPECT_LT(std::abs(drift.estimate), 3.0 * drift.u);
+                EXPECT_GT(drift.minimal_detectable, 3.0 * drift.u);
+                return drift.u;
+            }
+        }
+        ADD_FAILURE() << "no drift of all stations";
+        return 0.0;
+    };
+    EXPECT_LT(u_of_common(true), 0.75 * u_of_common(false));
+}
+
+/// u of the drifts is what they scatter by, and the shares of the kinds leave a tenth for the fixture.
+TEST(GroupTests, StateTheScatterOfDriftsAndDivideTheLevel) {
+    double squares = 0.0;
+    int count = 0;
+    for (std::uint64_t seed = 50; seed < 60; ++seed) {
+        for (const DriftEstimate& drift : tests_of(campaign(seed).measurement).drifts) {
+            squares += std::pow(drift.estimate / drift.u, 2);
+            ++count;
+        }
+    }
+    EXPECT_EQ(count, 70);
+    EXPECT_NEAR(std::sqrt(squares / count), 1.0, 0.25);
+    double shares = 0.0;
+    for (const GroupKind kind : {GroupKind::visit_length, GroupKind::visit_pose, GroupKind::dead_path_change,
+                                 GroupKind::drift, GroupKind::angle_index, GroupKind::succession, GroupKind::station,
+                                 GroupKind::reflector, GroupKind::fixture_scale}) {
+        shares += share_of_level(kind);
+    }
+    EXPECT_NEAR(shares, 0.9, 1e-12);
 }
 
 TEST(GroupTests, FindADisplacedReflector) {

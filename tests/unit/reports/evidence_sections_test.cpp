@@ -90,7 +90,7 @@ TEST(EvidenceSections, HaveAWordForEveryKindInEveryLanguage) {
     for (const char* language : {"en", "de", "es", "zh-Hant"}) {
         const json words = wording(language);
         for (const char* kind : {"visit_length", "visit_pose", "dead_path_change", "drift", "angle_index", "succession",
-                                 "station", "reflector"}) {
+                                 "fixture_scale", "station", "reflector"}) {
             EXPECT_FALSE(words["value"]["group_kind"].value(kind, "").empty()) << language << ", " << kind;
         }
     }
