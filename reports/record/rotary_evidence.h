@@ -32,7 +32,7 @@ struct GroupTestRow {
 };
 
 struct GroupTestSummary {
-    double alpha = 0.01;              ///< probability that a sound measurement makes any group of any kind suspicious
+    double alpha = 0.001;             ///< probability that a sound measurement makes any group of any kind suspicious
     double scale = 1.0;               ///< robust standard deviation of the test values of the visits
     std::vector<GroupTestRow> kinds;  ///< suspicious ones first, the least probable one first of all
     std::string printed_scale;
@@ -43,8 +43,7 @@ struct VisitRow {
     std::string station, pass, direction;  ///< direction "+" or "-"
     double angle_deg = 0.0;
     std::optional<double> deviation_um = {};  ///< observed minus predicted, mean of its distances; none: not controlled
-    std::optional<double> limit_um =
-        {};  ///< of its magnitude: the largest of all visits exceeds it with its share of alpha
+    std::optional<double> limit_um = {};      ///< of its magnitude: the largest of all visits exceeds it with alpha
     std::optional<double> axial_arcsec = {};  ///< rotation of the table about its axis beyond the adjusted curve
 };
 

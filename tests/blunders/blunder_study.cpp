@@ -1,5 +1,5 @@
 // Plants every blunder of the catalogue on campaigns with consecutive seeds and prints, as Markdown, how many were
-// told.
+// told; and what is silent although it is larger than what the best test of its level finds nearly always.
 //
 //   blunder_study [campaigns] [angles]
 #include <algorithm>
@@ -11,6 +11,8 @@
 #include <cstdlib>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/rotary_table_evaluation.h"
 #include "gum/quantity/diagnostic.h"
@@ -45,22 +47,90 @@ std::optional<GroupKind> kind_of(Blunder blunder) {
         case Blunder::visit:
             return GroupKind::visit_length;
         case Blunder::jump:
+        case Blunder::large_jump:
             return GroupKind::dead_path_change;
         case Blunder::drift:
         case Blunder::drift_of_all:
+        case Blunder::closed_drift:
+        case Blunder::closed_drift_of_all:
             return GroupKind::drift;
         case Blunder::angle_index:
             return GroupKind::angle_index;
         case Blunder::displaced_reflector:
             return GroupKind::reflector;
+        case Blunder::hot_fixture:
+            return GroupKind::fixture_scale;
         default:
             return std::nullopt;
     }
 }
 
+/// Standard deviation of the estimate of an error at a sound campaign, and what is found with 80 % and with 99.9 %,
+/// [m].
+struct Detectable {
+    double u = 0.0, mostly = 0.0, nearly_always = 0.0;
+};
+constexpr double k_deviate_of_80 = 0.8416;
+constexpr double k_deviate_of_999 = 3.0902;
+
+bool is_drift(Blunder blunder) {
+    return kind_of(blunder) == GroupKind::drift;
+}
+
+/// Of the planted error, from the campaign without it. Uniformly most powerful among the tests of its level that do not
+/// depend on the error motions of the table: no other test finds more.
+std::optional<Detectable> detectable(const synthetic::Planted& planted, Blunder blunder, int angles, int seed) {
+    if (!is_drift(blunder) && blunder != Blunder::visit) {
+        return std::nullopt;
+    }
+    const RotaryTableMeasurement sound =
+        synthetic::sound_campaign(static_cast<std::uint64_t>(seed), angles, synthetic::is_closed(blunder)).measurement;
+    const RotaryTableSolution solution = evaluate_jointly(sound, options());
+    const auto at = [](double u, double limit) {
+        return Detectable{u, (limit + k_deviate_of_80) * u, (limit + k_deviate_of_999) * u};
+    };
+    if (is_drift(blunder)) {
+        const bool of_all = blunder == Blunder::drift_of_all || blunder == Blunder::closed_drift_of_all;
+        for (const DriftEstimate& drift : solution.groups->drifts) {
+            if (drift.station == (of_all ? GroupTest::k_none : planted.station)) {
+                return at(drift.u, drift.minimal_detectable / drift.u - k_deviate_of_80);
+            }
+        }
+        return std::nullopt;
+    }
+    const auto visit = std::ranges::find_if(solution.groups->visits, [&](const VisitDeviation& deviation) {
+        return deviation.visit.station == planted.station && deviation.visit.angle == planted.angle;
+    });
+    const auto test = std::ranges::find(solution.groups->tests, GroupKind::visit_length, &GroupTest::kind);
+    if (visit == solution.groups->visits.end() || test == solution.groups->tests.end()) {
+        return std::nullopt;
+    }
+    return at(visit->u, std::sqrt(test->critical_value));
+}
+
 struct Tally {
     int named = 0, warned = 0, refused = 0, silent = 0;
+    int silent_above = 0;         ///< larger than what is found nearly always
+    double largest_silent = 0.0;  ///< [m]
+    std::vector<Detectable> detectables;
 };
+
+double median(std::vector<Detectable> of, double Detectable::*member) {
+    std::ranges::sort(of, {}, member);
+    return of[of.size() / 2].*member;
+}
+
+void note_silent(Tally& tally, Blunder blunder, const synthetic::Planted& planted, int angles, int seed, bool silent) {
+    const std::optional<Detectable> limits = detectable(planted, blunder, angles, seed);
+    if (!limits) {
+        return;
+    }
+    tally.detectables.push_back(*limits);
+    if (silent) {
+        tally.silent_above += std::abs(planted.size) > limits->nearly_always ? 1 : 0;
+        tally.largest_silent = std::max(tally.largest_silent, std::abs(planted.size));
+    }
+}
 
 void count(Tally& tally, Blunder blunder, const RotaryTableMeasurement& measurement) {
     try {
@@ -85,6 +155,25 @@ void count(Tally& tally, Blunder blunder, const RotaryTableMeasurement& measurem
     }
 }
 
+void print_detectable(const std::vector<std::pair<const char*, Tally>>& tallies) {
+    std::printf(
+        "\nWhat can be found. u is the standard deviation with which the other distances tell the error in the sound\n"
+        "campaign, the medians of all campaigns are stated; the test is the most powerful one of its level that does\n"
+        "not depend on the error motions of the table: what it misses, no test of these distances finds.\n\n");
+    std::printf(
+        "| blunder | u in µm | found with 80 %% | found with 99.9 %% | largest silent | silent above 99.9 %% |\n");
+    std::printf("|---|---|---|---|---|---|\n");
+    for (const auto& [name, tally] : tallies) {
+        if (!tally.detectables.empty()) {
+            std::printf("| %s | %.2f | %.2f µm | %.2f µm | %.2f µm | %d |\n", name,
+                        1e6 * median(tally.detectables, &Detectable::u),
+                        1e6 * median(tally.detectables, &Detectable::mostly),
+                        1e6 * median(tally.detectables, &Detectable::nearly_always), 1e6 * tally.largest_silent,
+                        tally.silent_above);
+        }
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -92,14 +181,20 @@ int main(int argc, char** argv) {
     const int angles = argc > 2 ? std::atoi(argv[2]) : 24;
     std::printf("| blunder | campaigns | told | of these with the true cause first | refused | silent |\n");
     std::printf("|---|---|---|---|---|---|\n");
+    std::vector<std::pair<const char*, Tally>> tallies;
     for (const auto& [blunder, name] : synthetic::k_blunders) {
         Tally tally;
         for (int seed = 1; seed <= campaigns; ++seed) {
-            count(tally, blunder, synthetic::plant(blunder, static_cast<std::uint64_t>(seed), angles).measurement);
+            const synthetic::Planted planted = synthetic::plant(blunder, static_cast<std::uint64_t>(seed), angles);
+            const int silent = tally.silent;
+            count(tally, blunder, planted.measurement);
+            note_silent(tally, blunder, planted, angles, seed, tally.silent > silent);
         }
         std::printf("| %s | %d | %d | %d | %d | %d |\n", name, campaigns, tally.warned + tally.refused, tally.named,
                     tally.refused, tally.silent);
         std::fflush(stdout);
+        tallies.emplace_back(name, std::move(tally));
     }
+    print_detectable(tallies);
     return 0;
 }
