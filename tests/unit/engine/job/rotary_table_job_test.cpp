@@ -753,6 +753,26 @@ TEST(RotaryTableJob, AcceptsBomCrlfAndOtherColumnOrders) {
     EXPECT_DOUBLE_EQ(reordered.measurement.fixture_covariance(2, 2), 0.36e-12);
 }
 
+TEST(RotaryTableJob, ReadsTheTimesOfTheDistancesWhereTheFileHasThem) {
+    Files files = small_campaign();
+    EXPECT_TRUE(read(files).measurement.times.empty());
+    std::string& lengths = files["lengths.csv"];
+    std::string timed;
+    std::size_t row = 0;
+    for (std::size_t at = 0; at < lengths.size(); ++row) {
+        const std::size_t end = lengths.find('\n', at);
+        timed += lengths.substr(at, end - at) + (row == 0 ? ",time_s" : "," + std::to_string(30 * row) + ".5") + "\n";
+        at = end + 1;
+    }
+    lengths = timed;
+    const RotaryTableMeasurement m = read(files).measurement;
+    ASSERT_EQ(m.times.size(), m.lengths.size());
+    EXPECT_EQ(m.times.front(), 30.5);
+    EXPECT_EQ(m.times.back(), 30.0 * static_cast<double>(m.lengths.size()) + 0.5);
+    replace(lengths, ",30.5\n", ",morning\n");  // a time of every distance, or of none
+    EXPECT_ANY_THROW(read(files));
+}
+
 TEST(RotaryTableJob, ReadsTheFixtureCovariance) {
     Files files = small_campaign();
     // Fully correlated coordinates: singular, and allowed.
