@@ -77,8 +77,7 @@ bool is_drift(Blunder blunder) {
     return kind_of(blunder) == GroupKind::drift;
 }
 
-/// Of the planted error, from the campaign without it. Uniformly most powerful among the tests of its level that do not
-/// depend on the error motions of the table: no other test finds more.
+/// Of the planted error, from the campaign without it.
 std::optional<Detectable> detectable(const synthetic::Planted& planted, Blunder blunder, int angles, int seed) {
     if (!is_drift(blunder) && blunder != Blunder::visit) {
         return std::nullopt;
@@ -158,8 +157,8 @@ void count(Tally& tally, Blunder blunder, const RotaryTableMeasurement& measurem
 void print_detectable(const std::vector<std::pair<const char*, Tally>>& tallies) {
     std::printf(
         "\nWhat can be found. u is the standard deviation with which the other distances tell the error in the sound\n"
-        "campaign, the medians of all campaigns are stated; the test is the most powerful one of its level that does\n"
-        "not depend on the error motions of the table: what it misses, no test of these distances finds.\n\n");
+        "campaign, the medians of all campaigns are stated; for given weights the test is the most powerful one of\n"
+        "its level that does not depend on the error motions of the table.\n\n");
     std::printf(
         "| blunder | u in µm | found with 80 %% | found with 99.9 %% | largest silent | silent above 99.9 %% |\n");
     std::printf("|---|---|---|---|---|---|\n");
