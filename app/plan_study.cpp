@@ -302,8 +302,10 @@ std::optional<Proposal> propose(Setting& setting, gum::WorkerThreads& workers, c
         workers.size(), [&workers](std::size_t tasks, const std::function<void(unsigned, std::size_t)>& work) {
             workers.run(tasks, work);
         }};
-    proposal.stations = engine::propose_stations(searched, setting.stochastic, proposal.candidates.positions,
-                                                 setting.wanted, parallel, progress);
+    engine::ExchangeRules rules;
+    rules.wanted = setting.wanted;
+    proposal.stations = engine::propose_stations(searched, setting.stochastic, proposal.candidates.positions, rules,
+                                                 parallel, progress);
     proposal.layout = setting.layout;
     for (std::size_t j = 0; j < proposal.layout.stations.size(); ++j) {
         proposal.layout.station_start[j] = proposal.stations.positions[j];

@@ -14,6 +14,7 @@
 #include "app/evaluate_job.h"
 #include "engine/job/rotary_table_job.h"
 #include "engine/measurement_plan.h"
+#include "engine/station_proposal.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/worker_threads.h"
 

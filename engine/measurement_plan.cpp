@@ -77,7 +77,8 @@ std::vector<Eigen::Index> kept_indices(const std::vector<bool>& keep) {
 
 /// A part of a measurement; dead paths that no distance has any more are left out with it.
 RotaryTableMeasurement part_of(const RotaryTableMeasurement& from, const std::vector<bool>& stations,
-                               const std::vector<bool>& reflectors, const std::vector<bool>& angles) {
+                               const std::vector<bool>& reflectors, const std::vector<bool>& angles,
+                               const std::vector<bool>* measured = nullptr) {
     RotaryTableMeasurement result = from;
     const auto station = renumbered(stations);
     const auto reflector = renumbered(reflectors);
@@ -85,8 +86,10 @@ RotaryTableMeasurement part_of(const RotaryTableMeasurement& from, const std::ve
     std::vector<bool> paths(from.dead_paths.size(), false);
     result.lengths.clear();
     result.times.clear();
-    for (const LengthObservation& length : from.lengths) {
-        if (stations[length.station] && reflectors[length.reflector] && angles[length.angle]) {
+    for (std::size_t i = 0; i < from.lengths.size(); ++i) {
+        const LengthObservation& length = from.lengths[i];
+        if (stations[length.station] && reflectors[length.reflector] && angles[length.angle] &&
+            (measured == nullptr || (*measured)[i])) {
             paths[length.dead_path] = true;
             result.lengths.push_back(length);
         }
@@ -123,6 +126,14 @@ std::vector<bool> all_but(std::size_t size, std::size_t left_out) {
         keep[left_out] = false;
     }
     return keep;
+}
+
+RotaryTableMeasurement of_station(const RotaryTableMeasurement& whole, std::size_t station,
+                                  const std::vector<bool>& measured) {
+    std::vector<bool> stations(whole.stations.size(), false);
+    stations[station] = true;
+    return part_of(whole, stations, all_but(whole.reflectors.size(), k_gone), all_but(whole.angles.size(), k_gone),
+                   &measured);
 }
 
 }  // namespace
@@ -204,6 +215,12 @@ ExpectedUncertainty expected_uncertainty(const RotaryTableMeasurement& measureme
     return expected;
 }
 
+RotaryTableMeasurement with_distances(const RotaryTableMeasurement& measurement, const std::vector<bool>& measured) {
+    return part_of(measurement, all_but(measurement.stations.size(), k_gone),
+                   all_but(measurement.reflectors.size(), k_gone), all_but(measurement.angles.size(), k_gone),
+                   &measured);
+}
+
 RotaryTableMeasurement without_station(const RotaryTableMeasurement& measurement, std::size_t station) {
     return part_of(measurement, all_but(measurement.stations.size(), station),
                    all_but(measurement.reflectors.size(), k_gone), all_but(measurement.angles.size(), k_gone));
@@ -262,6 +279,37 @@ RotaryTableMeasurement with_twice_the_angles(const RotaryTableMeasurement& measu
 
 // ---------------------------------------------------------------- variances of a layout, station by station
 
+namespace {
+
+/// Normal equations of one pose in units that make their diagonal one, and their Cholesky factor.
+struct PoseFactor {
+    Eigen::Matrix<double, 6, 1> scale;
+    Eigen::LLT<Matrix6> factor;
+
+    [[nodiscard]] Matrix6 inverse() const {
+        Matrix6 result = Matrix6::Identity();
+        factor.solveInPlace(result);
+        return scale.asDiagonal() * result * scale.asDiagonal();
+    }
+};
+
+/// Nothing where the pose is not determined.
+std::optional<PoseFactor> factor_of(const Matrix6& normal) {
+    const Eigen::Matrix<double, 6, 1> diagonal = normal.diagonal();
+    if (!(diagonal.minCoeff() > 0.0)) {
+        return std::nullopt;
+    }
+    PoseFactor result{diagonal.cwiseSqrt().cwiseInverse(), {}};
+    result.factor.compute(result.scale.asDiagonal() * normal * result.scale.asDiagonal());
+    if (result.factor.info() != Eigen::Success ||
+        !(result.factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() > k_pivot_tolerance)) {
+        return std::nullopt;
+    }
+    return result;
+}
+
+}  // namespace
+
 LayoutVariances::~LayoutVariances() = default;
 
 LayoutVariances::LayoutVariances(const RotaryTableMeasurement& measurement, const StochasticModel& stochastic)
@@ -301,18 +349,27 @@ LayoutVariances::LayoutVariances(const RotaryTableMeasurement& measurement, cons
     }
 
     datum_ = transform_to_datum(measurement_, Eigen::MatrixXd::Zero(6, angles), RigidMotion{}, measurement_.datum);
+    change_ = datum_.change_map();
 }
 
 std::unique_ptr<LayoutVariances::Observer> LayoutVariances::observer(std::size_t station) const {
-    return std::make_unique<Observer>(*this, station);
+    return observer(station, std::vector<bool>(measurement_.lengths.size(), true));
 }
 
-LayoutVariances::Observer::Observer(const LayoutVariances& layout, std::size_t station)
+std::unique_ptr<LayoutVariances::Observer> LayoutVariances::observer(std::size_t station,
+                                                                     const std::vector<bool>& measured) const {
+    return std::make_unique<Observer>(*this, station, measured);
+}
+
+LayoutVariances::Observer::Observer(const LayoutVariances& layout, std::size_t station,
+                                    const std::vector<bool>& measured)
     : stochastic_(layout.stochastic_), border_size_(layout.border_.size) {
     const RotaryTableMeasurement& whole = layout.measurement_;
-    std::vector<bool> only(whole.stations.size(), false);
-    only[station] = true;
-    measurement_ = part_of(whole, only, all_but(whole.reflectors.size(), k_gone), all_but(whole.angles.size(), k_gone));
+    std::vector<bool> only(whole.lengths.size());
+    for (std::size_t i = 0; i < only.size(); ++i) {
+        only[i] = measured[i] && whole.lengths[i].station == station;
+    }
+    measurement_ = of_station(whole, station, only);
     adjustment_ = std::make_unique<JointAdjustment>(planned_adjustment(measurement_, stochastic_));
     for (int c = 0; c < 6 && adjustment_->has_reversal() && !layout.has_reversal_; ++c) {
         adjustment_->adjustment().hold(adjustment_->reversal_block(), c);
@@ -328,8 +385,8 @@ LayoutVariances::Observer::Observer(const LayoutVariances& layout, std::size_t s
     // part_of() keeps the order of the dead paths.
     std::vector<std::size_t> path_in_layout;
     std::vector<bool> used(whole.dead_paths.size(), false);
-    for (const LengthObservation& length : whole.lengths) {
-        used[length.dead_path] = used[length.dead_path] || length.station == station;
+    for (std::size_t i = 0; i < only.size(); ++i) {
+        used[whole.lengths[i].dead_path] = used[whole.lengths[i].dead_path] || only[i];
     }
     for (std::size_t d = 0; d < used.size(); ++d) {
         if (used[d]) {
@@ -360,7 +417,7 @@ LayoutVariances::Observer::Observer(const LayoutVariances& layout, std::size_t s
     }
 }
 
-void LayoutVariances::Observer::information(const Eigen::Vector3d& position, Information& result) {
+void LayoutVariances::Observer::stand_at(const Eigen::Vector3d& position) {
     Adjustment& adjustment = adjustment_->adjustment();
     Eigen::VectorXd station = adjustment.parameters(adjustment_->station_block(0));
     station.head<3>() = position;
@@ -373,8 +430,28 @@ void LayoutVariances::Observer::information(const Eigen::Vector3d& position, Inf
             measurement_.lengths[visits[v].observations[k]].length = predicted[static_cast<Eigen::Index>(k)];
         }
     }
+}
+
+void LayoutVariances::Observer::pose_information(const Eigen::Vector3d& position, Eigen::MatrixXd& result) {
+    stand_at(position);
+    result.setZero(6 * static_cast<Eigen::Index>(measurement_.angles.size()), 6);
+    const std::vector<Visit>& visits = adjustment_->visits();
+    for (std::size_t v = 0; v < visits.size(); ++v) {
+        if (visits[v].angle == measurement_.home) {
+            continue;
+        }
+        const Eigen::LLT<Eigen::MatrixXd> factor(adjustment_->visit_covariance(v, stochastic_));
+        const Eigen::MatrixXd whitened = factor.matrixL().solve(adjustment_->pose_jacobian(v));
+        result.middleRows<6>(6 * static_cast<Eigen::Index>(visits[v].angle)).noalias() +=
+            whitened.transpose() * whitened;
+    }
+}
+
+void LayoutVariances::Observer::information(const Eigen::Vector3d& position, Information& result) {
+    stand_at(position);
     adjustment_->set_weights(stochastic_);
-    const NormalEquations normal = adjustment.linearise();
+    const std::vector<Visit>& visits = adjustment_->visits();
+    const NormalEquations normal = adjustment_->adjustment().linearise();
 
     const auto angles = static_cast<Eigen::Index>(measurement_.angles.size());
     result.border.setZero(border_size_, border_size_);
@@ -425,28 +502,24 @@ std::optional<Eigen::VectorXd> LayoutVariances::variances(const Information& inf
         if (static_cast<std::size_t>(i) == measurement_.home) {
             continue;
         }
-        const Matrix6 normal = information.poses.middleRows<6>(6 * i);
-        const Eigen::Matrix<double, 6, 1> diagonal = normal.diagonal();
-        if (!(diagonal.minCoeff() > 0.0)) {
+        const std::optional<PoseFactor> pose = factor_of(information.poses.middleRows<6>(6 * i));
+        if (!pose) {
             return std::nullopt;
         }
-        const Eigen::Matrix<double, 6, 1> scale = diagonal.cwiseSqrt().cwiseInverse();
-        const Matrix6 scaled = scale.asDiagonal() * normal * scale.asDiagonal();
-        const Eigen::LLT<Matrix6> factor(scaled);
-        if (factor.info() != Eigen::Success ||
-            !(factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() > k_pivot_tolerance)) {
-            return std::nullopt;
-        }
-        half = scale.asDiagonal() * information.mixed.middleRows<6>(6 * i);
-        factor.matrixL().solveInPlace(half);
+        half = pose->scale.asDiagonal() * information.mixed.middleRows<6>(6 * i);
+        pose->factor.matrixL().solveInPlace(half);
         reduced.selfadjointView<Eigen::Lower>().rankUpdate(half.transpose(), -1.0);
-        factor.matrixU().solveInPlace(half);
-        gain.middleRows<6>(6 * i) = scale.asDiagonal() * half;
-        Matrix6 inverse = Matrix6::Identity();
-        factor.solveInPlace(inverse);
-        own.middleRows<6>(6 * i) = scale.asDiagonal() * inverse * scale.asDiagonal();
+        pose->factor.matrixU().solveInPlace(half);
+        gain.middleRows<6>(6 * i) = pose->scale.asDiagonal() * half;
+        own.middleRows<6>(6 * i) = pose->inverse();
     }
-    const Eigen::VectorXd diagonal = information.border.diagonal();
+    Eigen::VectorXd diagonal = information.border.diagonal();
+    for (const Eigen::Index path : border_.dead_paths) {
+        // A dead path that no distance has says nothing, and nothing depends on it.
+        if (diagonal[path] == 0.0) {
+            diagonal[path] = reduced(path, path) = 1.0;
+        }
+    }
     if (!(diagonal.minCoeff() > 0.0)) {
         return std::nullopt;
     }
@@ -476,148 +549,39 @@ std::optional<Eigen::VectorXd> LayoutVariances::variances() const {
     return variances(sum);
 }
 
-// ---------------------------------------------------------------- proposal of stations
-
-double largest_ratio(const std::optional<Eigen::VectorXd>& variances, Eigen::Index angles,
-                     const std::array<double, 2>& wanted) {
-    if (!variances) {
-        return std::numeric_limits<double>::infinity();
+std::optional<Eigen::VectorXd> LayoutVariances::least_variances(const Eigen::MatrixXd& poses) const {
+    // (I + D K) W (I + D K)ᵀ angle by angle, as covariance_of does it.
+    using Change = Eigen::Matrix<double, 10, 10>;
+    const auto angles = static_cast<Eigen::Index>(measurement_.angles.size());
+    TallMatrix own = TallMatrix::Zero(6 * angles, 6);     // W
+    TallMatrix cross = TallMatrix::Zero(6 * angles, 10);  // W Kᵀ
+    Change change = Change::Zero();                       // K W Kᵀ
+    for (Eigen::Index i = 0; i < angles; ++i) {
+        if (static_cast<std::size_t>(i) == measurement_.home) {
+            continue;
+        }
+        const std::optional<PoseFactor> pose = factor_of(poses.middleRows<6>(6 * i));
+        if (!pose) {
+            return std::nullopt;
+        }
+        const Eigen::Matrix<double, 10, 6> by_pose = change_.middleCols<6>(6 * i);
+        const Matrix6 covariance = pose->inverse();
+        const Eigen::Matrix<double, 6, 10> spread = covariance * by_pose.transpose();
+        own.middleRows<6>(6 * i) = covariance;
+        cross.middleRows<6>(6 * i) = spread;
+        change += by_pose * spread;
     }
-    double largest = 0.0;
-    for (Eigen::Index i = 0; i < 6 * angles; ++i) {
-        const double ratio = std::sqrt((*variances)[i]) / wanted[i % 6 < 3 ? 0 : 1];
-        if (!(ratio <= largest)) {
-            largest = std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio;
+    Eigen::VectorXd variances(6 * angles);
+    for (Eigen::Index i = 0; i < angles; ++i) {
+        const Eigen::Matrix<double, 6, 10> map = datum_.motion_map.middleRows<6>(6 * i);
+        const double local = datum_.zero_angle == i ? 0.0 : 1.0;
+        const Eigen::Matrix<double, 6, 10> carried = map * change;
+        for (Eigen::Index c = 0; c < 6; ++c) {
+            variances[6 * i + c] = local * (own(6 * i + c, c) + 2.0 * map.row(c).dot(cross.row(6 * i + c))) +
+                                   carried.row(c).dot(map.row(c));
         }
     }
-    return largest;
-}
-
-StationCandidates station_candidates(const RotaryTableMeasurement& measurement, const StationRegion& region) {
-    std::vector<Eigen::Vector3d> reflectors;
-    for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
-        const Eigen::Matrix3d rotation = nominal_rotation(measurement, i);
-        for (Eigen::Index m = 0; m < measurement.fixture.rows(); ++m) {
-            reflectors.emplace_back(rotation * measurement.fixture.row(m).transpose());
-        }
-    }
-    const Eigen::Vector3d low = region.corners[0].cwiseMin(region.corners[1]);
-    const Eigen::Vector3d size = region.corners[0].cwiseMax(region.corners[1]) - low;
-    const auto across = across_axis(measurement.axis);
-    const auto count = [&](double step, int c) {
-        // A side that is a whole number of steps up to rounding has its far face on the grid.
-        return static_cast<std::size_t>(std::ceil(size[c] / step - 1e-9)) + 1;
-    };
-    StationCandidates candidates{{}, region.step};
-    while (static_cast<double>(count(candidates.step, 0)) * static_cast<double>(count(candidates.step, 1)) *
-               static_cast<double>(count(candidates.step, 2)) >
-           static_cast<double>(region.most_candidates)) {
-        candidates.step *= 1.1;
-    }
-    std::array<std::size_t, 3> counts{};
-    for (int c = 0; c < 3; ++c) {
-        counts[static_cast<std::size_t>(c)] = count(candidates.step, c);
-    }
-    for (std::size_t x = 0; x < counts[0]; ++x) {
-        for (std::size_t y = 0; y < counts[1]; ++y) {
-            for (std::size_t z = 0; z < counts[2]; ++z) {
-                const std::array<std::size_t, 3> at{x, y, z};
-                Eigen::Vector3d position = low;
-                for (int c = 0; c < 3; ++c) {
-                    const auto k = static_cast<std::size_t>(c);
-                    if (counts[k] > 1) {
-                        position[c] += size[c] * static_cast<double>(at[k]) / static_cast<double>(counts[k] - 1);
-                    }
-                }
-                const double from_axis = std::hypot(position[across[0]], position[across[1]]);
-                const bool free = std::all_of(reflectors.begin(), reflectors.end(), [&](const Eigen::Vector3d& p) {
-                    return (p - position).norm() >= region.least_distance;
-                });
-                if (free && from_axis >= region.least_axis_distance) {
-                    candidates.positions.push_back(position);
-                }
-            }
-        }
-    }
-    return candidates;
-}
-
-StationProposal propose_stations(const RotaryTableMeasurement& measurement, const StochasticModel& stochastic,
-                                 const std::vector<Eigen::Vector3d>& candidates, const std::array<double, 2>& wanted,
-                                 const ParallelTasks& parallel, const Progress& progress, double least_gain) {
-    // Two instruments, or one at two times, do not stand in one place: such a layout is a repetition, not a position.
-    constexpr double k_same_place = 0.05;  // [m]
-    constexpr std::size_t k_most_exchanges = 200;
-    const LayoutVariances layout(measurement, stochastic);
-    const std::size_t stations = measurement.stations.size();
-    const auto angles = static_cast<Eigen::Index>(measurement.angles.size());
-
-    struct Worker {
-        std::vector<std::unique_ptr<LayoutVariances::Observer>> observers;
-        LayoutVariances::Information part, sum;
-    };
-    std::vector<Worker> workers(parallel.workers);
-    for (Worker& worker : workers) {
-        worker.observers.resize(stations);
-    }
-
-    StationProposal proposal;
-    std::vector<LayoutVariances::Information> parts(stations);
-    LayoutVariances::Information all = layout.prior();
-    for (std::size_t j = 0; j < stations; ++j) {
-        proposal.positions.push_back(*measurement.station_start[j]);
-        layout.observer(j)->information(proposal.positions[j], parts[j]);
-        add(all, parts[j]);
-    }
-    proposal.ratio_before = largest_ratio(layout.variances(all), angles, wanted);
-    proposal.ratio_after = proposal.ratio_before;
-
-    std::vector<double> ratios(stations * candidates.size());
-    std::vector<LayoutVariances::Information> others(stations);
-    while (!candidates.empty() && proposal.exchanges.size() < k_most_exchanges) {
-        for (std::size_t j = 0; j < stations; ++j) {
-            others[j] = layout.prior();
-            for (std::size_t k = 0; k < stations; ++k) {
-                if (k != j) {
-                    add(others[j], parts[k]);
-                }
-            }
-        }
-        parallel.run(ratios.size(), [&](unsigned worker_number, std::size_t task) {
-            const std::size_t j = task / candidates.size();
-            const Eigen::Vector3d& position = candidates[task % candidates.size()];
-            ratios[task] = std::numeric_limits<double>::infinity();
-            for (std::size_t k = 0; k < stations; ++k) {
-                if ((proposal.positions[k] - position).norm() < k_same_place) {
-                    return;
-                }
-            }
-            Worker& worker = workers[worker_number];
-            if (!worker.observers[j]) {
-                worker.observers[j] = layout.observer(j);
-            }
-            worker.observers[j]->information(position, worker.part);
-            worker.sum = others[j];
-            add(worker.sum, worker.part);
-            ratios[task] = largest_ratio(layout.variances(worker.sum), angles, wanted);
-        });
-        proposal.layouts += ratios.size();
-        const auto best = static_cast<std::size_t>(std::min_element(ratios.begin(), ratios.end()) - ratios.begin());
-        if (!(ratios[best] < (1.0 - least_gain) * proposal.ratio_after)) {
-            break;
-        }
-        const std::size_t j = best / candidates.size();
-        const Eigen::Vector3d& position = candidates[best % candidates.size()];
-        proposal.exchanges.push_back({j, proposal.positions[j], position, ratios[best]});
-        proposal.positions[j] = position;
-        proposal.ratio_after = ratios[best];
-        layout.observer(j)->information(position, parts[j]);
-        if (progress) {
-            progress("station " + measurement.stations[j] + " moved, exchange " +
-                     std::to_string(proposal.exchanges.size()));
-        }
-    }
-    return proposal;
+    return variances;
 }
 
 }  // namespace gumcert::engine

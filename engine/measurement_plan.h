@@ -2,10 +2,7 @@
 
 #include <Eigen/Core>
 
-#include <array>
 #include <cstddef>
-#include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -63,6 +60,9 @@ struct ExpectedUncertainty {
                                                        const EvaluationOptions& options);
 
 // Layouts that differ in one thing. Dead paths that no distance has any more are left out with it.
+/// \param measured  one flag a length: false = not measured
+[[nodiscard]] RotaryTableMeasurement with_distances(const RotaryTableMeasurement& measurement,
+                                                    const std::vector<bool>& measured);
 [[nodiscard]] RotaryTableMeasurement without_station(const RotaryTableMeasurement& measurement, std::size_t station);
 [[nodiscard]] RotaryTableMeasurement without_reflector(const RotaryTableMeasurement& measurement,
                                                        std::size_t reflector);
@@ -96,6 +96,9 @@ public:
     /// What a station tells from a position; has a state of its own, so use one a thread.
     class Observer;
     [[nodiscard]] std::unique_ptr<Observer> observer(std::size_t station) const;
+    /// The same of some of its distances.
+    /// \param measured  one flag a length of the measurement; those of other stations are not looked at
+    [[nodiscard]] std::unique_ptr<Observer> observer(std::size_t station, const std::vector<bool>& measured) const;
 
     /// What is known without any distance: fixture coordinates, expansion.
     [[nodiscard]] const Information& prior() const { return prior_; }
@@ -105,6 +108,11 @@ public:
 
     /// The same with all stations where the measurement has them.
     [[nodiscard]] std::optional<Eigen::VectorXd> variances() const;
+
+    /// What the variances of the error motions would be if everything but the poses were known, 6N, [m²] and [rad²]: no
+    /// variance of a layout with this information about the poses is smaller. Nothing where a pose is not determined.
+    /// It costs a small part of `variances`.
+    [[nodiscard]] std::optional<Eigen::VectorXd> least_variances(const Eigen::MatrixXd& poses) const;
 
     [[nodiscard]] const RotaryTableMeasurement& measurement() const { return measurement_; }
 
@@ -120,7 +128,8 @@ private:
     bool has_reversal_ = false;
     Border border_;
     Information prior_;
-    DatumSolution datum_;  ///< of the ideal table
+    DatumSolution datum_;     ///< of the ideal table
+    Eigen::MatrixXd change_;  ///< K of its datum
 };
 
 /// Adds what one station (or prior knowledge) tells.
@@ -128,14 +137,19 @@ void add(LayoutVariances::Information& sum, const LayoutVariances::Information& 
 
 class LayoutVariances::Observer {
 public:
-    Observer(const LayoutVariances& layout, std::size_t station);
+    Observer(const LayoutVariances& layout, std::size_t station, const std::vector<bool>& measured);
     Observer(const Observer&) = delete;
     Observer& operator=(const Observer&) = delete;
 
     /// \param position  of the station in T, [m]
     void information(const Eigen::Vector3d& position, Information& result);
 
+    /// The part of it about the poses alone, 6N×6.
+    void pose_information(const Eigen::Vector3d& position, Eigen::MatrixXd& result);
+
 private:
+    void stand_at(const Eigen::Vector3d& position);
+
     friend class LayoutVariances;
     /// Where a free parameter of the adjustment of this station stands in the layout.
     struct Place {
@@ -150,60 +164,5 @@ private:
     std::vector<Eigen::VectorXd> observed_;  ///< of every visit, as the adjustment was made
     std::vector<Place> places_;
 };
-
-/// Largest standard uncertainty of the error motions, each in units of the one wanted; infinite where not determined.
-/// \param wanted  of the three linear and the three angular error motions, [m] and [rad]
-[[nodiscard]] double largest_ratio(const std::optional<Eigen::VectorXd>& variances, Eigen::Index angles,
-                                   const std::array<double, 2>& wanted);
-
-/// Box and rules for where stations may stand.
-struct StationRegion {
-    std::array<Eigen::Vector3d, 2> corners;  ///< opposite, in T, [m]
-    double step = 0.2;                       ///< [m]
-    double least_distance = 0.2;             ///< from every reflector at every angle, [m]
-    /// From the rotary axis, [m]: from the axis itself a ring of reflectors is seen on a cone.
-    double least_axis_distance = 0.02;
-    std::size_t most_candidates = 2000;
-};
-
-struct StationCandidates {
-    std::vector<Eigen::Vector3d> positions;  ///< x slowest, z fastest
-    double step = 0.0;                       ///< of the grid that was used, coarser where there were too many, [m]
-};
-
-/// Grid in the box that begins and ends at its faces, without the positions that the rules forbid.
-[[nodiscard]] StationCandidates station_candidates(const RotaryTableMeasurement& measurement,
-                                                   const StationRegion& region);
-
-/// Runs numbered tasks, each once, on any number of threads; `worker` is below `workers`.
-struct ParallelTasks {
-    unsigned workers = 1;
-    std::function<void(std::size_t tasks, const std::function<void(unsigned worker, std::size_t task)>& work)> run;
-};
-
-struct StationExchange {
-    std::size_t station = 0;
-    Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();  ///< [m]
-    double ratio = 0.0;                                                            ///< largest ratio after it
-};
-
-struct StationProposal {
-    std::vector<Eigen::Vector3d> positions;  ///< in the order of the stations, [m]
-    double ratio_before = 0.0, ratio_after = 0.0;
-    std::vector<StationExchange> exchanges;  ///< in order
-    std::size_t layouts = 0;                 ///< that were compared
-};
-
-/// Stations that make the largest expected uncertainty smaller, by greedy exchange: each round tries every station at
-/// every candidate and makes the one exchange that lowers the largest ratio most, until none lowers it by more than
-/// `least_gain`. Equal exchanges: the first station and the first candidate win, so the result is the same for any
-/// number of threads. It is a local optimum of single moves, not proved to be the best layout.
-///
-/// \param wanted  see largest_ratio
-[[nodiscard]] StationProposal propose_stations(const RotaryTableMeasurement& measurement,
-                                               const StochasticModel& stochastic,
-                                               const std::vector<Eigen::Vector3d>& candidates,
-                                               const std::array<double, 2>& wanted, const ParallelTasks& parallel,
-                                               const Progress& progress = {}, double least_gain = 0.005);
 
 }  // namespace gumcert::engine

@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
-#include <thread>
 
+#include "engine/station_proposal.h"
 #include "engine/variance_components.h"
 #include "gum/quantity/diagnostic.h"
+#include "tests/support/planned_layout.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {
@@ -18,17 +18,6 @@ using synthetic::Campaign;
 using synthetic::CampaignPlan;
 using synthetic::DeadPaths;
 using synthetic::Vector6;
-
-/// The layout of a plan of a campaign, without what its lengths say.
-RotaryTableMeasurement layout_of(CampaignPlan plan) {
-    plan.noise = 0.0;
-    Campaign campaign = synthetic::simulate(plan);
-    for (std::size_t j = 0; j < campaign.truth.stations.size(); ++j) {
-        campaign.measurement.station_start[j] = campaign.truth.stations[j];
-    }
-    predict_lengths(campaign.measurement);
-    return campaign.measurement;
-}
 
 ExpectedUncertainty expected(const RotaryTableMeasurement& measurement) {
     return expected_uncertainty(measurement, start_variances(measurement.table_repeatability), EvaluationOptions{});
@@ -56,22 +45,6 @@ struct OracleCase {
     std::array<double, 6> exact;               // same noise law
     std::array<double, 6> printed;             // in the note, its own noise law
 };
-
-std::vector<Eigen::Vector3d> narrow_cone() {
-    // rotary_model_check.py, section D2: directions from the middle of the reflectors drawn towards the x axis.
-    const CampaignPlan plan;
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3d& p : plan.reflectors) {
-        middle += p / 6.0;
-    }
-    std::vector<Eigen::Vector3d> stations;
-    for (const Eigen::Vector3d& q : plan.stations) {
-        const double distance = (q - middle).norm();
-        const Eigen::Vector3d direction = Eigen::Vector3d::UnitX() + 0.15 / distance * (q - middle);
-        stations.emplace_back(middle + distance * direction.normalized());
-    }
-    return stations;
-}
 
 std::vector<Eigen::Vector3d> twice_as_far() {
     const CampaignPlan plan;
@@ -121,7 +94,7 @@ TEST(MeasurementPlan, StandardUncertaintiesOfTheNote) {
          {0.072, 0.111, 0.131, 0.92, 0.80, 0.76}},
         {"narrow cone",
          a,
-         narrow_cone(),
+         planned::narrow_cone(),
          {},
          {0.040246, 0.57958, 0.697225, 5.819989, 0.914044, 0.819611},
          {0.040, 0.575, 0.691, 5.8, 0.91, 0.82}},
@@ -144,7 +117,7 @@ TEST(MeasurementPlan, StandardUncertaintiesOfTheNote) {
             }
             plan.reflectors = left;
         }
-        const RotaryTableMeasurement measurement = layout_of(plan);
+        const RotaryTableMeasurement measurement = planned::layout_of(plan);
         const Vector6 found = rms(expected(measurement), measurement);
         for (int c = 0; c < 6; ++c) {
             const auto k = static_cast<std::size_t>(c);
@@ -156,7 +129,7 @@ TEST(MeasurementPlan, StandardUncertaintiesOfTheNote) {
 }
 
 TEST(MeasurementPlan, SummaryFiguresOfTheNote) {
-    const RotaryTableMeasurement measurement = layout_of(note_layout());
+    const RotaryTableMeasurement measurement = planned::layout_of(note_layout());
     const ExpectedUncertainty uncertainty = expected(measurement);
     // The same oracle; 1296 distances + 18 coordinates − 252 parameters.
     EXPECT_EQ(uncertainty.degrees_of_freedom, 1062);
@@ -243,7 +216,7 @@ TEST(MeasurementPlan, LayoutVariancesAreTheDiagonalOfTheFullCovariance) {
                 CampaignPlan plan = full_campaign(axis, datum, both_senses);
                 plan.missing_share = 0.1;
                 plan.dead_paths = both_senses ? DeadPaths::per_station : DeadPaths::per_station_and_reflector;
-                const RotaryTableMeasurement measurement = layout_of(plan);
+                const RotaryTableMeasurement measurement = planned::layout_of(plan);
                 const ExpectedUncertainty full = expected(measurement);
                 const LayoutVariances lean(measurement, start_variances(measurement.table_repeatability));
                 const std::optional<Eigen::VectorXd> variances = lean.variances();
@@ -259,7 +232,8 @@ TEST(MeasurementPlan, LayoutVariancesAreTheDiagonalOfTheFullCovariance) {
 }
 
 TEST(MeasurementPlan, AStationInOneSenseOnlyLeavesTheReversalOut) {
-    RotaryTableMeasurement measurement = layout_of(full_campaign(RotaryAxis::a, Datum::axis_average_line, true));
+    RotaryTableMeasurement measurement =
+        planned::layout_of(full_campaign(RotaryAxis::a, Datum::axis_average_line, true));
     std::erase_if(measurement.lengths, [](const LengthObservation& length) {
         return length.station == 2 && length.approach == Approach::negative;
     });
@@ -276,9 +250,9 @@ TEST(MeasurementPlan, AStationInOneSenseOnlyLeavesTheReversalOut) {
 
 TEST(MeasurementPlan, AMovedStationReplacesItsPartOnly) {
     CampaignPlan plan = full_campaign(RotaryAxis::a, Datum::axis_average_line, false);
-    const RotaryTableMeasurement before = layout_of(plan);
+    const RotaryTableMeasurement before = planned::layout_of(plan);
     plan.stations[1] = {0.3, 0.9, -0.4};
-    const RotaryTableMeasurement after = layout_of(plan);
+    const RotaryTableMeasurement after = planned::layout_of(plan);
     const StochasticModel stochastic = start_variances(before.table_repeatability);
     const LayoutVariances layout(before, stochastic);
     LayoutVariances::Information sum = layout.prior();
@@ -296,7 +270,7 @@ TEST(MeasurementPlan, AMovedStationReplacesItsPartOnly) {
 }
 
 TEST(MeasurementPlan, LayoutsThatDetermineNothingAreNamed) {
-    RotaryTableMeasurement measurement = layout_of(note_layout());
+    RotaryTableMeasurement measurement = planned::layout_of(note_layout());
     // One station and five reflectors: five distances an angle for six error motions.
     for (std::size_t left_out = 5; left_out > 0; --left_out) {
         measurement = without_station(measurement, left_out);
@@ -313,7 +287,7 @@ TEST(MeasurementPlan, LayoutsThatDetermineNothingAreNamed) {
 }
 
 TEST(MeasurementPlan, AStationWithoutPositionIsRefused) {
-    RotaryTableMeasurement measurement = layout_of(note_layout());
+    RotaryTableMeasurement measurement = planned::layout_of(note_layout());
     measurement.station_start[1].reset();
     measurement.station_start[4].reset();
     try {
@@ -330,7 +304,7 @@ TEST(MeasurementPlan, AnglesAreHalvedAndDoubledAboutHome) {
     CampaignPlan plan = note_layout();
     plan.angles_deg = synthetic::full_turn(36);
     plan.home = 3;
-    const RotaryTableMeasurement measurement = layout_of(plan);
+    const RotaryTableMeasurement measurement = planned::layout_of(plan);
     const RotaryTableMeasurement half = with_every_angle(measurement, 2);
     ASSERT_EQ(half.angles.size(), 18U);
     EXPECT_EQ(half.angles_deg[half.home], 30.0);
@@ -348,128 +322,8 @@ TEST(MeasurementPlan, AnglesAreHalvedAndDoubledAboutHome) {
 
     plan.angles_deg = synthetic::partial_turn(90.0, 10);
     plan.home = 0;
-    EXPECT_EQ(with_twice_the_angles(layout_of(plan)).angles.size(), 19U) << "an open range has no angle after its end";
-}
-
-ParallelTasks threads(unsigned count) {
-    return {count, [count](std::size_t tasks, const std::function<void(unsigned, std::size_t)>& work) {
-                std::atomic<std::size_t> next{0};
-                std::vector<std::thread> pool;
-                for (unsigned worker = 0; worker < count; ++worker) {
-                    pool.emplace_back([&, worker] {
-                        for (std::size_t task = next++; task < tasks; task = next++) {
-                            work(worker, task);
-                        }
-                    });
-                }
-                for (std::thread& thread : pool) {
-                    thread.join();
-                }
-            }};
-}
-
-constexpr std::array<double, 2> k_wanted{0.1e-6, 0.5e-6};
-
-const StationRegion& front_box() {
-    static const StationRegion region{{Eigen::Vector3d(0.4, -0.8, -0.8), Eigen::Vector3d(1.2, 0.8, 0.8)}, 0.4, 0.3};
-    return region;
-}
-
-TEST(StationProposal, CandidatesObeyTheRules) {
-    const RotaryTableMeasurement measurement = layout_of(note_layout());
-    const StationCandidates candidates = station_candidates(measurement, front_box());
-    EXPECT_EQ(candidates.step, 0.4);
-    // 3 × 5 × 5, without the two on the rotary axis and those nearer than 0.3 m to a reflector.
-    EXPECT_LE(candidates.positions.size(), 72U);
-    EXPECT_GT(candidates.positions.size(), 60U);
-    for (const Eigen::Vector3d& position : candidates.positions) {
-        EXPECT_GE(std::hypot(position[1], position[2]), 0.02);
-        for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
-            const Eigen::Matrix3d rotation = nominal_rotation(measurement, i);
-            for (Eigen::Index m = 0; m < 6; ++m) {
-                EXPECT_GE((rotation * measurement.fixture.row(m).transpose() - position).norm(), 0.3);
-            }
-        }
-    }
-    EXPECT_EQ(candidates.positions.front(), Eigen::Vector3d(0.4, -0.8, -0.8));
-    EXPECT_TRUE(candidates.positions.back().isApprox(Eigen::Vector3d(1.2, 0.8, 0.8)));
-
-    StationRegion fine = front_box();
-    fine.step = 0.01;
-    fine.most_candidates = 500;
-    const StationCandidates limited = station_candidates(measurement, fine);
-    EXPECT_GT(limited.step, 0.01);
-    EXPECT_LE(limited.positions.size(), 500U);
-    EXPECT_GT(limited.positions.size(), 250U);
-
-    StationRegion flat = front_box();  // a floor: a box without height
-    flat.corners[1][2] = flat.corners[0][2];
-    for (const Eigen::Vector3d& position : station_candidates(measurement, flat).positions) {
-        EXPECT_EQ(position[2], -0.8);
-    }
-}
-
-TEST(StationProposal, ANarrowConeBecomesAboutAsGoodAsTheBestOfManyLayouts) {
-    CampaignPlan plan = note_layout();
-    plan.angles_deg = synthetic::full_turn(12);
-    plan.stations = narrow_cone();
-    const RotaryTableMeasurement measurement = layout_of(plan);
-    const StochasticModel stochastic = start_variances(measurement.table_repeatability);
-    const std::vector<Eigen::Vector3d> candidates = station_candidates(measurement, front_box()).positions;
-    const StationProposal proposal = propose_stations(measurement, stochastic, candidates, k_wanted, threads(1));
-
-    ASSERT_FALSE(proposal.exchanges.empty());
-    double last = proposal.ratio_before;
-    for (const StationExchange& exchange : proposal.exchanges) {
-        EXPECT_LT(exchange.ratio, last);
-        last = exchange.ratio;
-    }
-    EXPECT_EQ(last, proposal.ratio_after);
-    plan.stations = proposal.positions;
-    const RotaryTableMeasurement moved = layout_of(plan);
-    EXPECT_NEAR(largest_ratio(expected(moved).covariance.diagonal(), 12, k_wanted) / proposal.ratio_after, 1.0, 1e-7)
-        << "the ratio that is claimed is not that of the positions";
-
-    synthetic::Noise noise(4);
-    double best = std::numeric_limits<double>::infinity();
-    for (int trial = 0; trial < 200; ++trial) {
-        for (Eigen::Vector3d& station : plan.stations) {
-            for (int c = 0; c < 3; ++c) {
-                station[c] = front_box().corners[0][c] +
-                             noise.uniform() * (front_box().corners[1][c] - front_box().corners[0][c]);
-            }
-        }
-        best = std::min(best, largest_ratio(LayoutVariances(layout_of(plan), stochastic).variances(), 12, k_wanted));
-    }
-    EXPECT_LT(proposal.ratio_after, 1.05 * best);
-    EXPECT_LT(proposal.ratio_after, 0.3 * proposal.ratio_before);
-}
-
-TEST(StationProposal, IsTheSameForAnyNumberOfThreads) {
-    CampaignPlan plan = note_layout();
-    plan.angles_deg = synthetic::full_turn(8);
-    plan.stations = narrow_cone();
-    const RotaryTableMeasurement measurement = layout_of(plan);
-    const StochasticModel stochastic = start_variances(measurement.table_repeatability);
-    const std::vector<Eigen::Vector3d> candidates = station_candidates(measurement, front_box()).positions;
-    const StationProposal one = propose_stations(measurement, stochastic, candidates, k_wanted, threads(1));
-    const StationProposal three = propose_stations(measurement, stochastic, candidates, k_wanted, threads(3));
-    EXPECT_EQ(one.ratio_after, three.ratio_after);
-    ASSERT_EQ(one.exchanges.size(), three.exchanges.size());
-    for (std::size_t e = 0; e < one.exchanges.size(); ++e) {
-        EXPECT_EQ(one.exchanges[e].station, three.exchanges[e].station);
-        EXPECT_EQ(one.exchanges[e].to, three.exchanges[e].to);
-        EXPECT_EQ(one.exchanges[e].ratio, three.exchanges[e].ratio);
-    }
-}
-
-TEST(StationProposal, NothingToChooseFromChangesNothing) {
-    const RotaryTableMeasurement measurement = layout_of(note_layout());
-    const StationProposal proposal =
-        propose_stations(measurement, start_variances(measurement.table_repeatability), {}, k_wanted, threads(1));
-    EXPECT_TRUE(proposal.exchanges.empty());
-    EXPECT_EQ(proposal.ratio_before, proposal.ratio_after);
-    EXPECT_EQ(proposal.positions[2], *measurement.station_start[2]);
+    EXPECT_EQ(with_twice_the_angles(planned::layout_of(plan)).angles.size(), 19U)
+        << "an open range has no angle after its end";
 }
 
 }  // namespace
