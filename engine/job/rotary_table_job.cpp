@@ -267,7 +267,7 @@ private:
         if (!root) {
             return;
         }
-        read_common(*root);
+        read_common(*document, *root);
         read_options(*root);
         const std::optional<JsonObject> observations = root->required_object("observations", k_observations_keys);
         const std::optional<JsonObject> fixture = root->required_object("fixture", k_fixture_keys);
@@ -316,6 +316,9 @@ private:
         std::optional<File> description = open(description_name);
         if (coordinates) {
             read_fixture(std::move(*coordinates));
+            if (job_.plan && !reflectors_.names().empty()) {
+                check_facing(*job_.plan, reflectors_.names(), problems);
+            }
         }
         job_.exclusions = read_exclusions(*document, *root, problems);
         if (lengths) {
@@ -365,7 +368,7 @@ private:
         job_.document = std::move(document->value);
     }
 
-    void read_common(const JsonObject& root) {
+    void read_common(const JsonDocument& document, const JsonObject& root) {
         if (root.has("title")) {
             job_.title = root.optional_name("title", 1000).value_or("");
         }
@@ -382,7 +385,7 @@ private:
             job_.monte_carlo = automatic_monte_carlo(root.where("coverage"));
         }
         job_.simulation = read_simulation(root, *problems_);
-        job_.plan = read_plan(root, *problems_);
+        job_.plan = read_plan(document, root, *problems_);
     }
 
     void read_options(const JsonObject& root) {

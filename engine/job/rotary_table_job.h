@@ -18,6 +18,7 @@
 #include "engine/job/monte_carlo_request.h"
 #include "engine/job/rotary_table_exclusion.h"
 #include "engine/machine_frame.h"
+#include "engine/line_of_sight.h"
 #include "engine/rotary_table_measurement.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/units.h"
@@ -48,6 +49,26 @@ struct SimulationRequest {
     std::vector<std::size_t> angle_counts;  ///< studies over full turns of these many angles; empty: angles of the job
 };
 
+/// Expanded uncertainties wanted of the parameters of the table, [m] and [rad]; nothing: none is wanted.
+struct ParameterTargets {
+    std::optional<double> range_linear, range_angular;          ///< of the six error ranges
+    std::optional<double> location_linear, location_angular;    ///< of the axis average line
+    std::optional<double> systematic, repeatability, accuracy;  ///< E, R and A of ISO 230-2, [rad]
+};
+
+/// What is known of the lines of sight, as the job states it.
+struct SightStatement {
+    struct Facing {
+        std::string reflector, where;
+        Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit vector in the fixture
+    };
+    std::vector<Obstacle> obstacles;
+    std::vector<std::string> obstacles_where;  ///< for messages
+    double reflector_diameter = 0.0;           ///< [m]; 0: not stated
+    std::optional<double> acceptance_angle;    ///< [rad]
+    std::vector<Facing> facing;
+};
+
 /// A layout that is not measured yet, and what may be changed in it (`gumcert plan`).
 struct PlanRequest {
     std::vector<double> angles_deg;  ///< ascending; empty: those of the lengths file
@@ -59,6 +80,9 @@ struct PlanRequest {
     std::optional<std::array<Eigen::Vector3d, 2>> station_region;
     double station_step = 0.2;    ///< grid of candidate positions in the box, [m]
     double least_distance = 0.2;  ///< of a station from every reflector at every angle, [m]
+    ParameterTargets parameter_targets;
+    bool keep_met_targets = false;  ///< no station is moved where that makes a target missed that was met
+    SightStatement sight;
 };
 
 /// What is done with a job: only an evaluation needs measured lengths.

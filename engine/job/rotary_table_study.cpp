@@ -25,19 +25,31 @@ constexpr std::array<std::string_view, 9> k_simulation_keys{"runs",
                                                             "angle_counts"};
 constexpr std::array<std::string_view, 3> k_simulated_table_keys{"u_linear_um", "u_axial_arcsec", "u_tilt_arcsec"};
 constexpr std::array<std::string_view, 2> k_simulated_outliers_keys{"count", "size_um"};
-constexpr std::array<std::string_view, 6> k_plan_keys{"angles_deg", "senses",         "dead_paths",
-                                                      "targets",    "station_region", "least_distance_mm"};
+constexpr std::array<std::string_view, 8> k_plan_keys{"angles_deg",       "senses",         "dead_paths",
+                                                      "targets",          "station_region", "least_distance_mm",
+                                                      "keep_met_targets", "sight"};
 constexpr std::array<std::string_view, 3> k_angles_keys{"first", "step", "count"};
-constexpr std::array<std::string_view, 2> k_targets_keys{"linear_um", "angular_arcsec"};
+constexpr std::array<std::string_view, 9> k_targets_keys{
+    "linear_um", "angular_arcsec", "range_linear_um", "range_angular_arcsec", "location_um", "location_arcsec",
+    "E_arcsec",  "R_arcsec",       "A_arcsec"};
+constexpr std::array<std::string_view, 5> k_sight_keys{"cylinders", "boxes", "reflector_diameter_mm",
+                                                       "acceptance_angle_deg", "facing"};
+constexpr std::array<std::string_view, 3> k_cylinder_keys{"name", "radius_mm", "along_axis_mm"};
+constexpr std::array<std::string_view, 5> k_box_keys{"name", "x_mm", "y_mm", "z_mm", "turns"};
+constexpr std::array<std::string_view, 2> k_facing_keys{"reflector", "direction"};
 constexpr std::array<std::string_view, 4> k_region_keys{"x_mm", "y_mm", "z_mm", "step_mm"};
 
-const std::array<JobKeys, 7> k_all_keys{{{"/simulation", k_simulation_keys},
-                                         {"/simulation/table_repeatability", k_simulated_table_keys},
-                                         {"/simulation/outliers", k_simulated_outliers_keys},
-                                         {"/plan", k_plan_keys},
-                                         {"/plan/angles_deg", k_angles_keys},
-                                         {"/plan/targets", k_targets_keys},
-                                         {"/plan/station_region", k_region_keys}}};
+const std::array<JobKeys, 11> k_all_keys{{{"/simulation", k_simulation_keys},
+                                          {"/simulation/table_repeatability", k_simulated_table_keys},
+                                          {"/simulation/outliers", k_simulated_outliers_keys},
+                                          {"/plan", k_plan_keys},
+                                          {"/plan/angles_deg", k_angles_keys},
+                                          {"/plan/targets", k_targets_keys},
+                                          {"/plan/station_region", k_region_keys},
+                                          {"/plan/sight", k_sight_keys},
+                                          {"/plan/sight/cylinders/*", k_cylinder_keys},
+                                          {"/plan/sight/boxes/*", k_box_keys},
+                                          {"/plan/sight/facing/*", k_facing_keys}}};
 
 constexpr double k_most_runs = 1e6;
 constexpr double k_most_angles = 100'000.0;
@@ -168,7 +180,158 @@ void read_region(const JsonObject& plan, PlanRequest& request) {
     request.station_region = corners;
 }
 
+/// Lower and upper limit of a solid, [m].
+std::optional<std::array<double, 2>> read_extent(const JsonObject& solid, std::string_view key) {
+    const auto limits = solid.required_numbers(key, 2, k_station_coordinate);
+    if (!limits) {
+        return std::nullopt;
+    }
+    if (!((*limits)[0] < (*limits)[1])) {
+        solid.refuse(k_limits_reversed, key,
+                     "from " + shortest((*limits)[0]) + " mm to " + shortest((*limits)[1]) + " mm",
+                     "an obstacle has an extent, and its lower limit stands first", "correct the two");
+        return std::nullopt;
+    }
+    return std::array<double, 2>{(*limits)[0] * k_millimetre, (*limits)[1] * k_millimetre};
+}
+
+/// Every object of a list, with what reads it.
+template <class Read>
+void read_list(const JsonDocument& document, const JsonObject& object, std::string_view key,
+               std::span<const std::string_view> keys, ProblemList& problems, const Read& read) {
+    const nlohmann::json* entries = object.optional_array(key);
+    for (std::size_t i = 0; entries != nullptr && i < entries->size(); ++i) {
+        const std::string pointer = child_pointer(object.pointer(key), i);
+        if (!(*entries)[i].is_object()) {
+            problems.refuse(k_wrong_type, document.where(pointer), described((*entries)[i]), "must be an object",
+                            "write { … } for each of the list");
+            continue;
+        }
+        read(JsonObject(document, pointer, keys, problems));
+    }
+}
+
+void read_cylinder(const JsonObject& object, SightStatement& sight) {
+    NumberRange radius_range = k_station_coordinate;
+    radius_range.low = 0.0;
+    radius_range.low_open = true;
+    const auto name = object.required_name("name");
+    const auto radius = object.required_number("radius_mm", radius_range);
+    const auto along = read_extent(object, "along_axis_mm");
+    if (name && radius && along) {
+        Obstacle obstacle;
+        obstacle.name = *name;
+        obstacle.radius = *radius * k_millimetre;
+        obstacle.low.setConstant((*along)[0]);
+        obstacle.high.setConstant((*along)[1]);
+        sight.obstacles.push_back(std::move(obstacle));
+        sight.obstacles_where.push_back(object.where());
+    }
+}
+
+void read_box(const JsonObject& object, SightStatement& sight) {
+    Obstacle obstacle;
+    const auto name = object.required_name("name");
+    bool is_whole = name.has_value();
+    constexpr std::array<std::string_view, 3> k_axes{"x_mm", "y_mm", "z_mm"};
+    for (std::size_t k = 0; k < k_axes.size(); ++k) {
+        const auto extent = read_extent(object, k_axes[k]);
+        is_whole = is_whole && extent;
+        if (extent) {
+            obstacle.low(static_cast<Eigen::Index>(k)) = (*extent)[0];
+            obstacle.high(static_cast<Eigen::Index>(k)) = (*extent)[1];
+        }
+    }
+    obstacle.turns = object.optional_boolean("turns").value_or(true);
+    if (is_whole) {
+        obstacle.name = *name;
+        sight.obstacles.push_back(std::move(obstacle));
+        sight.obstacles_where.push_back(object.where());
+    }
+}
+
+void read_facing(const JsonObject& object, SightStatement& sight) {
+    const auto reflector = object.required_name("reflector");
+    const auto direction = object.required_numbers("direction", 3, between(-1e6, 1e6, ""));
+    if (!reflector || !direction) {
+        return;
+    }
+    const Eigen::Vector3d vector((*direction)[0], (*direction)[1], (*direction)[2]);
+    constexpr double k_shortest = 1e-6;
+    if (vector.norm() < k_shortest) {
+        object.refuse(k_number_out_of_range, "direction", "[0, 0, 0]", "a direction has a length",
+                      "state where the reflector looks, such as [0, 0, 1]");
+        return;
+    }
+    sight.facing.push_back({*reflector, object.where("reflector"), vector.normalized()});
+}
+
+void read_sight(const JsonDocument& document, const JsonObject& plan, SightStatement& sight, ProblemList& problems) {
+    const auto object = plan.optional_object("sight", k_sight_keys);
+    if (!object) {
+        return;
+    }
+    read_list(document, *object, "cylinders", k_cylinder_keys, problems,
+              [&](const JsonObject& cylinder) { read_cylinder(cylinder, sight); });
+    read_list(document, *object, "boxes", k_box_keys, problems, [&](const JsonObject& box) { read_box(box, sight); });
+    NumberRange diameter = between(0.0, 1000.0, "mm");
+    diameter.low_open = true;
+    if (const auto stated = object->optional_number("reflector_diameter_mm", diameter)) {
+        sight.reflector_diameter = *stated * k_millimetre;
+    }
+    NumberRange acceptance = between(0.0, 180.0, "°");
+    acceptance.low_open = true;
+    if (const auto stated = object->optional_number("acceptance_angle_deg", acceptance)) {
+        sight.acceptance_angle = *stated * gum::k_degree;
+    }
+    read_list(document, *object, "facing", k_facing_keys, problems,
+              [&](const JsonObject& facing) { read_facing(facing, sight); });
+    const bool has_facing = object->has("facing");
+    if (object->has("acceptance_angle_deg") != has_facing) {
+        problems.warn(
+            k_warn_unused_value, object->where(has_facing ? "facing" : "acceptance_angle_deg"),
+            std::string(has_facing ? "facing" : "acceptance_angle_deg") + " is not used",
+            "whether a reflector accepts a beam follows from the angle that it accepts and from where it looks",
+            has_facing ? "add acceptance_angle_deg" : "add facing, or remove it");
+    }
+}
+
+void read_targets(const JsonObject& plan, PlanRequest& request) {
+    const auto targets = plan.optional_object("targets", k_targets_keys);
+    if (!targets) {
+        return;
+    }
+    const auto read = [&](std::string_view key, bool angular) -> std::optional<double> {
+        const auto stated = targets->optional_number(key, between(1e-6, 1e6, angular ? "″" : "µm"));
+        return stated ? std::optional(*stated * (angular ? k_arcsecond : k_micrometre)) : std::nullopt;
+    };
+    request.target_linear = read("linear_um", false).value_or(request.target_linear);
+    request.target_angular = read("angular_arcsec", true).value_or(request.target_angular);
+    ParameterTargets& parameters = request.parameter_targets;
+    parameters.range_linear = read("range_linear_um", false);
+    parameters.range_angular = read("range_angular_arcsec", true);
+    parameters.location_linear = read("location_um", false);
+    parameters.location_angular = read("location_arcsec", true);
+    parameters.systematic = read("E_arcsec", true);
+    parameters.repeatability = read("R_arcsec", true);
+    parameters.accuracy = read("A_arcsec", true);
+}
+
 }  // namespace
+
+void check_facing(const PlanRequest& plan, const std::vector<std::string>& reflectors, ProblemList& problems) {
+    std::vector<std::string_view> seen;
+    for (const SightStatement::Facing& facing : plan.sight.facing) {
+        if (std::find(reflectors.begin(), reflectors.end(), facing.reflector) == reflectors.end()) {
+            problems.refuse(k_unknown_reflector, facing.where, "the reflector " + in_quotes(facing.reflector),
+                            "is not in the coordinates file", "correct the name");
+        } else if (std::find(seen.begin(), seen.end(), facing.reflector) != seen.end()) {
+            problems.refuse(k_repeated_name, facing.where, "the reflector " + in_quotes(facing.reflector),
+                            "looks in one direction", "remove one of the two");
+        }
+        seen.emplace_back(facing.reflector);
+    }
+}
 
 void warn_of_same_positions(const std::vector<double>& angles_deg, const std::string& where, ProblemList& problems) {
     constexpr double k_turn = 360.0;  // [°]
@@ -233,7 +396,7 @@ std::optional<SimulationRequest> read_simulation(const JsonObject& root, Problem
     return request;
 }
 
-std::optional<PlanRequest> read_plan(const JsonObject& root, ProblemList& problems) {
+std::optional<PlanRequest> read_plan(const JsonDocument& document, const JsonObject& root, ProblemList& problems) {
     const auto object = root.optional_object("plan", k_plan_keys);
     if (!object) {
         return std::nullopt;
@@ -245,14 +408,7 @@ std::optional<PlanRequest> read_plan(const JsonObject& root, ProblemList& proble
     warn_of_same_positions(request.angles_deg, object->where("angles_deg"), problems);
     request.both_senses = object->optional_choice("senses", k_senses).value_or(false);
     request.dead_path_per_reflector = object->optional_choice("dead_paths", k_dead_paths).value_or(false);
-    if (const auto targets = object->optional_object("targets", k_targets_keys)) {
-        if (const auto linear = targets->optional_number("linear_um", between(1e-6, 1e6, "µm"))) {
-            request.target_linear = *linear * k_micrometre;
-        }
-        if (const auto angular = targets->optional_number("angular_arcsec", between(1e-6, 1e6, "″"))) {
-            request.target_angular = *angular * k_arcsecond;
-        }
-    }
+    read_targets(*object, request);
     read_region(*object, request);
     if (const auto distance = object->optional_number("least_distance_mm", between(0.0, 100'000.0, "mm"))) {
         request.least_distance = *distance * k_millimetre;
@@ -263,6 +419,13 @@ std::optional<PlanRequest> read_plan(const JsonObject& root, ProblemList& proble
                           "remove it, or state a region");
         }
     }
+    request.keep_met_targets = object->optional_boolean("keep_met_targets").value_or(false);
+    if (request.keep_met_targets && !object->has("station_region")) {
+        problems.warn(k_warn_unused_value, object->where("keep_met_targets"), "keep_met_targets is not used",
+                      "it belongs to station_region: without one, stations are not moved",
+                      "remove it, or state a region");
+    }
+    read_sight(document, *object, request.sight, problems);
     return request;
 }
 

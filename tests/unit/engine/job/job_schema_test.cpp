@@ -57,7 +57,12 @@ Files complete_campaign(bool with_budget = false) {
             "error_angular_arcsec": 4, "outliers": {"count": 2, "size_um": 5}, "angle_counts": [12, 36],
             "table_repeatability": {"u_linear_um": 0.1, "u_axial_arcsec": 0, "u_tilt_arcsec": 0.3}},
         "plan": {"angles_deg": {"first": -90, "step": 30, "count": 12}, "senses": "both", "dead_paths": "reflector",
-            "targets": {"linear_um": 0.5, "angular_arcsec": 0.7}, "least_distance_mm": 300,
+            "targets": {"linear_um": 0.5, "angular_arcsec": 0.7, "range_linear_um": 1, "range_angular_arcsec": 2,
+                "location_um": 3, "location_arcsec": 4, "E_arcsec": 5, "R_arcsec": 6, "A_arcsec": 7},
+            "keep_met_targets": true, "sight": {"cylinders": [{"name": "table", "radius_mm": 50,
+                "along_axis_mm": [-900, -500]}], "boxes": [{"name": "bed", "x_mm": [-900, -800], "y_mm": [0, 10],
+                "z_mm": [-5, 5], "turns": false}], "reflector_diameter_mm": 12, "acceptance_angle_deg": 170,
+                "facing": [{"reflector": "R1", "direction": [0, 0, 1]}]}, "least_distance_mm": 300,
             "station_region": {"x_mm": [0, 1000], "y_mm": [-500, 500], "z_mm": [0, 0], "step_mm": 100}},)");
     if (with_budget) {  // location errors are those of the other datum
         replace(job, R"("datum": "home")", R"("datum": "axis_average_line", "machine_frame": {"by": "probing",
@@ -257,7 +262,16 @@ TEST_F(JobSchemaTest, AgreesWithTheReaderOnValues) {
         {"/plan/targets/linear_um", {"1", "0"}},
         {"/plan/station_region/x_mm", {"[0, 1]", "[0, 100001]", "[0]", "[0, 1, 2]"}},
         {"/plan/station_region/step_mm", {"50", "0", "-1"}},
-        {"/plan/least_distance_mm", {"0", "-1"}}};
+        {"/plan/least_distance_mm", {"0", "-1"}},
+        {"/plan/targets/E_arcsec", {"1", "0"}},
+        {"/plan/targets/location_um", {"1e6", "1e7"}},
+        {"/plan/sight/reflector_diameter_mm", {"38.1", "0", "1001"}},
+        {"/plan/sight/acceptance_angle_deg", {"180", "0", "181"}},
+        {"/plan/sight/cylinders", {"[]", "[1]", "{}"}},
+        {"/plan/sight/cylinders/0/radius_mm", {"0.1", "0", "100001"}},
+        {"/plan/sight/cylinders/0/along_axis_mm", {"[0, 1]", "[0]", "[0, 1e6]"}},
+        {"/plan/sight/boxes/0/turns", {"true", "1"}},
+        {"/plan/sight/facing/0/direction", {"[1, 1, 0]", "[1, 1]", "[0, 0, 1e7]"}}};
     for (const auto& [pointer, texts] : values) {
         bool any_refused = false;
         for (const std::string& text : texts) {

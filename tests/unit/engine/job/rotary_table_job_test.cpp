@@ -226,6 +226,26 @@ const std::vector<BadInput>& bad_inputs() {
          with_key("\"plan\": {\"station_region\": {\"x_mm\": [0, 1000], \"y_mm\": [0, 1000], \"z_mm\": [0, 1000], "
                   "\"step_mm\": 10}}"),
          k_layout_too_large, "job.json#/plan/station_region/step_mm (line 1, column 99)", "1030301 positions"},
+        {"obstacle_reversed",
+         with_key(R"("plan": {"sight": {"cylinders": [{"name": "t", "radius_mm": 1, "along_axis_mm": [3, 3]}]}})"),
+         k_limits_reversed, "job.json#/plan/sight/cylinders/0/along_axis_mm (line 1, column 85)",
+         "from 3 mm to 3 mm — an obstacle has an extent"},
+        {"obstacle_without_a_name",
+         with_key(R"("plan": {"sight": {"boxes": [{"x_mm": [0, 1], "y_mm": [0, 1], "z_mm": [0, 1]}]}})"), k_missing_key,
+         "job.json#/plan/sight/boxes/0 (line 1, column 39)", "\"name\" is missing"},
+        {"obstacle_no_object", with_key(R"("plan": {"sight": {"boxes": [3]}})"), k_wrong_type,
+         "job.json#/plan/sight/boxes/0 (line 1, column 39)", "3 — must be an object"},
+        {"facing_of_no_reflector",
+         with_key(R"("plan": {"sight": {"acceptance_angle_deg": 30, "facing": [{"reflector": "R9",
+         "direction": [0, 0, 1]}]}})"),
+         k_unknown_reflector, "job.json#/plan/sight/facing/0/reflector (line 1, column 82)",
+         "the reflector \"R9\" — is not in the coordinates file"},
+        {"facing_twice", with_key(R"("plan": {"sight": {"acceptance_angle_deg": 30, "facing": [{"reflector": "R1",
+         "direction": [0, 0, 1]}, {"reflector": "R1", "direction": [0, 1, 1]}]}})"),
+         k_repeated_name, "job.json#/plan/sight/facing/1/reflector", "looks in one direction"},
+        {"facing_nowhere", with_key(R"("plan": {"sight": {"acceptance_angle_deg": 30, "facing": [{"reflector": "R1",
+         "direction": [0, 0, 0]}]}})"),
+         k_number_out_of_range, "job.json#/plan/sight/facing/0/direction", "a direction has a length"},
         {"notes_type", with_key("\"notes\": 1"), k_wrong_type, "job.json#/notes (line 1, column 12)",
          "must be a string"},
         {"certificate_type", with_key("\"certificate\": 1"), k_wrong_type, "job.json#/certificate (line 1, column 18)",
@@ -1218,7 +1238,12 @@ TEST(RotaryTableJob, ReadsSimulationAndPlan) {
         "error_linear_um": 3, "error_angular_arcsec": 4, "outliers": {"count": 2, "size_um": 5},
         "angle_counts": [12, 36], "table_repeatability": {"u_linear_um": 0.1, "u_axial_arcsec": 0, "u_tilt_arcsec": 0.3}},
         "plan": {"angles_deg": [180, 0, 90], "senses": "both", "dead_paths": "reflector",
-        "targets": {"linear_um": 0.5, "angular_arcsec": 0.7}, "least_distance_mm": 300,
+        "targets": {"linear_um": 0.5, "angular_arcsec": 0.7, "range_linear_um": 1, "range_angular_arcsec": 2,
+                "location_um": 3, "location_arcsec": 4, "E_arcsec": 5, "R_arcsec": 6, "A_arcsec": 7},
+        "keep_met_targets": true, "sight": {"cylinders": [{"name": "table", "radius_mm": 50,
+                "along_axis_mm": [-900, -500]}], "boxes": [{"name": "bed", "x_mm": [-900, -800], "y_mm": [0, 10],
+                "z_mm": [-5, 5], "turns": false}], "reflector_diameter_mm": 12, "acceptance_angle_deg": 170,
+                "facing": [{"reflector": "R1", "direction": [0, 0, 1]}]}, "least_distance_mm": 300,
         "station_region": {"x_mm": [0, 1000], "y_mm": [-500, 500], "z_mm": [0, 0], "step_mm": 100}})")(files);
     const RotaryTableJob job = read(files);
     ASSERT_TRUE(job.simulation);
@@ -1246,6 +1271,29 @@ TEST(RotaryTableJob, ReadsSimulationAndPlan) {
     EXPECT_DOUBLE_EQ(p.target_linear, 0.5e-6);
     EXPECT_DOUBLE_EQ(p.target_angular, 0.7 * k_arcsecond);
     EXPECT_DOUBLE_EQ(p.least_distance, 0.3);
+    EXPECT_TRUE(p.keep_met_targets);
+    EXPECT_DOUBLE_EQ(p.parameter_targets.range_linear.value(), 1e-6);
+    EXPECT_DOUBLE_EQ(p.parameter_targets.range_angular.value(), 2.0 * k_arcsecond);
+    EXPECT_DOUBLE_EQ(p.parameter_targets.location_linear.value(), 3e-6);
+    EXPECT_DOUBLE_EQ(p.parameter_targets.location_angular.value(), 4.0 * k_arcsecond);
+    EXPECT_DOUBLE_EQ(p.parameter_targets.systematic.value(), 5.0 * k_arcsecond);
+    EXPECT_DOUBLE_EQ(p.parameter_targets.repeatability.value(), 6.0 * k_arcsecond);
+    EXPECT_DOUBLE_EQ(p.parameter_targets.accuracy.value(), 7.0 * k_arcsecond);
+    ASSERT_EQ(p.sight.obstacles.size(), 2U);
+    EXPECT_EQ(p.sight.obstacles[0].name, "table");
+    EXPECT_DOUBLE_EQ(p.sight.obstacles[0].radius, 0.05);
+    EXPECT_DOUBLE_EQ(p.sight.obstacles[0].low[0], -0.9);
+    EXPECT_DOUBLE_EQ(p.sight.obstacles[0].high[2], -0.5);
+    EXPECT_TRUE(p.sight.obstacles[0].turns);
+    EXPECT_FALSE(p.sight.obstacles[1].turns);
+    EXPECT_EQ(p.sight.obstacles[1].radius, 0.0);
+    EXPECT_EQ(p.sight.obstacles[1].low, Eigen::Vector3d(-0.9, 0.0, -0.005));
+    EXPECT_EQ(p.sight.obstacles[1].high, Eigen::Vector3d(-0.8, 0.01, 0.005));
+    EXPECT_DOUBLE_EQ(p.sight.reflector_diameter, 0.012);
+    EXPECT_DOUBLE_EQ(p.sight.acceptance_angle.value(), 170.0 * std::numbers::pi / 180.0);
+    ASSERT_EQ(p.sight.facing.size(), 1U);
+    EXPECT_EQ(p.sight.facing[0].reflector, "R1");
+    EXPECT_EQ(p.sight.facing[0].direction, Eigen::Vector3d::UnitZ());
     EXPECT_DOUBLE_EQ(p.station_step, 0.1);
     ASSERT_TRUE(p.station_region);
     EXPECT_EQ((*p.station_region)[0], Eigen::Vector3d(0.0, -0.5, 0.0));
@@ -1354,6 +1402,10 @@ TEST(RotaryTableJob, WarnsOfKeysThatAreNotUsed) {
         EXPECT_THAT(gum::message(job.warnings[0]), HasSubstr(message));
     };
     only_warning(with_key("\"plan\": {\"least_distance_mm\": 100}"), "least_distance_mm 100 mm is not used");
+    only_warning(with_key("\"plan\": {\"keep_met_targets\": true}"), "keep_met_targets is not used");
+    only_warning(with_key("\"plan\": {\"sight\": {\"acceptance_angle_deg\": 30}}"), "acceptance_angle_deg is not used");
+    only_warning(with_key("\"plan\": {\"sight\": {\"facing\": [{\"reflector\": \"R1\", \"direction\": [1, 0, 0]}]}}"),
+                 "facing is not used");
     only_warning(with_key("\"simulation\": {\"outliers\": {\"count\": 0, \"size_um\": 5}}"),
                  "size_um 5 µm is not used");
     Files files = small_campaign();
