@@ -56,9 +56,39 @@ json motions_json(const Setting& setting, const RotaryTableMeasurement& layout, 
     return object;
 }
 
+json parameters_json(const Setting& setting, const ExpectedParameters& parameters) {
+    json list = json::array();
+    for (const PlannedParameter& parameter : parameters.all) {
+        const double unit = parameter.unit().si;
+        json row{{"quantity", parameter.name}, {"unit", parameter.unit().record}};
+        row["u"] = parameter.U ? json(*parameter.U / setting.k / unit) : json();
+        row["U"] = parameter.U ? json(*parameter.U / unit) : json();
+        row["target"] = parameter.target ? json(*parameter.target / unit) : json();
+        row["target_met"] = parameter.target ? json(!parameter.missed()) : json();
+        list.push_back(std::move(row));
+    }
+    return list;
+}
+
+json sight_json(const RotaryTableMeasurement& whole, const engine::LineOfSight& sight) {
+    const std::vector<SightCount> counts = sight_counts(whole, sight);
+    json list = json::array();
+    for (std::size_t j = 0; j < counts.size(); ++j) {
+        list.push_back({{"station", whole.stations[j]},
+                        {"distances", counts[j].distances},
+                        {"seen", counts[j].seen()},
+                        {"behind_obstacles", counts[j].by_obstacles},
+                        {"behind_reflectors", counts[j].by_reflectors},
+                        {"beyond_acceptance", counts[j].not_accepted}});
+    }
+    return list;
+}
+
 json expected_json(const Setting& setting, const RotaryTableMeasurement& layout, const Expected& expected) {
     const engine::ExpectedUncertainty& uncertainty = expected.uncertainty;
     json object{{"error_motions", motions_json(setting, layout, expected.motions)},
+                {"table_parameters", parameters_json(setting, expected.parameters)},
+                {"u_of_one_run_arcsec", expected.parameters.u_deviation / k_arcsec.si},
                 {"largest_ratio", expected.ratio},
                 {"observations", uncertainty.observations},
                 {"parameters", uncertainty.parameters},
@@ -117,6 +147,7 @@ std::string data_json(const Setting& setting, const std::string& job_name, const
                 {"u_axial_arcsec", std::sqrt(setting.stochastic.variance_axial) / k_arcsec.si},
                 {"u_tilt_arcsec", std::sqrt(setting.stochastic.variance_tilt) / k_arcsec.si}}}};
     data["expected"] = expected_json(setting, layout, now);
+    data["sight"] = setting.sight ? sight_json(setting.whole, *setting.sight) : json();
     data["budget"] = json::object();
     for (std::size_t c = 0; c < 6; ++c) {
         json row = json::object();
@@ -156,6 +187,10 @@ std::string data_json(const Setting& setting, const std::string& job_name, const
                             {"angles_of_search", proposal->angles_of_search},
                             {"layouts_compared", proposal->stations.layouts},
                             {"exchanges", std::move(exchanges)},
+                            {"targets_broken", proposal->broken},
+                            {"keep_met_targets", setting.request.keep_met_targets},
+                            {"exchanges_taken_back", proposal->taken_back},
+                            {"sight", setting.sight ? sight_json(proposal->whole, *setting.sight) : json()},
                             {"improvement_factor", now.ratio / proposal->expected.ratio},
                             {"expected", expected_json(setting, proposal->layout, proposal->expected)}};
     }

@@ -7,6 +7,7 @@
 #include "app/plan_data.h"
 #include "app/plan_figures.h"
 #include "app/plan_texts.h"
+#include "app/table_parameter_record.h"
 #include "engine/geometry_check.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/rounding.h"
@@ -24,14 +25,154 @@ std::string angle_text(const RotaryTableMeasurement& layout, std::size_t angle) 
     return plain(layout.angles_deg[angle]) + "°";
 }
 
+/// Names with commas between them, the last one behind "and".
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+    }
+    return text;
+}
+
 /// How many of the targets a layout meets.
-std::string targets_sentence(const Setting& setting, const std::array<Motion, 6>& motions) {
+std::string targets_sentence(const Setting& setting, const Expected& expected) {
     std::size_t missed = 0;
     for (std::size_t c = 0; c < 6; ++c) {
-        missed += motions[c].largest > target_of(setting, c) ? 1U : 0U;
+        missed += expected.motions[c].largest > target_of(setting, c) ? 1U : 0U;
     }
-    return missed == 0 ? "The layout meets the targets of all six error motions."
-                       : "The layout misses the target of " + std::to_string(missed) + " of the six error motions.";
+    std::string text = missed == 0
+                           ? "The layout meets the targets of all six error motions."
+                           : "The layout misses the target of " + std::to_string(missed) + " of the six error motions.";
+    std::vector<std::string> parameters;
+    std::size_t wanted = 0;
+    for (const PlannedParameter& parameter : expected.parameters.all) {
+        wanted += parameter.target ? 1U : 0U;
+        if (parameter.missed()) {
+            parameters.push_back(parameter.name);
+        }
+    }
+    if (wanted > 0) {
+        text += parameters.empty()
+                    ? " It meets those of the parameters of the table."
+                    : " Of the parameters of the table it misses the target of " + listed(parameters) + ".";
+    }
+    return text;
+}
+
+/// What a proposal costs, said plainly; empty where it costs no target.
+std::string broken_sentence(const Proposal& proposal) {
+    return proposal.broken.empty()
+               ? ""
+               : "The proposed stations break what the planned ones meet: the target of " + listed(proposal.broken) +
+                     ". State \"keep_met_targets\": true to keep what is met.";
+}
+
+std::string U_of(const PlannedParameter& parameter) {
+    return parameter.U ? U_text(*parameter.U, parameter.unit()) : "not stated";
+}
+
+std::string yes_or_no(bool yes) {
+    return yes ? "yes" : "no";
+}
+
+StudyTable parameter_table(const Expected& expected) {
+    StudyTable table{
+        "Expected expanded uncertainty of the parameters of the table: ranges, location of the axis average "
+        "line in the frame of the fixture, positioning (ISO 230-2)",
+        {{"quantity", "", false},
+         {"unit", "", false},
+         {"U", "", true},
+         {"target", "", true},
+         {"target met", "", false}},
+        {}};
+    for (const PlannedParameter& parameter : expected.parameters.all) {
+        table.rows.push_back({parameter.name, parameter.unit().print, U_of(parameter),
+                              parameter.target ? plain(*parameter.target / parameter.unit().si) : "",
+                              parameter.target ? yes_or_no(!parameter.missed()) : ""});
+    }
+    return table;
+}
+
+std::string parameters_sentence(const Expected& expected) {
+    std::string text =
+        "U of a range and of E, R and A depends on which angles are extreme and on how the runs scatter: it is the "
+        "root "
+        "mean square over " +
+        std::to_string(k_drawn_tables) + " drawn tables, of each as an evaluation states it.";
+    const ExpectedParameters& parameters = expected.parameters;
+    if (parameters.u_deviation > 0.0) {
+        text += " The deviation of one run will have a standard uncertainty of " +
+                gum::round_significant(parameters.u_deviation / k_arcsec.si, 2) + "″, which makes " +
+                gum::percent(parameters.share_of_the_noise) + " % of the variance of the runs";
+        text += parameters.share_of_the_noise > k_largest_scatter_share
+                    ? ": an evaluation will not state R and A, because they would be those of the measurement."
+                    : ".";
+    }
+    return text;
+}
+
+StudyTable sight_table(const std::vector<std::string>& stations, const std::vector<SightCount>& counts) {
+    StudyTable table{"Distances that the stations see",
+                     {{"station", "", false},
+                      {"distances", "", true},
+                      {"seen", "", true},
+                      {"behind obstacles", "", true},
+                      {"behind reflectors", "", true},
+                      {"beyond the acceptance angle", "", true}},
+                     {}};
+    for (std::size_t j = 0; j < stations.size(); ++j) {
+        const SightCount& count = counts[j];
+        table.rows.push_back({stations[j], std::to_string(count.distances), std::to_string(count.seen()),
+                              std::to_string(count.by_obstacles), std::to_string(count.by_reflectors),
+                              std::to_string(count.not_accepted)});
+    }
+    return table;
+}
+
+/// What was looked at of the lines of sight, and what was not.
+std::vector<std::string> sight_sentences(const Setting& setting) {
+    const engine::SightRules rules = setting.sight ? setting.sight->rules() : engine::SightRules{};
+    std::vector<std::string> sentences;
+    std::vector<std::string> names;
+    for (const engine::Obstacle& obstacle : rules.obstacles) {
+        names.push_back(obstacle.name);
+    }
+    sentences.push_back(names.empty()
+                            ? "The job states no obstacle: whether the table, the fixture or the machine is in "
+                              "the way of a beam was not looked at."
+                            : "Obstacles: " + listed(names) +
+                                  ". Whatever else is in the way of a beam was not "
+                                  "looked at.");
+    sentences.push_back(rules.reflector_diameter > 0.0
+                            ? "A reflector hides what is behind a sphere of " +
+                                  plain(rules.reflector_diameter / k_mm.si) + " mm about its centre."
+                            : "The job states no diameter of the reflectors: whether one hides another was not looked "
+                              "at.");
+    std::vector<std::string> open;
+    for (std::size_t m = 0; rules.acceptance_angle && m < rules.facing.size(); ++m) {
+        if (!rules.facing[m]) {
+            open.push_back(setting.layout.reflectors[m]);
+        }
+    }
+    if (!rules.acceptance_angle) {
+        sentences.emplace_back(
+            "The job does not state which beams the reflectors accept (acceptance_angle_deg and facing): it was not "
+            "looked at.");
+    } else {
+        sentences.push_back("Reflectors accept beams within " + plain(*rules.acceptance_angle / gum::k_degree) +
+                            "° of the direction in which they look" +
+                            (open.empty() ? "."
+                                          : "; of " + listed(open) +
+                                                " the direction is not stated, and it was not "
+                                                "looked at."));
+    }
+    if (setting.sight) {
+        sentences.emplace_back(
+            "What is not seen is left out of the plan. A dead path is taken to last through the angles at which its "
+            "beam "
+            "is broken: where it does not, state the distances in a lengths file.");
+    }
+    return sentences;
 }
 
 StudyTable expected_table(const Setting& setting, const Expected& expected) {
@@ -163,6 +304,17 @@ void add_proposal(const Setting& setting, const Expected& now, const Proposal& p
         " of the region of the job, and the one exchange that lowers the largest U in units of its target most was "
         "made, again and again, until none lowered it by more than 0.5 % (greedy exchange). This finds a good layout, "
         "not provably the best one.");
+    if (setting.request.keep_met_targets) {
+        section.paragraphs.push_back("No exchange may make a target missed that the planned layout meets." +
+                                     (proposal.taken_back == 0
+                                          ? std::string()
+                                          : " The last " + counted(proposal.taken_back, "exchange") +
+                                                " found would have, and " + (proposal.taken_back == 1 ? "is" : "are") +
+                                                " taken back."));
+    }
+    if (!proposal.broken.empty()) {
+        section.paragraphs.push_back(broken_sentence(proposal));
+    }
     if (exchanges.empty()) {
         section.paragraphs.emplace_back("No exchange of one station improves the planned layout: it stays as it is.");
     } else {
@@ -203,14 +355,24 @@ void add_proposal(const Setting& setting, const Expected& now, const Proposal& p
                       {"largest U after", "", true},
                       {"before / after", "", true},
                       {"target", "", true},
-                      {"target met", "", false}},
+                      {"met before", "", false},
+                      {"met after", "", false}},
                      {}};
     for (std::size_t c = 0; c < 6; ++c) {
         const DocumentUnit& unit = unit_of_motion(c);
         const double from = now.motions[c].largest;
         const double to = proposal.expected.motions[c].largest;
         gains.rows.push_back({setting.names[c], unit.print, U_text(from, unit), U_text(to, unit), ratio_text(from / to),
-                              plain(target_of(setting, c) / unit.si), to <= target_of(setting, c) ? "yes" : "no"});
+                              plain(target_of(setting, c) / unit.si), yes_or_no(from <= target_of(setting, c)),
+                              yes_or_no(to <= target_of(setting, c))});
+    }
+    for (std::size_t i = 0; i < now.parameters.all.size() && i < proposal.expected.parameters.all.size(); ++i) {
+        const PlannedParameter& from = now.parameters.all[i];
+        const PlannedParameter& to = proposal.expected.parameters.all[i];
+        gains.rows.push_back(
+            {from.name, from.unit().print, U_of(from), U_of(to), from.U && to.U ? ratio_text(*from.U / *to.U) : "",
+             from.target ? plain(*from.target / from.unit().si) : "", from.target ? yes_or_no(!from.missed()) : "",
+             from.target ? yes_or_no(!to.missed()) : ""});
     }
     section.tables = {std::move(positions), std::move(gains)};
     if (!exchanges.empty()) {
@@ -228,6 +390,11 @@ void add_proposal(const Setting& setting, const Expected& now, const Proposal& p
         }
         section.tables.push_back(std::move(steps));
         section.tables.push_back(std::move(csv));
+    }
+    if (setting.sight) {
+        StudyTable sight = sight_table(before.stations, sight_counts(proposal.whole, *setting.sight));
+        sight.caption += " from the proposed positions";
+        section.tables.push_back(std::move(sight));
     }
 }
 
@@ -267,7 +434,11 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Setting& setting
         {"Datum", layout.datum == engine::Datum::home ? "home" : "axis average line"},
         {"Layout", counted(layout.stations.size(), "station") + ", " + counted(layout.reflectors.size(), "reflector") +
                        ", " + counted(layout.angles.size(), "angle")},
-        {"Distances", std::to_string(layout.lengths.size()) + ": " + setting.distances_from},
+        {"Distances", std::to_string(layout.lengths.size()) + ": " + setting.distances_from +
+                          (layout.lengths.size() < setting.whole.lengths.size()
+                               ? ", without " + std::to_string(setting.whole.lengths.size() - layout.lengths.size()) +
+                                     " that are not seen"
+                               : "")},
         {"Dead paths", std::to_string(layout.dead_paths.size())},
         {"Length noise, standard uncertainty",
          um(noise.u_constant) + " and " + um(noise.u_proportional) + " per metre, added in squares"}};
@@ -314,10 +485,11 @@ std::string found_text(const Setting& setting, const Expected& now, const std::v
                 " is to be expected for the " + (first == 0 ? "linear" : "angular") + " error motions (target " +
                 plain(target_of(setting, worst) / unit.si) + gap + unit.print + ")";
     }
-    text += ". " + targets_sentence(setting, now.motions);
+    text += ". " + targets_sentence(setting, now);
     if (proposal && !proposal->stations.exchanges.empty()) {
         text += " With the proposed stations the largest U in units of its target would go from " +
                 ratio_text(now.ratio) + " to " + ratio_text(proposal->expected.ratio) + ".";
+        text += proposal->broken.empty() ? "" : " " + broken_sentence(*proposal);
     } else if (const Variant* best = best_change(variants)) {
         text += " Of the changes studied, " + best->label + " would help most.";
     }
@@ -342,9 +514,6 @@ void add_standing_notes(Setting& setting) {
     setting.notes.emplace_back(
         "An evaluation that estimates variances states finite degrees of freedom and hence a somewhat larger coverage "
         "factor; distances that it leaves out as outlying are missing there.");
-    setting.notes.emplace_back(
-        "Lines of sight are not examined: whether the table, the fixture or another reflector is in the way of a beam, "
-        "and whether a reflector faces it, is for the planner to see.");
 }
 
 }  // namespace
@@ -363,13 +532,22 @@ reports::StudyDocument document_of(Setting setting, const std::string& job_name,
     document.sections.push_back(
         {.heading = "What to expect",
          .paragraphs = {"The largest U in units of its target is " + ratio_text(now.ratio) +
-                        "; it is what this plan compares layouts by. U is rounded up to two digits."},
-         .tables = {expected_table(setting, now), other_quantities_table(setting, now.uncertainty)},
+                            "; it is what this plan compares layouts by. U is rounded up to two digits.",
+                        parameters_sentence(now)},
+         .tables = {expected_table(setting, now), parameter_table(now),
+                    other_quantities_table(setting, now.uncertainty)},
          .figures = {bars_figure(setting, now, proposal)}});
     document.sections.push_back({.heading = "Layout",
                                  .paragraphs = {},
                                  .tables = {layout_table(setting, now)},
                                  .figures = {layout_figure(setting, now, proposal)}});
+    document.sections.push_back(
+        {.heading = "Lines of sight",
+         .paragraphs = sight_sentences(setting),
+         .tables = setting.sight ? std::vector<StudyTable>{sight_table(setting.whole.stations,
+                                                                       sight_counts(setting.whole, *setting.sight))}
+                                 : std::vector<StudyTable>{},
+         .figures = {}});
     document.sections.push_back({.heading = "What the uncertainties are made of",
                                  .paragraphs = {},
                                  .tables = {budget_table(setting, now, shares)},

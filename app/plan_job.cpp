@@ -24,7 +24,7 @@ reports::StudyDocument plan_job(const std::filesystem::path& job, unsigned threa
     const plan::SourceShares shares = plan::source_shares(setting, now.motions);
     report("one thing changed at a time");
     const std::vector<plan::Variant> variants = plan::variants_of(setting, workers);
-    const std::optional<plan::Proposal> proposal = plan::propose(setting, workers, progress);
+    const std::optional<plan::Proposal> proposal = plan::propose(setting, now, workers, progress);
     return plan::document_of(std::move(setting), job.filename().string(), now, shares, variants, proposal);
 }
 

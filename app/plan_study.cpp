@@ -108,6 +108,102 @@ double target_of(const Setting& setting, std::size_t motion) {
     return motion < 3 ? setting.request.target_linear : setting.request.target_angular;
 }
 
+namespace {
+
+/// Lines of sight of the job, with directions in the order of the reflectors; nothing where it says nothing of them.
+/// \throws gum::InputError  GC-PLAN-0003 for a reflector inside an obstacle
+std::optional<engine::LineOfSight> sight_of(const Setting& setting) {
+    const engine::SightStatement& stated = setting.request.sight;
+    engine::SightRules rules;
+    rules.obstacles = stated.obstacles;
+    rules.reflector_diameter = stated.reflector_diameter;
+    if (!stated.facing.empty()) {
+        rules.acceptance_angle = stated.acceptance_angle;
+    }
+    if (!rules.any()) {
+        return std::nullopt;
+    }
+    const std::vector<std::string>& reflectors = setting.layout.reflectors;
+    rules.facing.resize(reflectors.size());
+    for (const engine::SightStatement::Facing& facing : stated.facing) {
+        const auto found = std::find(reflectors.begin(), reflectors.end(), facing.reflector);
+        if (found != reflectors.end()) {
+            rules.facing[static_cast<std::size_t>(found - reflectors.begin())] = facing.direction;
+        }
+    }
+    engine::LineOfSight sight(setting.layout, std::move(rules));
+    if (const auto inside = sight.inside()) {
+        throw gum::InputError(gum::Diagnostic{"GC-PLAN-0003", stated.obstacles_where[inside->obstacle],
+                                              "reflector " + reflectors[inside->reflector] + " lies inside " +
+                                                  stated.obstacles[inside->obstacle].name + " at " +
+                                                  plain(setting.layout.angles_deg[inside->angle]) + "°",
+                                              "what lies inside an obstacle is seen from nowhere",
+                                              "correct the obstacle, or the coordinates", gum::Severity::error});
+    }
+    return sight;
+}
+
+/// Leaves out what no station sees.
+/// \throws gum::InputError  GC-PLAN-0004 for every station that sees nothing
+void leave_out_hidden(Setting& setting) {
+    setting.whole = setting.layout;
+    setting.sight = sight_of(setting);
+    if (!setting.sight) {
+        return;
+    }
+    const std::vector<SightCount> counts = sight_counts(setting.whole, *setting.sight);
+    std::vector<gum::Diagnostic> blind;
+    for (std::size_t j = 0; j < counts.size(); ++j) {
+        if (counts[j].seen() == 0) {
+            blind.push_back({"GC-PLAN-0004", "station " + setting.whole.stations[j],
+                             "sees none of its " + std::to_string(counts[j].distances) + " distances",
+                             "a station measures what it sees past the obstacles of plan.sight",
+                             "move the station, or correct plan.sight", gum::Severity::error});
+        }
+    }
+    if (!blind.empty()) {
+        throw gum::InputError(std::move(blind));
+    }
+    setting.layout = engine::with_distances(setting.whole, engine::seen_distances(setting.whole, *setting.sight));
+}
+
+}  // namespace
+
+std::vector<SightCount> sight_counts(const RotaryTableMeasurement& whole, const engine::LineOfSight& sight) {
+    std::vector<SightCount> counts(whole.stations.size());
+    for (const engine::LengthObservation& length : whole.lengths) {
+        SightCount& count = counts[length.station];
+        ++count.distances;
+        if (const auto hidden = sight.hindrance(*whole.station_start[length.station], length.angle, length.reflector)) {
+            switch (hidden->kind) {
+                case engine::Hindrance::Kind::obstacle:
+                    ++count.by_obstacles;
+                    break;
+                case engine::Hindrance::Kind::reflector:
+                    ++count.by_reflectors;
+                    break;
+                case engine::Hindrance::Kind::acceptance:
+                    ++count.not_accepted;
+                    break;
+            }
+        }
+    }
+    return counts;
+}
+
+std::vector<Target> targets_of(const Setting& setting, const Expected& expected) {
+    std::vector<Target> targets;
+    for (std::size_t c = 0; c < 6; ++c) {
+        targets.push_back({setting.names[c], expected.motions[c].largest <= target_of(setting, c)});
+    }
+    for (const PlannedParameter& parameter : expected.parameters.all) {
+        if (parameter.target) {
+            targets.push_back({parameter.name, !parameter.missed()});
+        }
+    }
+    return targets;
+}
+
 Setting setting_of(const std::filesystem::path& job_file, const Progress& progress) {
     Setting setting;
     setting.job = engine::read_rotary_table_job(job_file, engine::JobUse::plan);
@@ -138,6 +234,7 @@ Setting setting_of(const std::filesystem::path& job_file, const Progress& progre
         setting.distances_from = "every station to every reflector at every planned angle";
     }
     engine::predict_lengths(layout);
+    leave_out_hidden(setting);
     setting.stochastic = engine::start_variances(layout.table_repeatability);
     setting.k = gum::coverage_factor(setting.job.coverage_probability, k_infinite);
     setting.wanted = {setting.request.target_linear / setting.k, setting.request.target_angular / setting.k};
@@ -154,6 +251,7 @@ Expected expect(const Setting& setting, const RotaryTableMeasurement& layout) {
     expected.uncertainty = engine::expected_uncertainty(layout, setting.stochastic, evaluation_options(setting.layout));
     expected.motions = motions_of(expected.uncertainty.covariance.diagonal(), layout.angles.size(), setting.k);
     expected.ratio = ratio_of(setting, expected.motions);
+    expected.parameters = expected_parameters(layout, setting.stochastic, setting.request.parameter_targets, setting.k);
     return expected;
 }
 
@@ -262,7 +360,37 @@ std::vector<Variant> variants_of(const Setting& setting, gum::WorkerThreads& wor
 
 // ---- proposal of stations -------------------------------------------------------------------------------------------
 
-std::optional<Proposal> propose(Setting& setting, gum::WorkerThreads& workers, const Progress& progress) {
+namespace {
+
+/// The whole layout with the stations of the proposal.
+void stand_at_proposal(const Setting& setting, Proposal& proposal) {
+    proposal.whole = setting.whole;
+    for (std::size_t j = 0; j < proposal.whole.stations.size(); ++j) {
+        proposal.whole.station_start[j] = proposal.stations.positions[j];
+    }
+    engine::predict_lengths(proposal.whole);
+    proposal.layout =
+        setting.sight ? engine::with_distances(proposal.whole, engine::seen_distances(proposal.whole, *setting.sight))
+                      : proposal.whole;
+    proposal.expected = expect(setting, proposal.layout);
+}
+
+std::vector<std::string> broken_targets(const Setting& setting, const Expected& before, const Expected& after) {
+    const std::vector<Target> was = targets_of(setting, before);
+    const std::vector<Target> is = targets_of(setting, after);
+    std::vector<std::string> broken;
+    for (std::size_t t = 0; t < was.size(); ++t) {
+        if (was[t].met && !is[t].met) {
+            broken.push_back(was[t].name);
+        }
+    }
+    return broken;
+}
+
+}  // namespace
+
+std::optional<Proposal> propose(Setting& setting, const Expected& now, gum::WorkerThreads& workers,
+                                const Progress& progress) {
     if (!setting.request.station_region) {
         return std::nullopt;
     }
@@ -283,7 +411,7 @@ std::optional<Proposal> propose(Setting& setting, gum::WorkerThreads& workers, c
     const std::size_t angles = setting.layout.angles.size();
     const std::size_t stride = (angles + k_most_angles_of_search - 1) / k_most_angles_of_search;
     const RotaryTableMeasurement searched =
-        stride > 1 ? engine::with_every_angle(setting.layout, stride) : setting.layout;
+        stride > 1 ? engine::with_every_angle(setting.whole, stride) : setting.whole;
     proposal.angles_of_search = searched.angles.size();
     if (proposal.candidates.step > region.step) {
         setting.notes.push_back("The region has more positions than are compared: the grid is " +
@@ -304,14 +432,24 @@ std::optional<Proposal> propose(Setting& setting, gum::WorkerThreads& workers, c
         }};
     engine::ExchangeRules rules;
     rules.wanted = setting.wanted;
+    rules.keep_met = setting.request.keep_met_targets;
+    // At the angles of the search, which may be fewer.
+    const std::optional<engine::LineOfSight> sight =
+        setting.sight ? std::optional(engine::LineOfSight(searched, setting.sight->rules())) : std::nullopt;
+    rules.sight = sight ? &*sight : nullptr;
     proposal.stations = engine::propose_stations(searched, setting.stochastic, proposal.candidates.positions, rules,
                                                  parallel, progress);
-    proposal.layout = setting.layout;
-    for (std::size_t j = 0; j < proposal.layout.stations.size(); ++j) {
-        proposal.layout.station_start[j] = proposal.stations.positions[j];
+    stand_at_proposal(setting, proposal);
+    proposal.broken = broken_targets(setting, now, proposal.expected);
+    // The search knows the error motions at its angles; what else is wanted shows in the whole layout.
+    while (setting.request.keep_met_targets && !proposal.broken.empty() && !proposal.stations.exchanges.empty()) {
+        const engine::StationExchange last = proposal.stations.exchanges.back();
+        proposal.stations.exchanges.pop_back();
+        proposal.stations.positions[last.station] = last.from;
+        ++proposal.taken_back;
+        stand_at_proposal(setting, proposal);
+        proposal.broken = broken_targets(setting, now, proposal.expected);
     }
-    engine::predict_lengths(proposal.layout);
-    proposal.expected = expect(setting, proposal.layout);
     return proposal;
 }
 

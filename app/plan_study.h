@@ -12,6 +12,7 @@
 
 #include "app/document_units.h"
 #include "app/evaluate_job.h"
+#include "app/plan_parameters.h"
 #include "engine/job/rotary_table_job.h"
 #include "engine/measurement_plan.h"
 #include "engine/station_proposal.h"
@@ -24,7 +25,9 @@ namespace gumcert::app::plan {
 /// What is planned, and with what it is compared.
 struct Setting {
     engine::RotaryTableJob job;
-    engine::RotaryTableMeasurement layout;  ///< with predicted lengths
+    engine::RotaryTableMeasurement layout;     ///< with predicted lengths, and without what no station sees
+    engine::RotaryTableMeasurement whole;      ///< the same with all distances, as if nothing stood in the way
+    std::optional<engine::LineOfSight> sight;  ///< none: nothing is known of what stands in the way
     engine::PlanRequest request;
     engine::StochasticModel stochastic;
     double k = 0.0;                    ///< coverage factor
@@ -51,8 +54,27 @@ struct Motion {
 struct Expected {
     engine::ExpectedUncertainty uncertainty;
     std::array<Motion, 6> motions;
-    double ratio = 0.0;  ///< largest U in units of its target
+    double ratio = 0.0;  ///< largest U of an error motion in units of its target
+    ExpectedParameters parameters;
 };
+
+/// What is wanted of a quantity, and whether a layout gives it.
+struct Target {
+    std::string name;
+    bool met = false;
+};
+/// Of the six error motions, then of the parameters that have one.
+[[nodiscard]] std::vector<Target> targets_of(const Setting& setting, const Expected& expected);
+
+/// Distances that a station does not see.
+struct SightCount {
+    std::size_t distances = 0, by_obstacles = 0, by_reflectors = 0, not_accepted = 0;
+
+    [[nodiscard]] std::size_t seen() const { return distances - by_obstacles - by_reflectors - not_accepted; }
+};
+/// One a station. \param whole  with all distances, and positions of the stations
+[[nodiscard]] std::vector<SightCount> sight_counts(const engine::RotaryTableMeasurement& whole,
+                                                   const engine::LineOfSight& sight);
 
 [[nodiscard]] Expected expect(const Setting& setting, const engine::RotaryTableMeasurement& layout);
 
@@ -92,13 +114,18 @@ struct Variant {
 struct Proposal {
     engine::StationCandidates candidates;
     engine::StationProposal stations;
-    engine::RotaryTableMeasurement layout;
+    engine::RotaryTableMeasurement layout;  ///< without what no station sees
+    engine::RotaryTableMeasurement whole;   ///< with all distances
     Expected expected;
     std::size_t angles_of_search = 0;
+    std::vector<std::string> broken;  ///< targets that the planned layout meets and the proposed one misses
+    std::size_t taken_back = 0;       ///< exchanges that would have broken one that is to be kept
 };
 
 /// Better positions of the stations in the region of the job; nothing without a region. Adds its notes to the setting.
 /// \throws gum::InputError  GC-PLAN-0002 when no position of the region is allowed
-[[nodiscard]] std::optional<Proposal> propose(Setting& setting, gum::WorkerThreads& workers, const Progress& progress);
+/// \param now  of the planned layout
+[[nodiscard]] std::optional<Proposal> propose(Setting& setting, const Expected& now, gum::WorkerThreads& workers,
+                                              const Progress& progress);
 
 }  // namespace gumcert::app::plan

@@ -137,9 +137,6 @@ bool rests_on_scatter(const std::string& short_name) {
 }
 
 PositioningScope positioning_scope(const engine::TableParameterModel& model) {
-    // With 60 % of the variance from the measurement a standard deviation is 1.6 times that of the table, and R still
-    // within its expanded uncertainty; with more it is not.
-    constexpr double k_largest_share = 0.6;
     constexpr double k_largest_ratio = 0.25;
     const engine::PositioningAccuracy positioning = model.positioning();
     PositioningScope scope;
@@ -161,7 +158,7 @@ PositioningScope positioning_scope(const engine::TableParameterModel& model) {
         range = std::max(range, positioning[parameter].value_or(0.0));
     }
     scope.stated = scope.u_deviation <= k_largest_ratio * range;
-    scope.scatter_stated = std::pow(scope.u_deviation, 2) <= k_largest_share * std::pow(scope.s_runs, 2);
+    scope.scatter_stated = std::pow(scope.u_deviation, 2) <= k_largest_scatter_share * std::pow(scope.s_runs, 2);
     return scope;
 }
 

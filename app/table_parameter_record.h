@@ -24,6 +24,10 @@ void fill_table_parameters(reports::RotaryTable& rotary, const engine::TablePara
 /// the noise of the distances a second time to deviations that hold it already, and make them larger than they are.
 [[nodiscard]] bool rests_on_scatter(const std::string& short_name);
 
+/// Part of the variance of the runs that may come from the measurement where R and A are stated: with 60 % a standard
+/// deviation is 1.6 times that of the table, and R still within its expanded uncertainty; with more it is not.
+constexpr double k_largest_scatter_share = 0.6;
+
 /// Which parameters of ISO 230-2 the deviations of the runs can carry.
 ///
 /// The deviations hold the noise of the measurement besides that of the table, and what is a maximum or rests on a

@@ -345,7 +345,6 @@ Eigen::MatrixXd TableParameterModel::jacobian(const Eigen::VectorXd& x) const {
     const DatumSolution datum =
         transform_to_datum(measurement, adjustment.poses(), adjustment.set_up(), measurement.datum);
     const Eigen::VectorXd reported = reported_values(adjustment, datum);
-    const std::vector<Visit>& visits = adjustment.visits();
     Eigen::VectorXd positions = visit_positions(adjustment, reported, gains_);
     const Eigen::Index axial = joint_->layout().axial;
     for (Eigen::Index v = 0; v < positions.size(); ++v) {
@@ -353,8 +352,22 @@ Eigen::MatrixXd TableParameterModel::jacobian(const Eigen::VectorXd& x) const {
             positions[v] += x[axial + v];
         }
     }
-    TableParameters::Derivatives by = parameters_->derivatives(reported, positions);
+    return by_inputs(adjustment, normal, datum, parameters_->derivatives(reported, positions));
+}
 
+Eigen::MatrixXd TableParameterModel::jacobian_of_table(const Eigen::VectorXd& reported,
+                                                       const Eigen::VectorXd& positions) const {
+    const JointAdjustment& solved = joint_->solved();
+    const DatumSolution datum =
+        transform_to_datum(joint_->measurement(), solved.poses(), solved.set_up(), joint_->measurement().datum);
+    return by_inputs(solved, solved.adjustment().linearise(), datum, parameters_->derivatives(reported, positions));
+}
+
+Eigen::MatrixXd TableParameterModel::by_inputs(const JointAdjustment& adjustment, const NormalEquations& normal,
+                                               const DatumSolution& datum, TableParameters::Derivatives by) const {
+    const RotaryTableMeasurement& measurement = joint_->measurement();
+    const std::vector<Visit>& visits = adjustment.visits();
+    const Eigen::Index axial = joint_->layout().axial;
     const Eigen::Index reversal =
         6 * static_cast<Eigen::Index>(measurement.angles.size()) + 4 + 3 + axial_coordinate(measurement.axis);
     Eigen::MatrixXd by_residual = Eigen::MatrixXd::Zero(by.by_position.rows(), joint_->layout().scale);
@@ -374,7 +387,7 @@ Eigen::MatrixXd TableParameterModel::jacobian(const Eigen::VectorXd& x) const {
     Eigen::MatrixXd result = joint_->input_sensitivity(
         adjustment, normal, reported_map(adjustment, normal, datum).combined(by.by_reported, adjustment, normal),
         by_residual);
-    result.middleCols(axial, positions.size()) += by.by_position;
+    result.middleCols(axial, by.by_position.cols()) += by.by_position;
     return result;
 }
 

@@ -150,6 +150,16 @@ public:
     [[nodiscard]] Eigen::VectorXd evaluate(const Eigen::VectorXd& x) const override;
     [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const override;
 
+    /// ∂outputs/∂inputs for a table that shows other values than the nominal solution: the derivatives of the
+    /// parameters are taken there, those of the adjustment at the nominal solution (they differ by error motions
+    /// against distances). Joint method only. \param reported   of that table, m \param positions  of its visits, V,
+    /// [rad]
+    [[nodiscard]] Eigen::MatrixXd jacobian_of_table(const Eigen::VectorXd& reported,
+                                                    const Eigen::VectorXd& positions) const;
+    // Of the adjustment; joint method only.
+    [[nodiscard]] const std::vector<Visit>& visits() const { return joint_->solved().visits(); }
+    [[nodiscard]] bool has_reversal() const { return joint_->solved().has_reversal(); }
+
     /// For a Monte Carlo evaluation of the same.
     [[nodiscard]] const std::shared_ptr<const TableParameters>& parameters() const { return parameters_; }
     [[nodiscard]] const VisitPositionGains& gains() const { return gains_; }
@@ -161,6 +171,9 @@ public:
     [[nodiscard]] double rms_position_uncertainty() const;
 
 private:
+    [[nodiscard]] Eigen::MatrixXd by_inputs(const JointAdjustment& adjustment, const NormalEquations& normal,
+                                            const DatumSolution& datum, TableParameters::Derivatives by) const;
+
     std::shared_ptr<const gum::MeasurementModel> table_;
     std::shared_ptr<const RotaryTableModel> joint_;  ///< null for the sequential method
     VisitPositionGains gains_;

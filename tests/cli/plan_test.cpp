@@ -1,6 +1,9 @@
 // `gumcert plan`: what it expects, in which forms it says so, what it refuses.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <set>
 
 #include "tests/cli/program.h"
 
@@ -189,6 +192,198 @@ TEST_F(Plan, SameBytesForAnyNumberOfThreads) {
     const std::string bytes = bytes_of(folder() / "out.json");
     const json three = planned({"--threads", "3"});
     EXPECT_EQ(bytes_of(folder() / "out.json"), bytes);
+}
+
+/// Targets that one layout of the data meets, by name.
+std::map<std::string, bool> targets_of(const json& expected) {
+    std::map<std::string, bool> met;
+    for (const auto& [name, motion] : expected["error_motions"].items()) {
+        met[name] = motion["target_met"].get<bool>();
+    }
+    for (const json& parameter : expected["table_parameters"]) {
+        if (!parameter["target"].is_null()) {
+            met[parameter["quantity"].get<std::string>()] = parameter["target_met"].get<bool>();
+        }
+    }
+    return met;
+}
+
+TEST_F(Plan, EveryTargetThatAProposalBreaksIsNamed) {
+    // Targets about as large as the uncertainties, so that some are met and some not, in many ways.
+    std::uint32_t state = 7;
+    const auto any = [&state] {
+        state = state * 1664525U + 1013904223U;
+        return static_cast<double>(state >> 8U) / 16777216.0;
+    };
+    std::size_t broken_ones = 0;
+    std::size_t kept_ones = 0;
+    for (int trial = 0; trial < 6; ++trial) {
+        job_["plan"]["senses"] = trial % 2 == 0 ? "one" : "both";
+        job_["datum"] = trial % 3 == 0 ? "home" : "axis_average_line";
+        job_["plan"]["angles_deg"] = {{"first", 0}, {"step", 60}, {"count", 6}};
+        job_["plan"]["targets"] = {{"linear_um", 0.2 + 0.6 * any()},
+                                   {"angular_arcsec", 0.3 + 0.5 * any()},
+                                   {"range_linear_um", 0.3 + 0.7 * any()},
+                                   {"range_angular_arcsec", 0.4 + 0.6 * any()},
+                                   {"location_um", 0.2 + 0.8 * any()},
+                                   {"location_arcsec", 0.3 + 1.2 * any()},
+                                   {"E_arcsec", 0.3 + 0.7 * any()},
+                                   {"R_arcsec", 0.5 + any()},
+                                   {"A_arcsec", 0.5 + any()}};
+        std::string stations = "station,x_mm,y_mm,z_mm\n";
+        for (int j = 0; j < 6; ++j) {
+            stations += "P" + std::to_string(j + 1) + "," + std::to_string(450.0 + 800.0 * any()) + "," +
+                        std::to_string(1400.0 * (any() - 0.5)) + "," + std::to_string(1000.0 * (any() - 0.5)) + "\n";
+        }
+        write_bytes(folder() / "job" / "stations.csv", stations);
+        for (const bool keep : {false, true}) {
+            job_["plan"]["keep_met_targets"] = keep;
+            const json data = planned();
+            ASSERT_FALSE(data.is_null()) << trial;
+            const auto before = targets_of(data["expected"]);
+            const auto after = targets_of(data["proposal"]["expected"]);
+            ASSERT_EQ(before.size(), after.size());
+            std::set<std::string> broken;
+            for (const auto& [name, met] : before) {
+                if (met && !after.at(name)) {
+                    broken.insert(name);
+                }
+            }
+            const json& named = data["proposal"]["targets_broken"];
+            EXPECT_EQ(broken, std::set<std::string>(named.begin(), named.end())) << trial;
+            broken_ones += keep ? 0 : broken.size();
+            if (keep) {
+                EXPECT_TRUE(broken.empty()) << trial;
+                kept_ones += data["proposal"]["exchanges"].size();
+            }
+            if (!broken.empty()) {
+                const Ended text = gumcert({"plan", file().string()});
+                EXPECT_NE(text.out.find("break what the planned ones meet"), std::string::npos) << text.out;
+                for (const std::string& name : broken) {
+                    EXPECT_NE(text.out.find(name), std::string::npos);
+                }
+            }
+        }
+    }
+    EXPECT_GT(broken_ones, 0U) << "nothing that had to be named";
+    EXPECT_GT(kept_ones, 0U) << "nothing was exchanged where targets are kept";
+}
+
+TEST_F(Plan, ParametersHaveTheUncertaintyThatAnEvaluationStates) {
+    // One simulated campaign would do for the location; ranges, E, R and A depend on its extremes, within bounds.
+    const json record = evaluate(k_example / "job.json");
+    ASSERT_FALSE(record.is_null());
+    const json& rotary = record["rotary"];
+    for (const fs::directory_entry& entry : fs::directory_iterator(k_example)) {
+        if (entry.path().extension() == ".csv" || entry.path().filename() == "dial_indicator.json") {
+            fs::copy_file(entry.path(), folder() / "job" / entry.path().filename(),
+                          fs::copy_options::overwrite_existing);
+        }
+    }
+    job_ = json::parse(bytes_of(k_example / "job.json"), nullptr, true, true);
+    const auto component = [&](const std::string& part) {
+        for (const json& one : rotary["variance_components"]) {
+            if (one["name"].get<std::string>().find(part) != std::string::npos) {
+                return one["value"].get<double>();
+            }
+        }
+        ADD_FAILURE() << "no variance component of " << part;
+        return 0.0;
+    };
+    job_["length_uncertainty"]["u_constant_um"] = component("length");
+    job_["table_repeatability"] = {{"mode", "given"},
+                                   {"u_linear_um", component("linear")},
+                                   {"u_axial_arcsec", component("axial")},
+                                   {"u_tilt_arcsec", component("tilt")}};
+    const json data = planned();
+    std::map<std::string, double> u;
+    for (const json& parameter : data["expected"]["table_parameters"]) {
+        ASSERT_FALSE(parameter["u"].is_null()) << parameter;
+        u[parameter["quantity"].get<std::string>()] = parameter["u"].get<double>();
+        EXPECT_TRUE(parameter["target"].is_null());
+    }
+    for (const json& range : rotary["ranges"]) {
+        const std::string name = "range of " + range["name"].get<std::string>();
+        EXPECT_NEAR(u.at(name) / range["u"].get<double>(), 1.0, 0.05) << name;
+    }
+    for (const json& error : rotary["location_errors"]) {
+        const std::string name = error["name"].get<std::string>();
+        EXPECT_NEAR(u.at(name) / error["u"].get<double>(), 1.0, 0.02) << name;
+    }
+    std::size_t compared = 0;
+    for (const json& parameter : rotary["iso230_2"]["parameters"]) {
+        const std::string name = parameter["name"].get<std::string>();
+        if (u.contains(name)) {
+            EXPECT_NEAR(u.at(name) / parameter["u"].get<double>(), 1.0, name[0] == 'E' ? 0.15 : 0.5) << name;
+            ++compared;
+        }
+    }
+    EXPECT_EQ(compared, 3U);
+}
+
+TEST_F(Plan, WhatIsNotLookedAtIsSaid) {
+    write_bytes(file(), job_.dump());
+    const Ended text = gumcert({"plan", file().string()});
+    std::string words = text.out;
+    std::replace(words.begin(), words.end(), '\n', ' ');
+    for (const char* said : {"The job states no obstacle", "whether one hides another was not looked at",
+                             "which beams the reflectors accept"}) {
+        EXPECT_NE(words.find(said), std::string::npos) << said;
+    }
+    EXPECT_TRUE(planned()["sight"].is_null());
+}
+
+TEST_F(Plan, DistancesThatAreNotSeenAreLeftOut) {
+    job_["plan"]["sight"] = {
+        {"boxes", {{{"name", "post"}, {"x_mm", {250, 320}}, {"y_mm", {-60, 60}}, {"z_mm", {-400, 400}}}}},
+        {"reflector_diameter_mm", 38.1},
+        {"acceptance_angle_deg", 60},
+        {"facing", {{{"reflector", "R1"}, {"direction", {1, 0, 0}}}}}};
+    const json data = planned();
+    ASSERT_FALSE(data.is_null());
+    std::map<std::string, std::size_t> sums;
+    for (const json& station : data["sight"]) {
+        for (const auto& [key, value] : station.items()) {
+            sums[key] += value.is_number() ? value.get<std::size_t>() : 0;
+        }
+    }
+    EXPECT_EQ(sums["distances"], 288U);
+    EXPECT_GT(sums["behind_obstacles"], 0U);
+    EXPECT_EQ(sums["seen"], data["distances"].get<std::size_t>());
+    EXPECT_LT(sums["seen"], 288U);
+    EXPECT_EQ(data["expected"]["degrees_of_freedom"].get<std::size_t>(), sums["seen"] + 18 + 6 + 1 - 91);
+    std::size_t proposed = 0;
+    for (const json& station : data["proposal"]["sight"]) {
+        proposed += station["seen"].get<std::size_t>();
+    }
+    EXPECT_EQ(data["proposal"]["expected"]["degrees_of_freedom"].get<std::size_t>(), proposed + 18 + 6 + 1 - 91);
+    // What the search claims of its last exchange is what its layout gives, with what is seen from there.
+    if (!data["proposal"]["exchanges"].empty()) {
+        const double claimed = data["proposal"]["exchanges"].back()["largest_ratio"].get<double>();
+        EXPECT_NEAR(data["proposal"]["expected"]["largest_ratio"].get<double>(), claimed, 1e-6 * claimed);
+    }
+    const Ended text = gumcert({"plan", file().string()});
+    EXPECT_NE(text.out.find("Obstacles: post"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("that are not seen"), std::string::npos) << text.out;
+}
+
+TEST_F(Plan, AReflectorInsideAnObstacleAndABlindStationAreRefused) {
+    job_["plan"]["sight"] = {
+        {"cylinders", {{{"name", "table"}, {"radius_mm", 2000}, {"along_axis_mm", {-2000, 2000}}}}}};
+    Ended ended = refused();
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_NE(ended.err.find("GC-PLAN-0003"), std::string::npos) << ended.err;
+    EXPECT_NE(ended.err.find("/plan/sight/cylinders/0"), std::string::npos) << ended.err;
+    job_["plan"]["sight"] = {{"boxes",
+                              {{{"name", "wall"},
+                                {"x_mm", {380, 390}},
+                                {"y_mm", {-5000, 5000}},
+                                {"z_mm", {-5000, 5000}},
+                                {"turns", false}}}}};
+    ended = refused();
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_NE(ended.err.find("GC-PLAN-0004"), std::string::npos) << ended.err;
+    EXPECT_NE(ended.err.find("station P1"), std::string::npos) << ended.err;
 }
 
 TEST_F(Plan, WithoutRegionNoStationMoves) {
