@@ -139,7 +139,7 @@ ExpectedParameters expected_parameters(const RotaryTableMeasurement& layout, con
         add(places.ranges + c, c >= 3, c < 3 ? targets.range_linear : targets.range_angular);
     }
     for (Eigen::Index c = 0; c < 4; ++c) {
-        add(places.location_errors + c, c >= 2, c < 2 ? targets.location_linear : targets.location_angular);
+        add(places.axis_line + c, c >= 2, c < 2 ? targets.location_linear : targets.location_angular);
     }
     const bool scatter_stated = expected.share_of_the_noise <= k_largest_scatter_share * (1.0 + 1e-12);
     add_positioning(*model.parameters(), u, scatter_stated, targets, k, expected);

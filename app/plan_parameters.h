@@ -13,7 +13,7 @@
 namespace gumcert::app::plan {
 
 struct PlannedParameter {
-    std::string name;  ///< "range of EXA", "EY0A", "E", "R_up"
+    std::string name;  ///< "range of EXA", "axis_y", "E", "R_up"
     bool angular = false;
     /// Expanded uncertainty, [m] or [rad]; nothing where an evaluation of this layout would not state the parameter.
     std::optional<double> U;

@@ -306,7 +306,7 @@ TEST_F(Plan, ParametersHaveTheUncertaintyThatAnEvaluationStates) {
         const std::string name = "range of " + range["name"].get<std::string>();
         EXPECT_NEAR(u.at(name) / range["u"].get<double>(), 1.0, 0.05) << name;
     }
-    for (const json& error : rotary["location_errors"]) {
+    for (const json& error : rotary["axis_line"]) {
         const std::string name = error["name"].get<std::string>();
         EXPECT_NEAR(u.at(name) / error["u"].get<double>(), 1.0, 0.02) << name;
     }
