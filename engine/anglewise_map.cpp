@@ -51,6 +51,26 @@ Eigen::MatrixXd AnglewiseMap::combined(const Eigen::Ref<const Eigen::MatrixXd>& 
     return result;
 }
 
+Eigen::MatrixXd AnglewiseMap::times(const Eigen::Ref<const Eigen::MatrixXd>& by_parameter,
+                                    const JointAdjustment& adjustment, const NormalEquations& normal) const {
+    Eigen::MatrixXd poses = Eigen::MatrixXd::Zero(change.cols(), by_parameter.cols());
+    for (Eigen::Index i = 0; i < change.cols() / 6; ++i) {
+        for (int c = 0; c < 6; ++c) {
+            const Eigen::Index column = normal.column(adjustment.pose_block(static_cast<std::size_t>(i)), c);
+            if (column >= 0) {
+                poses.row(6 * i + c) = by_parameter.row(column);
+            }
+        }
+    }
+    Eigen::MatrixXd result = by_border * by_parameter.topRows(by_border.cols());
+    result.noalias() += by_change * (change * poses);
+    const Eigen::Index q = per_angle();
+    for (Eigen::Index i = 0; i < change.cols() / 6; ++i) {
+        result.middleRows(q * i, q).noalias() += local.middleRows(q * i, q) * poses.middleRows<6>(6 * i);
+    }
+    return result;
+}
+
 AnglewiseMap reported_map(const DatumSolution& datum, Eigen::Index border,
                           std::optional<Eigen::Index> reversal_column) {
     const Eigen::Index errors = datum.motion_map.rows();

@@ -31,6 +31,9 @@ struct AnglewiseMap {
     /// c ∂z/∂x for the free parameters x of an adjustment, k×p.
     [[nodiscard]] Eigen::MatrixXd combined(const Eigen::Ref<const Eigen::MatrixXd>& combination,
                                            const JointAdjustment& adjustment, const NormalEquations& normal) const;
+    /// (∂z/∂x) X for any X with a row for each free parameter of an adjustment, p×k; m×k.
+    [[nodiscard]] Eigen::MatrixXd times(const Eigen::Ref<const Eigen::MatrixXd>& by_parameter,
+                                        const JointAdjustment& adjustment, const NormalEquations& normal) const;
 };
 
 /// Map of the reported quantities (ReportedQuantities) in a datum.

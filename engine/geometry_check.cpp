@@ -525,7 +525,8 @@ void require_enough_angles(const RotaryTableMeasurement& measurement) {
 }
 
 std::vector<gum::Diagnostic> geometry_notes(const RotaryTableMeasurement& measurement,
-                                            const std::vector<Eigen::Vector3d>& stations) {
+                                            const std::vector<Eigen::Vector3d>& stations,
+                                            const std::function<bool(std::size_t)>& harms) {
     std::vector<gum::Diagnostic> notes;
     const auto warn = [&notes](const char* code, std::string where, std::string what, std::string rule,
                                std::string action) {
@@ -579,7 +580,8 @@ std::vector<gum::Diagnostic> geometry_notes(const RotaryTableMeasurement& measur
                  "bring the station nearer, or use a larger fixture");
         }
         // Of a distant station a large condition is no sign of a cone, unless it is far larger than the distance makes.
-        if (condition > k_condition_limit && (ratio <= k_distance_ratio || condition > 150.0 * ratio * ratio)) {
+        if (condition > k_condition_limit && (ratio <= k_distance_ratio || condition > 150.0 * ratio * ratio) &&
+            (!harms || harms(j))) {
             warn("GC-GEOMETRY-0002", where,
                  view.how_it_stands(stations[j]) + "; condition number of its position and dead path " +
                      rounded(condition, 2),

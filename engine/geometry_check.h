@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -41,7 +42,9 @@ void require_enough_angles(const RotaryTableMeasurement& measurement);
 /// What makes the layout weak although it has a solution: warnings with value, rule and cure (GC-GEOMETRY-0001 …).
 ///
 /// \param stations  positions, one a station of the measurement, in T, [m]
+/// \param harms     whether the results feel that a station is badly known along one line; absent: as if all did
 [[nodiscard]] std::vector<gum::Diagnostic> geometry_notes(const RotaryTableMeasurement& measurement,
-                                                          const std::vector<Eigen::Vector3d>& stations);
+                                                          const std::vector<Eigen::Vector3d>& stations,
+                                                          const std::function<bool(std::size_t station)>& harms = {});
 
 }  // namespace gumcert::engine

@@ -833,7 +833,14 @@ RotaryTableSolution adjust_and_test(const RotaryTableMeasurement& measurement, c
     for (const StationEstimate& station : solution.stations) {
         positions.push_back(station.position);
     }
-    std::ranges::move(geometry_notes(measurement, positions), std::back_inserter(solution.notes));
+    // A place that is badly known along one line is no harm where the others carry the results.
+    constexpr double k_harm = 0.19;  // of a variance: U would be a tenth smaller
+    const Eigen::VectorXd variances = solution.covariance.diagonal();
+    const auto harms = [&](std::size_t station) {
+        return largest_share_of_station(adjustment, normal, covariance, solution.datum, map, variances, station) >
+               k_harm;
+    };
+    std::ranges::move(geometry_notes(measurement, positions, harms), std::back_inserter(solution.notes));
     return solution;
 }
 

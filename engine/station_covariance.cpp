@@ -1,5 +1,9 @@
 #include "engine/station_covariance.h"
 
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+
 #include "engine/rotation.h"
 
 namespace gumcert::engine {
@@ -38,6 +42,23 @@ Eigen::MatrixXd covariance_of_stations(const JointAdjustment& adjustment, const 
             position_by_parameter(adjustment, normal, datum, j);
     }
     return covariance.times_left(by_parameter) * by_parameter.transpose();
+}
+
+double largest_share_of_station(const JointAdjustment& adjustment, const NormalEquations& normal,
+                                const BorderedCovariance& covariance, const DatumSolution& datum,
+                                const AnglewiseMap& map, const Eigen::VectorXd& variances, std::size_t station) {
+    const Eigen::MatrixXd by_parameter = position_by_parameter(adjustment, normal, datum, station);
+    const Eigen::MatrixXd spread = covariance.times_left(by_parameter);  // 3×p
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(Eigen::Matrix3d(spread * by_parameter.transpose()));
+    const Eigen::VectorXd cross =
+        map.times(spread.transpose() * eigen.eigenvectors().col(2), adjustment, normal);  // of each quantity with it
+    double largest = 0.0;
+    for (Eigen::Index i = 0; i < cross.size(); ++i) {
+        if (variances[i] > 0.0) {
+            largest = std::max(largest, cross[i] * cross[i] / (variances[i] * eigen.eigenvalues()[2]));
+        }
+    }
+    return largest;
 }
 
 Eigen::Matrix3d station_covariance(const JointAdjustment& adjustment, const NormalEquations& normal,

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "engine/adjustment.h"
+#include "engine/anglewise_map.h"
 #include "engine/datum.h"
 #include "engine/joint_adjustment.h"
 
@@ -14,6 +15,13 @@ namespace gumcert::engine {
 /// positions of the solver, moved by the motion of the world that the datum makes of the poses.
 [[nodiscard]] Eigen::MatrixXd covariance_of_stations(const JointAdjustment& adjustment, const NormalEquations& normal,
                                                      const BorderedCovariance& covariance, const DatumSolution& datum);
+/// The largest part that the variance of a quantity of `map` loses if the station is exactly known along the line on
+/// which it is known least (all other parameters adjusted again): the square of their correlation coefficient, 0 to 1.
+/// \param variances  of the quantities
+[[nodiscard]] double largest_share_of_station(const JointAdjustment& adjustment, const NormalEquations& normal,
+                                              const BorderedCovariance& covariance, const DatumSolution& datum,
+                                              const AnglewiseMap& map, const Eigen::VectorXd& variances,
+                                              std::size_t station);
 /// Of one station.
 [[nodiscard]] Eigen::Matrix3d station_covariance(const JointAdjustment& adjustment, const NormalEquations& normal,
                                                  const BorderedCovariance& covariance, const DatumSolution& datum,
