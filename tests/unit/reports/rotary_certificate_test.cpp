@@ -48,6 +48,40 @@ TEST(RotaryCertificate, AxisLineSaysWhereMonteCarloAgrees) {
     EXPECT_EQ(rows_of(view_of(without), "axis-line")[0].back(), "∞");
 }
 
+/// The sample, with a machine whose frame is known by three probed reflectors.
+EvaluationRecord in_a_machine(const std::string& by) {
+    EvaluationRecord record = test::sample_record();
+    RotaryTable& rotary = *record.rotary;
+    rotary.location_errors = rotary.axis_line;
+    const std::vector<std::string> names{"EY0A", "EZ0A", "EB0A", "EC0A"};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        rotary.location_errors[i].name = names[i];
+        rotary.location_errors[i].monte_carlo.reset();
+    }
+    rotary.machine_frame = MachineFrame{.by = by,
+                                        .source = "probe",
+                                        .points = {{"R1", {0.1, 0.2, 0.3}, 2.0}, {"R2", {}, 2.0}, {"R3", {}, 2.0}},
+                                        .printed_p = "0.41",
+                                        .printed_residual = "1.3"};
+    return record;
+}
+
+TEST(RotaryCertificate, LocationErrorsAreThoseOfAMachine) {
+    const auto rows = rows_of(view_of(in_a_machine("probing")), "location-errors");
+    ASSERT_EQ(rows.size(), 4U);
+    EXPECT_EQ(rows[0][0], "EY0A");
+    EXPECT_EQ(rows[0][1], "position of the axis along y in the frame of the machine, against the nominal point");
+    EXPECT_EQ(rows[3][1], "tilt of the axis about z in the frame of the machine");
+    EXPECT_THAT(
+        text_of(in_a_machine("probing")),
+        HasSubstr("The frame of the machine is known by 3 reflectors probed by its axes; their residuals are 1.3 µm "
+                  "(rms), p = 0.41."));
+    EXPECT_THAT(text_of(in_a_machine("stations")), HasSubstr("known by 3 stations of the tracer"));
+    const std::string without = text_of(test::sample_record());
+    EXPECT_THAT(without, Not(HasSubstr("EY0A")));
+    EXPECT_THAT(without, Not(HasSubstr("frame of the machine")));
+}
+
 TEST(RotaryCertificate, PositioningHasParametersAndTargets) {
     const json view = view_of(test::sample_record());
     EXPECT_EQ(rows_of(view, "positioning").size(), 12U);

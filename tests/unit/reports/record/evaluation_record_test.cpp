@@ -231,6 +231,18 @@ TEST(EvaluationRecord, ARotaryRecordOfTheFirstReleaseIsRead) {
     }
 }
 
+TEST(EvaluationRecord, LocationErrorsWithoutAMachineAreTheAxisInTheFixture) {
+    json old = sample_json();
+    old["rotary"]["location_errors"] = old["rotary"]["axis_line"];
+    old["rotary"].erase("axis_line");
+    old["rotary"]["location_errors"][0]["name"] = "EY0A";
+    old.erase("digest");
+    const EvaluationRecord r = record_from_json(old.dump(), "x");
+    EXPECT_TRUE(r.rotary->location_errors.empty());
+    ASSERT_EQ(r.rotary->axis_line.size(), 4U);
+    EXPECT_EQ(r.rotary->axis_line[0].name, "EY0A");
+}
+
 TEST(EvaluationRecord, RefusesPartsOfTheRotaryTableThatDoNotFit) {
     const auto refused = [](const std::function<void(json&)>& alter) {
         json r = sample_json();
