@@ -59,18 +59,18 @@ std::string told(const GroupTests& groups) {
 }
 
 TEST(GroupTests, LeaveSoundMeasurementsInPeace) {
+    // One family of tests has a level of 1 %: of 60, more than three alarms have a probability of 0.3 %.
     int alarms = 0;
-    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    std::string told_of_all;
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         const GroupTests groups = tests_of(campaign(seed).measurement);
-        const bool alarm =
-            std::any_of(groups.tests.begin(), groups.tests.end(), [](const GroupTest& t) { return t.suspicious; });
-        alarms += alarm ? 1 : 0;
         EXPECT_NEAR(groups.scale, 1.0, 0.35);
-        if (alarm) {
-            ADD_FAILURE() << "seed " << seed << "\n" << told(groups);
+        if (std::ranges::any_of(groups.tests, &GroupTest::suspicious)) {
+            ++alarms;
+            told_of_all += "seed " + std::to_string(seed) + "\n" + told(groups);
         }
     }
-    EXPECT_EQ(alarms, 0);
+    EXPECT_LE(alarms, 3) << told_of_all;
 }
 
 TEST(GroupTests, FindAVisitThatIsOff) {
