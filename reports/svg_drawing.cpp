@@ -47,7 +47,8 @@ double text_width(const std::string& text, double size) {
 }
 
 int Ticks::count() const {
-    return static_cast<int>(std::lround((high - low) / step)) + 1;
+    constexpr double k_rounding = 1e-6;  // of a step
+    return static_cast<int>(std::floor((high - low) / step + k_rounding)) + 1;
 }
 
 Ticks nice_ticks(double low, double high, int most) {

@@ -271,13 +271,17 @@ double draw_key(Drawing& drawing, const std::vector<PlotSeries>& series) {
     return series.empty() ? 0.0 : y + 0.5 * k_key;
 }
 
-/// Ticks at whole numbers, between which the points stand.
+/// Ticks at whole numbers. The axis ends behind the last point, not at the next tick.
 Ticks number_ticks(double low, double high, int most) {
     if (high - low < 1.0) {
         return {.low = std::floor(low) - 1.0, .high = std::ceil(high) + 1.0};
     }
-    const Ticks ticks = nice_ticks(low, high, most);
-    return ticks.decimals == 0 ? ticks : Ticks{.low = std::floor(low), .high = std::ceil(high)};
+    Ticks ticks = nice_ticks(low, high, most);
+    if (ticks.decimals != 0) {
+        return {.low = std::floor(low), .high = std::ceil(high)};
+    }
+    ticks.high = std::min(ticks.high, std::ceil(high) + 1.0);
+    return ticks;
 }
 
 /// What the vertical axis of a panel shows. The zero line belongs to every panel: errors and differences are read

@@ -269,6 +269,12 @@ TEST(SvgPlot, NumbersOfPointsHaveWholeTicks) {
     EXPECT_THAT(svg(plot), Not(HasSubstr(">1.5</text>")));
     points.push_back({400.0, 0.5, 0.0});
     EXPECT_THAT(svg(plot), HasSubstr(">400</text>"));
+    // The axis ends behind the last point, which stands at its right end (670).
+    points = {{1.0, 0.0, 0.0}, {216.0, 0.5, 0.0}};
+    plot.panels[0].series[0].marker = PlotMarker::disc;
+    EXPECT_THAT(svg(plot), HasSubstr(">200</text>"));
+    EXPECT_THAT(svg(plot), Not(HasSubstr(">250</text>")));
+    EXPECT_THAT(svg(plot), HasSubstr("<circle cx=\"667"));
 }
 
 TEST(SvgPlot, AKeyThatIsTooLongHasSeveralLines) {
