@@ -162,9 +162,12 @@ Eigen::MatrixXd Adjustment::jacobian(GroupId id, BlockId wanted) const {
     return result;
 }
 
-NormalEquations Adjustment::linearise() const {
+/// What does not depend on the parameters: columns and the blocks that groups touch.
+NormalEquations Adjustment::structure() const {
     NormalEquations normal;
+    normal.workers_ = workers_;
     normal.column_of_.resize(blocks_.size());
+    std::vector<std::size_t> eliminated_of(blocks_.size(), blocks_.size());
     for (const bool eliminated : {false, true}) {
         for (std::size_t b = 0; b < blocks_.size(); ++b) {
             const Block& block = blocks_[b];
@@ -182,123 +185,163 @@ NormalEquations Adjustment::linearise() const {
             }
             const auto size = static_cast<Eigen::Index>(normal.parameters_.size()) - first;
             if (eliminated && size > 0) {
-                normal.eliminated_.emplace_back(first, size);
+                eliminated_of[b] = normal.blocks_.size();
+                NormalEquations::EliminatedBlock& own = normal.blocks_.emplace_back();
+                own.first = first;
+                own.normal.resize(size, size);
             }
         }
         if (!eliminated) {
             normal.border_ = static_cast<Eigen::Index>(normal.parameters_.size());
         }
     }
-
     normal.groups_.resize(groups_.size());
-    std::vector<RowMajorMatrix> raw;
-    RowMajorMatrix whitened;
-    std::vector<const double*> parameters;
-    std::vector<double*> jacobians;
     for (std::size_t g = 0; g < groups_.size(); ++g) {
-        const Group& group = groups_[g];
-        const Eigen::Index n = group.observed.size();
-        raw.resize(group.blocks.size());
-        parameters.clear();
-        jacobians.clear();
-        Eigen::Index columns = 0;
-        for (std::size_t k = 0; k < group.blocks.size(); ++k) {
-            const Block& block = blocks_[group.blocks[k]];
-            raw[k].resize(n, block.value.size());
-            parameters.push_back(block.value.data());
-            jacobians.push_back(raw[k].data());
-            columns += static_cast<Eigen::Index>(std::count(block.held.begin(), block.held.end(), false));
-        }
-        LinearisedGroup& linear = normal.groups_[g];
-        linear.residual.resize(n);
-        group.model->predict(parameters.data(), linear.residual.data(), jacobians.data());
-        linear.residual = group.observed - linear.residual;
-        whitened.resize(n, columns);
-        Eigen::Index column = 0;
-        for (std::size_t k = 0; k < group.blocks.size(); ++k) {
-            const std::vector<Eigen::Index>& of = normal.column_of_[group.blocks[k]];
-            for (std::size_t c = 0; c < of.size(); ++c) {
-                if (of[c] >= 0) {
-                    linear.columns.push_back(of[c]);
-                    whitened.col(column++) = raw[k].col(static_cast<Eigen::Index>(c));
+        std::size_t touched = blocks_.size();
+        for (const BlockId block : groups_[g].blocks) {
+            touched = std::min(touched, eliminated_of[block]);
+            for (const Eigen::Index column : normal.column_of_[block]) {
+                if (column >= 0) {
+                    normal.groups_[g].columns.push_back(column);
                 }
             }
         }
-        linear.cholesky = group.cholesky;
-        whiten(linear.cholesky, whitened);
-        whiten(linear.cholesky, linear.residual);
-        linear.jacobian = whitened;
+        (touched < blocks_.size() ? normal.blocks_[touched].groups : normal.groups_of_border_).push_back(g);
     }
-    normal.accumulate();
     return normal;
+}
+
+NormalEquations Adjustment::linearise() const {
+    NormalEquations normal = structure();
+    linearise(normal);
+    return normal;
+}
+
+void Adjustment::linearise(NormalEquations& normal) const {
+    constexpr std::size_t k_groups_of_a_part = 256;
+    const FixedParts parts(groups_.size(), k_groups_of_a_part);
+    parts.run(workers_, [&](std::size_t, std::size_t begin, std::size_t end) {
+        std::vector<RowMajorMatrix> raw;
+        RowMajorMatrix whitened;
+        std::vector<const double*> parameters;
+        std::vector<double*> jacobians;
+        for (std::size_t g = begin; g < end; ++g) {
+            const Group& group = groups_[g];
+            const Eigen::Index n = group.observed.size();
+            raw.resize(std::max(raw.size(), group.blocks.size()));
+            parameters.clear();
+            jacobians.clear();
+            for (std::size_t k = 0; k < group.blocks.size(); ++k) {
+                const Block& block = blocks_[group.blocks[k]];
+                raw[k].resize(n, block.value.size());
+                parameters.push_back(block.value.data());
+                jacobians.push_back(raw[k].data());
+            }
+            LinearisedGroup& linear = normal.groups_[g];
+            linear.residual.resize(n);
+            group.model->predict(parameters.data(), linear.residual.data(), jacobians.data());
+            linear.residual = group.observed - linear.residual;
+            whitened.resize(n, static_cast<Eigen::Index>(linear.columns.size()));
+            Eigen::Index column = 0;
+            for (std::size_t k = 0; k < group.blocks.size(); ++k) {
+                const std::vector<Eigen::Index>& of = normal.column_of_[group.blocks[k]];
+                for (std::size_t c = 0; c < of.size(); ++c) {
+                    if (of[c] >= 0) {
+                        whitened.col(column++) = raw[k].col(static_cast<Eigen::Index>(c));
+                    }
+                }
+            }
+            linear.cholesky = group.cholesky;
+            whiten(linear.cholesky, whitened);
+            whiten(linear.cholesky, linear.residual);
+            linear.jacobian = whitened;
+        }
+    });
+    normal.accumulate();
 }
 
 Eigen::Index NormalEquations::column(std::size_t block, int component) const {
     return column_of_[block][static_cast<std::size_t>(component)];
 }
 
-void NormalEquations::accumulate() {
-    border_normal_ = Eigen::MatrixXd::Zero(border_, border_);
-    blocks_.resize(eliminated_.size());
-    for (std::size_t e = 0; e < eliminated_.size(); ++e) {
-        blocks_[e].first = eliminated_[e].first;
-        blocks_[e].normal = Eigen::MatrixXd::Zero(eliminated_[e].second, eliminated_[e].second);
-        blocks_[e].border = Eigen::MatrixXd::Zero(eliminated_[e].second, border_);
-    }
-    Eigen::MatrixXd product;
-    for (const LinearisedGroup& group : groups_) {
-        const auto size = static_cast<Eigen::Index>(group.columns.size());
-        EliminatedBlock* eliminated = nullptr;
-        for (const Eigen::Index column : group.columns) {
-            if (column >= border_) {
-                const auto after = std::upper_bound(
-                    blocks_.begin(), blocks_.end(), column,
-                    [](Eigen::Index value, const EliminatedBlock& block) { return value < block.first; });
-                eliminated = &*(after - 1);
-                break;
-            }
-        }
-        product.resize(size, size);
-        product.triangularView<Eigen::Lower>() = group.jacobian.transpose() * group.jacobian;
-        for (Eigen::Index j = 0; j < size; ++j) {
-            const Eigen::Index cj = group.columns[static_cast<std::size_t>(j)];
-            for (Eigen::Index i = j; i < size; ++i) {
-                const Eigen::Index ci = group.columns[static_cast<std::size_t>(i)];
-                const auto [left, right] = std::minmax(ci, cj);
-                if (right < border_) {
-                    border_normal_(right, left) += product(i, j);
-                } else if (left < border_) {
-                    eliminated->border(right - eliminated->first, left) += product(i, j);
-                } else {
-                    eliminated->normal(right - eliminated->first, left - eliminated->first) += product(i, j);
+FixedParts NormalEquations::blocks_in_parts() const {
+    constexpr std::size_t k_blocks_of_a_part = 64;
+    return {blocks_.size(), k_blocks_of_a_part};
+}
+
+/// Jᵀ V⁻¹ J and Jᵀ V⁻¹ (observed - predicted) of one group, added where its parameters are.
+void NormalEquations::add(const LinearisedGroup& group, EliminatedBlock* block, Sums& sums) {
+    sums.product.noalias() = group.jacobian.transpose() * group.jacobian;
+    sums.pull.noalias() = group.jacobian.transpose() * group.residual;
+    const std::vector<Eigen::Index>& columns = group.columns;
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+        const double* const values = sums.product.col(static_cast<Eigen::Index>(j)).data();
+        if (columns[j] < border_) {
+            double* const to = sums.border.col(columns[j]).data();
+            for (std::size_t i = 0; i < columns.size(); ++i) {
+                if (columns[i] < border_) {
+                    to[columns[i]] += values[i];
                 }
             }
+            sums.gradient[columns[j]] += sums.pull[static_cast<Eigen::Index>(j)];
+            continue;
         }
-    }
-    // Only the lower triangles were added up.
-    const auto mirror = [](Eigen::MatrixXd& matrix) {
-        matrix.triangularView<Eigen::StrictlyUpper>() = matrix.transpose();
-    };
-    mirror(border_normal_);
-    for (EliminatedBlock& block : blocks_) {
-        mirror(block.normal);
+        const Eigen::Index row = columns[j] - block->first;
+        double* const across = block->border.row(row).data();
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            if (columns[i] < border_) {
+                across[columns[i]] += values[i];
+            } else {
+                block->normal(columns[i] - block->first, row) += values[i];
+            }
+        }
+        gradient_[columns[j]] += sums.pull[static_cast<Eigen::Index>(j)];
     }
 }
 
-Eigen::MatrixXd NormalEquations::reduced_normal(std::vector<Eigen::MatrixXd>* elimination) const {
-    Eigen::MatrixXd reduced = border_normal_;
-    if (elimination != nullptr) {
-        elimination->clear();
-    }
-    for (const EliminatedBlock& block : blocks_) {
-        const Eigen::LLT<Eigen::MatrixXd> factor(block.normal);
-        Eigen::MatrixXd half = factor.matrixL().solve(block.border);  // L⁻¹ A_eb
-        reduced.noalias() -= half.transpose() * half;
-        if (elimination != nullptr) {
-            elimination->push_back(factor.matrixU().solve(half));  // A_ee⁻¹ A_eb
+void NormalEquations::accumulate() {
+    gradient_ = Eigen::VectorXd::Zero(parameter_count());
+    const auto none = [this] {
+        return Sums{.border = Eigen::MatrixXd::Zero(border_, border_),
+                    .eliminated = Eigen::MatrixXd::Zero(border_, border_),
+                    .gradient = Eigen::VectorXd::Zero(border_)};
+    };
+    const FixedParts parts = blocks_in_parts();
+    std::vector<Sums> sums(parts.parts());
+    parts.run(workers_, [&](std::size_t part, std::size_t begin, std::size_t end) {
+        sums[part] = none();
+        const Eigen::Index rows = blocks_[end - 1].first + blocks_[end - 1].normal.rows() - blocks_[begin].first;
+        Eigen::MatrixXd halves(border_, rows);  // (L⁻¹ A_eb)ᵀ side by side
+        for (std::size_t e = begin; e < end; ++e) {
+            EliminatedBlock& block = blocks_[e];
+            const Eigen::Index size = block.normal.rows();
+            block.normal.setZero();
+            block.border.setZero(size, border_);
+            for (const std::size_t group : block.groups) {
+                add(groups_[group], &block, sums[part]);
+            }
+            const Eigen::LLT<Eigen::MatrixXd> factor(block.normal);
+            block.inverse = factor.solve(Eigen::MatrixXd::Identity(size, size));
+            block.elimination = block.border;
+            factor.matrixL().solveInPlace(block.elimination);
+            halves.middleCols(block.first - blocks_[begin].first, size) = block.elimination.transpose();
+            factor.matrixU().solveInPlace(block.elimination);
         }
+        sums[part].eliminated.selfadjointView<Eigen::Lower>().rankUpdate(halves);
+    });
+    Sums all = none();
+    for (const std::size_t group : groups_of_border_) {
+        add(groups_[group], nullptr, all);
     }
-    return reduced;
+    for (const Sums& part : sums) {
+        all.border += part.border;
+        all.eliminated += part.eliminated;
+        all.gradient += part.gradient;
+    }
+    border_normal_ = std::move(all.border);
+    gradient_.head(border_) = all.gradient;
+    reduced_ = border_normal_ - all.eliminated;
+    reduced_.triangularView<Eigen::StrictlyUpper>() = reduced_.transpose();
 }
 
 RankReport NormalEquations::rank(double tolerance) const {
@@ -339,8 +382,7 @@ RankReport NormalEquations::rank(double tolerance) const {
         return report;
     }
     const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * reduced_normal(nullptr) *
-                                                               scale.asDiagonal());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * reduced_ * scale.asDiagonal());
     const double ratio = eigen.eigenvalues()[0] / std::max(1.0, eigen.eigenvalues()[border_ - 1]);
     report.smallest_to_largest = std::min(report.smallest_to_largest, ratio);
     if (!(ratio > tolerance)) {
@@ -351,14 +393,12 @@ RankReport NormalEquations::rank(double tolerance) const {
 
 BorderedCovariance NormalEquations::bordered_covariance() const {
     BorderedCovariance result;
-    std::vector<Eigen::MatrixXd> elimination;
-    const Eigen::MatrixXd reduced = reduced_normal(&elimination);
     result.border_covariance_.resize(border_, border_);
     result.border_root_.resize(border_, border_);
     if (border_ > 0) {
         // Scaled to a unit diagonal first: metres, radians and scales differ by many powers of ten.
-        const Eigen::VectorXd scale = reduced.diagonal().cwiseSqrt().cwiseInverse();
-        const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * reduced * scale.asDiagonal());
+        const Eigen::VectorXd scale = reduced_.diagonal().cwiseSqrt().cwiseInverse();
+        const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * reduced_ * scale.asDiagonal());
         if (factor.info() != Eigen::Success) {
             throw gum::NoResultError(
                 gum::Diagnostic{"GC-ADJUST-0002", "adjustment", "the normal equations are singular",
@@ -375,23 +415,32 @@ BorderedCovariance NormalEquations::bordered_covariance() const {
     const Eigen::Index q = parameter_count() - border_;
     result.elimination_.resize(q, border_);
     result.own_of_.resize(static_cast<std::size_t>(q));
-    for (std::size_t e = 0; e < blocks_.size(); ++e) {
-        const Eigen::Index size = blocks_[e].normal.rows();
-        const Eigen::Index first = blocks_[e].first - border_;
-        result.elimination_.middleRows(first, size) = -elimination[e];
-        result.own_.push_back(
-            {blocks_[e].first, blocks_[e].normal.llt().solve(Eigen::MatrixXd::Identity(size, size)), {}});
-        std::fill_n(result.own_of_.begin() + first, size, e);
-    }
-    result.cross_ = result.elimination_ * result.border_covariance_;
-    for (BorderedCovariance::Own& own : result.own_) {
-        const Eigen::Index first = own.first - border_;
-        const Eigen::Index size = own.covariance.rows();
-        const Eigen::MatrixXd spread =
-            result.cross_.middleRows(first, size) * result.elimination_.middleRows(first, size).transpose();
-        own.total = 0.5 * (spread + spread.transpose()) + own.covariance;
-        own.total.triangularView<Eigen::StrictlyUpper>() = own.total.transpose();  // symmetric to the last bit
-    }
+    result.cross_.resize(q, border_);
+    result.own_.resize(blocks_.size());
+    blocks_in_parts().run(workers_, [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t e = begin; e < end; ++e) {
+            const EliminatedBlock& block = blocks_[e];
+            const Eigen::Index size = block.normal.rows();
+            const Eigen::Index first = block.first - border_;
+            result.elimination_.middleRows(first, size) = -block.elimination;
+            std::fill_n(result.own_of_.begin() + first, size, e);
+        }
+        const Eigen::Index first = blocks_[begin].first - border_;
+        const Eigen::Index rows = blocks_[end - 1].first + blocks_[end - 1].normal.rows() - border_ - first;
+        result.cross_.middleRows(first, rows).noalias() =
+            result.elimination_.middleRows(first, rows) * result.border_covariance_;
+        for (std::size_t e = begin; e < end; ++e) {
+            const Eigen::Index at = blocks_[e].first - border_;
+            const Eigen::Index size = blocks_[e].normal.rows();
+            BorderedCovariance::Own& own = result.own_[e];
+            own.first = blocks_[e].first;
+            own.covariance = blocks_[e].inverse;
+            const Eigen::MatrixXd spread =
+                result.cross_.middleRows(at, size) * result.elimination_.middleRows(at, size).transpose();
+            own.total = 0.5 * (spread + spread.transpose()) + own.covariance;
+            own.total.triangularView<Eigen::StrictlyUpper>() = own.total.transpose();  // symmetric to the last bit
+        }
+    });
     return result;
 }
 
@@ -486,31 +535,31 @@ Eigen::MatrixXd BorderedCovariance::dense() const {
 }
 
 Eigen::VectorXd NormalEquations::step() const {
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(parameter_count());
-    for (const LinearisedGroup& group : groups_) {
-        const Eigen::VectorXd part = group.jacobian.transpose() * group.residual;
-        for (std::size_t i = 0; i < group.columns.size(); ++i) {
-            gradient[group.columns[i]] += part[static_cast<Eigen::Index>(i)];
-        }
-    }
-    std::vector<Eigen::MatrixXd> elimination;
-    const Eigen::MatrixXd reduced = reduced_normal(&elimination);
     Eigen::VectorXd step(parameter_count());
-    Eigen::VectorXd right = gradient.head(border_);
-    for (std::size_t e = 0; e < blocks_.size(); ++e) {
-        right -= elimination[e].transpose() * gradient.segment(blocks_[e].first, elimination[e].rows());
+    Eigen::VectorXd right = gradient_.head(border_);
+    for (const EliminatedBlock& block : blocks_) {
+        right.noalias() -= block.elimination.transpose() * gradient_.segment(block.first, block.normal.rows());
     }
     if (border_ > 0) {
-        const Eigen::VectorXd scale = reduced.diagonal().cwiseSqrt().cwiseInverse();
-        const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * reduced * scale.asDiagonal());
+        const Eigen::VectorXd scale = reduced_.diagonal().cwiseSqrt().cwiseInverse();
+        const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * reduced_ * scale.asDiagonal());
         step.head(border_) = scale.asDiagonal() * factor.solve(scale.asDiagonal() * right);
     }
-    for (std::size_t e = 0; e < blocks_.size(); ++e) {
-        const Eigen::Index size = elimination[e].rows();
-        step.segment(blocks_[e].first, size) = blocks_[e].normal.llt().solve(gradient.segment(blocks_[e].first, size)) -
-                                               elimination[e] * step.head(border_);
+    for (const EliminatedBlock& block : blocks_) {
+        const Eigen::Index size = block.normal.rows();
+        step.segment(block.first, size).noalias() = block.inverse * gradient_.segment(block.first, size);
+        step.segment(block.first, size).noalias() -= block.elimination * step.head(border_);
     }
     return step;
+}
+
+void NormalEquations::move(const Eigen::VectorXd& step) {
+    Eigen::VectorXd local;
+    for (LinearisedGroup& group : groups_) {
+        local = step(group.columns);
+        group.residual.noalias() -= group.jacobian * local;
+    }
+    gradient_.setZero();
 }
 
 Eigen::VectorXd NormalEquations::times(const Eigen::VectorXd& vector) const {
@@ -629,32 +678,31 @@ void Adjustment::apply(const NormalEquations& normal, const Eigen::VectorXd& ste
 }
 
 SolveSummary Adjustment::refine(const SolverOptions& options) {
+    NormalEquations last;
+    return refine(options, last);
+}
+
+SolveSummary Adjustment::refine(const SolverOptions& options, NormalEquations& normal) {
     SolveSummary summary;
     summary.message = "the steps allowed were used up";
+    normal = structure();
     double last = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < options.max_refinements; ++iteration) {
-        const NormalEquations normal = linearise();
+        linearise(normal);
         const Eigen::VectorXd step = normal.step();
         if (!step.allFinite()) {
             summary.message = "the normal equations are singular";
             return summary;
         }
-        // δᵀ N δ bounds every (δ_i / σ_i)², so no covariance is needed to judge convergence.
-        double decrement = 0.0;
-        for (const LinearisedGroup& group : normal.groups()) {
-            Eigen::VectorXd local(static_cast<Eigen::Index>(group.columns.size()));
-            for (std::size_t i = 0; i < group.columns.size(); ++i) {
-                local[static_cast<Eigen::Index>(i)] = step[group.columns[i]];
-            }
-            decrement += (group.jacobian * local).squaredNorm();
-        }
+        // δᵀ N δ = δᵀ g bounds every (δ_i / σ_i)², so no covariance is needed to judge convergence.
+        const double size = std::sqrt(std::max(0.0, step.dot(normal.gradient_)));
         apply(normal, step);
         ++summary.iterations;
-        const double size = std::sqrt(decrement);
         // Residuals far above their standard deviations (an outlier still in) carry rounding of their own size: the
         // step is judged against what they would make of the uncertainties. With sound observations the factor is one.
         const double spread =
             std::max(1.0, std::sqrt(normal.chi_square() / static_cast<double>(normal.observation_count())));
+        normal.move(step);
         if (size < options.step_tolerance * spread) {
             summary.converged = true;
             summary.message.clear();
@@ -666,9 +714,7 @@ SolveSummary Adjustment::refine(const SolverOptions& options) {
         }
         last = size;
     }
-    for (std::size_t g = 0; g < groups_.size(); ++g) {
-        summary.chi_square += groups_[g].cholesky.triangularView<Eigen::Lower>().solve(residual(g)).squaredNorm();
-    }
+    summary.chi_square = normal.chi_square();
     return summary;
 }
 

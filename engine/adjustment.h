@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/fixed_parts.h"
+
 namespace gumcert::engine {
 
 /// A matrix with many rows of which a few neighbours are used at a time: they stand together in memory.
@@ -39,7 +41,7 @@ struct SolverOptions {
 struct SolveSummary {
     bool converged = false;
     int iterations = 0;
-    double chi_square = 0.0;  ///< vᵀ V⁻¹ v
+    double chi_square = 0.0;  ///< vᵀ V⁻¹ v, with the residuals that the last step leaves
     std::string message;      ///< of the solver, for diagnostics
 };
 
@@ -141,21 +143,38 @@ private:
     friend class Adjustment;
     struct EliminatedBlock {
         Eigen::Index first = 0;
-        Eigen::MatrixXd normal;  ///< size×size
-        Eigen::MatrixXd border;  ///< size×border columns
+        std::vector<std::size_t> groups;  ///< that touch it
+        Eigen::MatrixXd normal;           ///< A_ee, size×size
+        TallMatrix border;                ///< A_eb, size×border columns
+        Eigen::MatrixXd inverse;          ///< A_ee⁻¹
+        TallMatrix elimination;           ///< A_ee⁻¹ A_eb
     };
+    /// Of one part of the blocks.
+    struct Sums {
+        Eigen::MatrixXd border, eliminated;  ///< A_bb, and what the elimination takes off it (lower triangle), b×b
+        Eigen::VectorXd gradient;            ///< of the border
+        Eigen::MatrixXd product = {};        ///< of the group that is added
+        Eigen::VectorXd pull = {};
+    };
+    /// Adds up the groups, and eliminates the blocks.
     void accumulate();
-    [[nodiscard]] Eigen::MatrixXd reduced_normal(std::vector<Eigen::MatrixXd>* elimination) const;
+    void add(const LinearisedGroup& group, EliminatedBlock* block, Sums& sums);
+    /// Residuals that a step leaves where the model is linear.
+    void move(const Eigen::VectorXd& step);
+    [[nodiscard]] FixedParts blocks_in_parts() const;
     /// (Jᵀ V⁻¹ J) v.
     [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& vector) const;
 
     std::vector<FreeParameter> parameters_;
     std::vector<std::vector<Eigen::Index>> column_of_;  ///< per block and component
     Eigen::Index border_ = 0;
-    std::vector<std::pair<Eigen::Index, Eigen::Index>> eliminated_;  ///< first column and size of each eliminated block
     std::vector<LinearisedGroup> groups_;
+    std::vector<std::size_t> groups_of_border_;  ///< that touch no eliminated block
     Eigen::MatrixXd border_normal_;
+    Eigen::MatrixXd reduced_;   ///< of the border, after the elimination
+    Eigen::VectorXd gradient_;  ///< Jᵀ V⁻¹ (observed - predicted), p
     std::vector<EliminatedBlock> blocks_;
+    Workers workers_;
 };
 
 /// Least-squares adjustment with correlated groups of observations and groups of pseudo-observations.
@@ -192,11 +211,19 @@ public:
     /// Derivatives of the predicted observations of a group with respect to one of its blocks, n×size, not whitened.
     [[nodiscard]] Eigen::MatrixXd jacobian(GroupId group, BlockId block) const;
 
+    /// The threads that the following calls share their work among; results are the same bytes with any.
+    void set_workers(Workers workers) { workers_ = std::move(workers); }
+    [[nodiscard]] const Workers& workers() const { return workers_; }
+
     [[nodiscard]] NormalEquations linearise() const;
     /// Solve from the present parameters.
     [[nodiscard]] SolveSummary solve(const SolverOptions& options);
     /// Gauss-Newton steps only, from parameters that are close already (new weights, one observation less).
     [[nodiscard]] SolveSummary refine(const SolverOptions& options);
+    /// The same.
+    /// \param last  where it ends: the equations of the last step with the residuals that this step leaves. Their
+    ///              derivatives are those before it, which differ by what is below the tolerance of the step.
+    [[nodiscard]] SolveSummary refine(const SolverOptions& options, NormalEquations& last);
     /// Add `step`, in the order of NormalEquations::parameters(), to the free parameters.
     void apply(const NormalEquations& normal, const Eigen::VectorXd& step);
 
@@ -215,9 +242,12 @@ private:
         bool is_prior = false;
     };
     class WhitenedCost;
+    [[nodiscard]] NormalEquations structure() const;
+    void linearise(NormalEquations& normal) const;
 
     std::vector<Block> blocks_;
     std::vector<Group> groups_;
+    Workers workers_;
 };
 
 }  // namespace gumcert::engine
