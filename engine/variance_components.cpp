@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/fixed_parts.h"
 #include "gum/quantity/units.h"
 
 namespace gumcert::engine {
@@ -28,28 +29,46 @@ constexpr double k_angular_scale = 2.350443e-13;
 constexpr double k_least_length_factor = 1e-6;
 constexpr double k_least_fixture_factor = 1e-4;
 
+using Vector4 = Eigen::Matrix<double, 4, 1>;
+using Matrix4 = Eigen::Matrix<double, 4, 4>;
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
-/// Roots B_k of the derivatives V_k = B_k B_kᵀ of the covariance of a visit, in the scales of the components, side by
-/// side: n×(n + 6).
-Eigen::MatrixXd covariance_roots(const JointAdjustment& adjustment, std::size_t visit) {
-    const Eigen::MatrixXd pose = adjustment.pose_jacobian(visit);
+/// L⁻¹ B_k of the roots of the derivatives V_k = B_k B_kᵀ of the covariance L Lᵀ of a visit, in the scales of the
+/// components, side by side: n×(n + 6).
+void whitened_roots(const JointAdjustment& adjustment, const NormalEquations& normal, std::size_t visit,
+                    Eigen::MatrixXd& roots) {
+    const LinearisedGroup& group = normal.groups()[visit];
+    const std::size_t block = adjustment.pose_block(adjustment.visits()[visit].angle);
+    const Eigen::Index n = group.residual.size();
     const int axial = 3 + axial_coordinate(adjustment.measurement().axis);
-    const Eigen::Index n = pose.rows();
-    Eigen::MatrixXd roots(n, n + 6);
+    const auto lower = group.cholesky.triangularView<Eigen::Lower>();
+    roots.resize(n, n + 6);
     roots.leftCols(n) = adjustment.stated_variance(visit).cwiseSqrt().asDiagonal();
-    roots.middleCols<3>(n) = std::sqrt(k_linear_scale) * pose.leftCols<3>();
-    roots.col(n + 3) = std::sqrt(k_angular_scale) * pose.col(axial);
-    for (int c = 3, k = 4; c < 6; ++c) {
-        if (c != axial) {
-            roots.col(n + k++) = std::sqrt(k_angular_scale) * pose.col(c);
+    lower.solveInPlace(roots.leftCols(n));
+    std::array<Eigen::Index, 6> to{n, n + 1, n + 2, 0, 0, 0};
+    for (std::size_t c = 3, tilt = 4; c < 6; ++c) {
+        to[c] = n + static_cast<Eigen::Index>(static_cast<int>(c) == axial ? 3 : tilt++);
+    }
+    // The derivatives by the pose are in the equations already, but where it is held (at home).
+    const Eigen::Index column = normal.column(block, 0);
+    if (column >= 0) {
+        const auto at = std::ranges::find(group.columns, column) - group.columns.begin();
+        for (std::size_t c = 0; c < 6; ++c) {
+            roots.col(to[c]) = group.jacobian.col(at + static_cast<std::ptrdiff_t>(c));
+        }
+    } else {
+        Eigen::MatrixXd pose = adjustment.pose_jacobian(visit);
+        lower.solveInPlace(pose);
+        for (std::size_t c = 0; c < 6; ++c) {
+            roots.col(to[c]) = pose.col(static_cast<Eigen::Index>(c));
         }
     }
-    return roots;
+    roots.middleCols<3>(n) *= std::sqrt(k_linear_scale);
+    roots.rightCols<3>() *= std::sqrt(k_angular_scale);
 }
 
-/// First column of each component in `covariance_roots`, and the end.
+/// First column of each component in `whitened_roots`, and the end.
 std::array<Eigen::Index, k_visit_components + 1> root_columns(Eigen::Index n) {
     return {0, n, n + 3, n + 4, n + 6};
 }
@@ -59,22 +78,26 @@ std::array<Eigen::Index, k_visit_components + 1> root_columns(Eigen::Index n) {
 /// F)).
 ///
 /// tr(Q A Q A') = tr(C S C S') + 2 tr(C T'ᵀ W T) + tr(W A W A') with S = Hᵀ A H, and T = A H of the poses: proportional
-/// to the parameters, where the product Q A would have p² elements.
+/// to the parameters, where the product Q A would have p² elements. The last two terms are sums over the poses.
 class BorderedForm {
 public:
-    explicit BorderedForm(const BorderedCovariance& covariance)
-        : border_(Eigen::MatrixXd::Zero(covariance.border(), covariance.border())),
-          cross_(Eigen::MatrixXd::Zero(covariance.size() - covariance.border(), covariance.border())),
-          own_(Eigen::MatrixXd::Zero(covariance.size() - covariance.border(), k_pose)) {}
+    explicit BorderedForm(Eigen::Index border) : reduced_(Eigen::MatrixXd::Zero(border, border)) {}
+
+    /// Of the poses that follow.
+    void begin(Eigen::Index poses, Eigen::Index size) {
+        cross_.setZero(poses, reduced_.cols());
+        own_.setZero(poses, size);
+    }
 
     /// \param local  part of A over the parameters `columns`, of which those of poses are in one pose
-    void add(const BorderedCovariance& covariance, const std::vector<Eigen::Index>& columns,
+    /// \param first  parameter of row 0
+    void add(const std::vector<Eigen::Index>& columns, Eigen::Index pose, Eigen::Index first,
              const Eigen::MatrixXd& local) {
-        const Eigen::Index b = covariance.border();
+        const Eigen::Index b = reduced_.cols();
         for (std::size_t i = 0; i < columns.size(); ++i) {
             const double* values = local.col(static_cast<Eigen::Index>(i)).data();  // of a row as well: A is symmetric
             if (columns[i] < b) {
-                double* to = border_.col(columns[i]).data();
+                double* to = reduced_.col(columns[i]).data();
                 for (std::size_t j = 0; j < columns.size(); ++j) {
                     if (columns[j] < b) {
                         to[columns[j]] += values[j];
@@ -82,48 +105,45 @@ public:
                 }
                 continue;
             }
-            double* across = cross_.row(columns[i] - b).data();
-            double* own = own_.row(columns[i] - b).data();
-            const Eigen::Index first = covariance.first_of(columns[i]);
+            double* across = cross_.row(columns[i] - first).data();
+            double* own = own_.row(columns[i] - first).data();
             for (std::size_t j = 0; j < columns.size(); ++j) {
                 if (columns[j] < b) {
                     across[columns[j]] += values[j];
                 } else {
-                    own[columns[j] - first] += values[j];
+                    own[columns[j] - pose] += values[j];
                 }
             }
         }
     }
 
-    /// Once everything is added.
-    void complete(const BorderedCovariance& covariance) {
-        const TallMatrix& elimination = covariance.elimination();
+    /// Once everything of the poses is added.
+    void complete(const BorderedCovariance& covariance, Eigen::Index first) {
         const Eigen::Index b = covariance.border();
-        TallMatrix by_border = cross_;  // T
+        const auto elimination = covariance.elimination().middleRows(first - b, cross_.rows());
+        // S = A_bb + Fᵀ(A_ee F + A_eb) + A_be F
+        reduced_.noalias() += cross_.transpose() * elimination;
         weighted_.resize(cross_.rows(), b);
-        weighted_own_ = TallMatrix::Zero(own_.rows(), k_pose);
+        weighted_own_.resize(own_.rows(), own_.cols());
+        sizes_.clear();
         for (Eigen::Index i = 0; i < own_.rows();) {
-            const Eigen::MatrixXd& spread = covariance.own(b + i);  // W
+            const Eigen::MatrixXd& spread = covariance.own(first + i);  // W
             const Eigen::Index size = spread.rows();
-            by_border.middleRows(i, size).noalias() += own_.block(i, 0, size, size) * elimination.middleRows(i, size);
-            weighted_.middleRows(i, size).noalias() = spread * by_border.middleRows(i, size);
+            cross_.middleRows(i, size).noalias() += own_.block(i, 0, size, size) * elimination.middleRows(i, size);
+            weighted_.middleRows(i, size).noalias() = spread * cross_.middleRows(i, size);
             weighted_own_.block(i, 0, size, size).noalias() = spread * own_.block(i, 0, size, size);
-            own_sizes_.push_back(size);
+            sizes_.push_back(size);
             i += size;
         }
-        Eigen::MatrixXd reduced = border_;  // S
-        reduced.noalias() += elimination.transpose() * by_border;
-        reduced.noalias() += cross_.transpose() * elimination;
-        spread_border_.noalias() = covariance.border_covariance() * reduced;
-        spread_.noalias() = by_border * covariance.border_covariance();
+        reduced_.noalias() += elimination.transpose() * cross_;
+        spread_.noalias() = cross_ * covariance.border_covariance();  // T C
     }
 
-    /// tr(Q A Q A').
-    [[nodiscard]] double trace_with(const BorderedForm& other) const {
-        double sum = spread_border_.cwiseProduct(other.spread_border_.transpose()).sum() +
-                     2.0 * other.spread_.cwiseProduct(weighted_).sum();
+    /// 2 tr(C T'ᵀ W T) + tr(W A W A') of the poses that are complete.
+    [[nodiscard]] double trace_of_poses(const BorderedForm& other) const {
+        double sum = 2.0 * other.spread_.cwiseProduct(weighted_).sum();
         Eigen::Index first = 0;
-        for (const Eigen::Index size : own_sizes_) {
+        for (const Eigen::Index size : sizes_) {
             sum += weighted_own_.block(first, 0, size, size)
                        .cwiseProduct(other.weighted_own_.block(first, 0, size, size).transpose())
                        .sum();
@@ -132,22 +152,116 @@ public:
         return sum;
     }
 
-    /// tr(Q A Q A') for an A' that is in the border only.
-    /// \param spread  C A', b×b
-    [[nodiscard]] double trace_with_border(const Eigen::MatrixXd& spread) const {
-        return spread_border_.cwiseProduct(spread.transpose()).sum();
-    }
+    /// S of everything that is complete, b×b.
+    [[nodiscard]] const Eigen::MatrixXd& reduced() const { return reduced_; }
 
 private:
-    static constexpr Eigen::Index k_pose = 6;
-    Eigen::MatrixXd border_;         ///< A: b×b
-    TallMatrix cross_, own_;         ///< A: (p-b)×b, and the blocks one below the other
-    Eigen::MatrixXd spread_border_;  ///< C S
-    TallMatrix spread_;              ///< T C
-    TallMatrix weighted_;            ///< W T
-    TallMatrix weighted_own_;        ///< W A, the blocks one below the other
-    std::vector<Eigen::Index> own_sizes_;
+    Eigen::MatrixXd reduced_;  ///< the border of A, and S once complete
+    TallMatrix cross_, own_;   ///< of the poses: A_eb, then T; and the blocks A_ee one below the other
+    TallMatrix spread_;        ///< T C
+    TallMatrix weighted_;      ///< W T
+    TallMatrix weighted_own_;  ///< W A, the blocks one below the other
+    std::vector<Eigen::Index> sizes_;
 };
+
+/// What the visits of some angles say of the components of visits.
+struct VisitSums {
+    Vector4 quadratic = Vector4::Zero();  ///< ṽᵀ Ũ_k ṽ
+    Vector4 trace = Vector4::Zero();      ///< tr(R V_k)
+    Matrix4 fisher = Matrix4::Zero();     ///< tr(R V_k R V_l) but for tr(C S C S')
+    std::vector<BorderedForm> inner;      ///< J̃ᵀ Ũ_k J̃ of the components that are estimated
+    double stated = 0.0;                  ///< variances of the lengths, [m²]
+    double lengths = 0.0;
+};
+
+VisitSums sums_of(const JointAdjustment& adjustment, const NormalEquations& normal,
+                  const BorderedCovariance& covariance, const std::vector<std::size_t>& visits,
+                  const std::array<bool, k_visit_components>& needed) {
+    VisitSums sums;
+    sums.inner.assign(k_visit_components, BorderedForm(covariance.border()));
+    Eigen::Index first_pose = covariance.size();
+    Eigen::Index end_pose = covariance.border();
+    Eigen::Index largest = 0;
+    for (const std::size_t v : visits) {
+        if (const Eigen::Index pose = normal.column(adjustment.pose_block(adjustment.visits()[v].angle), 0);
+            pose >= 0) {
+            const Eigen::Index size = covariance.own(pose).rows();
+            first_pose = std::min(first_pose, pose);
+            end_pose = std::max(end_pose, pose + size);
+            largest = std::max(largest, size);
+        }
+    }
+    const Eigen::Index poses = std::max<Eigen::Index>(0, end_pose - first_pose);
+    first_pose = poses > 0 ? first_pose : covariance.border();
+    for (BorderedForm& form : sums.inner) {
+        form.begin(poses, largest);
+    }
+    Eigen::MatrixXd roots, by_root, predicted, root_jacobian, root_square, root_predicted, local;
+    Eigen::VectorXd root_residual;
+    for (const std::size_t v : visits) {
+        const LinearisedGroup& group = normal.groups()[v];
+        const Eigen::Index n = group.residual.size();
+        // Ũ_k = L⁻¹ V_k L⁻ᵀ = B̃_k B̃_kᵀ: everything of a visit follows from the whitened roots.
+        whitened_roots(adjustment, normal, v, roots);
+        sums.stated += adjustment.stated_variance(v).sum();
+        sums.lengths += static_cast<double>(n);
+        const auto first = root_columns(n);
+        by_root.noalias() = group.jacobian * covariance(group.columns, group.columns);
+        predicted.noalias() = by_root * group.jacobian.transpose();
+        root_residual.noalias() = roots.transpose() * group.residual;
+        root_jacobian.noalias() = roots.transpose() * group.jacobian;
+        root_square.noalias() = roots.transpose() * roots;
+        by_root.noalias() = predicted * roots;
+        root_predicted.noalias() = roots.transpose() * by_root;
+        const Eigen::Index pose = normal.column(adjustment.pose_block(adjustment.visits()[v].angle), 0);
+        for (std::size_t k = 0; k < k_visit_components; ++k) {
+            const auto at = static_cast<Eigen::Index>(k);
+            const Eigen::Index rank = first[k + 1] - first[k];
+            sums.quadratic[at] += root_residual.segment(first[k], rank).squaredNorm();
+            sums.trace[at] += root_square.diagonal().segment(first[k], rank).sum() -
+                              root_predicted.diagonal().segment(first[k], rank).sum();
+            for (std::size_t l = 0; l < k_visit_components; ++l) {
+                const auto square = root_square.block(first[k], first[l], rank, first[l + 1] - first[l]);
+                const auto spread = root_predicted.block(first[k], first[l], rank, first[l + 1] - first[l]);
+                sums.fisher(at, static_cast<Eigen::Index>(l)) += square.cwiseProduct(square - 2.0 * spread).sum();
+            }
+            if (needed[k]) {
+                const auto rows = root_jacobian.middleRows(first[k], rank);
+                local.noalias() = rows.transpose() * rows;
+                sums.inner[k].add(group.columns, pose, first_pose, local);
+            }
+        }
+    }
+    for (std::size_t k = 0; k < k_visit_components; ++k) {
+        if (!needed[k]) {
+            continue;
+        }
+        sums.inner[k].complete(covariance, first_pose);
+        for (std::size_t l = 0; l <= k; ++l) {
+            if (needed[l]) {
+                const double sum = sums.inner[k].trace_of_poses(sums.inner[l]);
+                const auto row = static_cast<Eigen::Index>(k);
+                const auto column = static_cast<Eigen::Index>(l);
+                sums.fisher(row, column) += sum;
+                if (row != column) {
+                    sums.fisher(column, row) += sum;
+                }
+            }
+        }
+    }
+    return sums;
+}
+
+/// The visits, those of some angles together in each part.
+std::vector<std::vector<std::size_t>> visits_by_parts(const JointAdjustment& adjustment) {
+    constexpr std::size_t k_angles_of_a_part = 64;
+    const std::size_t angles = adjustment.measurement().angles.size();
+    std::vector<std::vector<std::size_t>> parts((angles + k_angles_of_a_part - 1) / k_angles_of_a_part);
+    for (std::size_t v = 0; v < adjustment.visits().size(); ++v) {
+        parts[adjustment.visits()[v].angle / k_angles_of_a_part].push_back(v);
+    }
+    return parts;
+}
 
 }  // namespace
 
@@ -172,57 +286,39 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
                                                    const EstimatedComponents& estimated) {
     const std::array<bool, k_visit_components> needed{estimated.length, estimated.table, estimated.table,
                                                       estimated.table};
-    std::vector<BorderedForm> inner(k_visit_components, BorderedForm(covariance));  // J̃ᵀ Ũ_k J̃ of the estimated ones
-    Vector5 quadratic = Vector5::Zero();                                            // ṽᵀ Ũ_k ṽ
-    Vector5 trace = Vector5::Zero();                                                // tr(R V_k)
-    Matrix5 fisher = Matrix5::Zero();                                               // tr(R V_k R V_l)
-    bool any_shared_visit = false;
-    double mean_stated = 0.0;  // of the lengths, [m²]
+    const std::vector<std::vector<std::size_t>> parts = visits_by_parts(adjustment);
+    std::vector<VisitSums> sums(parts.size());
+    FixedParts(parts.size(), 1).run(adjustment.adjustment().workers(), [&](std::size_t part, std::size_t, std::size_t) {
+        sums[part] = sums_of(adjustment, normal, covariance, parts[part], needed);
+    });
+    Vector5 quadratic = Vector5::Zero();                            // ṽᵀ Ũ_k ṽ
+    Vector5 trace = Vector5::Zero();                                // tr(R V_k)
+    Matrix5 fisher = Matrix5::Zero();                               // tr(R V_k R V_l)
+    std::array<Eigen::MatrixXd, k_visit_components> spread_border;  // C S_k
+    double mean_stated = 0.0;                                       // of the lengths, [m²]
     double length_count = 0.0;
-
-    for (std::size_t v = 0; v < adjustment.visits().size(); ++v) {
-        const LinearisedGroup& group = normal.groups()[v];
-        any_shared_visit = any_shared_visit || group.residual.size() > 1;
-        // Ũ_k = L⁻¹ V_k L⁻ᵀ = B̃_k B̃_kᵀ: everything of a visit follows from the whitened roots.
-        Eigen::MatrixXd roots = covariance_roots(adjustment, v);
-        mean_stated += roots.leftCols(group.residual.size()).squaredNorm();
-        length_count += static_cast<double>(group.residual.size());
-        group.cholesky.triangularView<Eigen::Lower>().solveInPlace(roots);
-        const auto first = root_columns(group.residual.size());
-        const Eigen::MatrixXd predicted =
-            group.jacobian * covariance(group.columns, group.columns) * group.jacobian.transpose();
-        const Eigen::VectorXd root_residual = roots.transpose() * group.residual;
-        const Eigen::MatrixXd root_jacobian = roots.transpose() * group.jacobian;
-        const Eigen::MatrixXd root_square = roots.transpose() * roots;
-        const Eigen::MatrixXd root_predicted = roots.transpose() * predicted * roots;
-        for (std::size_t k = 0; k < k_visit_components; ++k) {
-            const auto at = static_cast<Eigen::Index>(k);
-            const Eigen::Index rank = first[k + 1] - first[k];
-            quadratic[at] += root_residual.segment(first[k], rank).squaredNorm();
-            trace[at] += root_square.diagonal().segment(first[k], rank).sum() -
-                         root_predicted.diagonal().segment(first[k], rank).sum();
-            for (std::size_t l = 0; l < k_visit_components; ++l) {
-                const auto square = root_square.block(first[k], first[l], rank, first[l + 1] - first[l]);
-                const auto spread = root_predicted.block(first[k], first[l], rank, first[l + 1] - first[l]);
-                fisher(at, static_cast<Eigen::Index>(l)) += square.cwiseProduct(square - 2.0 * spread).sum();
-            }
-            if (!needed[k]) {
-                continue;
-            }
-            const auto rows = root_jacobian.middleRows(first[k], rank);
-            const Eigen::MatrixXd local = rows.transpose() * rows;
-            inner[k].add(covariance, group.columns, local);
-        }
+    for (const VisitSums& part : sums) {
+        quadratic.head<4>() += part.quadratic;
+        trace.head<4>() += part.trace;
+        fisher.topLeftCorner<4, 4>() += part.fisher;
+        mean_stated += part.stated;
+        length_count += part.lengths;
     }
     mean_stated /= length_count;
+    const bool any_shared_visit =
+        std::ranges::any_of(adjustment.visits(), [](const Visit& visit) { return visit.observations.size() > 1; });
     for (std::size_t k = 0; k < k_visit_components; ++k) {
         if (!needed[k]) {
             continue;
         }
-        inner[k].complete(covariance);
+        Eigen::MatrixXd reduced = sums.front().inner[k].reduced();
+        for (std::size_t part = 1; part < sums.size(); ++part) {
+            reduced += sums[part].inner[k].reduced();
+        }
+        spread_border[k].noalias() = covariance.border_covariance() * reduced;
         for (std::size_t l = 0; l <= k; ++l) {
             if (needed[l]) {
-                const double sum = inner[k].trace_with(inner[l]);
+                const double sum = spread_border[k].cwiseProduct(spread_border[l].transpose()).sum();
                 const auto row = static_cast<Eigen::Index>(k);
                 const auto column = static_cast<Eigen::Index>(l);
                 fisher(row, column) += sum;
@@ -255,7 +351,7 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
             if (!needed[k]) {
                 continue;
             }
-            const double sum = inner[k].trace_with_border(spread_fixture);
+            const double sum = spread_border[k].cwiseProduct(spread_fixture.transpose()).sum();
             fisher(static_cast<Eigen::Index>(k), k_fixture) = sum;
             fisher(k_fixture, static_cast<Eigen::Index>(k)) = sum;
         }
