@@ -139,12 +139,11 @@ void fill_sense_curves(reports::RotaryTable& rotary, const engine::RotaryTableMo
     if (!result.solution.quantities.has_reversal) {
         return;
     }
-    const engine::NormalEquations normal = model.solved().adjustment().linearise();
     const gum::UncertaintyBudget& propagation = result.reported.budget;
     const engine::AnglewiseCovariance& covariance = result.reported.covariance;
     rotary.sense_curves = {{.direction = "+", .points = {}}, {.direction = "-", .points = {}}};
     for (const engine::SenseDeviation& from :
-         engine::sense_deviations(model.solved(), normal, normal.bordered_covariance())) {
+         engine::sense_deviations(model.solved(), model.equations(), model.parameter_covariance())) {
         reports::SensePoint point;
         point.angle_deg = model.measurement().angles_deg[from.angle];
         const double half = from.approach == Approach::positive ? 0.5 : -0.5;

@@ -108,8 +108,8 @@ public:
         : model_(model),
           map_(map),
           adjustment_(model.solved()),
-          normal_(adjustment_.adjustment().linearise()),
-          covariance_(normal_.bordered_covariance()),
+          normal_(model.equations()),
+          covariance_(model.parameter_covariance()),
           sensitivity_(map, adjustment_, normal_, covariance_),
           middle_(Eigen::MatrixXd::Zero(sensitivity_.shared().cols(), sensitivity_.shared().cols())),
           cross_(TallMatrix::Zero(map.rows(), middle_.cols())),
@@ -276,8 +276,8 @@ private:
     const RotaryTableModel& model_;
     const AnglewiseMap& map_;
     const JointAdjustment& adjustment_;
-    NormalEquations normal_;
-    BorderedCovariance covariance_;
+    const NormalEquations& normal_;
+    const BorderedCovariance& covariance_;
     AnglewiseSensitivity sensitivity_;
     Eigen::MatrixXd middle_;       ///< M
     TallMatrix cross_, own_;       ///< X and the blocks of O
@@ -291,7 +291,7 @@ private:
 AnglewiseMap map_of(const RotaryTableModel& model) {
     const JointAdjustment& solved = model.solved();
     return reported_map(
-        solved, solved.adjustment().linearise(),
+        solved, model.equations(),
         transform_to_datum(model.measurement(), solved.poses(), solved.set_up(), model.measurement().datum));
 }
 

@@ -128,6 +128,7 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
       quantities_(reported_quantities(measurement_, solved.has_reversal())) {
     nominal_.copy_parameters_from(solved);
     nominal_.set_weights(stochastic);
+    nominal_.adjustment().set_workers(solved.adjustment().workers());
     const NormalEquations joint = nominal_.adjustment().linearise();
     const BorderedCovariance covariance = joint.bordered_covariance();
     const auto paths = static_cast<Eigen::Index>(measurement_.dead_paths.size());
@@ -291,6 +292,8 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
     for (std::size_t d = 0; d < measurement_.dead_paths.size(); ++d) {
         nominal_.adjustment().hold(nominal_.dead_path_block(d), 0);
     }
+    equations_ = nominal_.adjustment().linearise();
+    parameter_covariance_ = equations_.bordered_covariance();
 }
 
 JointAdjustment RotaryTableModel::solve_at(const Eigen::VectorXd& x) const {

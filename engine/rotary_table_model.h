@@ -99,6 +99,9 @@ public:
     [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const override;
     [[nodiscard]] const ReportedQuantities& quantities() const { return quantities_; }
     [[nodiscard]] const JointAdjustment& solved() const { return nominal_; }
+    /// `linearise()` of `solved()`, and the covariance of its parameters.
+    [[nodiscard]] const NormalEquations& equations() const { return equations_; }
+    [[nodiscard]] const BorderedCovariance& parameter_covariance() const { return parameter_covariance_; }
     /// ∂length/∂pose of a visit at the nominal solution, n×6.
     [[nodiscard]] const Eigen::MatrixXd& visit_pose(std::size_t visit) const { return visit_pose_[visit]; }
     [[nodiscard]] const RotaryTableMeasurement& measurement() const { return measurement_; }
@@ -127,6 +130,8 @@ private:
     StochasticModel stochastic_;
     RigidMotion set_up_;
     JointAdjustment nominal_;
+    NormalEquations equations_;
+    BorderedCovariance parameter_covariance_;
     std::vector<Eigen::MatrixXd> visit_pose_;  ///< ∂length/∂pose of every visit at the nominal solution
     std::vector<gum::InputGroup> inputs_;
     RotaryTableInputs layout_;

@@ -360,7 +360,7 @@ Eigen::MatrixXd TableParameterModel::jacobian_of_table(const Eigen::VectorXd& re
     const JointAdjustment& solved = joint_->solved();
     const DatumSolution datum =
         transform_to_datum(joint_->measurement(), solved.poses(), solved.set_up(), joint_->measurement().datum);
-    return by_inputs(solved, solved.adjustment().linearise(), datum, parameters_->derivatives(reported, positions));
+    return by_inputs(solved, joint_->equations(), datum, parameters_->derivatives(reported, positions));
 }
 
 Eigen::MatrixXd TableParameterModel::by_inputs(const JointAdjustment& adjustment, const NormalEquations& normal,
@@ -404,8 +404,8 @@ double TableParameterModel::rms_position_uncertainty() const {
     const RotaryTableMeasurement& measurement = joint_->measurement();
     const JointAdjustment& solved = joint_->solved();
     const StochasticModel& stochastic = joint_->stochastic();
-    const NormalEquations normal = solved.adjustment().linearise();
-    const BorderedCovariance covariance = normal.bordered_covariance();
+    const NormalEquations& normal = joint_->equations();
+    const BorderedCovariance& covariance = joint_->parameter_covariance();
     const DatumSolution datum = transform_to_datum(measurement, solved.poses(), solved.set_up(), measurement.datum);
     const AnglewiseMap map = reported_map(solved, normal, datum);
     const AnglewiseCovariance reported = covariance_of(map, solved, normal, covariance);
