@@ -1,6 +1,9 @@
 #include "app/evaluate_rotary_table.h"
 
 #include <cmath>
+#include <cstddef>
+#include <functional>
+#include <memory>
 #include <utility>
 
 #include "app/document_units.h"
@@ -12,6 +15,7 @@
 #include "engine/sequential_evaluation.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/worker_threads.h"
 
 namespace gumcert::app {
 
@@ -126,6 +130,10 @@ RotaryTableResult evaluate_rotary_table(RotaryTableJob& job, unsigned threads, c
     RotaryTableResult result;
     result.fixture = apply_fixture_budget(job);
     result.options = evaluation_options(measurement);
+    result.options.workers = [workers = std::make_shared<gum::WorkerThreads>(threads)](
+                                 std::size_t tasks, const std::function<void(std::size_t)>& task) {
+        workers->run(tasks, [&](unsigned, std::size_t number) { task(number); });
+    };
     result.solution = joint ? engine::evaluate_jointly(measurement, result.options, progress)
                             : engine::evaluate_sequentially(measurement, result.options, progress);
     const auto report = [&](const char* text) {

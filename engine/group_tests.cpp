@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/fixed_parts.h"
 #include "engine/median.h"
 
 namespace gumcert::engine {
@@ -705,50 +706,60 @@ private:
         const MatrixXd poses = adjustment_.poses();
         const double step = measurement.angles[1] - measurement.angles[0];
         const int most = std::min(static_cast<int>(angles) / 2, k_most_steps);
-        std::optional<Candidate> best;
         moved_.resize(measurement.stations.size(), false);
-        for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
-            if (moved_[j]) {
-                continue;
-            }
-            for (int steps = -most; steps <= most; ++steps) {
-                if (steps == 0 || (2 * steps == -static_cast<int>(angles))) {
-                    continue;  // half a turn backwards is half a turn forwards
-                }
-                const Eigen::Matrix3d turn =
-                    Eigen::AngleAxisd(steps * step, Eigen::Vector3d::Unit(axial_coordinate(measurement.axis)))
-                        .toRotationMatrix();
-                Visits::Effect effect(visits_.size());
-                for (std::size_t g = 0; g < visits_.size(); ++g) {
-                    const Visit& visit = adjustment_.visits()[g];
-                    if (visit.station != j || visits_.is_out(g)) {
-                        continue;
+        std::vector<std::optional<Candidate>> best_of(measurement.stations.size());
+        FixedParts(measurement.stations.size(), 1)
+            .run(adjustment_.adjustment().workers(), [&](std::size_t j, std::size_t, std::size_t) {
+                for (int steps = -most; steps <= most && !moved_[j]; ++steps) {
+                    // Half a turn backwards is half a turn forwards.
+                    if (steps != 0 && 2 * steps != -static_cast<int>(angles)) {
+                        test_index(j, steps, steps * step, most, poses, best_of[j]);
                     }
-                    const std::size_t other =
-                        (visit.angle + angles + static_cast<std::size_t>(steps + static_cast<int>(angles))) % angles;
-                    Eigen::Matrix<double, 6, 1> change;
-                    change << turn.transpose() * poses.col(static_cast<Index>(other)).head<3>(),
-                        turn.transpose() * poses.col(static_cast<Index>(other)).tail<3>();
-                    change -= poses.col(static_cast<Index>(visit.angle));
-                    effect[g] = poses_[g] * change;
                 }
-                const Visits::Projection projection = visits_.projection(effect, 1);
-                const double spread = projection.spread(0, 0);
-                if (!(spread > k_controlled * projection.weight)) {
-                    continue;
-                }
-                const double deviate = projection.weighted[0] / std::sqrt(spread) / std::max(used_scale_, pose_scale_);
-                GroupTest test = judged(GroupKind::angle_index, deviate * deviate, 1,
-                                        2 * static_cast<std::size_t>(most) * measurement.stations.size());
-                test.station = j;
-                test.estimate = steps;
-                take(best, {test, [this, effect, j] {
-                                visits_.take_away(effect, 1);
-                                moved_[j] = true;
-                            }});
+            });
+        std::optional<Candidate> best;
+        for (std::optional<Candidate>& of_station : best_of) {
+            if (of_station) {
+                take(best, std::move(*of_station));
             }
         }
         return best;
+    }
+
+    void test_index(std::size_t station, int steps, double angle, int most, const MatrixXd& poses,
+                    std::optional<Candidate>& best) {
+        const RotaryTableMeasurement& measurement = adjustment_.measurement();
+        const std::size_t angles = measurement.angles.size();
+        const Eigen::Matrix3d turn =
+            Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axial_coordinate(measurement.axis))).toRotationMatrix();
+        Visits::Effect effect(visits_.size());
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            const Visit& visit = adjustment_.visits()[g];
+            if (visit.station != station || visits_.is_out(g)) {
+                continue;
+            }
+            const std::size_t other =
+                (visit.angle + angles + static_cast<std::size_t>(steps + static_cast<int>(angles))) % angles;
+            Eigen::Matrix<double, 6, 1> change;
+            change << turn.transpose() * poses.col(static_cast<Index>(other)).head<3>(),
+                turn.transpose() * poses.col(static_cast<Index>(other)).tail<3>();
+            change -= poses.col(static_cast<Index>(visit.angle));
+            effect[g] = poses_[g] * change;
+        }
+        const Visits::Projection projection = visits_.projection(effect, 1);
+        const double spread = projection.spread(0, 0);
+        if (!(spread > k_controlled * projection.weight)) {
+            return;
+        }
+        const double deviate = projection.weighted[0] / std::sqrt(spread) / std::max(used_scale_, pose_scale_);
+        GroupTest test = judged(GroupKind::angle_index, deviate * deviate, 1,
+                                2 * static_cast<std::size_t>(most) * measurement.stations.size());
+        test.station = station;
+        test.estimate = steps;
+        take(best, {test, [this, effect, station] {
+                        visits_.take_away(effect, 1);
+                        moved_[station] = true;
+                    }});
     }
 
     /// Whether the angles divide a full turn evenly.

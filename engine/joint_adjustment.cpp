@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/fixed_parts.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::engine {
@@ -311,9 +312,13 @@ Eigen::MatrixXd JointAdjustment::visit_covariance(std::size_t visit, const Stoch
 }
 
 void JointAdjustment::set_weights(const StochasticModel& stochastic) {
-    for (std::size_t v = 0; v < visits_.size(); ++v) {
-        adjustment_.set_covariance(v, visit_covariance(v, stochastic));
-    }
+    constexpr std::size_t k_visits_of_a_part = 256;
+    FixedParts(visits_.size(), k_visits_of_a_part)
+        .run(adjustment_.workers(), [&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t v = begin; v < end; ++v) {
+                adjustment_.set_covariance(v, visit_covariance(v, stochastic));
+            }
+        });
     adjustment_.set_covariance(fixture_prior_, stochastic.fixture_factor * measurement_->fixture_covariance);
 }
 

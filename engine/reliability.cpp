@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/fixed_parts.h"
+
 namespace gumcert::engine {
 
 namespace {
@@ -50,7 +52,7 @@ std::vector<DistanceReliability> distance_reliability(const JointAdjustment& adj
     const RotaryTableMeasurement& measurement = adjustment.measurement();
     const std::vector<bool>& active = adjustment.active();
     std::vector<DistanceReliability> rows(measurement.lengths.size());
-    for (std::size_t v = 0; v < adjustment.visits().size(); ++v) {
+    const auto tested = [&](std::size_t v) {
         const GroupReliability group = reliability_of(normal.groups()[v], covariance);
         const std::vector<std::size_t>& observations = adjustment.visits()[v].observations;
         for (std::size_t k = 0; k < observations.size(); ++k) {
@@ -65,7 +67,14 @@ std::vector<DistanceReliability> distance_reliability(const JointAdjustment& adj
                 row.estimated_error = group.weighted[i] / group.diagonal[i];
             }
         }
-    }
+    };
+    constexpr std::size_t k_visits_of_a_part = 256;
+    FixedParts(adjustment.visits().size(), k_visits_of_a_part)
+        .run(adjustment.adjustment().workers(), [&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t v = begin; v < end; ++v) {
+                tested(v);
+            }
+        });
     if (std::find(active.begin(), active.end(), false) == active.end()) {
         return rows;
     }

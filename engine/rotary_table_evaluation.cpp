@@ -92,6 +92,7 @@ JointAdjustment with_set_up(const JointAdjustment& from, const RigidMotion& set_
         station = change * station;
     }
     JointAdjustment result(measurement, from.active(), set_up, start, stochastic);
+    result.adjustment().set_workers(from.adjustment().workers());
     const StartValues moved = result.present_values();
     result.copy_parameters_from(from);
     for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
@@ -116,6 +117,7 @@ JointAdjustment with_set_up(const JointAdjustment& from, const RigidMotion& set_
 JointAdjustment with_active(const JointAdjustment& from, const std::vector<bool>& active,
                             const StochasticModel& stochastic) {
     JointAdjustment result(from.measurement(), active, from.set_up(), from.present_values(), stochastic);
+    result.adjustment().set_workers(from.adjustment().workers());
     result.copy_parameters_from(from);
     result.set_weights(stochastic);
     return result;
@@ -191,8 +193,12 @@ public:
     /// Weights and parameters in turn until no variance moves by more than `tolerance` of its uncertainty.
     void settle(JointAdjustment& adjustment, StochasticModel& stochastic, int max_iterations, double tolerance,
                 const SolverOptions& solver) {
+        // New weights move the parameters by parts of their uncertainties, where the model is linear: one step each.
+        constexpr double k_linear_step = 1.0;
+        SolverOptions weights_only = solver;
+        weights_only.step_tolerance = std::max(solver.step_tolerance, k_linear_step);
         for (int i = 0; i < max_iterations; ++i) {
-            solve(adjustment, solver);
+            solve(adjustment, i == 0 ? solver : weights_only);
             // Whether the residuals speak of the fixture at all is asked once, at its stated covariance.
             if (estimated_.fixture && !fixture_asked_) {
                 fixture_asked_ = true;
@@ -224,6 +230,8 @@ public:
         }
         adjustment.set_weights(stochastic);
         solve(adjustment, options.solver);
+        normal.emplace(adjustment.adjustment().linearise());
+        covariance = normal->bordered_covariance();
     }
 
     void report(const std::string& text) const {
@@ -249,10 +257,10 @@ public:
 
 private:
     void solve(JointAdjustment& adjustment, const SolverOptions& solver) {
-        const SolveSummary summary = adjustment.adjustment().refine(solver);
+        normal.emplace();
+        const SolveSummary summary = adjustment.adjustment().refine(solver, *normal);
         require_convergence(summary);
         iterations += summary.iterations;
-        normal.emplace(adjustment.adjustment().linearise());
         covariance = normal->bordered_covariance();
     }
 
@@ -332,6 +340,7 @@ StochasticModel variances_without(const GroupTest& group, const JointAdjustment&
     }
     JointAdjustment without(corrected, adjustment.active(), adjustment.set_up(), adjustment.present_values(),
                             stochastic);
+    without.adjustment().set_workers(options.workers);
     without.copy_parameters_from(adjustment);
     without.set_weights(stochastic);
     const Progress silent;
@@ -568,6 +577,7 @@ RotaryTableSolution adjust_and_test(const RotaryTableMeasurement& measurement, c
         throw gum::NoResultError(*line);
     }
     JointAdjustment first(measurement, active, RigidMotion{}, start, stochastic);
+    first.adjustment().set_workers(options.workers);
     const auto require_rank = [&](const JointAdjustment& adjustment) {
         const RankReport rank = adjustment.adjustment().linearise().rank(options.solver.rank_tolerance);
         if (rank.deficient) {
@@ -587,6 +597,7 @@ RotaryTableSolution adjust_and_test(const RotaryTableMeasurement& measurement, c
             set_aside(i);
         }
         first = JointAdjustment(measurement, active, RigidMotion{}, robust.present_values(), stochastic);
+        first.adjustment().set_workers(options.workers);
         first.copy_parameters_from(robust);
         first.set_weights(stochastic);
         require_rank(first);

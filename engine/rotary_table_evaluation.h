@@ -11,6 +11,7 @@
 #include "engine/anglewise_covariance.h"
 #include "engine/datum.h"
 #include "engine/external_reliability.h"
+#include "engine/fixed_parts.h"
 #include "engine/group_tests.h"
 #include "engine/reliability.h"
 #include "engine/rotary_table_model.h"
@@ -37,6 +38,8 @@ struct EvaluationOptions {
     /// fixture is tested against what the distances say of it (FixtureComponent::check), and groups of distances are
     /// tested; without it they are not.
     std::function<double(double, double)> chi_square_upper_tail;
+    /// Threads of large measurements; results are the same bytes for any number.
+    Workers workers;
 };
 
 struct StationEstimate {
