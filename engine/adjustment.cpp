@@ -299,6 +299,11 @@ void NormalEquations::add(const LinearisedGroup& group, EliminatedBlock* block, 
     }
 }
 
+Eigen::Index NormalEquations::first_column(std::size_t block) const {
+    const auto free = std::ranges::find_if(column_of_[block], [](Eigen::Index column) { return column >= 0; });
+    return free == column_of_[block].end() ? -1 : *free;
+}
+
 void NormalEquations::accumulate() {
     gradient_ = Eigen::VectorXd::Zero(parameter_count());
     const auto none = [this] {

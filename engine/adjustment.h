@@ -124,6 +124,8 @@ public:
     [[nodiscard]] const std::vector<LinearisedGroup>& groups() const { return groups_; }
     /// Index of a free parameter, or -1 when it is held.
     [[nodiscard]] Eigen::Index column(std::size_t block, int component) const;
+    /// Of the first component that is not held, or -1 when all are.
+    [[nodiscard]] Eigen::Index first_column(std::size_t block) const;
 
     [[nodiscard]] RankReport rank(double tolerance) const;
     /// (Jᵀ V⁻¹ J)⁻¹, order of `parameters()`; requires full rank.

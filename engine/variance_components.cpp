@@ -183,7 +183,7 @@ VisitSums sums_of(const JointAdjustment& adjustment, const NormalEquations& norm
     Eigen::Index end_pose = covariance.border();
     Eigen::Index largest = 0;
     for (const std::size_t v : visits) {
-        if (const Eigen::Index pose = normal.column(adjustment.pose_block(adjustment.visits()[v].angle), 0);
+        if (const Eigen::Index pose = normal.first_column(adjustment.pose_block(adjustment.visits()[v].angle));
             pose >= 0) {
             const Eigen::Index size = covariance.own(pose).rows();
             first_pose = std::min(first_pose, pose);
@@ -213,7 +213,7 @@ VisitSums sums_of(const JointAdjustment& adjustment, const NormalEquations& norm
         root_square.noalias() = roots.transpose() * roots;
         by_root.noalias() = predicted * roots;
         root_predicted.noalias() = roots.transpose() * by_root;
-        const Eigen::Index pose = normal.column(adjustment.pose_block(adjustment.visits()[v].angle), 0);
+        const Eigen::Index pose = normal.first_column(adjustment.pose_block(adjustment.visits()[v].angle));
         for (std::size_t k = 0; k < k_visit_components; ++k) {
             const auto at = static_cast<Eigen::Index>(k);
             const Eigen::Index rank = first[k + 1] - first[k];

@@ -178,6 +178,8 @@ TEST(JointAdjustment, PosesAtTwoAnglesAreCorrelatedThroughHome) {
                                      RigidMotion{}, StartValues{campaign.truth.stations, campaign.truth.dead_paths},
                                      StochasticModel{});
     const NormalEquations normal = adjustment.adjustment().linearise();
+    EXPECT_EQ(normal.first_column(adjustment.pose_block(campaign.measurement.home)), -1);
+    EXPECT_EQ(normal.first_column(adjustment.pose_block(1)), normal.column(adjustment.pose_block(1), 0));
     const Eigen::MatrixXd covariance = normal.covariance();
     for (int c = 0; c < 6; ++c) {
         double sum = 0.0;
