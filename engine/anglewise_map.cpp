@@ -7,7 +7,7 @@ namespace gumcert::engine {
 namespace {
 
 std::optional<Eigen::Index> reversal_column(const JointAdjustment& adjustment, const NormalEquations& normal) {
-    if (!adjustment.has_reversal()) {
+    if (!adjustment.has_reversal() || adjustment.reversal_by_angle()) {
         return std::nullopt;
     }
     return normal.column(adjustment.reversal_block(), 0);
@@ -18,10 +18,31 @@ TallMatrix gain_of(const AnglewiseMap& map, const TallMatrix& pose_by_border) {
     TallMatrix gain = map.by_border;
     gain.noalias() += map.by_change * (map.change * pose_by_border);
     const Eigen::Index q = map.per_angle();
-    for (Eigen::Index i = 0; i < map.change.cols() / 6; ++i) {
-        gain.middleRows(q * i, q).noalias() += map.local.middleRows(q * i, q) * pose_by_border.middleRows<6>(6 * i);
+    const Eigen::Index w = map.pose_size();
+    for (Eigen::Index i = 0; i < map.angles(); ++i) {
+        gain.middleRows(q * i, q).noalias() += map.local.middleRows(q * i, q) * pose_by_border.middleRows(w * i, w);
     }
     return gain;
+}
+
+/// The same map for poses with a reversal each, and the means of these behind all other quantities.
+AnglewiseMap with_mean_reversal(const AnglewiseMap& map) {
+    const Eigen::Index angles = map.angles();
+    const Eigen::Index changes = map.change.rows();
+    AnglewiseMap result;
+    result.local = TallMatrix::Zero(map.local.rows(), 12);
+    result.local.leftCols<6>() = map.local;
+    result.by_border = TallMatrix::Zero(map.rows() + 6, map.by_border.cols());
+    result.by_border.topRows(map.rows()) = map.by_border;
+    result.by_change = TallMatrix::Zero(map.rows() + 6, changes + 6);
+    result.by_change.topLeftCorner(map.rows(), changes) = map.by_change;
+    result.by_change.bottomRightCorner<6, 6>().setIdentity();
+    result.change = Eigen::MatrixXd::Zero(changes + 6, 12 * angles);
+    for (Eigen::Index i = 0; i < angles; ++i) {
+        result.change.block(0, 12 * i, changes, 6) = map.change.middleCols<6>(6 * i);
+        result.change.block<6, 6>(changes, 12 * i + 6).diagonal().setConstant(1.0 / static_cast<double>(angles));
+    }
+    return result;
 }
 
 }  // namespace
@@ -29,8 +50,9 @@ TallMatrix gain_of(const AnglewiseMap& map, const TallMatrix& pose_by_border) {
 Eigen::MatrixXd AnglewiseMap::combined_by_pose(const Eigen::Ref<const Eigen::MatrixXd>& combination) const {
     Eigen::MatrixXd result = (combination * by_change) * change;
     const Eigen::Index q = per_angle();
-    for (Eigen::Index i = 0; i < change.cols() / 6; ++i) {
-        result.middleCols<6>(6 * i).noalias() += combination.middleCols(q * i, q) * local.middleRows(q * i, q);
+    const Eigen::Index w = pose_size();
+    for (Eigen::Index i = 0; i < angles(); ++i) {
+        result.middleCols(w * i, w).noalias() += combination.middleCols(q * i, q) * local.middleRows(q * i, q);
     }
     return result;
 }
@@ -40,11 +62,12 @@ Eigen::MatrixXd AnglewiseMap::combined(const Eigen::Ref<const Eigen::MatrixXd>& 
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(combination.rows(), normal.parameter_count());
     result.leftCols(by_border.cols()).noalias() = combination * by_border;
     const Eigen::MatrixXd by_pose = combined_by_pose(combination);
-    for (Eigen::Index i = 0; i < change.cols() / 6; ++i) {
-        for (int c = 0; c < 6; ++c) {
+    const Eigen::Index w = pose_size();
+    for (Eigen::Index i = 0; i < angles(); ++i) {
+        for (int c = 0; c < w; ++c) {
             const Eigen::Index column = normal.column(adjustment.pose_block(static_cast<std::size_t>(i)), c);
             if (column >= 0) {
-                result.col(column) = by_pose.col(6 * i + c);
+                result.col(column) = by_pose.col(w * i + c);
             }
         }
     }
@@ -54,19 +77,20 @@ Eigen::MatrixXd AnglewiseMap::combined(const Eigen::Ref<const Eigen::MatrixXd>& 
 Eigen::MatrixXd AnglewiseMap::times(const Eigen::Ref<const Eigen::MatrixXd>& by_parameter,
                                     const JointAdjustment& adjustment, const NormalEquations& normal) const {
     Eigen::MatrixXd poses = Eigen::MatrixXd::Zero(change.cols(), by_parameter.cols());
-    for (Eigen::Index i = 0; i < change.cols() / 6; ++i) {
-        for (int c = 0; c < 6; ++c) {
+    const Eigen::Index w = pose_size();
+    for (Eigen::Index i = 0; i < angles(); ++i) {
+        for (int c = 0; c < w; ++c) {
             const Eigen::Index column = normal.column(adjustment.pose_block(static_cast<std::size_t>(i)), c);
             if (column >= 0) {
-                poses.row(6 * i + c) = by_parameter.row(column);
+                poses.row(w * i + c) = by_parameter.row(column);
             }
         }
     }
     Eigen::MatrixXd result = by_border * by_parameter.topRows(by_border.cols());
     result.noalias() += by_change * (change * poses);
     const Eigen::Index q = per_angle();
-    for (Eigen::Index i = 0; i < change.cols() / 6; ++i) {
-        result.middleRows(q * i, q).noalias() += local.middleRows(q * i, q) * poses.middleRows<6>(6 * i);
+    for (Eigen::Index i = 0; i < angles(); ++i) {
+        result.middleRows(q * i, q).noalias() += local.middleRows(q * i, q) * poses.middleRows(w * i, w);
     }
     return result;
 }
@@ -93,24 +117,46 @@ AnglewiseMap reported_map(const DatumSolution& datum, Eigen::Index border,
 
 AnglewiseMap reported_map(const JointAdjustment& adjustment, const NormalEquations& normal,
                           const DatumSolution& datum) {
-    return reported_map(datum, normal.border_count(), reversal_column(adjustment, normal));
+    AnglewiseMap map = reported_map(datum, normal.border_count(), reversal_column(adjustment, normal));
+    return adjustment.reversal_by_angle() ? with_mean_reversal(map) : map;
+}
+
+AnglewiseMap map_of_both_senses(const AnglewiseMap& reported) {
+    const Eigen::Index angles = reported.angles();
+    const Eigen::Index rows = 12 * angles;
+    AnglewiseMap map;
+    map.local.resize(rows, reported.pose_size());
+    map.by_border.resize(rows, reported.by_border.cols());
+    map.by_change.resize(rows, reported.by_change.cols());
+    map.change = reported.change;
+    for (Eigen::Index i = 0; i < angles; ++i) {
+        for (Eigen::Index sense = 0; sense < 2; ++sense) {
+            const Eigen::Index first = 12 * i + 6 * sense;
+            map.local.middleRows<6>(first) = reported.local.middleRows<6>(6 * i);
+            map.local.block<6, 6>(first, 6).diagonal().array() += sense == 0 ? 0.5 : -0.5;
+            map.by_border.middleRows<6>(first) = reported.by_border.middleRows<6>(6 * i);
+            map.by_change.middleRows<6>(first) = reported.by_change.middleRows<6>(6 * i);
+        }
+    }
+    return map;
 }
 
 PoseCovariance pose_covariance(const JointAdjustment& adjustment, const NormalEquations& normal,
                                const BorderedCovariance& covariance) {
     const std::size_t angles = adjustment.measurement().angles.size();
-    const Eigen::Index size = 6 * static_cast<Eigen::Index>(angles);
-    PoseCovariance poses{TallMatrix::Zero(size, 6), TallMatrix::Zero(size, covariance.border())};
+    const int w = adjustment.pose_size();
+    const Eigen::Index size = w * static_cast<Eigen::Index>(angles);
+    PoseCovariance poses{TallMatrix::Zero(size, w), TallMatrix::Zero(size, covariance.border())};
     for (std::size_t i = 0; i < angles; ++i) {
-        for (int r = 0; r < 6; ++r) {
+        for (int r = 0; r < w; ++r) {
             const Eigen::Index row = normal.column(adjustment.pose_block(i), r);
             if (row < 0) {
                 continue;
             }
-            const Eigen::Index at = 6 * static_cast<Eigen::Index>(i) + r;
+            const Eigen::Index at = w * static_cast<Eigen::Index>(i) + r;
             poses.by_border.row(at) = covariance.elimination().row(row - covariance.border());
             const Eigen::Index first = covariance.first_of(row);
-            for (int c = 0; c < 6; ++c) {
+            for (int c = 0; c < w; ++c) {
                 if (const Eigen::Index column = normal.column(adjustment.pose_block(i), c); column >= 0) {
                     poses.own(at, c) = covariance.own(row)(row - first, column - first);
                 }
@@ -126,16 +172,17 @@ AnglewiseCovariance covariance_of(const AnglewiseMap& map, const PoseCovariance&
     const Eigen::Index q = map.per_angle();
     const Eigen::Index changes = map.change.rows();
     Eigen::MatrixXd change_own(changes, size);  // K W
-    for (Eigen::Index i = 0; i < size; i += 6) {
-        change_own.middleCols<6>(i).noalias() = map.change.middleCols<6>(i) * poses.own.middleRows<6>(i);
+    const Eigen::Index w = map.pose_size();
+    for (Eigen::Index i = 0; i < size; i += w) {
+        change_own.middleCols(i, w).noalias() = map.change.middleCols(i, w) * poses.own.middleRows(i, w);
     }
     const TallMatrix common = gain_of(map, poses.by_border) * border_root;
     TallMatrix cross = 0.5 * map.by_change * (change_own * map.change.transpose());  // U
     TallMatrix own(map.local.rows(), q);
-    for (Eigen::Index i = 0; i < size / 6; ++i) {
+    for (Eigen::Index i = 0; i < map.angles(); ++i) {
         const auto local = map.local.middleRows(q * i, q);
-        cross.middleRows(q * i, q).noalias() += local * change_own.middleCols<6>(6 * i).transpose();
-        own.middleRows(q * i, q).noalias() = local * poses.own.middleRows<6>(6 * i) * local.transpose();
+        cross.middleRows(q * i, q).noalias() += local * change_own.middleCols(w * i, w).transpose();
+        own.middleRows(q * i, q).noalias() = local * poses.own.middleRows(w * i, w) * local.transpose();
     }
     TallMatrix shared(map.rows(), common.cols() + changes);
     TallMatrix half(map.rows(), common.cols() + changes);
@@ -168,7 +215,8 @@ AnglewiseSensitivity::OfVisit AnglewiseSensitivity::of_visit(std::size_t visit) 
         group.cholesky.triangularView<Eigen::Lower>().transpose().solve(group.jacobian);
     const Eigen::Index border = covariance_.border();
     Eigen::MatrixXd by_border = Eigen::MatrixXd::Zero(border, weighted.rows());
-    Eigen::MatrixXd by_pose = Eigen::MatrixXd::Zero(6, weighted.rows());
+    const Eigen::Index w = map_.pose_size();
+    Eigen::MatrixXd by_pose = Eigen::MatrixXd::Zero(w, weighted.rows());
     for (std::size_t c = 0; c < group.columns.size(); ++c) {
         const Eigen::Index column = group.columns[c];
         const auto values = weighted.col(static_cast<Eigen::Index>(c)).transpose();
@@ -178,12 +226,12 @@ AnglewiseSensitivity::OfVisit AnglewiseSensitivity::of_visit(std::size_t visit) 
             by_pose.row(normal_.parameters()[static_cast<std::size_t>(column)].component) = values;
         }
     }
-    const Eigen::Index first = 6 * result.angle;
-    by_border.noalias() += poses_.by_border.middleRows<6>(first).transpose() * by_pose;
-    const Eigen::MatrixXd pose = poses_.own.middleRows<6>(first) * by_pose;
+    const Eigen::Index first = w * result.angle;
+    by_border.noalias() += poses_.by_border.middleRows(first, w).transpose() * by_pose;
+    const Eigen::MatrixXd pose = poses_.own.middleRows(first, w) * by_pose;
     result.shared.resize(shared_.cols(), weighted.rows());
     result.shared.topRows(border).noalias() = covariance_.border_covariance() * by_border;
-    result.shared.bottomRows(map_.change.rows()).noalias() = map_.change.middleCols<6>(first) * pose;
+    result.shared.bottomRows(map_.change.rows()).noalias() = map_.change.middleCols(first, w) * pose;
     const Eigen::Index q = map_.per_angle();
     result.own.noalias() = map_.local.middleRows(q * result.angle, q) * pose;
     return result;

@@ -12,21 +12,25 @@
 namespace gumcert::engine {
 
 /// Derivatives of quantities z by the parameters of an adjustment, poses e and border b, in the form in which a datum
-/// makes them; q of the quantities belong to each angle, the others stand behind them:
+/// makes them; q of the quantities belong to each angle, the others stand behind them. A pose has w parameters, 6 or
+/// with a reversal of its own 12 (JointAdjustment::pose_size):
 ///
 ///   ∂z = L_a ∂e_a + B ∂b + D (K ∂e)
 ///
 /// where a is the angle of the quantity. Everything that only some quantities depend on is zero in the rows of others.
 struct AnglewiseMap {
-    TallMatrix local;        ///< L, the blocks of all angles one below the other, qN×6
+    TallMatrix local;        ///< L, the blocks of all angles one below the other, qN×w
     TallMatrix by_border;    ///< B, m×b
     TallMatrix by_change;    ///< D, m×s
-    Eigen::MatrixXd change;  ///< K, s×6N
+    Eigen::MatrixXd change;  ///< K, s×wN
 
     [[nodiscard]] Eigen::Index rows() const { return by_change.rows(); }
     /// Quantities of each angle, q.
-    [[nodiscard]] Eigen::Index per_angle() const { return 6 * local.rows() / change.cols(); }
-    /// c ∂z/∂(poses) for any combinations c of the quantities, k×6N.
+    [[nodiscard]] Eigen::Index per_angle() const { return local.rows() / angles(); }
+    [[nodiscard]] Eigen::Index angles() const { return change.cols() / local.cols(); }
+    /// Parameters of a pose, w.
+    [[nodiscard]] Eigen::Index pose_size() const { return local.cols(); }
+    /// c ∂z/∂(poses) for any combinations c of the quantities, k×wN.
     [[nodiscard]] Eigen::MatrixXd combined_by_pose(const Eigen::Ref<const Eigen::MatrixXd>& combination) const;
     /// c ∂z/∂x for the free parameters x of an adjustment, k×p.
     [[nodiscard]] Eigen::MatrixXd combined(const Eigen::Ref<const Eigen::MatrixXd>& combination,
@@ -44,10 +48,14 @@ struct AnglewiseMap {
 [[nodiscard]] AnglewiseMap reported_map(const JointAdjustment& adjustment, const NormalEquations& normal,
                                         const DatumSolution& datum);
 
-/// The poses of an adjustment in the form of the normal equations, all 6N; held components are zero.
+/// The poses with the positive and with the negative approach, six and six of each angle, of an adjustment with a
+/// reversal at every angle: E ± reversal/2 from the map of the reported quantities.
+[[nodiscard]] AnglewiseMap map_of_both_senses(const AnglewiseMap& reported);
+
+/// The poses of an adjustment in the form of the normal equations, all wN; held components are zero.
 struct PoseCovariance {
-    TallMatrix own;        ///< W of every angle, one below the other, 6N×6
-    TallMatrix by_border;  ///< F, 6N×b
+    TallMatrix own;        ///< W of every angle, one below the other, wN×w
+    TallMatrix by_border;  ///< F, wN×b
 };
 [[nodiscard]] PoseCovariance pose_covariance(const JointAdjustment& adjustment, const NormalEquations& normal,
                                              const BorderedCovariance& covariance);

@@ -63,19 +63,20 @@ AnglewiseMap ContactPointModel::seen_through(const AnglewiseMap& reported) const
     const Eigen::Index changes = reported.change.rows();
     const auto errors = Eigen::seqN(0, 6 * angles);
     AnglewiseMap map;
-    map.local.resize(3 * angles, 6);
+    const Eigen::Index w = reported.pose_size();
+    map.local.resize(3 * angles, w);
     map.by_border.noalias() = motion_map_ * (change_map_ * reported.by_border(errors, Eigen::all));
     map.by_change.resize(3 * angles, changes + change_map_.rows());
     map.by_change.leftCols(changes).noalias() = motion_map_ * (change_map_ * reported.by_change(errors, Eigen::all));
     map.by_change.rightCols(change_map_.rows()) = motion_map_;
-    map.change.resize(changes + change_map_.rows(), 6 * angles);
+    map.change.resize(changes + change_map_.rows(), w * angles);
     map.change.topRows(changes) = reported.change;
     for (Eigen::Index i = 0; i < angles; ++i) {
         const auto local = reported.local.middleRows<6>(6 * i);
         map.local.middleRows<3>(3 * i).noalias() = displacement_ * local;
         map.by_border.middleRows<3>(3 * i).noalias() += displacement_ * reported.by_border.middleRows<6>(6 * i);
         map.by_change.block(3 * i, 0, 3, changes).noalias() += displacement_ * reported.by_change.middleRows<6>(6 * i);
-        map.change.block(changes, 6 * i, change_map_.rows(), 6).noalias() = change_map_.middleCols<6>(6 * i) * local;
+        map.change.block(changes, w * i, change_map_.rows(), w).noalias() = change_map_.middleCols<6>(6 * i) * local;
     }
     return map;
 }

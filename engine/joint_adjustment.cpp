@@ -21,11 +21,13 @@ constexpr int k_station_size = 5;
 /// Lengths of one visit. Blocks: station, fixture, expansion, reversal, pose, then the dead paths.
 class VisitModel final : public ObservationModel {
 public:
-    VisitModel(Eigen::Matrix3d rotation, RigidMotion set_up, double sense, std::vector<std::size_t> reflectors,
-               std::vector<std::size_t> dead_paths, std::size_t dead_path_count, Eigen::Index fixture_size)
+    VisitModel(Eigen::Matrix3d rotation, RigidMotion set_up, double sense, int pose_size,
+               std::vector<std::size_t> reflectors, std::vector<std::size_t> dead_paths, std::size_t dead_path_count,
+               Eigen::Index fixture_size)
         : rotation_(std::move(rotation)),
           set_up_(std::move(set_up)),
           sense_(sense),
+          pose_size_(pose_size),
           reflectors_(std::move(reflectors)),
           dead_paths_(std::move(dead_paths)),
           dead_path_count_(dead_path_count),
@@ -36,7 +38,8 @@ public:
         const double scale = 1.0 + parameters[0][k_scale];
         const double temperature = parameters[0][k_temperature];
         const double expansion = parameters[2][0];
-        const Eigen::Map<const Vector6> reversal(parameters[3]);
+        const bool own_reversal = pose_size_ > 6;
+        const Eigen::Map<const Vector6> reversal(own_reversal ? parameters[4] + 6 : parameters[3]);
         const Eigen::Map<const Vector6> mean_pose(parameters[4]);
         const Vector6 pose = mean_pose + 0.5 * sense_ * reversal;
         const Eigen::Matrix3d error_rotation = rotation_zyx(pose.tail<3>());
@@ -89,11 +92,14 @@ public:
                 }
                 if (jacobians[3] != nullptr) {
                     Eigen::Map<Vector6> row(jacobians[3] + 6 * i);
-                    row = 0.5 * sense_ * motion;
+                    row = own_reversal ? Vector6(Vector6::Zero()) : Vector6(0.5 * sense_ * motion);
                 }
                 if (jacobians[4] != nullptr) {
-                    Eigen::Map<Vector6> row(jacobians[4] + 6 * i);
-                    row = motion;
+                    double* const first = jacobians[4] + pose_size_ * i;
+                    Eigen::Map<Vector6>{first} = motion;
+                    if (own_reversal) {
+                        Eigen::Map<Vector6>(first + 6) = 0.5 * sense_ * motion;
+                    }
                 }
             }
             if (double* const path = jacobians[5 + dead_paths_[at]]; path != nullptr) {
@@ -116,7 +122,8 @@ private:
 
     Eigen::Matrix3d rotation_;
     RigidMotion set_up_;
-    double sense_;  ///< +1, -1, or 0 where only one sense of approach was measured
+    double sense_;   ///< +1, -1, or 0 where only one sense of approach was measured
+    int pose_size_;  ///< with the reversal of the angle: 12
     std::vector<std::size_t> reflectors_;
     std::vector<std::size_t> dead_paths_;  ///< position of each length's dead path among the blocks of the group
     std::size_t dead_path_count_;
@@ -164,6 +171,7 @@ JointAdjustment::JointAdjustment(const RotaryTableMeasurement& measurement, std:
         senses[visit.station][visit.approach == Approach::positive ? 0 : 1] = true;
     }
     has_reversal_ = std::all_of(senses.begin(), senses.end(), [](const auto& s) { return s[0] && s[1]; });
+    reversal_by_angle_ = has_reversal_ && measurement.reversal == ReversalModel::by_angle;
 
     for (std::size_t j = 0; j < stations; ++j) {
         const std::string name = "station " + measurement.stations[j];
@@ -204,15 +212,19 @@ JointAdjustment::JointAdjustment(const RotaryTableMeasurement& measurement, std:
         reversal_names.push_back("reversal of " + motion);
     }
     reversal_block_ = adjustment_.add_parameters(std::move(reversal_names), Eigen::VectorXd::Zero(6));
-    for (int c = 0; c < 6 && !has_reversal_; ++c) {
+    for (int c = 0; c < 6 && (!has_reversal_ || reversal_by_angle_); ++c) {
         adjustment_.hold(reversal_block_, c);
     }
     for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
         std::vector<std::string> pose_names;
+        const std::string at_angle = " at angle number " + std::to_string(i + 1);
         for (const std::string& motion : motions) {
-            pose_names.push_back(motion + " at angle number " + std::to_string(i + 1));
+            pose_names.push_back(motion + at_angle);
         }
-        const auto block = adjustment_.add_parameters(std::move(pose_names), Eigen::VectorXd::Zero(6), true);
+        for (std::size_t c = 0; c < motions.size() && reversal_by_angle_; ++c) {
+            pose_names.push_back("reversal of " + motions[c] + at_angle);
+        }
+        const auto block = adjustment_.add_parameters(std::move(pose_names), Eigen::VectorXd::Zero(pose_size()), true);
         for (int c = 0; c < 6 && i == measurement.home; ++c) {
             adjustment_.hold(block, c);
         }
@@ -239,8 +251,8 @@ JointAdjustment::JointAdjustment(const RotaryTableMeasurement& measurement, std:
         }
         const double sense = !has_reversal_ ? 0.0 : (visit.approach == Approach::positive ? 1.0 : -1.0);
         auto model =
-            std::make_shared<VisitModel>(nominal_rotation(measurement, visit.angle), set_up_, sense, std::move(targets),
-                                         std::move(positions), seen.size(), fixture.size());
+            std::make_shared<VisitModel>(nominal_rotation(measurement, visit.angle), set_up_, sense, pose_size(),
+                                         std::move(targets), std::move(positions), seen.size(), fixture.size());
         const Eigen::Index n = observed.size();
         adjustment_.add_observations(std::move(model), std::move(blocks), std::move(observed),
                                      Eigen::MatrixXd::Identity(n, n));
@@ -277,7 +289,7 @@ JointAdjustment::JointAdjustment(const RotaryTableMeasurement& measurement, std:
 }
 
 Eigen::MatrixXd JointAdjustment::pose_jacobian(std::size_t visit) const {
-    return adjustment_.jacobian(visit, pose_blocks_[visits_[visit].angle]);
+    return adjustment_.jacobian(visit, pose_blocks_[visits_[visit].angle]).leftCols<6>();
 }
 
 Eigen::VectorXd JointAdjustment::stated_variance(std::size_t visit) const {
@@ -325,9 +337,31 @@ void JointAdjustment::set_weights(const StochasticModel& stochastic) {
 Eigen::MatrixXd JointAdjustment::poses() const {
     Eigen::MatrixXd poses(6, static_cast<Eigen::Index>(pose_blocks_.size()));
     for (std::size_t i = 0; i < pose_blocks_.size(); ++i) {
-        poses.col(static_cast<Eigen::Index>(i)) = adjustment_.parameters(pose_blocks_[i]);
+        poses.col(static_cast<Eigen::Index>(i)) = adjustment_.parameters(pose_blocks_[i]).head<6>();
     }
     return poses;
+}
+
+Vector6 JointAdjustment::reversal(std::size_t angle) const {
+    return reversal_by_angle_ ? adjustment_.parameters(pose_blocks_[angle]).tail<6>()
+                              : adjustment_.parameters(reversal_block_).head<6>();
+}
+
+Vector6 JointAdjustment::mean_reversal() const {
+    if (!reversal_by_angle_) {
+        return adjustment_.parameters(reversal_block_);
+    }
+    Vector6 sum = Vector6::Zero();
+    for (std::size_t i = 0; i < pose_blocks_.size(); ++i) {
+        sum += reversal(i);
+    }
+    return sum / static_cast<double>(pose_blocks_.size());
+}
+
+void JointAdjustment::set_pose(std::size_t angle, const Vector6& motions) {
+    Eigen::VectorXd pose = adjustment_.parameters(pose_blocks_[angle]);
+    pose.head<6>() = motions;
+    adjustment_.set_parameters(pose_blocks_[angle], std::move(pose));
 }
 
 StartValues JointAdjustment::present_values() const {
@@ -350,12 +384,17 @@ void JointAdjustment::copy_parameters_from(const JointAdjustment& other) {
         adjustment_.set_parameters(dead_path_blocks_[d], other.adjustment_.parameters(other.dead_path_blocks_[d]));
     }
     for (std::size_t i = 0; i < pose_blocks_.size(); ++i) {
-        adjustment_.set_parameters(pose_blocks_[i], other.adjustment_.parameters(other.pose_blocks_[i]));
+        set_pose(i, other.adjustment_.parameters(other.pose_blocks_[i]).head<6>());
+        if (reversal_by_angle_) {
+            Eigen::VectorXd pose = adjustment_.parameters(pose_blocks_[i]);
+            pose.tail<6>() = other.reversal(i);
+            adjustment_.set_parameters(pose_blocks_[i], std::move(pose));
+        }
     }
     adjustment_.set_parameters(fixture_block_, other.adjustment_.parameters(other.fixture_block_));
     adjustment_.set_parameters(expansion_block_, other.adjustment_.parameters(other.expansion_block_));
-    if (has_reversal_ && other.has_reversal_) {
-        adjustment_.set_parameters(reversal_block_, other.adjustment_.parameters(other.reversal_block_));
+    if (has_reversal_ && !reversal_by_angle_ && other.has_reversal_) {
+        adjustment_.set_parameters(reversal_block_, other.mean_reversal());
     }
 }
 

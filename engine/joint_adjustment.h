@@ -40,7 +40,8 @@ struct Visit {
 ///
 /// The measurement must outlive the adjustment. E(home) and T_s are held here; they are the datum of the solver, and
 /// `datum.h` carries the solution to the datum of the result. The two senses of approach share E; half their mean
-/// difference is added and subtracted (reversal).
+/// difference is added and subtracted (reversal). The reversal is one of all angles, or where the measurement asks for
+/// it (ReversalModel::by_angle) one of each angle, with its pose.
 class JointAdjustment {
 public:
     /// \param active  one flag a length: false = left out
@@ -54,6 +55,10 @@ public:
     [[nodiscard]] const RigidMotion& set_up() const { return set_up_; }
     [[nodiscard]] const std::vector<bool>& active() const { return active_; }
     [[nodiscard]] bool has_reversal() const { return has_reversal_; }
+    /// Every angle has a reversal of its own: components 6 to 11 of its pose.
+    [[nodiscard]] bool reversal_by_angle() const { return reversal_by_angle_; }
+    /// Parameters of a pose: 6, or 12 with its reversal.
+    [[nodiscard]] int pose_size() const { return reversal_by_angle_ ? 12 : 6; }
     [[nodiscard]] const RotaryTableMeasurement& measurement() const { return *measurement_; }
 
     // Parameter blocks. A station is x, y, z [m], scale deviation s - 1 [1], temperature difference [K].
@@ -62,6 +67,7 @@ public:
     [[nodiscard]] Adjustment::BlockId pose_block(std::size_t angle) const { return pose_blocks_[angle]; }
     [[nodiscard]] Adjustment::BlockId fixture_block() const { return fixture_block_; }
     [[nodiscard]] Adjustment::BlockId expansion_block() const { return expansion_block_; }
+    /// Of all angles; held at zero where every angle has its own.
     [[nodiscard]] Adjustment::BlockId reversal_block() const { return reversal_block_; }
 
     // Groups of observations: visits come first and have the same index; then the priors.
@@ -71,7 +77,8 @@ public:
     [[nodiscard]] std::size_t scale_prior(std::size_t station) const { return scale_priors_[station]; }  ///< or k_none
     [[nodiscard]] std::size_t temperature_prior(std::size_t station) const { return temperature_priors_[station]; }
 
-    /// Derivatives of the lengths of a visit with respect to its pose (x, y, z, a, b, c), n×6, [1] and [m/rad].
+    /// Derivatives of the lengths of a visit with respect to the pose that the table had (x, y, z, a, b, c), n×6, [1]
+    /// and [m/rad].
     [[nodiscard]] Eigen::MatrixXd pose_jacobian(std::size_t visit) const;
     /// Stated variance of each length of a visit, n, [m²], without the factor.
     [[nodiscard]] Eigen::VectorXd stated_variance(std::size_t visit) const;
@@ -83,6 +90,12 @@ public:
 
     /// Six error motions at every angle with respect to the solver's datum, 6×angles, [m] and [rad].
     [[nodiscard]] Eigen::MatrixXd poses() const;
+    /// Positive minus negative approach of the same at an angle; zero without a reversal.
+    [[nodiscard]] Eigen::Matrix<double, 6, 1> reversal(std::size_t angle) const;
+    /// Its mean over the angles.
+    [[nodiscard]] Eigen::Matrix<double, 6, 1> mean_reversal() const;
+    /// Other error motions of an angle; its reversal stays.
+    void set_pose(std::size_t angle, const Eigen::Matrix<double, 6, 1>& motions);
     [[nodiscard]] StartValues present_values() const;
     void copy_parameters_from(const JointAdjustment& other);
 
@@ -90,7 +103,7 @@ private:
     const RotaryTableMeasurement* measurement_;
     std::vector<bool> active_;
     RigidMotion set_up_;
-    bool has_reversal_ = false;
+    bool has_reversal_ = false, reversal_by_angle_ = false;
     std::vector<Visit> visits_;
     Adjustment adjustment_;
     std::vector<Adjustment::BlockId> station_blocks_, dead_path_blocks_, pose_blocks_;

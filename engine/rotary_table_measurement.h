@@ -59,6 +59,13 @@ struct OutlierOptions {
     OutlierAction action = OutlierAction::remove;
 };
 
+/// What the two senses of approach differ by: six values for all angles, or six at every angle.
+enum class ReversalModel {
+    automatic,  ///< constant, unless the distances refute it (choose_reversal_model)
+    constant,
+    by_angle,
+};
+
 /// Everything that the adjustment of one rotary table needs, in coherent SI.
 ///
 /// Frame T is the table frame with its axis along x (A), y (B) or z (C). Fixture coordinates are in the fixture frame
@@ -93,6 +100,7 @@ struct RotaryTableMeasurement {
     OutlierOptions outliers;
     Datum datum = Datum::axis_average_line;
     AdjustmentMethod method = AdjustmentMethod::joint;
+    ReversalModel reversal = ReversalModel::automatic;  ///< where both senses of approach were measured
 };
 
 /// One reading of the reference method at one angle.

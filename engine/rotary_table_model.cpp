@@ -76,7 +76,7 @@ Eigen::VectorXd reported_values(const JointAdjustment& adjustment, const DatumSo
     if (!adjustment.has_reversal()) {
         return reported_order(adjustment.measurement(), datum.errors, datum.set_up, nullptr);
     }
-    const Eigen::Matrix<double, 6, 1> reversal = adjustment.adjustment().parameters(adjustment.reversal_block());
+    const Eigen::Matrix<double, 6, 1> reversal = adjustment.mean_reversal();
     return reported_order(adjustment.measurement(), datum.errors, datum.set_up, &reversal);
 }
 

@@ -86,6 +86,24 @@ SourceDegreesOfFreedom degrees_of_freedom_of(const RotaryTableModel& model) {
     return nu;
 }
 
+/// A component of the reversal, or of the mean of those of all angles.
+Lanes mean_reversal(const TrialNetwork& network, const TrialBatch& batch, Index component) {
+    const Index count = network.reversal_by_angle ? network.angles : 1;
+    Lanes sum;
+    fill(sum, 0.0);
+    for (Index i = 0; i < count; ++i) {
+        const Index slot = network.reversal_of(i) + component;
+        const Lanes& change = batch.delta[static_cast<std::size_t>(slot)];
+        for (int t = 0; t < k_lanes; ++t) {
+            sum[t] += change[t] + network.nominal_at(slot);
+        }
+    }
+    for (double& lane : sum.at) {
+        lane /= static_cast<double>(count);
+    }
+    return sum;
+}
+
 }  // namespace
 
 RotaryTableTrials::RotaryTableTrials(const RotaryTableModel& model, TrialExtras extras)
@@ -369,7 +387,8 @@ void RotaryTableTrials::write_derived(Index first, Index count, const TrialBatch
             }
             double position = reported[6 * visit.angle + axial];
             if (quantities_.has_reversal) {
-                position += visit.half_sense * reported[quantities_.reversal + axial];
+                position += visit.half_sense * (batch.delta[static_cast<std::size_t>(visit.reversal + axial)][lane] +
+                                                network.nominal_at(visit.reversal + axial));
             }
             for (Index k = 0; k < visit.count; ++k) {
                 position += network.gains[visit.gain + static_cast<std::size_t>(k)] *
@@ -409,11 +428,7 @@ void RotaryTableTrials::evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>&
             write(quantities_.set_up + 2 + static_cast<Index>(c), batch.set_up[3 + across]);
         }
         for (Index c = 0; c < 6 && quantities_.has_reversal; ++c) {
-            Lanes value = batch.delta[static_cast<std::size_t>(network.reversal + c)];
-            for (double& lane : value.at) {
-                lane += network.nominal_at(network.reversal + c);
-            }
-            write(quantities_.reversal + c, value);
+            write(quantities_.reversal + c, mean_reversal(network, batch, c));
         }
         for (Index t = 0; t < count; ++t) {
             const TrialEnd& end = ends[static_cast<std::size_t>(t)];

@@ -149,8 +149,7 @@ Eigen::VectorXd visit_positions(const JointAdjustment& solved, const Eigen::Ref<
                                 const VisitPositionGains& gains) {
     const RotaryTableMeasurement& measurement = solved.measurement();
     const std::vector<Visit>& visits = solved.visits();
-    const auto angles = static_cast<Eigen::Index>(measurement.angles.size());
-    const Eigen::Index reversal = 6 * angles + 4 + 3 + axial_coordinate(measurement.axis);
+    const int axial = 3 + axial_coordinate(measurement.axis);
     Eigen::VectorXd positions = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(visits.size()));
     for (std::size_t v = 0; v < visits.size(); ++v) {
         if (!gains.determined(v)) {
@@ -160,7 +159,7 @@ Eigen::VectorXd visit_positions(const JointAdjustment& solved, const Eigen::Ref<
         position = reported[axial_error(measurement.axis, static_cast<Eigen::Index>(visits[v].angle))] +
                    gains.gains[v].dot(solved.adjustment().residual(v));
         if (solved.has_reversal()) {
-            position += reversal_share(true, visits[v].approach) * reported[reversal];
+            position += reversal_share(true, visits[v].approach) * solved.reversal(visits[v].angle)[axial];
         }
     }
     return positions;
@@ -370,23 +369,28 @@ Eigen::MatrixXd TableParameterModel::by_inputs(const JointAdjustment& adjustment
     const Eigen::Index axial = joint_->layout().axial;
     const Eigen::Index reversal =
         6 * static_cast<Eigen::Index>(measurement.angles.size()) + 4 + 3 + axial_coordinate(measurement.axis);
+    const int own_reversal = 6 + 3 + axial_coordinate(measurement.axis);  // component of a pose
     Eigen::MatrixXd by_residual = Eigen::MatrixXd::Zero(by.by_position.rows(), joint_->layout().scale);
+    Eigen::MatrixXd by_reversal = Eigen::MatrixXd::Zero(by.by_position.rows(), normal.parameter_count());
     Eigen::Index first = 0;  // length
     for (std::size_t v = 0; v < visits.size(); ++v) {
         const auto n = static_cast<Eigen::Index>(visits[v].observations.size());
         if (gains_.determined(v)) {
             const auto column = by.by_position.col(static_cast<Eigen::Index>(v));
             by.by_reported.col(axial_error(measurement.axis, static_cast<Eigen::Index>(visits[v].angle))) += column;
-            if (adjustment.has_reversal()) {
-                by.by_reported.col(reversal) += reversal_share(true, visits[v].approach) * column;
+            const double share = reversal_share(adjustment.has_reversal(), visits[v].approach);
+            if (adjustment.reversal_by_angle()) {
+                by_reversal.col(normal.column(adjustment.pose_block(visits[v].angle), own_reversal)) += share * column;
+            } else if (adjustment.has_reversal()) {
+                by.by_reported.col(reversal) += share * column;
             }
             by_residual.middleCols(first, n).noalias() = column * gains_.gains[v].transpose();
         }
         first += n;
     }
-    Eigen::MatrixXd result = joint_->input_sensitivity(
-        adjustment, normal, reported_map(adjustment, normal, datum).combined(by.by_reported, adjustment, normal),
-        by_residual);
+    const Eigen::MatrixXd by_parameter =
+        reported_map(adjustment, normal, datum).combined(by.by_reported, adjustment, normal) + by_reversal;
+    Eigen::MatrixXd result = joint_->input_sensitivity(adjustment, normal, by_parameter, by_residual);
     result.middleCols(axial, by.by_position.cols()) += by.by_position;
     return result;
 }
@@ -407,7 +411,10 @@ double TableParameterModel::rms_position_uncertainty() const {
     const NormalEquations& normal = joint_->equations();
     const BorderedCovariance& covariance = joint_->parameter_covariance();
     const DatumSolution datum = transform_to_datum(measurement, solved.poses(), solved.set_up(), measurement.datum);
-    const AnglewiseMap map = reported_map(solved, normal, datum);
+    // Of the poses in each sense, where they have parameters of their own.
+    const bool by_angle = solved.reversal_by_angle();
+    const AnglewiseMap of_errors = reported_map(solved, normal, datum);
+    const AnglewiseMap map = by_angle ? map_of_both_senses(of_errors) : of_errors;
     const AnglewiseCovariance reported = covariance_of(map, solved, normal, covariance);
     const AnglewiseSensitivity sensitivity(map, solved, normal, covariance);
     const PoseCovariance poses = pose_covariance(solved, normal, covariance);
@@ -434,10 +441,11 @@ double TableParameterModel::rms_position_uncertainty() const {
         }
     }
     by_path = covariance.times_left(by_path.transpose()).transpose().eval();
-    Eigen::MatrixXd pose_by_path = Eigen::MatrixXd::Zero(6 * angles, paths);
-    for (Eigen::Index i = 0; i < 6 * angles; ++i) {
-        const auto block = solved.pose_block(static_cast<std::size_t>(i / 6));
-        if (const Eigen::Index column = normal.column(block, static_cast<int>(i % 6)); column >= 0) {
+    const Eigen::Index size = map.pose_size();
+    Eigen::MatrixXd pose_by_path = Eigen::MatrixXd::Zero(size * angles, paths);
+    for (Eigen::Index i = 0; i < size * angles; ++i) {
+        const auto block = solved.pose_block(static_cast<std::size_t>(i / size));
+        if (const Eigen::Index column = normal.column(block, static_cast<int>(i % size)); column >= 0) {
             pose_by_path.row(i) = by_path.row(column);
         }
     }
@@ -459,8 +467,9 @@ double TableParameterModel::rms_position_uncertainty() const {
         const LinearisedGroup& group = normal.groups()[v];
         const Eigen::VectorXd& g = gains_.gains[v];
         const auto angle = static_cast<Eigen::Index>(visits[v].angle);
-        const Eigen::Index row = 6 * angle + axial;
-        const double share = reversal_share(solved.has_reversal(), visits[v].approach);
+        const Eigen::Index row =
+            by_angle ? 12 * angle + (visits[v].approach == Approach::positive ? 0 : 6) + axial : 6 * angle + axial;
+        const double share = by_angle ? 0.0 : reversal_share(solved.has_reversal(), visits[v].approach);
         // h is the row of the axial rotation and a share of that of the reversal, which depends on the border only.
         const auto with_reversal = [&](const auto& rows) -> Eigen::RowVectorXd {
             return share == 0.0 ? Eigen::RowVectorXd(rows.row(row)) : rows.row(row) + share * rows.row(reversal);
@@ -470,10 +479,10 @@ double TableParameterModel::rms_position_uncertainty() const {
             h_spread += share * (2.0 * reported(row, reversal) + share * reported(reversal, reversal));
         }
         const Eigen::RowVectorXd by_change = with_reversal(map.by_change);
-        const Eigen::RowVectorXd by_pose = map.local.row(row) + by_change * map.change.middleCols<6>(6 * angle);
+        const Eigen::RowVectorXd by_pose = map.local.row(row) + by_change * map.change.middleCols(size * angle, size);
         const Eigen::RowVectorXd by_border = with_reversal(border_spread);
-        const Eigen::RowVectorXd to_pose = by_border * poses.by_border.middleRows<6>(6 * angle).transpose() +
-                                           by_pose * poses.own.middleRows<6>(6 * angle);
+        const Eigen::RowVectorXd to_pose = by_border * poses.by_border.middleRows(size * angle, size).transpose() +
+                                           by_pose * poses.own.middleRows(size * angle, size);
         Eigen::RowVectorXd hq(group.columns.size());  // h'Q over the parameters of the visit
         for (std::size_t c = 0; c < group.columns.size(); ++c) {
             const Eigen::Index column = group.columns[c];
@@ -493,7 +502,7 @@ double TableParameterModel::rms_position_uncertainty() const {
         const Eigen::RowVectorXd difference = hq - (q * w).transpose();
         double variance =
             h_spread - w.dot(q * w) + variance_of_gain - 2.0 * stochastic.variance_axial * difference.dot(own);
-        Eigen::RowVectorXd to_path = map.local.row(row) * pose_by_path.middleRows<6>(6 * angle);
+        Eigen::RowVectorXd to_path = map.local.row(row) * pose_by_path.middleRows(size * angle, size);
         to_path += by_change * change_by_path + with_reversal(map.by_border) * by_path.topRows(border);
         to_path -= w.transpose() * by_path(group.columns, Eigen::all);
         for (std::size_t k = 0; k < visits[v].observations.size(); ++k) {

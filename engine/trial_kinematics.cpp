@@ -192,9 +192,9 @@ void add_turn(const TrialNetwork& network, const TrialNetwork::Turn& turn, bool 
     const Lanes* delta = batch.delta.data();
     for (int c = 0; c < 6; ++c) {
         const double nominal =
-            network.nominal_at(turn.pose + c) + turn.half_sense * network.nominal_at(network.reversal + c);
+            network.nominal_at(turn.pose + c) + turn.half_sense * network.nominal_at(turn.reversal + c);
         const Lanes& change = delta[turn.pose + c];
-        const Lanes& reversal = delta[network.reversal + c];
+        const Lanes& reversal = delta[turn.reversal + c];
         Lanes& to = pose[c];
 #pragma GCC ivdep
         for (int t = 0; t < k_lanes; ++t) {
@@ -294,7 +294,7 @@ void add_turn(const TrialNetwork& network, const TrialNetwork::Turn& turn, bool 
     }
     for (int c = 0; c < 6; ++c) {
         Lanes& by_pose = batch.gradient[static_cast<std::size_t>(turn.pose + c)];
-        Lanes& by_reversal = batch.gradient[static_cast<std::size_t>(network.reversal + c)];
+        Lanes& by_reversal = batch.gradient[static_cast<std::size_t>(turn.reversal + c)];
         const Lanes& from = motion[c];
 #pragma GCC ivdep
         for (int t = 0; t < k_lanes; ++t) {

@@ -86,11 +86,14 @@ TrialNetwork::TrialNetwork(const JointAdjustment& solved, const StochasticModel&
     fixture = static_cast<Index>(nominal.size());
     append(solved.fixture_block());
     reversal = static_cast<Index>(nominal.size());
-    append(solved.reversal_block());
-    poses = static_cast<Index>(nominal.size());
-    for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
-        append(solved.pose_block(i));
+    reversal_by_angle = solved.reversal_by_angle();
+    for (std::size_t i = 0; i < (reversal_by_angle ? measurement.angles.size() : 1); ++i) {
+        const Eigen::Matrix<double, 6, 1> value = solved.reversal(i);
+        nominal.insert(nominal.end(), value.begin(), value.end());
     }
+    poses = static_cast<Index>(nominal.size());
+    const Eigen::MatrixXd motions = solved.poses();
+    nominal.insert(nominal.end(), motions.data(), motions.data() + motions.size());
 
     take_visits(solved, normal, stochastic, with_positions);
     take_priors(solved, normal);
@@ -135,6 +138,7 @@ void TrialNetwork::take_visits(const JointAdjustment& solved, const NormalEquati
                 turn.offset[static_cast<std::size_t>(r)] = offset[r];
             }
             turn.pose = pose;
+            turn.reversal = reversal_of(static_cast<Index>(visit.angle));
             turn.half_sense = half;
             turn.begin = visits.size();
             turns.push_back(turn);
@@ -148,6 +152,7 @@ void TrialNetwork::take_visits(const JointAdjustment& solved, const NormalEquati
         plan.first_input = first_input[v];
         plan.station = static_cast<Index>(visit.station);
         plan.angle = static_cast<Index>(visit.angle);
+        plan.reversal = reversal_of(plan.angle);
         plan.half_sense = half;
         plan.weights = weights.size();
         plan.to_length = to_length.size();
@@ -169,7 +174,7 @@ void TrialNetwork::take_visits(const JointAdjustment& solved, const NormalEquati
 
         Eigen::Matrix<double, 6, 1> motion;
         for (int c = 0; c < 6; ++c) {
-            motion[c] = nominal_at(pose + c) + half * nominal_at(reversal + c);
+            motion[c] = nominal_at(pose + c) + half * nominal_at(plan.reversal + c);
         }
         const RigidMotion error = rigid_motion(motion);
         const double stretch = 1.0 + nominal_at(station_slot(plan.station, k_stretch));
@@ -235,9 +240,9 @@ void TrialNetwork::take_normal_equations(const JointAdjustment& solved, const No
     std::vector<Index> slot(static_cast<std::size_t>(normal.parameter_count()), -1);
     std::vector<Index> angle(slot.size(), -1);
     std::vector<Index> place(slot.size(), -1);
-    const auto locate = [&](Adjustment::BlockId block, Index first, int size, Index of_angle) {
+    const auto locate = [&](Adjustment::BlockId block, Index first, int size, Index of_angle, int component = 0) {
         for (int c = 0; c < size; ++c) {
-            if (const Index column = normal.column(block, c); column >= 0) {
+            if (const Index column = normal.column(block, component + c); column >= 0) {
                 slot[static_cast<std::size_t>(column)] = first + c;
                 angle[static_cast<std::size_t>(column)] = of_angle;
             }
@@ -252,7 +257,11 @@ void TrialNetwork::take_normal_equations(const JointAdjustment& solved, const No
     locate(solved.fixture_block(), fixture, static_cast<int>(3 * reflectors), -1);
     locate(solved.reversal_block(), reversal, 6, -1);
     for (Index i = 0; i < angles; ++i) {
-        locate(solved.pose_block(static_cast<std::size_t>(i)), poses + 6 * i, 6, i);
+        const Adjustment::BlockId block = solved.pose_block(static_cast<std::size_t>(i));
+        locate(block, poses + 6 * i, 6, i);
+        if (reversal_by_angle) {
+            locate(block, reversal_of(i), 6, i, 6);
+        }
     }
     std::vector<Index> size(static_cast<std::size_t>(angles), 0);
     for (std::size_t column = 0; column < slot.size(); ++column) {

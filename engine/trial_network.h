@@ -13,7 +13,7 @@ namespace gumcert::engine {
 /// The solution of an adjustment and its factored normal equations, laid out for the trials of RotaryTableTrials.
 ///
 /// All parameters, free or held, have their slots in one sequence: stations (x, y, z, scale, stretch), dead paths,
-/// fixture, reversal, poses.
+/// fixture, reversal (six for all angles, or six of each), poses.
 ///
 /// Expansion α and temperature differences ΔT act on the lengths through the stretch 1 + α ΔT_j of the fixture at each
 /// station alone. The lengths are almost linear in the stretches, but not in the products that they are made of, which
@@ -41,6 +41,7 @@ struct TrialNetwork {
         Index first_input;   ///< of the same among the input deviations
         Index station;
         Index angle;
+        Index reversal;         ///< first slot
         double half_sense;      ///< of the reversal
         std::size_t weights;    ///< where they begin, count×count
         std::size_t to_length;  ///< where -A begins, count×6 in the order of the inputs
@@ -52,7 +53,7 @@ struct TrialNetwork {
     struct Turn {
         std::array<double, 9> to_table;  ///< R(θ) times the rotation of T_s, row by row
         std::array<double, 3> offset;    ///< R(θ) times the translation of T_s, [m]
-        Index pose;                      ///< first slot
+        Index pose, reversal;            ///< first slots
         double half_sense;
         std::size_t begin, end;  ///< visits
     };
@@ -63,7 +64,8 @@ struct TrialNetwork {
         std::vector<Index> slots;  ///< none for expansion and temperatures
         RowMajorMatrix weights;
     };
-    /// A pose, eliminated from the normal equations.
+    /// A pose, eliminated from the normal equations, and its reversal where it has one of its own.
+    static constexpr std::size_t k_most_of_pose = 12;
     struct Elimination {
         std::vector<Index> slots;  ///< free components of the pose
         RowMajorMatrix inverse;    ///< N_ee⁻¹
@@ -98,6 +100,10 @@ struct TrialNetwork {
         return {nominal_at(slot), nominal_at(slot + 1), nominal_at(slot + 2)};
     }
 
+    /// First slot of the reversal of an angle.
+    [[nodiscard]] Index reversal_of(Index angle) const { return reversal + (reversal_by_angle ? 6 * angle : 0); }
+
+    bool reversal_by_angle = false;
     Index stations = 0, reflectors = 0, angles = 0;
     Index paths = 0, fixture = 0, reversal = 0, poses = 0;  ///< first slots
     std::vector<double> nominal;                            ///< parameters at the solution

@@ -20,7 +20,7 @@ void reduce_gradient(const TrialNetwork& network, TrialBatch& batch) {
     for (std::size_t b = 0; b < network.border.size(); ++b) {
         batch.border_gradient[b] = batch.gradient[static_cast<std::size_t>(network.border[b])];
     }
-    std::array<Lanes, 6> own;
+    std::array<Lanes, TrialNetwork::k_most_of_pose> own;
     for (const TrialNetwork::Elimination& pose : network.eliminated) {
         for (std::size_t i = 0; i < pose.slots.size(); ++i) {
             own[i] = batch.gradient[static_cast<std::size_t>(pose.slots[i])];
@@ -196,8 +196,8 @@ void find_step(const TrialNetwork& network, TrialBatch& batch) {
     for (std::size_t b = 0; b < network.border.size(); ++b) {
         batch.step[static_cast<std::size_t>(network.border[b])] = batch.border_step[b];
     }
-    std::array<Lanes, 6> own;
-    std::array<Lanes, 6> step;
+    std::array<Lanes, TrialNetwork::k_most_of_pose> own;
+    std::array<Lanes, TrialNetwork::k_most_of_pose> step;
     for (const TrialNetwork::Elimination& pose : network.eliminated) {
         const auto size = static_cast<Index>(pose.slots.size());
         for (std::size_t i = 0; i < pose.slots.size(); ++i) {

@@ -74,7 +74,9 @@ gum::MonteCarloOptions options(std::uint64_t trials) {
 }
 
 TEST(RotaryTableMonteCarlo, CovarianceIsThatOfTheNormalEquations) {
-    for (const CampaignPlan& plan : {small_plan(), full_plan()}) {
+    CampaignPlan by_angle = full_plan();
+    by_angle.reversal_model = engine::ReversalModel::by_angle;
+    for (const CampaignPlan& plan : {small_plan(), full_plan(), by_angle}) {
         const auto campaign = simulate(plan);
         const RotaryTableSolution solution = solve(campaign.measurement);
         const RotaryTableTrials trials(dynamic_cast<const RotaryTableModel&>(*solution.model));

@@ -23,6 +23,7 @@ CampaignPlan plan_of(int variant) {
         return plan;  // perfect table, scale fixed, one dead path a station
     }
     plan.both_senses = true;
+    plan.reversal_model = variant == 3 ? engine::ReversalModel::by_angle : engine::ReversalModel::constant;
     plan.dead_paths = engine::synthetic::DeadPaths::per_station_and_reflector;
     plan.start_values = true;
     plan.scale_model = engine::ScaleModel::prior;
@@ -67,7 +68,7 @@ TEST_P(RotaryTablePropagation, CovarianceIsThatOfTheAdjustment) {
               1e-12 * propagation.standard_uncertainty.cwiseAbs2().maxCoeff());
 }
 
-INSTANTIATE_TEST_SUITE_P(Campaigns, RotaryTablePropagation, testing::Values(0, 1, 2));
+INSTANTIATE_TEST_SUITE_P(Campaigns, RotaryTablePropagation, testing::Values(0, 1, 2, 3));
 
 TEST(RotaryTableBudget, ErrorsComeFromTheLengthsAndSetUpFromTheCmm) {
     // rotary-table.md, 4d: CMM times five changes nothing in E, and O and S depend on the CMM only.

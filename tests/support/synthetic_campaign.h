@@ -79,6 +79,8 @@ struct CampaignPlan {
     Eigen::Vector2d tilt{50.78 * k_arcsec, 108.70 * k_arcsec};  ///< S across the axis, [rad]
     double error_factor = 1.0;                                  ///< on the error motions of the table
     Vector6 reversal = Vector6::Zero();                         ///< E(+) - E(-), used with both senses, [m] and [rad]
+    Vector6 reversal_second = Vector6::Zero();                  ///< times sin 2θ, added to the reversal of each angle
+    ReversalModel reversal_model = ReversalModel::automatic;    ///< that the measurement asks for
     double u_constant = 0.158 * k_um;                           ///< close to 0.1 µm + 0.15 µm/m over 0.6 … 1.5 m,
     double u_proportional = 0.1936 * k_um;                      ///< which the note adds linearly
     ScaleModel scale_model = ScaleModel::fixed;
@@ -95,9 +97,10 @@ struct CampaignPlan {
 };
 
 struct CampaignTruth {
-    Eigen::MatrixXd errors;            ///< 6×angles, in the datum of the plan
-    Vector6 set_up = Vector6::Zero();  ///< O and S
-    Vector6 reversal = Vector6::Zero();
+    Eigen::MatrixXd errors;                 ///< 6×angles, in the datum of the plan
+    Vector6 set_up = Vector6::Zero();       ///< O and S
+    Vector6 reversal = Vector6::Zero();     ///< mean over the angles
+    Eigen::MatrixXd reversals;              ///< of each angle, 6×angles
     std::vector<Eigen::Vector3d> stations;  ///< in T
     Eigen::VectorXd scale_deviation;        ///< s - 1
     Eigen::VectorXd dead_paths;
@@ -248,7 +251,13 @@ inline Campaign simulate(const CampaignPlan& plan) {
     const Eigen::Vector3d offset = cyclic({0.0, plan.offset[0], plan.offset[1]});
     const Eigen::Vector3d tilt = cyclic({0.0, plan.tilt[0], plan.tilt[1]});
     truth.set_up << offset, tilt;
-    truth.reversal = plan.both_senses ? plan.reversal : Vector6::Zero();
+    truth.reversals = Eigen::MatrixXd::Zero(6, angles);
+    for (Eigen::Index i = 0; i < angles && plan.both_senses; ++i) {
+        truth.reversals.col(i) =
+            plan.reversal + std::sin(2.0 * from_home[static_cast<std::size_t>(i)]) * plan.reversal_second;
+    }
+    truth.reversal = truth.reversals.rowwise().mean();
+    measurement.reversal = plan.reversal_model;
     truth.errors.resize(6, angles);
     for (Eigen::Index i = 0; i < angles; ++i) {
         const double t = from_home[static_cast<std::size_t>(i)];
@@ -298,7 +307,7 @@ inline Campaign simulate(const CampaignPlan& plan) {
                     measurement.passes.push_back(measurement.passes.back() + " closed");
                 }
                 const Eigen::Index i = down ? angles - 1 - step % angles : step % angles;
-                Vector6 pose = truth.errors.col(i) + (plan.both_senses ? (down ? -0.5 : 0.5) : 0.0) * truth.reversal;
+                Vector6 pose = truth.errors.col(i) + (down ? -0.5 : 0.5) * truth.reversals.col(i);
                 for (int c = 0; c < 6; ++c) {
                     pose[c] += plan.noise * spread[c] * noise.normal();
                 }

@@ -71,7 +71,13 @@ Eigen::MatrixXd dense_map(const JointAdjustment& adjustment, const NormalEquatio
         }
     }
     for (int c = 0; c < 6 && adjustment.has_reversal(); ++c) {
-        map(6 * angles + 4 + c, normal.column(adjustment.reversal_block(), c)) = 1.0;
+        for (Eigen::Index i = 0; i < (adjustment.reversal_by_angle() ? angles : 0); ++i) {
+            map(6 * angles + 4 + c, normal.column(adjustment.pose_block(static_cast<std::size_t>(i)), 6 + c)) =
+                1.0 / static_cast<double>(angles);
+        }
+        if (!adjustment.reversal_by_angle()) {
+            map(6 * angles + 4 + c, normal.column(adjustment.reversal_block(), c)) = 1.0;
+        }
     }
     return map;
 }
@@ -91,18 +97,20 @@ double deviation(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const Eigen
 }
 
 enum class Paths { per_station, per_station_and_reflector };
-using Case = std::tuple<RotaryAxis, Datum, bool, Paths>;
+enum class Senses { one, both, both_by_angle };
+using Case = std::tuple<RotaryAxis, Datum, Senses, Paths>;
 
 class LinearGrowth : public testing::TestWithParam<Case> {
 protected:
     void SetUp() override {
-        const auto& [axis, datum, both_senses, paths] = GetParam();
+        const auto& [axis, datum, senses, paths] = GetParam();
         CampaignPlan plan;
         plan.axis = axis;
         plan.datum = datum;
         plan.home = 2;
         plan.angles_deg = synthetic::full_turn(k_angles);
-        plan.both_senses = both_senses;
+        plan.both_senses = senses != Senses::one;
+        plan.reversal_model = senses == Senses::both_by_angle ? ReversalModel::by_angle : ReversalModel::constant;
         plan.dead_paths = paths == Paths::per_station ? synthetic::DeadPaths::per_station
                                                       : synthetic::DeadPaths::per_station_and_reflector;
         plan.missing_share = 0.05;
@@ -200,6 +208,29 @@ TEST_P(LinearGrowth, CovarianceOfTheReportedQuantitiesIsThatOfTheDenseMaps) {
         EXPECT_EQ(covariance.of_angle(2), Eigen::MatrixXd::Zero(6, 6));
         EXPECT_EQ(dense.middleRows<6>(12), Eigen::MatrixXd::Zero(6, dense.cols()));
     }
+}
+
+TEST_P(LinearGrowth, CovarianceOfBothSensesIsThatOfTheDenseMaps) {
+    if (std::get<2>(GetParam()) != Senses::both_by_angle) {
+        return;  // the senses have no parameters of their own
+    }
+    const JointAdjustment adjustment = joint();
+    const NormalEquations normal = adjustment.adjustment().linearise();
+    const Eigen::MatrixXd of_errors = dense_map(adjustment, normal, solution_.datum);
+    Eigen::MatrixXd map(12 * k_angles, of_errors.cols());
+    for (Eigen::Index i = 0; i < k_angles; ++i) {
+        for (Eigen::Index c = 0; c < 12; ++c) {
+            map.row(12 * i + c) = of_errors.row(6 * i + c % 6);
+            map(12 * i + c, normal.column(adjustment.pose_block(static_cast<std::size_t>(i)),
+                                          6 + static_cast<int>(c % 6))) += c < 6 ? 0.5 : -0.5;
+        }
+    }
+    const Eigen::MatrixXd expected = map * inverse_of(dense_normal(normal)) * map.transpose();
+    const Eigen::VectorXd u = expected.diagonal().cwiseSqrt();
+    const AnglewiseMap structured = map_of_both_senses(reported_map(adjustment, normal, solution_.datum));
+    const AnglewiseCovariance covariance = covariance_of(structured, adjustment, normal, normal.bordered_covariance());
+    EXPECT_EQ(structured.per_angle(), 12);
+    EXPECT_LT(deviation(covariance.dense(), expected, u, u), k_equal);
 }
 
 TEST_P(LinearGrowth, SensitivityOfTheReportedQuantitiesIsThatOfTheDenseMaps) {
@@ -358,14 +389,18 @@ TEST_P(LinearGrowth, LawOfPropagationWithDenseAndWithStructuredAlgebraAgree) {
 }
 
 std::string case_name(const testing::TestParamInfo<Case>& info) {
-    const auto& [axis, datum, both_senses, paths] = info.param;
+    const auto& [axis, datum, senses, paths] = info.param;
     return std::string(1, "ABC"[axial_coordinate(axis)]) + (datum == Datum::home ? "_home" : "_average") +
-           (both_senses ? "_both" : "_one") + (paths == Paths::per_station ? "_station" : "_pair");
+           (senses == Senses::one    ? "_one"
+            : senses == Senses::both ? "_both"
+                                     : "_by_angle") +
+           (paths == Paths::per_station ? "_station" : "_pair");
 }
 
 INSTANTIATE_TEST_SUITE_P(AllDatums, LinearGrowth,
                          testing::Combine(testing::Values(RotaryAxis::a, RotaryAxis::b, RotaryAxis::c),
-                                          testing::Values(Datum::home, Datum::axis_average_line), testing::Bool(),
+                                          testing::Values(Datum::home, Datum::axis_average_line),
+                                          testing::Values(Senses::one, Senses::both, Senses::both_by_angle),
                                           testing::Values(Paths::per_station, Paths::per_station_and_reflector)),
                          case_name);
 

@@ -78,6 +78,7 @@ CampaignPlan plan_of(unsigned seed) {
     plan.home = seed % 4;
     plan.angles_deg = synthetic::full_turn(5 + static_cast<int>(seed % 6));
     plan.both_senses = seed % 4 < 2;
+    plan.reversal_model = seed % 8 < 2 ? ReversalModel::by_angle : ReversalModel::constant;
     plan.dead_paths =
         seed % 5 == 0 ? synthetic::DeadPaths::per_station_and_reflector : synthetic::DeadPaths::per_station;
     plan.missing_share = seed % 3 == 0 ? 0.1 : 0.0;

@@ -41,10 +41,14 @@ CampaignPlan full_plan(RotaryAxis axis, Datum datum) {
     return plan;
 }
 
-class ModelOfTheTable : public testing::TestWithParam<std::tuple<RotaryAxis, Datum>> {
+class ModelOfTheTable : public testing::TestWithParam<std::tuple<RotaryAxis, Datum, ReversalModel>> {
 protected:
     void SetUp() override {
-        campaign_ = simulate(full_plan(std::get<0>(GetParam()), std::get<1>(GetParam())));
+        const auto& [axis, datum, reversal] = GetParam();
+        CampaignPlan plan = full_plan(axis, datum);
+        plan.reversal_model = reversal;
+        plan.reversal_second = 2.0 * plan.reversal;
+        campaign_ = simulate(plan);
         solution_ = evaluate_jointly(campaign_.measurement, EvaluationOptions{});
     }
 
@@ -144,12 +148,15 @@ TEST_P(ModelOfTheTable, ContributionsAddToTheCovarianceOfTheAdjustment) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AxesAndData, ModelOfTheTable,
-                         testing::Values(std::tuple{RotaryAxis::a, Datum::axis_average_line},
-                                         std::tuple{RotaryAxis::b, Datum::home},
-                                         std::tuple{RotaryAxis::c, Datum::axis_average_line}),
+                         testing::Values(std::tuple{RotaryAxis::a, Datum::axis_average_line, ReversalModel::constant},
+                                         std::tuple{RotaryAxis::b, Datum::home, ReversalModel::constant},
+                                         std::tuple{RotaryAxis::c, Datum::axis_average_line, ReversalModel::constant},
+                                         std::tuple{RotaryAxis::a, Datum::home, ReversalModel::by_angle},
+                                         std::tuple{RotaryAxis::c, Datum::axis_average_line, ReversalModel::by_angle}),
                          [](const auto& tested) {
                              return std::string(1, "ABC"[axial_coordinate(std::get<0>(tested.param))]) +
-                                    (std::get<1>(tested.param) == Datum::home ? "Home" : "AxisAverageLine");
+                                    (std::get<1>(tested.param) == Datum::home ? "Home" : "AxisAverageLine") +
+                                    (std::get<2>(tested.param) == ReversalModel::by_angle ? "ByAngle" : "");
                          });
 
 /// The model takes an adjustment in which the dead paths are free; that of another model has them held.

@@ -226,6 +226,10 @@ std::vector<Case> cases() {
     single.angles_deg = synthetic::full_turn(12);
     all.push_back({"AxisCOneReflectorAVisit", single});
     all.push_back({"AxisBEverything", full_plan()});
+    CampaignPlan by_angle = full_plan();
+    by_angle.reversal_model = ReversalModel::by_angle;
+    by_angle.reversal_second = 2.0 * by_angle.reversal;
+    all.push_back({"AxisBReversalByAngle", by_angle});
     CampaignPlan expansion = full_plan();
     expansion.u_temperature = 0.0;
     all.push_back({"ExpansionUncertain", expansion});
@@ -505,8 +509,13 @@ private:
     std::vector<gum::OutputQuantity> outputs_;
 };
 
-TEST(RotaryTableTrials, PositionsOfTheVisitsReachTheDerivedQuantities) {
-    const Solved solved(full_plan());
+class PositionsOfTheVisits : public testing::TestWithParam<ReversalModel> {};
+
+TEST_P(PositionsOfTheVisits, ReachTheDerivedQuantities) {
+    CampaignPlan plan = full_plan();
+    plan.reversal_model = GetParam();
+    plan.reversal_second = 2.0 * plan.reversal;
+    const Solved solved(plan);
     const auto derived = std::make_shared<AllPositions>(solved.joint->visits().size());
     const RotaryTableTrials trials(*solved.joint, solved.stochastic, k_stated, {.derived = derived});
     Noise noise(31);
@@ -525,6 +534,11 @@ TEST(RotaryTableTrials, PositionsOfTheVisitsReachTheDerivedQuantities) {
     EXPECT_LT((y.tail(expected.size()) - expected).cwiseAbs().maxCoeff(), 1e-11);
     EXPECT_GT(expected.cwiseAbs().maxCoeff(), 1e-6);
 }
+
+INSTANTIATE_TEST_SUITE_P(Reversals, PositionsOfTheVisits,
+                         testing::Values(ReversalModel::constant, ReversalModel::by_angle), [](const auto& tested) {
+                             return tested.param == ReversalModel::by_angle ? "ByAngle" : "Constant";
+                         });
 
 }  // namespace
 }  // namespace gumcert::engine

@@ -93,11 +93,12 @@ TEST(AxisLine, IsTheAxisInTheFrameOfTheFixture) {
     }
 }
 
-class ParametersOfATable : public testing::TestWithParam<std::tuple<RotaryAxis, Datum>> {};
+class ParametersOfATable : public testing::TestWithParam<std::tuple<RotaryAxis, Datum, ReversalModel>> {};
 
 TEST_P(ParametersOfATable, AxisLineIsThatOfTheAverageInAnyDatum) {
-    const auto [axis, datum] = GetParam();
+    const auto [axis, datum, reversal] = GetParam();
     CampaignPlan plan = plan_of(axis, Datum::axis_average_line);  // the truth obeys it
+    plan.reversal_model = reversal;
     plan.noise = 0.0;
     plan.cmm_factor = 1.0;
     Campaign campaign = simulate(plan);
@@ -128,8 +129,9 @@ TEST_P(ParametersOfATable, AxisLineIsThatOfTheAverageInAnyDatum) {
 }
 
 TEST_P(ParametersOfATable, SensitivitiesAreCentralDifferences) {
-    const auto [axis, datum] = GetParam();
+    const auto [axis, datum, reversal] = GetParam();
     CampaignPlan plan = plan_of(axis, datum);
+    plan.reversal_model = reversal;
     plan.noise = 0.01;  // the coefficients leave out residual times curvature: 0.006 with five times as much
     Campaign campaign = simulate(plan);
     campaign.measurement.length_uncertainty.resolution = 1e-7;
@@ -181,15 +183,15 @@ TEST_P(ParametersOfATable, SensitivitiesAreCentralDifferences) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    AxesAndData, ParametersOfATable,
-    testing::Values(std::tuple{RotaryAxis::a, Datum::axis_average_line}, std::tuple{RotaryAxis::a, Datum::home},
-                    std::tuple{RotaryAxis::b, Datum::axis_average_line}, std::tuple{RotaryAxis::b, Datum::home},
-                    std::tuple{RotaryAxis::c, Datum::axis_average_line}, std::tuple{RotaryAxis::c, Datum::home}),
-    [](const auto& tested) {
-        return std::string(1, "ABC"[axial_coordinate(std::get<0>(tested.param))]) +
-               (std::get<1>(tested.param) == Datum::home ? "Home" : "AxisAverageLine");
-    });
+INSTANTIATE_TEST_SUITE_P(AxesAndData, ParametersOfATable,
+                         testing::Combine(testing::Values(RotaryAxis::a, RotaryAxis::b, RotaryAxis::c),
+                                          testing::Values(Datum::axis_average_line, Datum::home),
+                                          testing::Values(ReversalModel::constant, ReversalModel::by_angle)),
+                         [](const auto& tested) {
+                             return std::string(1, "ABC"[axial_coordinate(std::get<0>(tested.param))]) +
+                                    (std::get<1>(tested.param) == Datum::home ? "Home" : "AxisAverageLine") +
+                                    (std::get<2>(tested.param) == ReversalModel::by_angle ? "ByAngle" : "");
+                         });
 
 /// Variance of each row of ∂y/∂inputs.
 Eigen::VectorXd variance_of(const gum::MeasurementModel& model, const Eigen::MatrixXd& sensitivity) {
@@ -204,9 +206,12 @@ Eigen::VectorXd variance_of(const gum::MeasurementModel& model, const Eigen::Mat
     return variance;
 }
 
-TEST(TableParameterModel, UncertaintyOfOnePositionIsThatOfThePropagation) {
+class OnePosition : public testing::TestWithParam<ReversalModel> {};
+
+TEST_P(OnePosition, HasTheUncertaintyOfThePropagation) {
     // The short formula of one visit against all rows ∂x_v/∂inputs, +1 on the own deviation of the visit.
     CampaignPlan plan = plan_of(RotaryAxis::b, Datum::home);
+    plan.reversal_model = GetParam();
     plan.dead_paths = synthetic::DeadPaths::per_station_and_reflector;
     plan.start_values = true;
     Campaign campaign = simulate(plan);
@@ -225,8 +230,13 @@ TEST(TableParameterModel, UncertaintyOfOnePositionIsThatOfThePropagation) {
     Eigen::Index first = 0;
     for (Eigen::Index v = 0; v < count; ++v) {
         const Visit& visit = visits[static_cast<std::size_t>(v)];
-        by_parameter.row(v) = map.row(6 * static_cast<Eigen::Index>(visit.angle) + 4) +
-                              (visit.approach == Approach::positive ? 0.5 : -0.5) * map.row(map.rows() - 2);
+        const double share = visit.approach == Approach::positive ? 0.5 : -0.5;
+        by_parameter.row(v) = map.row(6 * static_cast<Eigen::Index>(visit.angle) + 4);
+        if (GetParam() == ReversalModel::by_angle) {
+            by_parameter(v, normal.column(joint->solved().pose_block(visit.angle), 6 + 4)) += share;
+        } else {
+            by_parameter.row(v) += share * map.row(map.rows() - 2);
+        }
         const Eigen::VectorXd& gain = model.gains().gains[static_cast<std::size_t>(v)];
         EXPECT_NEAR(gain.dot(joint->visit_pose(static_cast<std::size_t>(v)).col(4)), 1.0, 1e-6);
         by_residual.row(v).segment(first, gain.size()) = gain.transpose();
@@ -237,6 +247,11 @@ TEST(TableParameterModel, UncertaintyOfOnePositionIsThatOfThePropagation) {
     const Eigen::VectorXd variance = variance_of(*joint, sensitivity);
     EXPECT_NEAR(model.rms_position_uncertainty(), std::sqrt(variance.mean()), 1e-6 * std::sqrt(variance.mean()));
 }
+
+INSTANTIATE_TEST_SUITE_P(Reversals, OnePosition, testing::Values(ReversalModel::constant, ReversalModel::by_angle),
+                         [](const auto& tested) {
+                             return tested.param == ReversalModel::by_angle ? "ByAngle" : "Constant";
+                         });
 
 TEST(TableParameterModel, UncertaintiesAreThoseOfSimulatedMeasurements) {
     // Lengths that hold the deviations of the table, estimated without knowledge of them; what is wrong with each
