@@ -13,6 +13,7 @@
 #include "engine/rotary_table_contributions.h"
 #include "engine/rotary_table_trials.h"
 #include "engine/sequential_evaluation.h"
+#include "gum/analysis_of_variance.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/worker_threads.h"
@@ -112,6 +113,10 @@ engine::EvaluationOptions evaluation_options(const engine::RotaryTableMeasuremen
         return gum::coverage_factor(1.0 - alpha, degrees_of_freedom);
     };
     options.chi_square_upper_tail = gum::chi_square_upper_tail;
+    options.fisher_upper_tail = [](double f, double numerator, double denominator) {
+        return std::isinf(denominator) ? gum::chi_square_upper_tail(numerator * f, numerator)
+                                       : gum::f_upper_tail(f, numerator, denominator);
+    };
     return options;
 }
 

@@ -211,6 +211,7 @@ Setting setting_of(const std::filesystem::path& job_file, const Progress& progre
     setting.request = setting.job.plan.value_or(engine::PlanRequest{});
     RotaryTableMeasurement& layout = setting.layout;
     layout = setting.job.measurement;
+    layout.reversal = engine::ReversalModel::constant;  // planned is the mean over the angles
     const bool positions_known = std::all_of(layout.station_start.begin(), layout.station_start.end(),
                                              [](const auto& q) { return q.has_value(); });
     if (!positions_known && setting.job.has_lengths) {

@@ -32,6 +32,7 @@ Basis basis_of(const engine::RotaryTableJob& job, std::optional<std::size_t> run
                const Progress& progress) {
     Basis basis;
     basis.layout = job.measurement;
+    basis.layout.reversal = engine::ReversalModel::constant;  // as it is simulated
     basis.request = job.simulation.value_or(SimulationRequest{});
     basis.request.runs = runs.value_or(basis.request.runs);
     basis.request.seed = seed.value_or(basis.request.seed);

@@ -108,7 +108,7 @@ JointAdjustment with_set_up(const JointAdjustment& from, const RigidMotion& set_
             pose = motion_parameters(change * rigid_motion(poses.col(static_cast<Eigen::Index>(i))) * turn *
                                      change.inverse() * turn.inverse());
         }
-        result.adjustment().set_parameters(result.pose_block(i), pose);
+        result.set_pose(i, pose);
     }
     result.set_weights(stochastic);
     return result;
@@ -541,8 +541,15 @@ void note_implausible_angles(RotaryTableSolution& solution, const RotaryTableMea
     }
 }
 
-RotaryTableSolution adjust_and_test(const RotaryTableMeasurement& measurement, const EvaluationOptions& options,
-                                    const Progress& progress) {
+/// A solution, and whether one with reversals of each angle is worth its time.
+struct Adjusted {
+    RotaryTableSolution solution;
+    bool reversal_may_depend_on_angle = false;
+};
+
+/// \param measurement  ReversalModel::automatic is one reversal of all angles
+Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const EvaluationOptions& options,
+                         const Progress& progress) {
     const FixtureComponent fixture_component = measurement.fixture_component;
     const EstimatedComponents estimated{measurement.estimate_length_noise,
                                         measurement.table_repeatability.mode == RepeatabilityMode::estimate,
@@ -782,17 +789,27 @@ RotaryTableSolution adjust_and_test(const RotaryTableMeasurement& measurement, c
     solution.critical_value_degrees_of_freedom = limits.degrees_of_freedom;
     solution.non_centrality = limits.non_centrality;
     fill_variance_factor(solution);
+    std::vector<bool> but_gross = all;  // what single tests left out may speak of more than itself
+    for (const OutlierFinding& finding : solution.outliers) {
+        but_gross[finding.length] = but_gross[finding.length] && finding.reason != OutlierReason::gross_error;
+    }
+    bool may_depend = false;
+    if (adjustment.reversal_by_angle()) {
+        solution.reversal_model = ReversalModel::by_angle;
+        if (options.fisher_upper_tail) {
+            solution.reversal_tests =
+                test_reversals(adjustment, normal, covariance, solution.components, options.fisher_upper_tail);
+        }
+    } else if (options.chi_square_upper_tail && options.fisher_upper_tail) {
+        may_depend = may_depend_on_angle(adjustment, but_gross, stochastic, options.solver.rank_tolerance,
+                                         options.chi_square_upper_tail);
+    }
 
     if (options.chi_square_upper_tail) {
         iteration.report("groups of distances");
         const GroupTestOptions group_options{.chi_square_upper_tail = options.chi_square_upper_tail};
-        std::vector<bool> with_outliers = all;
-        for (const OutlierFinding& finding : solution.outliers) {
-            with_outliers[finding.length] =
-                with_outliers[finding.length] && finding.reason != OutlierReason::gross_error;
-        }
-        if (is_concentrated(measurement, active) && active != with_outliers) {
-            solution.groups = groups_with_all(adjustment, with_outliers, estimated, stochastic, options, group_options);
+        if (is_concentrated(measurement, active) && active != but_gross) {
+            solution.groups = groups_with_all(adjustment, but_gross, estimated, stochastic, options, group_options);
         }
         if (!solution.groups) {
             solution.groups =
@@ -852,7 +869,37 @@ RotaryTableSolution adjust_and_test(const RotaryTableMeasurement& measurement, c
                k_harm;
     };
     std::ranges::move(geometry_notes(measurement, positions, harms), std::back_inserter(solution.notes));
-    return solution;
+    return {std::move(solution), may_depend};
+}
+
+/// The reversal of all angles, or that of each where the measurement or the distances ask for it.
+RotaryTableSolution adjust_with_reversal(const RotaryTableMeasurement& measurement, const EvaluationOptions& options,
+                                         const Progress& progress) {
+    Adjusted adjusted = adjust_and_test(measurement, options, progress);
+    if (!adjusted.reversal_may_depend_on_angle) {
+        return std::move(adjusted.solution);
+    }
+    if (progress) {
+        progress("reversal at every angle");
+    }
+    RotaryTableMeasurement by_angle = measurement;
+    by_angle.reversal = ReversalModel::by_angle;
+    RotaryTableSolution each;
+    try {
+        each = adjust_and_test(by_angle, options, progress).solution;
+    } catch (const gum::NoResultError&) {
+        return std::move(adjusted.solution);  // only asked, not needed
+    }
+    const std::optional<gum::Diagnostic> refuted = reversal_note(each.reversal_tests, measurement);
+    const bool adopted = refuted && measurement.reversal == ReversalModel::automatic;
+    RotaryTableSolution& solution = adopted ? each : adjusted.solution;
+    if (refuted) {
+        solution.notes.push_back(*refuted);
+    }
+    if (!adopted) {
+        solution.reversal_tests = std::move(each.reversal_tests);
+    }
+    return std::move(solution);
 }
 
 }  // namespace
@@ -861,7 +908,7 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
                                      const Progress& progress) {
     require_enough_angles(measurement);
     try {
-        return adjust_and_test(measurement, options, progress);
+        return adjust_with_reversal(measurement, options, progress);
     } catch (const gum::NoResultError& error) {
         // An interrupted beam looks like a station whose place is open, or like an adjustment that goes astray.
         if (std::ranges::any_of(error.diagnostics(), [](const gum::Diagnostic& problem) {

@@ -14,6 +14,7 @@
 #include "engine/fixed_parts.h"
 #include "engine/group_tests.h"
 #include "engine/reliability.h"
+#include "engine/reversal_choice.h"
 #include "engine/rotary_table_model.h"
 #include "engine/variance_components.h"
 #include "gum/quantity/diagnostic.h"
@@ -38,6 +39,9 @@ struct EvaluationOptions {
     /// fixture is tested against what the distances say of it (FixtureComponent::check), and groups of distances are
     /// tested; without it they are not.
     std::function<double(double, double)> chi_square_upper_tail;
+    /// Probability above a value of the F distribution, by value and both degrees of freedom, of which the second may
+    /// be infinite. With it and `chi_square_upper_tail` a reversal that depends on the angle is looked for.
+    std::function<double(double, double, double)> fisher_upper_tail;
     /// Threads of large measurements; results are the same bytes for any number.
     Workers workers;
 };
@@ -103,6 +107,9 @@ struct RotaryTableSolution {
     double non_centrality = 0.0;                              ///< δ0 of the minimal detectable biases
     double fixture_critical_value = 0.0;                      ///< the same test for the coordinates of the fixture
     std::optional<GroupTests> groups;                         ///< with EvaluationOptions::chi_square_upper_tail
+    ReversalModel reversal_model = ReversalModel::constant;   ///< of the result; constant or by angle
+    std::vector<ReversalTest>
+        reversal_tests;  ///< of the six motions, where reversals by angle were adjusted; else empty
 
     std::shared_ptr<const gum::MeasurementModel> model;  ///< outputs: the reported quantities; for the GUM layer
     std::vector<gum::Diagnostic> notes;                  ///< what a reader must know of this result
@@ -117,6 +124,10 @@ using Progress = std::function<void(const std::string&)>;
 /// largest test value, an adjustment without it, and again (OneAtATime, at the weights of the last estimation of the
 /// components, which is repeated when no more are found, until the exact adjustment finds none). One that agrees with
 /// the others at the end comes back. By `OutlierAction` they are left out of the result or kept and flagged.
+///
+/// With ReversalModel::automatic the reversal is one of all angles, unless an adjustment with one at every angle shows
+/// that they differ (test_reversals); what remains of the difference would else be taken for repeatability of the
+/// table.
 ///
 /// With FixtureComponent::check the weights use the stated covariance of the fixture; its component is estimated with
 /// the others in a run of its own, and a warning says when it contradicts what is stated.

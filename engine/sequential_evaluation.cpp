@@ -612,7 +612,9 @@ std::vector<ExternalReliability> SequentialModel::external_reliability(
 
 RotaryTableSolution evaluate_sequentially(const RotaryTableMeasurement& measurement, const EvaluationOptions& options,
                                           const Progress& progress) {
-    RotaryTableSolution solution = evaluate_jointly(measurement, options, progress);
+    RotaryTableMeasurement of_all_angles = measurement;  // its stages know one reversal only
+    of_all_angles.reversal = ReversalModel::constant;
+    RotaryTableSolution solution = evaluate_jointly(of_all_angles, options, progress);
     if (progress) {
         progress("sequential method");
     }
@@ -673,7 +675,7 @@ RotaryTableSolution evaluate_sequentially(const RotaryTableMeasurement& measurem
     found.dead_paths = solution.dead_paths;
     JointAdjustment misfit(measurement, joint->solved().active(), table_from_fixture, found, solution.stochastic);
     for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
-        misfit.adjustment().set_parameters(misfit.pose_block(i), stages.errors.col(static_cast<Eigen::Index>(i)));
+        misfit.set_pose(i, stages.errors.col(static_cast<Eigen::Index>(i)));
     }
     for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
         Eigen::VectorXd block = misfit.adjustment().parameters(misfit.station_block(j));
