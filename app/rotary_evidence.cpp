@@ -10,8 +10,10 @@
 
 #include "app/document_units.h"
 #include "app/record_parts.h"
+#include "engine/anglewise_map.h"
 #include "engine/group_tests.h"
 #include "engine/harmonics.h"
+#include "engine/rotary_table_contributions.h"
 #include "engine/sense_deviations.h"
 #include "gum/coverage.h"
 #include "gum/rounding.h"
@@ -133,10 +135,75 @@ void fill_visits(reports::RotaryTable& rotary, const engine::RotaryTableModel& m
     }
 }
 
+void fill_reversal_model(reports::RotaryTable& rotary, const engine::RotaryTableSolution& solution) {
+    if (!solution.quantities.has_reversal) {
+        return;
+    }
+    reports::ReversalModel& model = rotary.reversal_model.emplace();
+    model.model = solution.reversal_model == engine::ReversalModel::by_angle ? "by_angle" : "constant";
+    model.alpha = engine::k_reversal_test_level;
+    for (const engine::ReversalTest& test : solution.reversal_tests) {
+        const DocumentUnit& unit = test.motion < 3 ? k_um : k_arcsec;
+        reports::ReversalTestRow row;
+        row.name = rotary.error_names[test.motion];
+        row.test_value = test.f;
+        row.degrees_of_freedom = test.angles;
+        if (std::isfinite(test.residual)) {
+            row.residual_degrees_of_freedom = test.residual;
+        }
+        row.p_value = test.p_value;
+        row.spread = test.spread / unit.si;
+        row.unit = unit.record;
+        row.depends_on_angle = test.depends_on_angle;
+        row.printed.test_value = gum::round_significant(row.test_value, 3);
+        row.printed.p_value = row.p_value < 1e-4 ? "< 0.0001" : gum::round_significant(row.p_value, 2);
+        row.printed.spread = gum::round_significant(row.spread, 2);
+        model.tests.push_back(std::move(row));
+    }
+}
+
+/// The poses of both senses at every angle, where the adjustment has them.
+void fill_sense_curves_by_angle(reports::RotaryTable& rotary, const engine::RotaryTableModel& model,
+                                const RotaryTableResult& result) {
+    const gum::UncertaintyBudget& propagation = result.reported.budget;
+    const engine::JointAdjustment& solved = model.solved();
+    const engine::RotaryTableMeasurement& measurement = model.measurement();
+    const engine::DatumSolution datum =
+        engine::transform_to_datum(measurement, solved.poses(), solved.set_up(), measurement.datum);
+    const Eigen::VectorXd variance =
+        engine::contributions_of(model,
+                                 engine::map_of_both_senses(engine::reported_map(solved, model.equations(), datum)))
+            .covariance.diagonal();
+    rotary.sense_curves = {{.direction = "+", .points = {}}, {.direction = "-", .points = {}}};
+    for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
+        const Eigen::Matrix<double, 6, 1> half = 0.5 * solved.reversal(i);
+        for (std::size_t sense = 0; sense < 2; ++sense) {
+            reports::SensePoint point;
+            point.angle_deg = measurement.angles_deg[i];
+            for (std::size_t c = 0; c < 6; ++c) {
+                const auto at = static_cast<Eigen::Index>(c);
+                const Eigen::Index error = 6 * static_cast<Eigen::Index>(i) + at;
+                const double unit = c < 3 ? k_um.si : k_arcsec.si;
+                const Eigen::Index row = 12 * static_cast<Eigen::Index>(i) + 6 * static_cast<Eigen::Index>(sense) + at;
+                point.value[c] = (propagation.value[error] + (sense == 0 ? half[at] : -half[at])) / unit;
+                point.u[c] = std::sqrt(std::max(0.0, variance[row])) / unit;
+                point.U[c] = std::max(propagation.coverage_factor[error],
+                                      propagation.coverage_factor[result.solution.quantities.reversal + at]) *
+                             point.u[c];
+            }
+            rotary.sense_curves[sense].points.push_back(point);
+        }
+    }
+}
+
 /// The curves E ± reversal/2 and what the residuals of each sense at each angle add to them.
 void fill_sense_curves(reports::RotaryTable& rotary, const engine::RotaryTableModel& model,
                        const RotaryTableResult& result) {
     if (!result.solution.quantities.has_reversal) {
+        return;
+    }
+    if (model.solved().reversal_by_angle()) {
+        fill_sense_curves_by_angle(rotary, model, result);
         return;
     }
     const gum::UncertaintyBudget& propagation = result.reported.budget;
@@ -345,6 +412,7 @@ void fill_evidence(reports::RotaryTable& rotary, const engine::RotaryTableJob& j
     if (result.solution.groups) {
         fill_group_tests(rotary, *result.solution.groups, measurement);
     }
+    fill_reversal_model(rotary, result.solution);
     if (const auto model = std::dynamic_pointer_cast<const engine::RotaryTableModel>(result.solution.model)) {
         const std::vector<engine::VisitDeviation> none;
         fill_visits(rotary, *model, result.parameter_model->gains(),

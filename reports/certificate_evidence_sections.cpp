@@ -153,6 +153,23 @@ void group_table(CertificateBuilder& builder, const Wording& words, const Rotary
                   rows);
 }
 
+void reversal_table(CertificateBuilder& builder, const Wording& words, const ReversalModel& model) {
+    Rows rows;
+    for (const ReversalTestRow& row : model.tests) {
+        rows.push_back({row.name, words.number(row.printed.spread), gum::unit_for_people(row.unit),
+                        row.printed.test_value, row.printed.p_value,
+                        words("value", row.depends_on_angle ? "depends_on_angle" : "not_refuted")});
+    }
+    builder.table("reversal-tests", words.fill("reversal_tests_table", {{"alpha", words.number(plain(model.alpha))}}),
+                  {{words("label", "reversal"), ""},
+                   {words("label", "spread_of_angles"), "", true},
+                   {words("label", "unit"), ""},
+                   {"F", "", true},
+                   {"p", "", true},
+                   {words("label", "group_verdict"), ""}},
+                  rows);
+}
+
 void harmonics_table(CertificateBuilder& builder, const Wording& words, const RotaryTable& r, std::size_t first) {
     std::vector<Column> columns = {{words("label", "harmonic_order"), "", true}};
     std::vector<std::pair<Text, std::size_t>> groups = {{"", 1}};
@@ -245,6 +262,9 @@ void group_tests(CertificateBuilder& builder, const Wording& words, const Rotary
     builder.section("group_tests");
     builder.paragraph(words("sentence", "group_tests"));
     group_table(builder, words, r);
+    if (r.reversal_model && !r.reversal_model->tests.empty()) {
+        reversal_table(builder, words, *r.reversal_model);
+    }
     if (std::any_of(r.visits.begin(), r.visits.end(), [](const VisitRow& v) { return v.deviation_um.has_value(); })) {
         const Plot plot = visit_plot(r, words);
         builder.figure(plot.id, words("sentence", "figure_visits"), plot.description, svg(plot));

@@ -132,7 +132,10 @@ void set_up(CertificateBuilder& builder, const Wording& words, const EvaluationR
 
 void ranges(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
     builder.paragraph(words("sentence", "ranges"));
-    builder.paragraph(words("sentence", r.reversal.empty() ? "no_reversal" : "reversal"));
+    const bool by_angle = r.reversal_model && r.reversal_model->model == "by_angle";
+    builder.paragraph(words("sentence", r.reversal.empty() ? "no_reversal"
+                                        : by_angle         ? "reversal_by_angle"
+                                                           : "reversal"));
     Rows rows;
     for (std::size_t i = 0; i < 6; ++i) {
         std::vector<Text> row = {r.error_names[i], "", "", "", "", gum::unit_for_people(r.error_units[i])};

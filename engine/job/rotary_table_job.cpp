@@ -35,7 +35,7 @@ using Words = std::span<const std::string_view>;
 
 // ---- keys -----------------------------------------------------------------------------------------------------------
 
-constexpr std::array<std::string_view, 23> k_job_keys{"schema",
+constexpr std::array<std::string_view, 24> k_job_keys{"schema",
                                                       "kind",
                                                       "title",
                                                       "axis",
@@ -51,6 +51,7 @@ constexpr std::array<std::string_view, 23> k_job_keys{"schema",
                                                       "variance_components",
                                                       "outliers",
                                                       "exclude",
+                                                      "reversal",
                                                       "machine_frame",
                                                       "reference_method",
                                                       "monte_carlo",
@@ -115,6 +116,8 @@ constexpr std::array<Choice<Datum>, 2> k_datums{
     {{"axis_average_line", Datum::axis_average_line}, {"home", Datum::home}}};
 constexpr std::array<Choice<AdjustmentMethod>, 2> k_methods{
     {{"joint", AdjustmentMethod::joint}, {"sequential", AdjustmentMethod::sequential}}};
+constexpr std::array<Choice<ReversalModel>, 3> k_reversals{
+    {{"auto", ReversalModel::automatic}, {"constant", ReversalModel::constant}, {"by_angle", ReversalModel::by_angle}}};
 constexpr std::array<Choice<ScaleModel>, 3> k_scale_models{
     {{"fixed", ScaleModel::fixed}, {"prior", ScaleModel::prior}, {"free", ScaleModel::free}}};
 constexpr std::array<Choice<RepeatabilityMode>, 3> k_modes{{{"estimate", RepeatabilityMode::estimate},
@@ -332,6 +335,9 @@ private:
         }
         check_home_of_plan(*root);
         check_sizes(*root);
+        if (lengths_are_whole_) {
+            check_reversal(*root);
+        }
         if (environment) {
             read_environment(std::move(*environment));
         } else {
@@ -394,6 +400,8 @@ private:
         measurement.datum = root.optional_choice<Datum>("datum", k_datums).value_or(Datum::axis_average_line);
         measurement.method =
             root.optional_choice<AdjustmentMethod>("method", k_methods).value_or(AdjustmentMethod::joint);
+        measurement.reversal =
+            root.optional_choice<ReversalModel>("reversal", k_reversals).value_or(ReversalModel::automatic);
         home_angle_deg_ = root.optional_number("home_angle_deg", k_angle);
         if (!root.has("home_angle_deg")) {
             home_angle_deg_ = 0.0;
@@ -1188,6 +1196,43 @@ private:
             if (lengths_table_->has_column(c_time)) {
                 measurement.times.push_back(row.time);
             }
+        }
+    }
+
+    // ---- reversal ---------------------------------------------------------------------------------------------------
+
+    /// A reversal of each angle needs both senses at each angle, and at each station, whose place would else take part
+    /// in it.
+    void check_reversal(const JsonObject& root) {
+        const RotaryTableMeasurement& measurement = job_.measurement;
+        if (measurement.reversal != ReversalModel::by_angle) {
+            return;
+        }
+        const auto refuse = [&](const std::string& what) {
+            root.refuse(k_bad_reversal, "reversal", what,
+                        "a reversal by angle is the difference of both senses of approach at every angle and station",
+                        "measure both senses, or choose \"auto\" or \"constant\"");
+        };
+        if (measurement.method != AdjustmentMethod::joint) {
+            root.refuse(k_bad_reversal, "reversal", "reversal is \"by_angle\", and method is \"sequential\"",
+                        "the sequential method knows one reversal of all angles",
+                        "choose \"method\": \"joint\", or \"reversal\": \"constant\"");
+            return;
+        }
+        std::vector<std::array<bool, 2>> of_station(measurement.stations.size(), {false, false});
+        std::vector<std::array<bool, 2>> of_angle(measurement.angles.size(), {false, false});
+        for (const LengthObservation& length : measurement.lengths) {
+            const std::size_t sense = length.approach == Approach::positive ? 0 : 1;
+            of_station[length.station][sense] = true;
+            of_angle[length.angle][sense] = true;
+        }
+        const auto one_sense = [](const std::array<bool, 2>& senses) { return !(senses[0] && senses[1]); };
+        if (const auto at = std::ranges::find_if(of_station, one_sense); at != of_station.end()) {
+            refuse("station " + measurement.stations[static_cast<std::size_t>(at - of_station.begin())] +
+                   " was measured in one sense of approach only");
+        } else if (const auto angle = std::ranges::find_if(of_angle, one_sense); angle != of_angle.end()) {
+            refuse("the angle " + shortest(measurement.angles_deg[static_cast<std::size_t>(angle - of_angle.begin())]) +
+                   "° was measured in one sense of approach only");
         }
     }
 

@@ -746,6 +746,30 @@ void describe(Archive& a, Struct& r) {
     a.group("printed", [&](auto& b) { b("scale", r.printed_scale); });
 }
 
+template <class Archive, Is<ReversalTestRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("test_value", r.test_value, Range::not_negative);
+    a("degrees_of_freedom", r.degrees_of_freedom, Range::positive);
+    a("residual_degrees_of_freedom", r.residual_degrees_of_freedom, Range::positive);
+    a("p_value", r.p_value, Range::probability);
+    a("spread", r.spread, Range::not_negative);
+    a("unit", r.unit, {"um", "arcsec"});
+    a("depends_on_angle", r.depends_on_angle);
+    a.group("printed", [&](auto& b) {
+        b("test_value", r.printed.test_value);
+        b("p_value", r.printed.p_value);
+        b("spread", r.printed.spread);
+    });
+}
+
+template <class Archive, Is<ReversalModel> Struct>
+void describe(Archive& a, Struct& r) {
+    a("model", r.model, {"constant", "by_angle"});
+    a("alpha", r.alpha, Range::probability);
+    a("tests", r.tests);
+}
+
 template <class Archive, Is<VisitRow> Struct>
 void describe(Archive& a, Struct& r) {
     a("station", r.station);
@@ -955,6 +979,7 @@ void describe(Archive& a, Struct& r) {
     a.added("monte_carlo", r.monte_carlo);
     a.added("fixture_budget", r.fixture_budget);
     a.added("group_tests", r.group_tests);
+    a.added("reversal_model", r.reversal_model);
     a.added("visits", r.visits);
     a.added("sense_curves", r.sense_curves);
     a.added("harmonics", r.harmonics);

@@ -375,11 +375,12 @@ struct RotaryTable {
     std::optional<RotaryMonteCarlo> monte_carlo;
     std::optional<FixtureBudget> fixture_budget;
     std::optional<GroupTestSummary> group_tests = {};
-    std::vector<VisitRow> visits = {};               ///< in the order of the measurement
-    std::vector<SenseCurve> sense_curves = {};       ///< positive approach first; empty where one sense was measured
-    std::vector<HarmonicRow> harmonics = {};         ///< empty where the angles do not cover the circle
-    std::optional<Environment> environment = {};     ///< with an environment file
-    std::vector<ExcludedDistances> exclusions = {};  ///< in the order of the job
+    std::optional<ReversalModel> reversal_model = {};  ///< none where only one sense of approach was measured
+    std::vector<VisitRow> visits = {};                 ///< in the order of the measurement
+    std::vector<SenseCurve> sense_curves = {};         ///< positive approach first; empty where one sense was measured
+    std::vector<HarmonicRow> harmonics = {};           ///< empty where the angles do not cover the circle
+    std::optional<Environment> environment = {};       ///< with an environment file
+    std::vector<ExcludedDistances> exclusions = {};    ///< in the order of the job
 };
 
 /// One compared value: of a method against a reference method at one point, or of a laboratory for one item. Units are

@@ -38,6 +38,28 @@ struct GroupTestSummary {
     std::string printed_scale;
 };
 
+/// Whether the reversal of one error motion is the same at all angles.
+struct ReversalTestRow {
+    std::string name;                                        ///< "EXA"
+    double test_value = 0.0;                                 ///< F
+    double degrees_of_freedom = 1.0;                         ///< of the numerator: angles less one
+    std::optional<double> residual_degrees_of_freedom = {};  ///< of the denominator; none: variances are stated
+    double p_value = 1.0;
+    double spread = 0.0;  ///< root mean square about the mean, in `unit`
+    std::string unit;     ///< "um" or "arcsec"
+    bool depends_on_angle = false;
+    struct {
+        std::string test_value = {}, p_value = {}, spread = {};
+    } printed = {};
+};
+
+/// How the two senses of approach were adjusted.
+struct ReversalModel {
+    std::string model;                   ///< "constant": one reversal of all angles; "by_angle"
+    double alpha = 0.0;                  ///< probability that any of the tests refutes reversals that are constant
+    std::vector<ReversalTestRow> tests;  ///< of the six error motions; empty where nothing asked for them
+};
+
 /// One visit of the table to an angle: what its distances deviate by from what all other visits say.
 struct VisitRow {
     std::string station, pass, direction;  ///< direction "+" or "-"

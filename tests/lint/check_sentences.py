@@ -47,6 +47,7 @@ SOURCES = (
     "app/table_parameter_record.cpp",
     "app/zero_uncertainty.cpp",
     "engine/group_notes.cpp",
+    "engine/reversal_choice.cpp",
 )
 
 # Literals of these sources that are no sentences of a record, or end the program in place of a record.

@@ -48,7 +48,7 @@ Files complete_campaign(bool with_budget = false) {
                 ? R"({ "monte_carlo": {"adaptive": {"digits": 1, "max_trials": 1e7}, "digits": 1},)"
                 : R"({ "coverage": "as_validated", "monte_carlo": {"trials": 1000000, "seed": 3, "validate": true},)");
     replace(job, "{", R"({ "home_angle_deg": 0, "datum": "home", "method": "joint", "coverage_probability": 0.95,
-        "certificate": {"customer": {}}, "notes": "n", "variance_components": "estimate",
+        "certificate": {"customer": {}}, "notes": "n", "variance_components": "estimate", "reversal": "auto",
         "table_repeatability": {"mode": "given", "u_linear_um": 0.3, "u_axial_arcsec": 0.2, "u_tilt_arcsec": 0.1},
         "outliers": {"test": "data_snooping", "alpha": 0.001, "action": "remove"},
         "exclude": [{"station": "P1", "reflector": "R1", "pass": "P1+", "direction": "+", "angle_deg": 45,

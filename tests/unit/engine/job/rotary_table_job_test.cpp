@@ -482,6 +482,21 @@ const std::vector<BadInput>& bad_inputs() {
         {"humidity", with("environment.csv", "1011.6,50", "1011.6,150"), k_csv_out_of_range, "environment.csv:2:27",
          "150 % in column humidity_percent"},
 
+        // ---- reversal
+        {"reversal_unknown", with_key(R"("reversal": "some")"), k_unknown_choice,
+         "job.json#/reversal (line 1, column 15)", "\"some\""},
+        {"reversal_by_angle_sequential", with_key(R"("reversal": "by_angle", "method": "sequential")"), k_bad_reversal,
+         "job.json#/reversal (line 1, column 15)", "method is \"sequential\""},
+        {"reversal_by_angle_of_one_sense",
+         [](Files& files) {
+             with_key(R"("reversal": "by_angle")")(files);
+             std::string& lengths = files.at("lengths.csv");
+             for (auto at = lengths.find(",-,"); at != std::string::npos; at = lengths.find(",-,")) {
+                 lengths.replace(at, 3, ",+,");
+             }
+         },
+         k_bad_reversal, "job.json#/reversal (line 1, column 15)", "was measured in one sense of approach only"},
+
         // ---- the frame of the machine
         {"machine_frame_without_by",
          with_key(R"("machine_frame": {"coordinates": "m.csv", "nominal_point_mm": [0,0,0]})"), k_missing_key,
