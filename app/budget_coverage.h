@@ -9,14 +9,16 @@
 namespace gumcert::app {
 
 /// Fills in what the law of propagation says of one output: u, ν_eff, where k comes from, k and U, or why there are
-/// none (docs/adr/0014-coverage-of-budgets.md). \param point   with model, propagation and second order \param result
-/// with its coverage probability, which is that of the propagation too
+/// none (docs/adr/0014-coverage-of-budgets.md).
+/// \param point   with model, propagation and second order
+/// \param result with its coverage probability, which is that of the propagation too
 void expand_by_propagation(const engine::BudgetJob& job, const BudgetPointResult& point, Eigen::Index output,
                            BudgetOutputResult& result);
 
 /// Whether the convolution changes k so much that it is taken.
 [[nodiscard]] bool is_noticed_change(double k_of_convolution, double k);
-/// A sentence: k is that of the convolution, and what it would be else. \param k  of the t- or normal distribution
+/// A sentence: k is that of the convolution, and what it would be else.
+/// \param k  of the t- or normal distribution
 [[nodiscard]] std::string convolution_note(double degrees_of_freedom, double k);
 
 }  // namespace gumcert::app

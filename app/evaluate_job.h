@@ -45,7 +45,9 @@ struct Evaluation {
 void require_comparison_job(const std::filesystem::path& job_file);
 
 /// Reads a job with all its files as one of a kind, any other word than "budget", "comparison" and "circle_closure" as
-/// one of a rotary table. \return what the reader warns of \throws gum::InputError  with all that the reader refuses
+/// one of a rotary table.
+/// \return what the reader warns of
+/// \throws gum::InputError  with all that the reader refuses
 [[nodiscard]] std::vector<gum::Diagnostic> warnings_of_job(const std::string& kind, const engine::FileSource& source,
                                                            const std::string& job_file);
 

@@ -13,10 +13,12 @@ namespace gumcert::app {
 /// Covariance of two methods, cov(method i, reference j), from one coefficient r that is stated for equal points.
 ///
 /// An effect of each point apart, C_ii = r u_i u_ref,i, counts the points least. Where the points of the methods share
-/// so much that this cannot be, it is an effect that points share, C_ij = r u_i u_ref,j. \param comparison   the
-/// covariance of each method is taken from it \param may_share    one a point: only points with the same name share
-/// such an effect \param where        place of r in the job, for messages \param remarks      receives which of both it
-/// is \throws InputError  GC-COMPARE-0204 neither can be
+/// so much that this cannot be, it is an effect that points share, C_ij = r u_i u_ref,j.
+/// \param comparison   the covariance of each method is taken from it
+/// \param may_share    one a point: only points with the same name share such an effect
+/// \param where        place of r in the job, for messages
+/// \param remarks      receives which of both it is
+/// \throws InputError  GC-COMPARE-0204 neither can be
 [[nodiscard]] Eigen::MatrixXd covariance_of_stated_correlation(double r, const MethodComparison& comparison,
                                                                const std::vector<std::string>& may_share,
                                                                const std::string& where,

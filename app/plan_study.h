@@ -72,7 +72,8 @@ struct SightCount {
 
     [[nodiscard]] std::size_t seen() const { return distances - by_obstacles - by_reflectors - not_accepted; }
 };
-/// One a station. \param whole  with all distances, and positions of the stations
+/// One a station.
+/// \param whole  with all distances, and positions of the stations
 [[nodiscard]] std::vector<SightCount> sight_counts(const engine::RotaryTableMeasurement& whole,
                                                    const engine::LineOfSight& sight);
 

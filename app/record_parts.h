@@ -71,7 +71,8 @@ struct TrialsDone {
                                                              const std::optional<gum::Validation>& validation);
 
 /// Comparison of the law of propagation with Monte Carlo in the unit of the document, where the tolerance is half a
-/// unit of a decimal digit (JCGM 101:2008, clause 8). \param value, u, U  of the law of propagation, SI
+/// unit of a decimal digit (JCGM 101:2008, clause 8).
+/// \param value, u, U  of the law of propagation, SI
 [[nodiscard]] gum::Validation validation_in_unit(double value, double u, double U, const gum::MonteCarloOutput& output,
                                                  const ToUnit& to_unit, int digits);
 

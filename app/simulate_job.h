@@ -23,7 +23,8 @@ namespace gumcert::app {
                                                   std::optional<std::uint64_t> seed, unsigned threads,
                                                   const Progress& progress = {});
 
-/// The same for a job that is read already. \param job_name  for the document
+/// The same for a job that is read already.
+/// \param job_name  for the document
 [[nodiscard]] reports::StudyDocument simulate_job(const engine::RotaryTableJob& job, const std::string& job_name,
                                                   std::optional<std::size_t> runs, std::optional<std::uint64_t> seed,
                                                   unsigned threads, const Progress& progress = {});

@@ -24,7 +24,8 @@ inline constexpr std::string_view k_exact_by_definition =
 void state_zero_uncertainty(const engine::BudgetJob& job, const BudgetPointResult& point, const std::string& output,
                             BudgetOutputResult& result);
 
-/// What is said of it; GC-BUDGET-0029 a warning, -0028 a note for an exact result. \param where  of the result
+/// What is said of it; GC-BUDGET-0029 a warning, -0028 a note for an exact result.
+/// \param where  of the result
 [[nodiscard]] gum::Diagnostic zero_uncertainty_message(const BudgetOutputResult& result, const std::string& where);
 
 }  // namespace gumcert::app

@@ -76,7 +76,8 @@ private:
     std::shared_ptr<const Prepared> prepared_;
 };
 
-/// The same for one result. \throws gum::InputError  as the class
+/// The same for one result.
+/// \throws gum::InputError  as the class
 [[nodiscard]] CapabilityAt capability_at(const Capability& capability, const std::vector<ArgumentValue>& arguments);
 
 /// Why a capability cannot be used: an open interval, no rule between the points, an expression that does not compile,
@@ -88,7 +89,8 @@ struct CapabilityProblem {
 [[nodiscard]] std::vector<CapabilityProblem> check_capability(const Capability& capability);
 
 /// An expression of a scope as the equation language has it: each Q[a, b, …] is sqrt((a)^2+(b)^2+…). Brackets may stand
-/// in each other. \param problem  set to a phrase where the brackets do not fit; the result is "" then
+/// in each other.
+/// \param problem  set to a phrase where the brackets do not fit; the result is "" then
 [[nodiscard]] std::string expanded_capability_expression(const std::string& expression, std::string& problem);
 
 }  // namespace gumcert::certificate

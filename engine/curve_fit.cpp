@@ -284,7 +284,8 @@ public:
         return result;
     }
 
-    /// Columns of the design that are powers of the only regressor, again from its decimal digits. \pre exact x
+    /// Columns of the design that are powers of the only regressor, again from its decimal digits.
+    /// \pre exact x
     void sharpen_powers(Linearised& at) const {
         if (data_.x.cols() != 1) {
             return;

@@ -17,7 +17,8 @@ public:
     /// \param parameters  p values
     /// \param by_parameter  receives ∂f/∂a, p values; has that size on entry
     /// \param by_x          receives ∂f/∂x, one a regressor; has that size on entry; read only for errors in both
-    /// variables \return f; not finite where the curve has no value
+    /// variables
+    /// \return f; not finite where the curve has no value
     virtual double evaluate(const Eigen::VectorXd& x, const Eigen::VectorXd& parameters, Eigen::VectorXd& by_parameter,
                             Eigen::VectorXd& by_x) const = 0;
     /// True when f is a linear function of the parameters (a term without parameters is allowed): solved directly then,

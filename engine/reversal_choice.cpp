@@ -44,7 +44,8 @@ struct Reversals {
     [[nodiscard]] double spread() const { return std::sqrt((value.array() - value.mean()).square().mean()); }
 };
 
-/// \param change  of the parameters from where they stand, p; \param more  columns that add to the covariance, p×r
+/// \param change  of the parameters from where they stand, p;
+/// \param more  columns that add to the covariance, p×r
 Reversals reversals_of(const JointAdjustment& by_angle, const NormalEquations& normal,
                        const BorderedCovariance& covariance, int motion, const VectorXd& change, const MatrixXd& more) {
     const std::size_t angles = by_angle.measurement().angles.size();

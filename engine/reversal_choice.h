@@ -31,7 +31,8 @@ struct ReversalTest {
 /// Tests of the six reversals. A drift of each station in its time or order of visits, which separates the senses as a
 /// reversal does that grows with the angle, is taken out first.
 /// \param by_angle    solved, with a reversal at every angle
-/// \param normal      its equations; \param covariance  of their parameters
+/// \param normal      its equations;
+/// \param covariance  of their parameters
 /// \param components  of the same, one a ComponentRow
 /// \param fisher_upper_tail  probability above a value of the F distribution, by value and both degrees of freedom
 [[nodiscard]] std::vector<ReversalTest> test_reversals(
@@ -41,7 +42,8 @@ struct ReversalTest {
 
 /// Whether reversals of single angles could be other than one of all angles, from one Gauss-Newton step at the weights
 /// of a solution with one: cheap, and rather once too often than not at all. False where the distances do not determine
-/// a reversal at every angle. \param active  distances that take part, one flag a length
+/// a reversal at every angle.
+/// \param active  distances that take part, one flag a length
 [[nodiscard]] bool may_depend_on_angle(const JointAdjustment& constant, const std::vector<bool>& active,
                                        const StochasticModel& stochastic, double rank_tolerance,
                                        const std::function<double(double, double)>& chi_square_upper_tail);

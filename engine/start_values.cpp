@@ -117,7 +117,8 @@ public:
         }
     }
 
-    /// Set-up, stations and their misfits. \throws gum::NoResultError
+    /// Set-up, stations and their misfits.
+    /// \throws gum::NoResultError
     void run() {
         fit_each();
         finish();
@@ -155,7 +156,8 @@ public:
         return start;
     }
 
-    /// Each station on its own. \return their misfits, [m]
+    /// Each station on its own.
+    /// \return their misfits, [m]
     std::vector<double> fit_each() {
         std::vector<double> misfits;
         fits_.resize(stations_.size());

@@ -152,8 +152,9 @@ public:
 
     /// ∂outputs/∂inputs for a table that shows other values than the nominal solution: the derivatives of the
     /// parameters are taken there, those of the adjustment at the nominal solution (they differ by error motions
-    /// against distances). Joint method only. \param reported   of that table, m \param positions  of its visits, V,
-    /// [rad]
+    /// against distances). Joint method only.
+    /// \param reported   of that table, m
+    /// \param positions  of its visits, V, [rad]
     [[nodiscard]] Eigen::MatrixXd jacobian_of_table(const Eigen::VectorXd& reported,
                                                     const Eigen::VectorXd& positions) const;
     // Of the adjustment; joint method only.

@@ -70,9 +70,10 @@ struct OneWayAnalysis {
 
 /// \name One-way analysis of variance
 /// Between: Σ n_j (V̄_j − V̄)²; within: Σ_j Σ_k (V_jk − V̄_j)²                          (JCGM 100:2008, H.5.2; balanced
-/// there) \param alpha  probability of finding an effect where there is none, 0 < α < 1, e.g. 0.05 \throws InputError
-/// GC-GUM-0001, -0002, -0004; GC-GUM-0070 fewer than two groups, -0071 a group without observations,
-///                     -0072 no group with two observations
+/// there)
+/// \param alpha  probability of finding an effect where there is none, 0 < α < 1, e.g. 0.05
+/// \throws InputError GC-GUM-0001, -0002, -0004; GC-GUM-0070 fewer than two groups, -0071 a group without observations,
+///     -0072 no group with two observations
 /// \throws NoResultError  GC-GUM-0073 nothing varies, or squares leave the range of numbers
 /// Valid for observations that are independent and of one dispersion within the groups; normal for the p-value.
 /// Accuracy: two passes in long double about a common centre; 15 digits of the observations in, and what their rounding

@@ -64,7 +64,8 @@ private:
     std::shared_ptr<const Table> table_;
 };
 
-/// The same for one x. \throws InputError  as the class
+/// The same for one x.
+/// \throws InputError  as the class
 [[nodiscard]] double convolution_distribution(std::span<const ConvolutionTerm> terms, double x);
 
 /// Expanded uncertainty of an output from the distribution of the sum of its contributions.

@@ -23,8 +23,11 @@ namespace gumcert::gum {
 ///
 /// k_p² = quantile of χ² with m degrees of freedom                               (JCGM 102:2011, 6.5.2.3)
 /// k_p² = m ν/(ν + 1 − m) F_p(m, ν + 1 − m) where V has ν degrees of freedom      (Willink and Hall 2002, Hotelling's
-/// T²) \param outputs             m ≥ 1 \param degrees_of_freedom  ν of the covariance matrix, infinite allowed \throws
-/// InputError     GC-GUM-0004 or -0005 for an argument out of range \throws NoResultError  GC-GUM-0011 where ν ≤ m − 1
+/// T²)
+/// \param outputs             m ≥ 1
+/// \param degrees_of_freedom  ν of the covariance matrix, infinite allowed
+/// \throws InputError     GC-GUM-0004 or -0005 for an argument out of range
+/// \throws NoResultError  GC-GUM-0011 where ν ≤ m − 1
 [[nodiscard]] double ellipsoid_coverage_factor(double coverage_probability, std::size_t outputs,
                                                double degrees_of_freedom);
 

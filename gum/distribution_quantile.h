@@ -31,9 +31,10 @@ namespace gumcert::gum {
 /// infinite.
 ///
 /// Curvilinear trapezoid: the distribution function of the density of JCGM 101:2008, 6.4.3.3 integrates to logarithms
-/// and is inverted by Newton steps. Student's t, gamma and beta: Boost.Math. The others have closed forms. \param p  0
-/// … 1 \throws InputError  GC-GUM-0124 for a distribution with a problem, GC-GUM-0125 if p is not from 0 to 1 Accuracy:
-/// relative error of (x - location)/scale below 1e-11 for shapes from 0.1 to 1e4.
+/// and is inverted by Newton steps. Student's t, gamma and beta: Boost.Math. The others have closed forms.
+/// \param p  0 … 1
+/// \throws InputError  GC-GUM-0124 for a distribution with a problem, GC-GUM-0125 if p is not from 0 to 1
+/// Accuracy: relative error of (x - location)/scale below 1e-11 for shapes from 0.1 to 1e4.
 [[nodiscard]] double quantile(const Distribution& distribution, double p);
 
 /// The x with P(X > x) = q, for upper tails too small to be written as 1 - q; else as quantile(1 - q).

@@ -109,8 +109,8 @@ struct MonteCarloResult {
 };
 
 /// Numerical tolerance δ of an uncertainty with a number of significant digits: u = c 10^ℓ with c an integer of
-/// `digits` digits gives δ = ½ 10^ℓ                                                     (JCGM 101:2008, 7.9.2) \param u
-/// > 0
+/// `digits` digits gives δ = ½ 10^ℓ                                                     (JCGM 101:2008, 7.9.2)
+/// \param u > 0
 [[nodiscard]] double numerical_tolerance(double u, int digits);
 
 /// Propagation of distributions by Monte Carlo (JCGM 101:2008, clause 7; JCGM 102:2011, clause 7).

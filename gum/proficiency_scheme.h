@@ -13,7 +13,8 @@ namespace gumcert::gum {
 [[nodiscard]] double sigma_pt_of_mass_fraction(double mass_fraction);
 
 /// σ_pt from the precision of a method: √(σ_R² − σ_r² (1 − 1/m)) for m replicates.    (ISO 13528:2022, clause 8)
-/// \param repeatability  σ_r ≥ 0. \param replicates  m ≥ 1; σ_pt is that of their mean
+/// \param repeatability  σ_r ≥ 0.
+/// \param replicates  m ≥ 1; σ_pt is that of their mean
 /// \throws InputError  GC-GUM-0001, -0002, -0003; GC-GUM-0110 where σ_r > σ_R; GC-GUM-0111 where m = 0
 [[nodiscard]] double sigma_pt_of_precision(double reproducibility, double repeatability, std::size_t replicates);
 

@@ -18,8 +18,8 @@ namespace gumcert::gum {
 
 /// u of a random-effects mean by Hartung and Knapp (and Sidik and Jonkman): √(Σ w_i (x_i − y)² / ((n − 1) Σ w_i)),
 /// w_i = 1/(u_i² + τ²), for a t distribution with n − 1 degrees of freedom. Not limited from below: results that agree
-/// by chance give a value smaller than that of the weighted mean. \param mean  of the same results; its value and its τ
-/// are taken
+/// by chance give a value smaller than that of the weighted mean.
+/// \param mean  of the same results; its value and its τ are taken
 [[nodiscard]] double hartung_knapp_u(const LaboratoryResults& results, const ReferenceValue& mean);
 
 /// Between-laboratory standard deviation by Cochran's analysis of variance with equal weights:

@@ -50,18 +50,19 @@ struct AlgorithmSFactors {
     double limit = 0.0, adjustment = 0.0;
 };
 /// η² ν is the 0.9 quantile of χ²(ν); 1/ξ² = P(χ²(ν + 2) ≤ η² ν) + 0.1 η².
-/// \param degrees_of_freedom  0 < ν ≤ 1e10. \throws InputError  GC-GUM-0001 also for ν so small that ξ is no number,
-///                            GC-GUM-0003, GC-GUM-0005 for ν > 1e10
+/// \param degrees_of_freedom  0 < ν ≤ 1e10.
+/// \throws InputError  GC-GUM-0001 also for ν so small that ξ is no number, GC-GUM-0003, GC-GUM-0005 for ν > 1e10
 [[nodiscard]] AlgorithmSFactors algorithm_s_factors(double degrees_of_freedom);
 
 /// Algorithm S: robust pooled standard deviation w* of standard deviations (or ranges) with ν degrees of freedom each.
 /// Those above η w* are drawn in to it, w* = ξ √(Σ w²/p).                             (ISO 13528:2022, annex C)
 /// Where the steps of the algorithm lead, without steps: with η ξ > 1 only one w* > 0 stays as it is.
-/// \return w* > 0. \throws InputError  GC-GUM-0001, -0002 for a standard deviation, GC-GUM-0100 none at all,
-///                 GC-GUM-0102 the median is 0, or w* is
+/// \return w* > 0.
+/// \throws InputError  GC-GUM-0001, -0002 for a standard deviation, GC-GUM-0100 none at all, GC-GUM-0102 the median is
+///     0, or w* is
 [[nodiscard]] double algorithm_s(std::span<const double> standard_deviations, double degrees_of_freedom);
-/// With stated factors, for instance as printed: both > 0, η ξ > 1. \throws InputError  GC-GUM-0003 also for the
-/// factors
+/// With stated factors, for instance as printed: both > 0, η ξ > 1.
+/// \throws InputError  GC-GUM-0003 also for the factors
 [[nodiscard]] double algorithm_s(std::span<const double> standard_deviations, const AlgorithmSFactors& factors);
 
 /// Q method for the scale (pairwise differences) and Hampel's estimator for the location, both exact without

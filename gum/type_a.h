@@ -57,7 +57,8 @@ struct AutocorrelationCheck {
 /// is computed then: what the uncertainty of the mean would be depends on a model of the series (JCGM 100:2008, 4.2.7
 /// asks for statistical methods made for such data). Find the cause, observe at longer intervals, or use the means of
 /// groups of observations that are long against the correlation. A series of fewer than about 10 observations shows
-/// little. \throws InputError  as autocorrelation()
+/// little.
+/// \throws InputError  as autocorrelation()
 [[nodiscard]] AutocorrelationCheck autocorrelation_check(std::span<const double> observations);
 
 /// Standard deviation with its degrees of freedom.
@@ -78,8 +79,11 @@ struct StandardDeviation {
 /// Relative standard deviation of an experimental standard deviation of n normally distributed observations.
 ///
 /// σ[s] / E[s] = √(1 − c₄²) / c₄, with c₄ = √(2/(n − 1)) Γ(n/2) / Γ((n − 1)/2)         (values of JCGM 100:2008, table
-/// E.1) \param observations  n ≥ 2 \return ratio, 0.76 for n = 2, about 1/√(2(n − 1)) for large n \throws InputError
-/// GC-GUM-0021 Accuracy: relative error below 1e-12.
+/// E.1)
+/// \param observations  n ≥ 2
+/// \return ratio, 0.76 for n = 2, about 1/√(2(n − 1)) for large n
+/// \throws InputError GC-GUM-0021
+/// Accuracy: relative error below 1e-12.
 [[nodiscard]] double relative_standard_deviation_of_s(std::size_t observations);
 
 /// Degrees of freedom of a Type B standard uncertainty that is thought to be known to a relative part r.

@@ -10,7 +10,8 @@
 
 namespace gumcert::reports {
 
-/// The whole of a file of the product. \throws gum::StorageError if it cannot be read
+/// The whole of a file of the product.
+/// \throws gum::StorageError if it cannot be read
 [[nodiscard]] std::string read_asset(const std::filesystem::path& file);
 
 /// Languages that a document is printed in, the binding one first: those that the assets ask for, else the first two of

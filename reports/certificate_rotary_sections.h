@@ -9,7 +9,8 @@
 
 namespace gumcert::reports {
 
-/// A budget as a table of its own. \param unit  of the result, hence of every contribution; for people
+/// A budget as a table of its own.
+/// \param unit  of the result, hence of every contribution; for people
 void budget_table(CertificateBuilder& builder, const Wording& words, const std::string& id, const Text& caption,
                   const std::vector<BudgetRow>& budget, const std::string& unit);
 

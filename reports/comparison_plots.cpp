@@ -295,7 +295,8 @@ const BiasLineSummary* bias_of(const Comparison& comparison, const std::string& 
     return nullptr;
 }
 
-/// A plot without panels over the positions of the points. \param texts  its words: texts_title, texts_description
+/// A plot without panels over the positions of the points.
+/// \param texts  its words: texts_title, texts_description
 Plot plot_over(const PositionAxis& axis, const PanelGrid& grid, const Comparison& comparison, const Wording& words,
                const std::string& texts) {
     return {.id = {},

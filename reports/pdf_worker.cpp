@@ -337,7 +337,8 @@ private:
         return child_ == 0;
     }
 
-    /// Waits until the descriptor is ready. \throws gum::StorageError at the deadline
+    /// Waits until the descriptor is ready.
+    /// \throws gum::StorageError at the deadline
     void wait_until_ready(int descriptor, short events, Clock::time_point deadline) const {
         for (;;) {
             const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();

@@ -44,15 +44,18 @@ namespace gumcert::signing {
 [[nodiscard]] std::size_t ecdsa_part_size(X509* certificate);
 
 /// Whether the key of the certificate verifies the signature of a digest.
-/// \param digest_name  as for digest()   \param signature  ECDSA: DER of r and s
+/// \param digest_name  as for digest()
+/// \param signature  ECDSA: DER of r and s
 [[nodiscard]] bool verifies(X509* certificate, const char* digest_name, const Bytes& digest, const Bytes& signature);
 
 /// Whether a certificate leads to a trusted one, was in force at `time`, and may sign documents.
 ///
 /// Chain by X509_verify_cert of OpenSSL at security level 2 (RFC 5280, clause 6, without revocation: no list or service
-/// is asked). A trusted certificate need not be a root: it is trusted by itself. \param chain    the signer's
-/// certificate first, then what came with the signature \param trusted  DER \param time     of signing, seconds since
-/// 1970-01-01 UTC \return findings GC-SIGN-0130 to 0133; none: accepted
+/// is asked). A trusted certificate need not be a root: it is trusted by itself.
+/// \param chain    the signer's certificate first, then what came with the signature
+/// \param trusted  DER
+/// \param time     of signing, seconds since 1970-01-01 UTC
+/// \return findings GC-SIGN-0130 to 0133; none: accepted
 [[nodiscard]] std::vector<gum::Diagnostic> check_chain(const std::string& where,
                                                        const std::vector<CertificateHandle>& chain,
                                                        const std::vector<Bytes>& trusted, std::int64_t time);

@@ -11,7 +11,8 @@
 
 namespace gumcert::signing {
 
-/// Signatures of an XML document. \throws gum::InputError  as parse_xml()
+/// Signatures of an XML document.
+/// \throws gum::InputError  as parse_xml()
 [[nodiscard]] std::vector<SignatureReport> verify_xml(const Bytes& xml, const std::string& name,
                                                       const TrustedMaterial& trusted, std::int64_t now);
 

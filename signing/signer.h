@@ -22,7 +22,8 @@ public:
     [[nodiscard]] virtual const std::vector<Bytes>& certificates() const = 0;
     /// "RSA" (PKCS #1 v1.5) or "ECDSA".
     [[nodiscard]] virtual std::string algorithm() const = 0;
-    /// \param digest  SHA-256, 32 bytes   \return RSA: the signature; ECDSA: DER of r and s
+    /// \param digest  SHA-256, 32 bytes
+    /// \return RSA: the signature; ECDSA: DER of r and s
     /// \throws gum::StorageError  GC-SIGN-00xx if it cannot be made
     [[nodiscard]] virtual Bytes sign_sha256(const Bytes& digest) const = 0;
 };
@@ -53,8 +54,8 @@ struct DescribedSigner {
 
 /// What whoever gets a document does with it, as far as it can be done without his trust store: the signer's
 /// certificate leads to the last one of its own file by the rules of verification, at the time of signing, and the file
-/// holds no others. Asked before a document is signed: a signature that can never verify is not made. \throws
-/// gum::InputError  GC-SIGN-0023
+/// holds no others. Asked before a document is signed: a signature that can never verify is not made.
+/// \throws gum::InputError  GC-SIGN-0023
 void require_a_chain(const Signer& signer, std::int64_t signing_time);
 
 /// Signs a DCC: XAdES-BASELINE-B, enveloped, exclusive canonicalisation, SHA-256 (ETSI EN 319 132-1).

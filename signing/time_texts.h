@@ -7,7 +7,8 @@
 
 namespace gumcert::signing {
 
-/// "2026-03-31T12:00:00Z" (RFC 3339). \param time  seconds since 1970-01-01 UTC
+/// "2026-03-31T12:00:00Z" (RFC 3339).
+/// \param time  seconds since 1970-01-01 UTC
 [[nodiscard]] std::string time_text(std::int64_t time);
 
 /// "D:20260331120000Z" (ISO 32000-1, 7.9.4).

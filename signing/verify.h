@@ -53,7 +53,8 @@ struct Verification {
 /// \throws gum::StorageError, gum::InputError
 [[nodiscard]] std::vector<Bytes> read_trust_store(const std::filesystem::path& store);
 
-/// Lists of revoked certificates of a file: PEM with one or several, or DER with one. \return in DER
+/// Lists of revoked certificates of a file: PEM with one or several, or DER with one.
+/// \return in DER
 /// \throws gum::StorageError, gum::InputError  GC-SIGN-0053 if there is none in it
 [[nodiscard]] std::vector<Bytes> read_revocation_lists(const std::filesystem::path& file);
 

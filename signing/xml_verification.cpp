@@ -124,7 +124,8 @@ Pieces pieces_of(const xmlNode* element) {
 
 /// The first element whose text is in pieces, although it has the canonical form of one piece: a comment stands in it,
 /// or a part of it is a CDATA section. Programs that read the first piece only take another value out of it than those
-/// that read all. \return nullptr if there is none
+/// that read all.
+/// \return nullptr if there is none
 const xmlNode* element_with_split_text(const std::vector<xmlNode*>& elements) {
     const auto split = [](const xmlNode* element) {
         const Pieces pieces = pieces_of(element);
@@ -160,7 +161,8 @@ bool is_of_signatures(const xmlNode* element) {
 
 /// The first element within a signature that is not a signature's, or that has text where a signature has none. The
 /// signature leaves itself out of what it covers, so anything could have been put there later.
-/// \param covered  parts that it covers nevertheless   \return nullptr if there is none
+/// \param covered  parts that it covers nevertheless
+/// \return nullptr if there is none
 const xmlNode* foreign_part(const xmlNode* signature, const std::array<const xmlNode*, 2>& covered) {
     for (const xmlNode* child : children_of(signature)) {
         if (std::find(covered.begin(), covered.end(), child) != covered.end()) {

@@ -24,7 +24,8 @@ struct StatedCovariance {
     [[nodiscard]] std::optional<double> variance_of(std::string_view input) const;
 };
 
-/// Reads the key `covariance`; problems go to the list. \return nothing when it is absent or was refused
+/// Reads the key `covariance`; problems go to the list.
+/// \return nothing when it is absent or was refused
 [[nodiscard]] std::optional<StatedCovariance> read_covariance(const JsonObject& root, const JsonDocument& document,
                                                               JobFiles& files, ProblemList& problems);
 

@@ -24,13 +24,16 @@ namespace gumcert::engine {
 /// Why a text cannot be the name of a quantity of an equation; refuses it then.
 [[nodiscard]] bool is_quantity_name(const std::string& name, const std::string& where, ProblemList& problems);
 
-/// The unit under a key, one without it. \return nothing when it was refused
+/// The unit under a key, one without it.
+/// \return nothing when it was refused
 [[nodiscard]] std::optional<gum::Unit> read_unit(const JsonObject& object, std::string_view key, ProblemList& problems);
 
-/// Puts what a lower layer refused into a list. \param where  the place, instead of what the layer names; else empty
+/// Puts what a lower layer refused into a list.
+/// \param where  the place, instead of what the layer names; else empty
 void refuse_as(const gum::DiagnosedError& error, const std::string& where, ProblemList& problems);
 
-/// An equation as one line of text. \return nothing when it was refused
+/// An equation as one line of text.
+/// \return nothing when it was refused
 [[nodiscard]] std::optional<gum::EquationText> equation_text_of(const nlohmann::json& value, const std::string& where,
                                                                 ProblemList& problems);
 

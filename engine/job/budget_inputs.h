@@ -31,7 +31,8 @@ public:
     /// Every input has a name and a unit that an equation can use, whatever else is wrong with it.
     [[nodiscard]] bool symbols_are_whole() const { return symbols_are_whole_; }
 
-    /// The inputs without problems, in the order of the job. \param positions  receives where each one is
+    /// The inputs without problems, in the order of the job.
+    /// \param positions  receives where each one is
     [[nodiscard]] std::vector<BudgetInput> inputs(std::map<std::string, std::size_t>& positions);
     /// Names and units of all inputs, for the equations.
     [[nodiscard]] std::vector<gum::InputSymbol> symbols() const;

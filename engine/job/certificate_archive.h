@@ -99,7 +99,8 @@ public:
     /// To be called when every key was asked for: what is left in the object is unknown.
     void finish() const;
 
-    /// A whole struct. \param place  of any value
+    /// A whole struct.
+    /// \param place  of any value
     template <class Struct>
     static void read_struct(Struct& v, const CertificatePlace& place) {
         const nlohmann::json& value = place.document->value.at(nlohmann::json::json_pointer(place.pointer));

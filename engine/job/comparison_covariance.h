@@ -8,7 +8,8 @@
 namespace gumcert::engine {
 
 /// Uncertainties and covariance of the points of a side, from what the points state: what several share through
-/// `u_common` is their covariance. \param points  in the order of the comparison
+/// `u_common` is their covariance.
+/// \param points  in the order of the comparison
 void covariance_of_points(std::span<const SidePoint> points, ComparisonSide& side);
 
 /// The same from the covariance file of a side. Refuses what is no covariance matrix, or differs from the points.

@@ -12,11 +12,13 @@ namespace gumcert::engine {
 /// What an item states, on top of what the job states for all items.
 void read_item_keys(const ComparisonReading& reading, const JsonObject& object, ComparisonItem& item);
 
-/// `assigned_value`: a word, or an object. \return nothing when it is absent or was refused
+/// `assigned_value`: a word, or an object.
+/// \return nothing when it is absent or was refused
 [[nodiscard]] std::optional<AssignedValueRequest> read_assigned_value(const ComparisonReading& reading,
                                                                       const JsonObject& object);
 
-/// The array `items` into the job, each on top of the defaults. \param labels  receives their ids
+/// The array `items` into the job, each on top of the defaults.
+/// \param labels  receives their ids
 void read_items(const ComparisonReading& reading, const nlohmann::json& array, const ComparisonItem& defaults,
                 LabelIndex& labels);
 

@@ -78,14 +78,17 @@ private:
     void read_results();
     void read_table(const JsonObject& file_object, bool with_participants);
     void read_row(const CsvTable& table, std::size_t row, bool with_participants, ProblemList& problems);
-    /// What a row states of the result itself. \return false for a missing result, a row without value
+    /// What a row states of the result itself.
+    /// \return false for a missing result, a row without value
     bool read_cells(const CsvTable& table, std::size_t row, ComparisonResult& result, ProblemList& problems) const;
     [[nodiscard]] static std::optional<std::string_view> text_of(const CsvTable& table, std::size_t row, Column column);
     void read_result(const JsonObject& object, std::size_t participant);
 
-    /// A participant by its id, a new one if the results name them. \return nothing when it was refused
+    /// A participant by its id, a new one if the results name them.
+    /// \return nothing when it was refused
     [[nodiscard]] std::optional<std::size_t> participant_of(std::string_view id, bool may_be_new, const Place& place);
-    /// Position of a label; one that is new comes last. \return nothing when it was refused
+    /// Position of a label; one that is new comes last.
+    /// \return nothing when it was refused
     [[nodiscard]] std::optional<std::size_t> position_of(Labels& labels, const std::optional<std::string_view>& label,
                                                          const Place& place);
     [[nodiscard]] std::optional<std::size_t> item_of(const std::optional<std::string_view>& label, const Place& place);

@@ -66,7 +66,8 @@ std::optional<UncertaintyObjection> objection(const StatedUncertainty& stated) {
     return std::nullopt;
 }
 
-/// U = t_p(ν) u where u is stated, u = U/k else. \param stated  without objection, its numbers read
+/// U = t_p(ν) u where u is stated, u = U/k else.
+/// \param stated  without objection, its numbers read
 /// \return nothing when no coverage factor exists for its degrees of freedom
 std::optional<ResultUncertainty> evaluate(const StatedUncertainty& stated, double coverage_probability) {
     ResultUncertainty uncertainty;

@@ -97,9 +97,10 @@ private:
 [[nodiscard]] std::optional<std::string> required_label(const JsonObject& object, std::string_view key,
                                                         ProblemList& problems);
 
-/// An object with some keys. \return nothing when the value is no object
+/// An object with some keys.
+/// \return nothing when the value is no object
 /// \param keys_and_bare  the keys and "uncertainty", which is then told as what it is: a number that does not say
-///                       whether it is u or U; empty: it is an unknown key as any other
+///     whether it is u or U; empty: it is an unknown key as any other
 [[nodiscard]] std::optional<JsonObject> object_at(const ComparisonReading& reading, const std::string& pointer,
                                                   std::span<const std::string_view> keys,
                                                   std::span<const std::string_view> keys_and_bare = {});
@@ -119,18 +120,21 @@ void for_each_object(const ComparisonReading& reading, const nlohmann::json& arr
 /// Whether u, U or k is stated.
 [[nodiscard]] bool states_uncertainty(const JsonObject& object);
 
-/// The keys u | U with k, and nu, of an object. \return nothing when none is stated or it was refused
+/// The keys u | U with k, and nu, of an object.
+/// \return nothing when none is stated or it was refused
 [[nodiscard]] std::optional<ResultUncertainty> read_uncertainty(const ComparisonReading& reading,
                                                                 const JsonObject& object);
 
-/// A standard uncertainty of infinite degrees of freedom. \return nothing beyond what is computed with
+/// A standard uncertainty of infinite degrees of freedom.
+/// \return nothing beyond what is computed with
 [[nodiscard]] std::optional<ResultUncertainty> of_standard_uncertainty(double u, double coverage_probability);
 
 /// Columns of a table that state uncertainties: positions as CsvTable knows them.
 struct UncertaintyColumns {
     std::size_t u = 0, U = 0, k = 0, nu = 0, bare = 0;
 };
-/// Refuses columns that no row can use: a bare uncertainty, U without k. \return true when there was nothing to refuse
+/// Refuses columns that no row can use: a bare uncertainty, U without k.
+/// \return true when there was nothing to refuse
 bool check_uncertainty_columns(const CsvTable& table, const UncertaintyColumns& columns, ProblemList& problems);
 [[nodiscard]] std::optional<ResultUncertainty> read_uncertainty(const CsvTable& table, std::size_t row,
                                                                 const UncertaintyColumns& columns,
@@ -152,11 +156,13 @@ bool check_uncertainty_columns(const CsvTable& table, const UncertaintyColumns& 
 [[nodiscard]] std::optional<double> read_positive(const JsonObject& object, std::string_view key,
                                                   std::string_view hint);
 
-/// The key `sources`, signed parts of an uncertainty. \param u  of the whole; nothing: not known here
+/// The key `sources`, signed parts of an uncertainty.
+/// \param u  of the whole; nothing: not known here
 [[nodiscard]] std::vector<UncertaintySource> read_sources(const ComparisonReading& reading, const JsonObject& object,
                                                           const std::optional<double>& u);
 
-/// Rows of numbers, all of one length. \return nothing when it was refused
+/// Rows of numbers, all of one length.
+/// \return nothing when it was refused
 [[nodiscard]] std::optional<Eigen::MatrixXd> read_rows(const ComparisonReading& reading, const JsonObject& object,
                                                        std::string_view key, std::size_t least_rows,
                                                        std::size_t least_columns);
@@ -171,7 +177,8 @@ struct NegativeEigenvalue {
 };
 [[nodiscard]] std::optional<NegativeEigenvalue> negative_eigenvalue(const Eigen::MatrixXd& correlation);
 
-/// An array of texts. \return those that could be read
+/// An array of texts.
+/// \return those that could be read
 [[nodiscard]] std::vector<std::string> read_texts(const ComparisonReading& reading, const JsonObject& object,
                                                   std::string_view key);
 

@@ -31,7 +31,8 @@ public:
 
     [[nodiscard]] bool at_end() const { return offset_ >= text_.size(); }
 
-    /// The next record; empty for a blank line. \return false when the rest cannot be read
+    /// The next record; empty for a blank line.
+    /// \return false when the rest cannot be read
     bool next(std::vector<CsvCell>& fields) {
         fields.clear();
         if (skip_line_end()) {

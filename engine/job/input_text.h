@@ -48,7 +48,8 @@ private:
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
 /// Why a name is not acceptable: empty, more than 256 bytes, spaces around it, control, bidirectional or hidden
-/// characters; nothing when it is. \param longest  [byte]
+/// characters; nothing when it is.
+/// \param longest  [byte]
 [[nodiscard]] std::optional<std::string> name_objection(std::string_view name, std::size_t longest = 256);
 
 /// The known word nearest to a word by edit distance, when it is near enough to be meant.

@@ -25,7 +25,8 @@ public:
         std::string bytes;
         ProblemList* problems = nullptr;  ///< lives as long as the JobFiles
     };
-    /// The job itself. \throws StorageError  if it cannot be read
+    /// The job itself.
+    /// \throws StorageError  if it cannot be read
     [[nodiscard]] File job();
     /// A file that the job names; nothing when it cannot be read, which is noted.
     [[nodiscard]] std::optional<File> open(const std::string& name);

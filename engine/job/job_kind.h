@@ -25,8 +25,8 @@ struct JobKeys {
 [[nodiscard]] std::string job_kind(const std::filesystem::path& job_file);
 [[nodiscard]] std::string job_kind(const FileSource& source, const std::string& job_file);
 
-/// `schema` and `kind` of a job that is read already; problems go to the list. \return the kind when it is one of
-/// these
+/// `schema` and `kind` of a job that is read already; problems go to the list.
+/// \return the kind when it is one of these
 [[nodiscard]] std::optional<std::string> read_kind(const JsonDocument& document, ProblemList& problems);
 
 /// The kind that a job seems to be of, also where its text has faults: which reader should tell what is wrong with it.

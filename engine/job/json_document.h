@@ -55,7 +55,8 @@ struct JsonDocument {
 [[nodiscard]] std::optional<JsonDocument> read_json_document(std::string_view bytes, ProblemList& problems,
                                                              const JsonLimits& limits = {});
 
-/// The same. \throws InputError with every problem
+/// The same.
+/// \throws InputError with every problem
 [[nodiscard]] JsonDocument parse_json_document(std::string_view bytes, const std::string& file,
                                                const JsonLimits& limits = {});
 
@@ -70,7 +71,8 @@ public:
     JsonObject(const JsonDocument& document, std::string pointer, std::span<const std::string_view> keys,
                ProblemList& problems);
 
-    /// The document itself as an object. \return nothing when it is not one; refused then
+    /// The document itself as an object.
+    /// \return nothing when it is not one; refused then
     [[nodiscard]] static std::optional<JsonObject> root(const JsonDocument& document,
                                                         std::span<const std::string_view> keys, ProblemList& problems);
 

@@ -134,7 +134,8 @@ struct RotaryTableJob {
 /// \return [m]
 [[nodiscard]] double source_paper_fixture_uncertainty(double coordinate);
 
-/// The name that a fixture budget gives a coordinate: "R1.x". \param axis  0, 1, 2 for x, y, z
+/// The name that a fixture budget gives a coordinate: "R1.x".
+/// \param axis  0, 1, 2 for x, y, z
 [[nodiscard]] std::string fixture_coordinate_name(const std::string& reflector, std::size_t axis);
 
 /// The keys of a job of kind `rotary_table`, object by object. schemas/job-1.schema.json states the same ones.
@@ -152,7 +153,8 @@ struct RotaryTableJob {
 [[nodiscard]] RotaryTableJob read_rotary_table_job(const std::filesystem::path& job_file,
                                                    JobUse use = JobUse::evaluate);
 
-/// The same from any source. \param job_file  the name of the job in the source
+/// The same from any source.
+/// \param job_file  the name of the job in the source
 [[nodiscard]] RotaryTableJob read_rotary_table_job(const FileSource& source, const std::string& job_file,
                                                    JobUse use = JobUse::evaluate);
 

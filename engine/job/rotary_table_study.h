@@ -14,10 +14,12 @@ namespace gumcert::engine {
 
 // The keys of a rotary_table job that ask for studies without or beside a measurement.
 
-/// The key `simulation`. \return nothing when it is absent
+/// The key `simulation`.
+/// \return nothing when it is absent
 [[nodiscard]] std::optional<SimulationRequest> read_simulation(const JsonObject& root, ProblemList& problems);
 
-/// The key `plan`. \return nothing when it is absent
+/// The key `plan`.
+/// \return nothing when it is absent
 [[nodiscard]] std::optional<PlanRequest> read_plan(const JsonDocument& document, const JsonObject& root,
                                                    ProblemList& problems);
 

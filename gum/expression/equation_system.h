@@ -99,10 +99,11 @@ public:
 
     [[nodiscard]] std::size_t unknown_count() const;
 
-    /// \param x  n inputs, coherent SI   \return m outputs, coherent SI
+    /// \param x  n inputs, coherent SI
+    /// \return m outputs, coherent SI
     /// \throws NoResultError  GC-MODEL-0060 an operation without a finite value (which equation, what, at which values:
-    ///                        division by zero, logarithm of a negative number), -0061 implicit equations that do not
-    ///                        converge, -0062 singular ones, and double solutions
+    ///     division by zero, logarithm of a negative number), -0061 implicit equations that do not converge, -0062
+    ///     singular ones, and double solutions
     [[nodiscard]] Eigen::VectorXd evaluate(const Eigen::VectorXd& x) const;
     /// m×n, exact (no differences; implicit models by the theorem of implicit functions).
     /// \throws NoResultError  as evaluate(); GC-MODEL-0063 at min and max of equal arguments and abs of 0, where only
@@ -119,9 +120,9 @@ public:
 
     /// Many trials at once; see MeasurementModel::evaluate_trials. Trials whose operation has no finite value, and
     /// those whose implicit equations do not converge, get NaN in every output. Explicit models give what evaluate()
-    /// gives, to the last bit. \param start  where the search for the unknowns begins in every trial, e.g.
-    /// solve(estimates); empty: the start
-    ///               values that were declared
+    /// gives, to the last bit.
+    /// \param start  where the search for the unknowns begins in every trial, e.g. solve(estimates); empty: the start
+    ///     values that were declared
     void evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::Ref<Eigen::MatrixXd> y,
                          const Eigen::VectorXd& start = {}) const;
 

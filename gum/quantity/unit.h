@@ -51,7 +51,8 @@ public:
     ///                       of a scale other than of temperature
     /// \throws StorageError  GC-UNIT-0010 the unit database of UDUNITS-2 cannot be read
     [[nodiscard]] static Unit parse(std::string_view text);
-    /// The coherent SI unit of a dimension. \param celsius  degC instead of K, where the dimension is a temperature
+    /// The coherent SI unit of a dimension.
+    /// \param celsius  degC instead of K, where the dimension is a temperature
     [[nodiscard]] static Unit coherent(const Dimension& dimension, bool celsius = false);
 
     [[nodiscard]] const std::string& text() const { return text_; }

@@ -9,9 +9,9 @@ namespace gumcert::reports {
 /// A unit in the notation of D-SI 2 as jobs write it: "\micro\metre" → "um", "\metre\per\second" → "m s-1",
 /// "\volt\hertz\tothe{-0.5}" → "V Hz^(-1/2)", "\one" → "1". The other direction is gum::unit_in_d_si().
 /// Everything behind \per is in the denominator, as the D-SI parser of the PTB (dsiUnits) reads it:
-/// "\joule\per\kilogram \kelvin" → "J kg-1 K-1". \return nothing for a unit that this program does not know, among them
-/// all that begin with "|" (not in D-SI), those
-///         with more than one \per, and those whose symbol would be another unit ("\femto\tonne" is not "ft")
+/// "\joule\per\kilogram \kelvin" → "J kg-1 K-1".
+/// \return nothing for a unit that this program does not know, among them all that begin with "|" (not in D-SI), those
+///     with more than one \per, and those whose symbol would be another unit ("\femto\tonne" is not "ft")
 [[nodiscard]] std::optional<std::string> unit_from_d_si(std::string_view text);
 
 /// Whether a text is a unit in the notation of D-SI, known to this program or not: prefixes, units, powers and at most

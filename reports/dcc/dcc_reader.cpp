@@ -300,7 +300,8 @@ void Reader::wrong_length(const XmlElement& at, std::size_t entries, std::size_t
            "one entry stands for all values, else there is one for each", "look at the certificate; " + what);
 }
 
-/// One entry for all numbers, or one for each. \return whether the lengths fit
+/// One entry for all numbers, or one for each.
+/// \return whether the lengths fit
 bool Reader::place_list(const XmlElement& list, std::span<ImportedNumber> numbers, std::string ImportedNumber::*into) {
     const std::vector<std::string> words = xml_list(list.text);
     if (words.size() != 1 && words.size() != numbers.size()) {

@@ -75,7 +75,8 @@ void append_line(Text& lines, const Text& line);
 [[nodiscard]] std::string d_si_number(double value);
 /// The printed text where D-SI accepts it as a number, else "NaN".
 [[nodiscard]] std::string d_si_number(const std::string& printed);
-/// The printed text. \throws gum::NoResultError  GC-DCC-0120 where it is no number: a number must never get lost
+/// The printed text.
+/// \throws gum::NoResultError  GC-DCC-0120 where it is no number: a number must never get lost
 [[nodiscard]] std::string required_d_si_number(const std::string& printed, const std::string& where);
 /// The printed text where D-SI accepts it as a coverage factor (plain decimal from 1 on), else "NaN".
 [[nodiscard]] std::string d_si_coverage_factor(const std::string& printed);

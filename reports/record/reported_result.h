@@ -35,7 +35,8 @@ struct ReportedRounding {
 ///
 /// With U (greater than 0) value and U end at the same place (JCGM 100:2008, 7.2.6). Where the interval alone holds,
 /// value, low and high end where half its width has `digits` digits. Without either the value has the digits that u
-/// leaves it. \param unit  of the result, as UDUNITS-2 writes it
+/// leaves it.
+/// \param unit  of the result, as UDUNITS-2 writes it
 void print_reported(ReportedResult& result, const std::string& unit, const ReportedRounding& rounding = {});
 
 /// A printed number with the other sign: the same quantity seen from the other side. Zero stays without one.

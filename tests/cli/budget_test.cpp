@@ -39,13 +39,17 @@ class Budget : public ProgramTest {
 protected:
     [[nodiscard]] fs::path job_file() const { return folder() / "job.json"; }
 
-    /// The text of a job. \param model   "\"y = a\", …"   \param inputs  "\"a\": {…}, …"   \param more  ", \"key\": …"
+    /// The text of a job.
+    /// \param model   "\"y = a\", …"
+    /// \param inputs  "\"a\": {…}, …"
+    /// \param more  ", \"key\": …"
     static std::string budget(const std::string& model, const std::string& inputs, const std::string& more = "") {
         return "{\"schema\": \"gumcert/job/1\", \"kind\": \"budget\",\n\"model\": [" + model + "],\n\"inputs\": {" +
                inputs + "}" + more + "}\n";
     }
 
-    /// Evaluates a job. \return the record
+    /// Evaluates a job.
+    /// \return the record
     json record_of(const std::string& job, int code = 0) const {
         write_bytes(job_file(), job);
         const fs::path file = folder() / "record.json";

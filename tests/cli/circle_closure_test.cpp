@@ -20,7 +20,8 @@ fs::path closure_example() {
 
 class CircleClosureProgram : public ProgramTest {
 protected:
-    /// A copy of the examples of circle closure. \return the job
+    /// A copy of the examples of circle closure.
+    /// \return the job
     [[nodiscard]] fs::path copied(const std::string& job) const {
         for (const fs::directory_entry& entry : fs::directory_iterator(closure_example())) {
             write_bytes(folder() / "closure" / entry.path().filename(), bytes_of(entry.path()));

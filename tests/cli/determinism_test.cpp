@@ -9,7 +9,8 @@ class Determinism : public ProgramTest {
 protected:
     void SetUp() override { (void)copy_of_example(folder() / "job"); }
 
-    /// Runs the example. \return every document with its name
+    /// Runs the example.
+    /// \return every document with its name
     std::map<std::string, std::string> documents(const std::vector<std::string>& options,
                                                  std::map<std::string, std::string> environment) const {
         const bool all = why_no_pdf().empty();

@@ -120,7 +120,8 @@ protected:
                     {"render", record_file, "--format", format, "-o", output, "--share", GUMCERT_SOURCE_DIR});
         return gumcert(more);
     }
-    /// A record that was changed is refused. \return its messages
+    /// A record that was changed is refused.
+    /// \return its messages
     std::vector<Message> refusal(const std::string& bytes) const {
         write_bytes(folder() / "damaged.json", bytes);
         const auto before = contents_of(folder());

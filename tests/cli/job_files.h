@@ -18,7 +18,8 @@ inline fs::path shipped_example() {
     return fs::path(GUMCERT_SOURCE_DIR) / "examples" / "rotary_table";
 }
 
-/// A copy of the files of the shipped example that can be changed. \return its job file
+/// A copy of the files of the shipped example that can be changed.
+/// \return its job file
 inline fs::path copy_of_example(const fs::path& folder) {
     for (const fs::directory_entry& entry : fs::directory_iterator(shipped_example())) {
         if (entry.is_regular_file()) {
@@ -85,7 +86,8 @@ struct ExactCampaign {
         return 360.0 / static_cast<double>(angles) * static_cast<double>(i);
     }
 
-    /// Writes the files of a job. \return its job file
+    /// Writes the files of a job.
+    /// \return its job file
     [[nodiscard]] fs::path write(const fs::path& folder) const {
         constexpr double k_degree = std::numbers::pi / 180.0;
         constexpr double k_arcsecond = k_degree / 3600.0;

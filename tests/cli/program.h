@@ -97,7 +97,8 @@ struct Surroundings {
     fs::path out = {};                                    ///< goes to this file instead of `Ended::out`
 };
 
-/// Runs a program without a shell and waits for it. \param scratch  folder for its two outputs, not seen by it
+/// Runs a program without a shell and waits for it.
+/// \param scratch  folder for its two outputs, not seen by it
 inline Ended run_process(const fs::path& program, const std::vector<std::string>& arguments, const Surroundings& where,
                          const fs::path& scratch) {
     const fs::path out = where.out.empty() ? scratch / "stdout" : where.out;

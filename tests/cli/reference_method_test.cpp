@@ -50,7 +50,8 @@ std::map<std::string, std::vector<std::vector<std::string>>> tables_of_document(
 
 class ReferenceMethod : public ProgramTest {
 protected:
-    /// The comparison of a public campaign. \param change  of its reference_method
+    /// The comparison of a public campaign.
+    /// \param change  of its reference_method
     json comparison_of(const std::string& name, const std::function<void(json&, const fs::path&)>& change) const {
         const fs::path job_folder = folder() / name;
         for (const fs::directory_entry& entry : fs::directory_iterator(shared_campaigns() / name)) {

@@ -18,7 +18,8 @@ protected:
         fixture_ = job_.parent_path() / "fixture.csv";
     }
 
-    /// Runs the job. \return its messages, all of them errors
+    /// Runs the job.
+    /// \return its messages, all of them errors
     std::vector<Message> messages(int code = 3) const {
         const auto before = contents_of(folder());
         const Ended ended = run(job_, folder() / "out", {"--json-messages"});

@@ -26,7 +26,8 @@ fs::path copy_of_campaign(const std::string& name, const fs::path& folder) {
     return folder / "job.json";
 }
 
-/// The shipped example at every 60°, without the dial indicator. \return its job file
+/// The shipped example at every 60°, without the dial indicator.
+/// \return its job file
 fs::path six_angles_of_example(const fs::path& folder) {
     const fs::path job = copy_of_example(folder);
     std::string lengths;
@@ -43,7 +44,8 @@ fs::path six_angles_of_example(const fs::path& folder) {
 
 class RotaryDepth : public ProgramTest {
 protected:
-    /// Evaluates a job that may have a negative answer. \return its record
+    /// Evaluates a job that may have a negative answer.
+    /// \return its record
     json record_of(const fs::path& job, int expected_code) const {
         const fs::path record = folder() / "depth" / "record.json";
         const Ended ended = gumcert({"evaluate", job.string(), "-o", record.string()});

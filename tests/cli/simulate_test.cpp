@@ -7,7 +7,8 @@ namespace {
 
 class Simulate : public ProgramTest {
 protected:
-    /// The shipped example with a few angles and runs. \return its job file
+    /// The shipped example with a few angles and runs.
+    /// \return its job file
     [[nodiscard]] fs::path small_job(const std::string& angle_counts = "[6, 8]") const {
         (void)copy_of_example(folder() / "job");
         const fs::path job = folder() / "job" / "simulation.json";

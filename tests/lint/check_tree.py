@@ -11,6 +11,7 @@ knows or would add; in a tree without git, at every file outside build folders.
 - open ends in sources without the number of an issue
 - links of a document to a file of the tree that is not there
 - conflict marks, and line ends of another system in sources
+- a doc tag (\\param, \\return, \\throws) inside a line of text: each has a line of its own
 """
 
 import pathlib
@@ -28,6 +29,7 @@ REGISTRY = re.compile(
 OPEN_END = re.compile(r"\b(?:TO" r"DO|FIX" r"ME|X" r"XX)\b(?!\s*\(?#\d+)")
 LINK = re.compile(r"\]\((?!https?:|mailto:|#)([^)#\s]+)")
 CONFLICT = re.compile(r"^(?:<{7}|>{7}) ")
+TAG_IN_TEXT = re.compile(r"^\s*///.*[^\s/].*\s\\(?:param|return|throws)\b")
 
 
 def files_of(root):
@@ -56,6 +58,8 @@ def breaches(path):
             yield number, f"{registry.group().strip()} — the address of a package registry; leave it to the machine's settings"
         if is_source and path.suffix not in OPEN_ENDS_ALLOWED and OPEN_END.search(line):
             yield number, f"{OPEN_END.search(line).group()} without the number of an issue"
+        if path.suffix in {".h", ".cpp"} and TAG_IN_TEXT.search(line):
+            yield number, "a doc tag inside a line of text; give it a line of its own"
         if is_source and line.endswith("\r"):
             yield number, "line ends with CR LF; sources end lines with LF"
         for link in LINK.finditer(line) if path.suffix == ".md" else ():

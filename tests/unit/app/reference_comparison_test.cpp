@@ -32,7 +32,8 @@ const double k_factor = gum::coverage_factor(0.9545, INFINITY);  // 2.0000024
 const std::string k_indicator =
     R"({"contact_point_mm": [100, 4, 0], "resolution_um": 0, "mpe_um": 0.692820323027551, "repeatability_um": 0})";
 
-/// The small campaign with one reading a point, each 0 µm. \param points  "x,0" …
+/// The small campaign with one reading a point, each 0 µm.
+/// \param points  "x,0" …
 Files campaign(const std::vector<std::string>& points, const std::string& keys = "") {
     Files files = engine::test::small_campaign();
     files["dial_indicator.json"] = k_indicator;
