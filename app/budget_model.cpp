@@ -11,6 +11,7 @@
 #include "gum/nearest_correlation.h"
 #include "gum/propagation.h"
 #include "gum/quantity/decimal_rounding.h"
+#include "gum/quantity/special_values.h"
 #include "gum/rounding.h"
 
 namespace gumcert::app {
@@ -26,7 +27,6 @@ using gum::Distribution;
 using gum::DistributionKind;
 using gum::InputGroup;
 
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t k_streams_an_input = 4096;  // more components than an input may have
 
 constexpr double k_attained = 1e-9;  // beyond the largest coefficient of correlation: rounding
@@ -170,7 +170,7 @@ void set_degrees_of_freedom(const BudgetJob& job, const std::vector<std::size_t>
         group.degrees_of_freedom = static_cast<double>(observed->observations - 1);
         return;
     }
-    double least = k_infinity;
+    double least = gum::k_infinity;
     double most = 0.0;
     std::string all;
     for (const std::size_t input : inputs) {
@@ -644,7 +644,7 @@ BudgetInputs budget_inputs(const BudgetJob& job, const std::vector<engine::Curve
         group.evaluation = fit.covariance_scaled ? gum::Evaluation::type_a : gum::Evaluation::type_b;
         group.value = fit.parameters;
         group.covariance = fit.covariance;
-        group.degrees_of_freedom = fit.covariance_scaled ? fit.degrees_of_freedom : k_infinity;
+        group.degrees_of_freedom = fit.covariance_scaled ? fit.degrees_of_freedom : gum::k_infinity;
         for (Eigen::Index i = 0; i < fit.parameters.size(); ++i) {
             group.marginals.push_back(
                 Distribution::student_t(fit.parameters(i), std::sqrt(fit.covariance(i, i)), group.degrees_of_freedom));

@@ -21,6 +21,7 @@
 #include "app/zero_uncertainty.h"
 #include "gum/coverage.h"
 #include "gum/quantity/decimal_rounding.h"
+#include "gum/quantity/special_values.h"
 #include "gum/rounding.h"
 
 namespace gumcert::app {
@@ -33,8 +34,6 @@ using engine::StatedQuantity;
 using gum::Unit;
 using reports::BudgetRow;
 using reports::Printed;
-
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
 Printed printed_result(double value, std::optional<double> U, double u, const std::string& unit,
                        gum::RoundingMode rounding) {
@@ -66,7 +65,7 @@ double held_digits(double value, double lost) {
 
 /// Numbers of a budget row in the units of its input and of the result.
 struct RowNumbers {
-    double value = 0.0, u = 0.0, nu = k_infinity, sensitivity = 0.0;  ///< coherent SI
+    double value = 0.0, u = 0.0, nu = gum::k_infinity, sensitivity = 0.0;  ///< coherent SI
 };
 
 BudgetRow budget_row(const std::string& name, const Unit& unit, const RowNumbers& si, const Unit& result_unit,
@@ -161,7 +160,8 @@ std::vector<BudgetRow> budget_rows(const BudgetJob& job, const BudgetResult& res
     return rows;
 }
 
-/// The part of the variance that the rows do not show, where inputs are correlated. \param inputs  of the job
+/// The part of the variance that the rows do not show, where inputs are correlated.
+/// \param inputs  of the job
 std::optional<reports::CorrelationRow> correlation_row(const BudgetPointResult& point,
                                                        const std::vector<BudgetRow>& rows, std::size_t inputs,
                                                        Eigen::Index output, const Unit& unit) {

@@ -13,6 +13,7 @@
 #include "gum/comparison.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/special_values.h"
 #include "gum/rounding.h"
 
 namespace gumcert::app {
@@ -23,7 +24,6 @@ using Eigen::Index;
 using reports::ComparisonPoint;
 using reports::ComparisonSummary;
 
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr double k_rounding_of_correlation = 1e-9;
 constexpr int k_digits_of_U = 2;
 constexpr int k_digits_of_ratio = 3;             // so that 0.996 does not print as 1.0
@@ -94,9 +94,9 @@ Differences differences_of(const MethodComparison& comparison) {
         const auto at = static_cast<Index>(i);
         const double p = comparison.coverage_probability;
         const gum::EnUncertainty of_method =
-            gum::en_uncertainty(point.u, point.U, point.k, point.nu.value_or(k_infinity), p);
+            gum::en_uncertainty(point.u, point.U, point.k, point.nu.value_or(gum::k_infinity), p);
         const gum::EnUncertainty of_reference = gum::en_uncertainty(
-            point.reference_u, point.reference_U, point.reference_k, point.reference_nu.value_or(k_infinity), p);
+            point.reference_u, point.reference_U, point.reference_k, point.reference_nu.value_or(gum::k_infinity), p);
         differences.of_method.push_back(of_method);
         differences.of_reference.push_back(of_reference);
         differences.method.push_back({point.value, point.u, of_method.U});
@@ -131,7 +131,7 @@ gum::RoundedPair printed_pair(double value, double U) {
 double worst_en(const gum::ComparedValue& method, const gum::ComparedValue& reference) {
     const std::optional<double> worst = gum::worst_plausible_en(method, reference);
     const double difference = method.value - reference.value;
-    return worst ? *worst : difference == 0.0 ? 0.0 : std::copysign(k_infinity, difference);
+    return worst ? *worst : difference == 0.0 ? 0.0 : std::copysign(gum::k_infinity, difference);
 }
 
 bool is_audited(const MethodComparison& comparison) {
@@ -380,7 +380,7 @@ std::optional<reports::BiasLineSummary> bias_of(const MethodComparison& comparis
     if (!line) {
         return std::nullopt;
     }
-    const double k = gum::coverage_factor(comparison.coverage_probability, k_infinity);
+    const double k = gum::coverage_factor(comparison.coverage_probability, gum::k_infinity);
     reports::BiasLineSummary bias;
     bias.against = comparison.bias_against_position ? "position" : "reference_value";
     bias.centre = line->centre;

@@ -15,14 +15,13 @@
 #include "engine/trial_lanes.h"
 #include "engine/trial_network.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/special_values.h"
 
 namespace gumcert::engine {
 
 namespace {
 
 using Index = Eigen::Index;
-
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
 /// Drawn lengths of one visit against those of the solution: residual there + noise + resolution - A δ.
 GUMCERT_WIDE_CLONES
@@ -70,7 +69,7 @@ JointAdjustment with_free_dead_paths(const RotaryTableModel& model) {
 }
 
 SourceDegreesOfFreedom degrees_of_freedom_of(const RotaryTableModel& model) {
-    SourceDegreesOfFreedom nu{k_infinity, k_infinity, k_infinity, k_infinity, k_infinity};
+    SourceDegreesOfFreedom nu{gum::k_infinity, gum::k_infinity, gum::k_infinity, gum::k_infinity, gum::k_infinity};
     const auto take = [&](const char* name, double& to) {
         for (const gum::InputGroup& group : model.inputs()) {
             if (group.name == name) {
@@ -180,7 +179,7 @@ void RotaryTableTrials::add_inputs(const JointAdjustment& solved, const Stochast
     if (const double step = measurement.length_uncertainty.resolution; step > 0.0) {
         gum::InputGroup group =
             group_of("resolution of the lengths", "length noise", "m", Eigen::VectorXd::Zero(lengths),
-                     Eigen::MatrixXd::Constant(lengths, 1, step * step / 12.0), k_infinity);
+                     Eigen::MatrixXd::Constant(lengths, 1, step * step / 12.0), gum::k_infinity);
         make_uniform(group);
         columns_.resolution = add(std::move(group));
     }
@@ -210,7 +209,7 @@ void RotaryTableTrials::add_inputs(const JointAdjustment& solved, const Stochast
     if (scales > 0) {
         const double u = measurement.length_uncertainty.u_scale;
         columns_.scale = add(group_of("scale of the stations", "scale", "1", Eigen::VectorXd::Zero(scales),
-                                      Eigen::MatrixXd::Constant(scales, 1, u * u), k_infinity));
+                                      Eigen::MatrixXd::Constant(scales, 1, u * u), gum::k_infinity));
     }
 
     fixture_value_ = measurement.fixture.transpose().reshaped();
@@ -239,7 +238,7 @@ void RotaryTableTrials::add_inputs(const JointAdjustment& solved, const Stochast
         const auto n = static_cast<Index>(temperature.size());
         gum::InputGroup group = group_of("temperature of the fixture", "fixture thermal", "K",
                                          Eigen::Map<Eigen::VectorXd>(temperature.data(), n),
-                                         Eigen::Map<Eigen::VectorXd>(temperature_variance.data(), n), k_infinity);
+                                         Eigen::Map<Eigen::VectorXd>(temperature_variance.data(), n), gum::k_infinity);
         if (measurement.temperature_shape == InputShape::uniform) {
             make_uniform(group);
         }
@@ -247,10 +246,10 @@ void RotaryTableTrials::add_inputs(const JointAdjustment& solved, const Stochast
         columns_.temperature = add(std::move(group));
     }
     if (solved.expansion_prior() != JointAdjustment::k_none) {
-        gum::InputGroup group =
-            group_of("expansion coefficient of the fixture", "fixture thermal", "1/K",
-                     Eigen::VectorXd::Constant(1, measurement.expansion),
-                     Eigen::MatrixXd::Constant(1, 1, measurement.u_expansion * measurement.u_expansion), k_infinity);
+        gum::InputGroup group = group_of(
+            "expansion coefficient of the fixture", "fixture thermal", "1/K",
+            Eigen::VectorXd::Constant(1, measurement.expansion),
+            Eigen::MatrixXd::Constant(1, 1, measurement.u_expansion * measurement.u_expansion), gum::k_infinity);
         if (measurement.expansion_shape == InputShape::uniform) {
             make_uniform(group);
         }
@@ -264,7 +263,7 @@ void RotaryTableTrials::add_inputs(const JointAdjustment& solved, const Stochast
         }
         const std::string full_name = std::string(name) + ", estimated variance";
         gum::InputGroup group = group_of(full_name.c_str(), source, "1", Eigen::VectorXd::Ones(1),
-                                         Eigen::MatrixXd::Constant(1, 1, 2.0 / nu), k_infinity);
+                                         Eigen::MatrixXd::Constant(1, 1, 2.0 / nu), gum::k_infinity);
         group.evaluation = gum::Evaluation::type_a;
         group.distribution = "gamma";
         group.marginals = {gum::Distribution{

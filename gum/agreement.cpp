@@ -22,7 +22,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double k_symmetry_tolerance = 1e-9;  // relative to √(V_ii V_jj)
+constexpr double k_stated_symmetry_tolerance = 1e-9;  // relative to √(V_ii V_jj)
 constexpr double k_largest_correlation = 1.0 + 1e-9;
 constexpr double k_negative_eigenvalue = 1e-8;  // relative to the largest: decimal digits of a stated matrix
 constexpr double k_rank_tolerance = 1e-10;      // relative to the largest eigenvalue
@@ -79,7 +79,7 @@ void require_covariance(const MatrixXd& covariance) {
                 refuse("GC-GUM-0001", where(), number_text(covariance(i, j)), "must be a finite number",
                        "Correct the covariance.");
             }
-            if (!(std::abs(covariance(i, j) - covariance(j, i)) <= k_symmetry_tolerance * scale)) {
+            if (!(std::abs(covariance(i, j) - covariance(j, i)) <= k_stated_symmetry_tolerance * scale)) {
                 refuse("GC-GUM-0052", where(),
                        number_text(covariance(i, j)) + " below and " + number_text(covariance(j, i)) +
                            " above the diagonal",

@@ -16,9 +16,9 @@ namespace {
 using Real = long double;
 
 // An overflow is reported as our own failure, not as an exception of the library.
-using Policy =
+using FPolicy =
     boost::math::policies::policy<boost::math::policies::overflow_error<boost::math::policies::ignore_error>>;
-using FDistribution = boost::math::fisher_f_distribution<double, Policy>;
+using FDistribution = boost::math::fisher_f_distribution<double, FPolicy>;
 
 /// Observations that belong together, about a centre that all groups share.
 struct Sample {
@@ -104,7 +104,7 @@ VarianceRatio ratio_of(const ExactLine& upper, const ExactLine& lower, double al
     return ratio;
 }
 
-Real root(Real square) {
+Real root_of_square(Real square) {
     return std::sqrt(std::max(square, 0.0L));
 }
 
@@ -157,7 +157,8 @@ OneWayAnalysis analyse(std::span<const Sample> samples, Real centre, double alph
             {.observations = static_cast<std::size_t>(sample.size),
              .mean = static_cast<double>(centre + sample.mean),
              .standard_deviation =
-                 sample.size > 1.0L ? static_cast<double>(root(sample.sum_of_squares / (sample.size - 1.0L))) : 0.0});
+                 sample.size > 1.0L ? static_cast<double>(root_of_square(sample.sum_of_squares / (sample.size - 1.0L)))
+                                    : 0.0});
     }
     result.observations = static_cast<std::size_t>(n);
     result.balanced = std::all_of(samples.begin(), samples.end(), [&](const Sample& sample) {
@@ -170,17 +171,17 @@ OneWayAnalysis analyse(std::span<const Sample> samples, Real centre, double alph
     result.r_squared = static_cast<double>(between.sum_of_squares / total.sum_of_squares);
     result.mean = static_cast<double>(centre + pooled.mean);
     result.mean_of_group_means = static_cast<double>(centre + mean_of_means);
-    const Real of_means = root(spread_of_means / (j - 1.0L));
+    const Real of_means = root_of_square(spread_of_means / (j - 1.0L));
     result.standard_deviation_of_group_means = static_cast<double>(of_means);
-    result.between_estimate = static_cast<double>(root(between.mean_square()));
-    result.within_standard_deviation = static_cast<double>(root(within.mean_square()));
+    result.between_estimate = static_cast<double>(root_of_square(between.mean_square()));
+    result.within_standard_deviation = static_cast<double>(root_of_square(within.mean_square()));
     const Real effective_size = (n - squared_sizes / n) / (j - 1.0L);
     result.between_variance_clipped = between.mean_square() < within.mean_square();
     result.between_standard_deviation =
-        static_cast<double>(root((between.mean_square() - within.mean_square()) / effective_size));
+        static_cast<double>(root_of_square((between.mean_square() - within.mean_square()) / effective_size));
     result.u_with_between_effect = static_cast<double>(of_means / std::sqrt(j));
     result.u_with_between_effect_degrees_of_freedom = static_cast<double>(j - 1.0L);
-    result.u_without_between_effect = static_cast<double>(root(total.mean_square() / n));
+    result.u_without_between_effect = static_cast<double>(root_of_square(total.mean_square() / n));
     result.u_without_between_effect_degrees_of_freedom = static_cast<double>(n - 1.0L);
     return result;
 }
@@ -297,13 +298,14 @@ NestedAnalysis nested_analysis(std::span<const std::vector<std::vector<double>>>
     const Real of_groups = groups.mean_square();
     const Real of_subgroups = subgroups.mean_square();
     const Real of_readings = within.mean_square();
-    result.within_standard_deviation = static_cast<double>(root(of_readings));
-    result.between_subgroup_standard_deviation = static_cast<double>(root((of_subgroups - of_readings) / k_count));
+    result.within_standard_deviation = static_cast<double>(root_of_square(of_readings));
+    result.between_subgroup_standard_deviation =
+        static_cast<double>(root_of_square((of_subgroups - of_readings) / k_count));
     result.between_group_standard_deviation =
-        static_cast<double>(root((of_groups - of_subgroups) / (j_count * k_count)));
+        static_cast<double>(root_of_square((of_groups - of_subgroups) / (j_count * k_count)));
     result.between_subgroup_variance_clipped = of_subgroups < of_readings;
     result.between_group_variance_clipped = of_groups < of_subgroups;
-    result.u_of_mean = static_cast<double>(root(of_groups / (i_count * j_count * k_count)));
+    result.u_of_mean = static_cast<double>(root_of_square(of_groups / (i_count * j_count * k_count)));
     return result;
 }
 

@@ -54,10 +54,10 @@ private:
     Distribution standard_;
 };
 
-/// A root between two values of opposite sign; an end itself where its value is zero or the signs are equal, which only
-/// rounding can bring about.
+/// A root between two values of opposite sign; an end itself where its value is zero or the signs are equal,
+/// which only rounding can bring about.
 template <class Function>
-double root(const Function& f, double a, double b) {
+double root_between(const Function& f, double a, double b) {
     if (!(a < b)) {
         return a;
     }
@@ -78,12 +78,13 @@ double Dispersion::solve(double p) const {
     while ((f(-reach) > 0.0 || f(reach) < 0.0) && std::isfinite(2.0 * reach)) {
         reach *= 2.0;
     }
-    return root(f, -reach, reach);
+    return root_between(f, -reach, reach);
 }
 
 /// Where the risk crosses a level between two values.
 double crossing(const Dispersion& dispersion, const ToleranceLimits& limits, double level, double from, double to) {
-    return root([&](double s) { return dispersion.risk(s, limits) - level; }, std::min(from, to), std::max(from, to));
+    return root_between([&](double s) { return dispersion.risk(s, limits) - level; }, std::min(from, to),
+                        std::max(from, to));
 }
 
 /// A value between two others whose risk is not above a level: the middle of the tolerance, where there is one at all.

@@ -18,6 +18,7 @@
 #include "gum/coverage.h"
 #include "gum/distribution_quantile.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/special_values.h"
 #include "gum/random_draws.h"
 
 namespace gumcert::gum {
@@ -28,7 +29,6 @@ using BesselPolicy =
                                   boost::math::policies::overflow_error<boost::math::policies::ignore_error>,
                                   boost::math::policies::underflow_error<boost::math::policies::ignore_error>>;
 
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t k_cells = std::size_t{1} << 15U;
 // A margin of cells, so that the probability at the last ones does not wrap around to the other side of the grid.
 constexpr std::size_t k_last_cell = k_cells / 2 * 10 / 11;

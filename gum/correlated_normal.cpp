@@ -1,4 +1,5 @@
 #include "gum/correlated_normal.h"
+#include "gum/quantity/special_values.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -8,8 +9,6 @@
 namespace gumcert::gum {
 
 namespace {
-
-constexpr double k_epsilon = std::numeric_limits<double>::epsilon();
 
 Eigen::MatrixXd part(const Eigen::MatrixXd& R, const std::vector<Eigen::Index>& rows,
                      const std::vector<Eigen::Index>& columns) {

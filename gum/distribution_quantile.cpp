@@ -13,20 +13,20 @@
 #include <vector>
 
 #include "gum/argument_check.h"
+#include "gum/quantity/special_values.h"
 
 namespace gumcert::gum {
 namespace {
 
 namespace bm = boost::math;
 /// Too large is infinite, too small is 0: both are true answers here, not failures.
-using Policy =
+using QuantilePolicy =
     bm::policies::policy<bm::policies::promote_double<false>, bm::policies::overflow_error<bm::policies::ignore_error>,
                          bm::policies::underflow_error<bm::policies::ignore_error>>;
-using StudentT = bm::students_t_distribution<double, Policy>;
-using Gamma = bm::gamma_distribution<double, Policy>;
-using Beta = bm::beta_distribution<double, Policy>;
+using StudentT = bm::students_t_distribution<double, QuantilePolicy>;
+using Gamma = bm::gamma_distribution<double, QuantilePolicy>;
+using Beta = bm::beta_distribution<double, QuantilePolicy>;
 
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr double k_pi = std::numbers::pi;
 
 /// e + (1 - e) ln(1 - e) for 0 ≤ e ≤ 1: e²/2 at small e, where the closed form has lost all its digits.
@@ -113,7 +113,7 @@ double symmetric_quantile(const Distribution& distribution, double q) {
     }
     switch (distribution.kind) {
         case DistributionKind::normal:
-            return q > 0.0 ? std::numbers::sqrt2 * bm::erfc_inv(2.0 * q, Policy()) : k_infinity;
+            return q > 0.0 ? std::numbers::sqrt2 * bm::erfc_inv(2.0 * q, QuantilePolicy()) : k_infinity;
         case DistributionKind::uniform:
             return 1.0 - 2.0 * q;
         case DistributionKind::triangular:
@@ -223,7 +223,7 @@ double standard_quantile(const Distribution& distribution, double q, bool upper)
         case DistributionKind::exponential:
             return upper ? -std::log(q) : -std::log1p(-q);
         case DistributionKind::lognormal: {
-            const double z = q > 0.0 && q < 1.0 ? std::numbers::sqrt2 * bm::erfc_inv(2.0 * q, Policy())
+            const double z = q > 0.0 && q < 1.0 ? std::numbers::sqrt2 * bm::erfc_inv(2.0 * q, QuantilePolicy())
                                                 : (q > 0.0 ? -k_infinity : k_infinity);
             return std::exp(shape * (upper ? z : -z));
         }

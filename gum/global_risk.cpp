@@ -11,13 +11,13 @@
 
 #include "gum/argument_check.h"
 #include "gum/coverage.h"
+#include "gum/quantity/special_values.h"
 
 namespace gumcert::gum {
 namespace {
 
 using Panel = boost::math::quadrature::gauss<double, 20>;
 
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr int k_reach = 38;  // standard deviations: beyond, a normal density is not a number above 0 any more
 
 double density(double z) {

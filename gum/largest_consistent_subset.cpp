@@ -13,6 +13,7 @@
 #include "gum/argument_check.h"
 #include "gum/correlated_results.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/special_values.h"
 #include "gum/reference_value.h"
 
 namespace gumcert::gum {
@@ -20,7 +21,6 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr double k_tie = 1e-9;           // relative, of chi-square: subsets that nobody can tell apart
 constexpr double k_rounding = 1e-11;     // relative, of chi-square as it is computed
 constexpr double k_same_result = 1e-13;  // of u: results that are taken as equal

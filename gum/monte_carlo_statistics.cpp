@@ -1,4 +1,5 @@
 #include "gum/monte_carlo_statistics.h"
+#include "gum/quantity/special_values.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +9,6 @@
 namespace gumcert::gum {
 namespace {
 
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr int k_octaves_below = 20;  // of the spread of the pilot values, told apart from the centre
 constexpr int k_octaves_above = 22;
 constexpr int k_division_bits = 8;

@@ -1,4 +1,5 @@
 #include "gum/nearest_correlation.h"
+#include "gum/quantity/special_values.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -9,7 +10,6 @@ namespace gumcert::gum {
 namespace {
 
 constexpr int k_most_steps = 500;
-constexpr double k_epsilon = std::numeric_limits<double>::epsilon();
 /// Smallest eigenvalue that the projection leaves: above 0, so that the box of the tolerances is reached in a finite
 /// number of steps.
 constexpr double k_floor = 1e-11;

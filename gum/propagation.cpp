@@ -16,13 +16,11 @@
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/distribution_shape.h"
+#include "gum/quantity/special_values.h"
 
 namespace gumcert::gum {
 namespace {
 
-constexpr double k_epsilon = std::numeric_limits<double>::epsilon();
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
-constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double k_symmetry_tolerance = 1e-12;  // relative to u_i u_j: what computing a product A B Aᵀ may leave
 
 /// Rounding that an n×n correlation matrix may carry, relative to its largest eigenvalue.
@@ -41,7 +39,7 @@ std::string ordinal(Eigen::Index index) {
     return "quantity " + std::to_string(index + 1);
 }
 
-std::string place(const InputGroup& group) {
+std::string place_of(const InputGroup& group) {
     return "input group '" + group.name + "'";
 }
 
@@ -63,7 +61,7 @@ std::string causes(const Eigen::VectorXd& eigenvector) {
 GroupFactor factor_group(const InputGroup& group, std::vector<Diagnostic>& problems) {
     const auto report = [&](const char* code, std::string what, std::string rule, std::string action) {
         problems.push_back(Diagnostic{.code = code,
-                                      .where = place(group),
+                                      .where = place_of(group),
                                       .what = std::move(what),
                                       .rule = std::move(rule),
                                       .action = std::move(action)});
@@ -209,8 +207,8 @@ void require_finite_jacobian(const MeasurementModel& model, const Eigen::MatrixX
             for (Eigen::Index i = 0; i < jacobian.rows(); ++i) {
                 if (!std::isfinite(jacobian(i, j))) {
                     no_result("GC-GUM-0056", output_place(model, i),
-                              "the sensitivity coefficient for " + ordinal(j - first) + " of " + place(group) + " is " +
-                                  number_text(jacobian(i, j)),
+                              "the sensitivity coefficient for " + ordinal(j - first) + " of " + place_of(group) +
+                                  " is " + number_text(jacobian(i, j)),
                               "the law of propagation needs a finite derivative at the estimates",
                               "The model cannot be made linear there: use the Monte Carlo method.");
                 }
@@ -348,7 +346,8 @@ Propagation propagate(const MeasurementModel& model, double coverage_probability
 
 namespace {
 
-/// The covariance matrix of all inputs, n×n. \pre the groups are those of a propagation, hence checked
+/// The covariance matrix of all inputs, n×n.
+/// \pre the groups are those of a propagation, hence checked
 Eigen::MatrixXd input_covariance(const MeasurementModel& model, Eigen::Index n) {
     Eigen::MatrixXd V = Eigen::MatrixXd::Zero(n, n);
     Eigen::Index first = 0;

@@ -21,12 +21,12 @@
 #include "gum/propagation.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/register_widths.h"
+#include "gum/quantity/special_values.h"
 #include "gum/worker_threads.h"
 
 namespace gumcert::gum {
 namespace {
 
-constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int k_cell_bits = 7;
 constexpr int k_cells = 1 << k_cell_bits;  // of an octave
 constexpr int k_octaves = 32;              // of 2^32 q, from 1/2 up to 2^31

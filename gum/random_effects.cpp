@@ -27,13 +27,13 @@ void require_independent_results(const LaboratoryResults& results) {
 }
 
 /// Values less that of the most precise result, and their uncertainties, in a unit in which both are moderate.
-struct CentredResults {
+struct ShiftedResults {
     double centre = 0.0, unit = 0.0;
     ArrayXd x = {}, variance = {};
 };
 
-CentredResults centred(const LaboratoryResults& results) {
-    CentredResults c{.centre = results.x(most_precise(results))};
+ShiftedResults shifted(const LaboratoryResults& results) {
+    ShiftedResults c{.centre = results.x(most_precise(results))};
     c.x = results.x.array() - c.centre;
     c.unit = std::max(c.x.abs().maxCoeff(), results.u.maxCoeff());
     c.x /= c.unit;
@@ -47,7 +47,7 @@ struct WeightedSums {
     double total = 0.0, mean = 0.0, squares = 0.0;
 };
 
-WeightedSums weighted_sums(const CentredResults& c, double between_variance) {
+WeightedSums weighted_sums(const ShiftedResults& c, double between_variance) {
     WeightedSums sums{.weights = (c.variance + between_variance).inverse()};
     sums.total = sums.weights.sum();
     sums.mean = (sums.weights * c.x).sum() / sums.total;
@@ -55,11 +55,11 @@ WeightedSums weighted_sums(const CentredResults& c, double between_variance) {
     return sums;
 }
 
-double variance_of_values(const CentredResults& c) {
+double variance_of_values(const ShiftedResults& c) {
     return (c.x - c.x.mean()).square().sum() / static_cast<double>(c.x.size() - 1);
 }
 
-ReferenceValue random_effects_mean(const CentredResults& c, double between_variance) {
+ReferenceValue random_effects_mean(const ShiftedResults& c, double between_variance) {
     const WeightedSums sums = weighted_sums(c, between_variance);
     return {.value = c.centre + c.unit * sums.mean,
             .u = c.unit / std::sqrt(sums.total),
@@ -69,7 +69,7 @@ ReferenceValue random_effects_mean(const CentredResults& c, double between_varia
 
 /// Σ (x_i − y)²/(u_i² + τ²) falls with τ². At τ² = s², the variance of the values, it is at most n − 1: the sum is the
 /// least one over y, and with the arithmetic mean and without the u_i² it would be n − 1.
-double mandel_paule_variance(const CentredResults& c) {
+double mandel_paule_variance(const ShiftedResults& c) {
     const double target = static_cast<double>(c.x.size() - 1);
     const auto excess = [&](double between_variance) { return weighted_sums(c, between_variance).squares - target; };
     if (excess(0.0) <= 0.0) {
@@ -104,7 +104,7 @@ double mandel_paule_variance(const CentredResults& c) {
 
 ReferenceValue dersimonian_laird(const LaboratoryResults& results) {
     require_independent_results(results);
-    const CentredResults c = centred(results);
+    const ShiftedResults c = shifted(results);
     const WeightedSums sums = weighted_sums(c, 0.0);
     const double nu = static_cast<double>(c.x.size() - 1);
     // Σw − Σw²/Σw = Σ w_i (1 − w_i/Σw), the sum of the others for 1 − w_i/Σw: nothing cancels where one w is large.
@@ -123,7 +123,7 @@ double hartung_knapp_u(const LaboratoryResults& results, const ReferenceValue& m
     require_independent_results(results);
     require_finite(mean.value, "value of the mean");
     require_not_negative(mean.between_standard_deviation, "standard deviation between laboratories");
-    const CentredResults c = centred(results);
+    const ShiftedResults c = shifted(results);
     const double tau = mean.between_standard_deviation / c.unit;
     const WeightedSums sums = weighted_sums(c, tau * tau);
     const double away = (mean.value - c.centre) / c.unit - sums.mean;
@@ -135,13 +135,13 @@ double hartung_knapp_u(const LaboratoryResults& results, const ReferenceValue& m
 
 double cochran_between_standard_deviation(const LaboratoryResults& results) {
     require_independent_results(results);
-    const CentredResults c = centred(results);
+    const ShiftedResults c = shifted(results);
     return c.unit * std::sqrt(std::max(0.0, variance_of_values(c) - c.variance.mean()));
 }
 
 ReferenceValue mandel_paule(const LaboratoryResults& results) {
     require_independent_results(results);
-    const CentredResults c = centred(results);
+    const ShiftedResults c = shifted(results);
     return random_effects_mean(c, mandel_paule_variance(c));
 }
 
@@ -156,7 +156,7 @@ ReferenceValue power_moderated_mean(const LaboratoryResults& results, double alp
         refuse("GC-GUM-0137", "power of the power-moderated mean", number_text(alpha), "must lie between 0 and 2",
                "Take 2 - 3/n for n results, or leave it out.");
     }
-    const CentredResults c = centred(results);
+    const ShiftedResults c = shifted(results);
     const double n = static_cast<double>(c.x.size());
     const double between_variance = mandel_paule_variance(c);
     const double of_arithmetic_mean = variance_of_values(c) / n;

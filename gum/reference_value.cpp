@@ -13,15 +13,15 @@
 #include "gum/correlated_results.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/special_values.h"
 
 namespace gumcert::gum {
 namespace {
 
 using Eigen::Index;
 
-constexpr double k_epsilon = std::numeric_limits<double>::epsilon();
-constexpr double k_diagonal_tolerance = 1e-9;   // of u², for a covariance that was written with some digits
-constexpr double k_symmetry_tolerance = 1e-12;  // of u_i u_j, for a covariance that was computed
+constexpr double k_diagonal_tolerance = 1e-9;            // of u², for a covariance that was written with some digits
+constexpr double k_computed_symmetry_tolerance = 1e-12;  // of u_i u_j, for a covariance that was computed
 constexpr double k_smallest_reciprocal_condition = 1e-12;
 constexpr double k_largest_magnitude = 1e150;  // of what is squared
 
@@ -85,7 +85,7 @@ void check_elements(const LaboratoryResults& results, Problems& problems) {
         for (Index i = j + 1; i < V.rows(); ++i) {
             const double scale = results.u(i) * results.u(j);
             const std::string pair = "of " + name_of(j) + " and " + name_of(i);
-            if (std::abs(V(i, j) - V(j, i)) > k_symmetry_tolerance * scale) {
+            if (std::abs(V(i, j) - V(j, i)) > k_computed_symmetry_tolerance * scale) {
                 problems.add("GC-GUM-0052", "covariance of the results",
                              "element " + pair + " is " + number_text(V(i, j)) + " below and " + number_text(V(j, i)) +
                                  " above the diagonal",

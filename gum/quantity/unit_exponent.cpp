@@ -4,12 +4,7 @@
 
 namespace gumcert::gum {
 
-namespace {
-
-constexpr int k_largest_exponent = 99;
-constexpr int k_largest_denominator = 9;
-
-}  // namespace
+namespace {}  // namespace
 
 std::optional<UnitExponent> unit_exponent(double value) {
     constexpr double k_rounding = 1e-9;

@@ -7,7 +7,11 @@
 
 namespace gumcert::gum {
 
-/// An exponent of a unit: a fraction in lowest terms, denominator 1 to 9, size up to 99.
+inline constexpr int k_largest_exponent = 99;
+inline constexpr int k_largest_denominator = 9;
+
+/// An exponent of a unit: a fraction in lowest terms, denominator 1 to `k_largest_denominator`, size up to
+/// `k_largest_exponent`.
 struct UnitExponent {
     int numerator = 1;
     int denominator = 1;

@@ -1,4 +1,5 @@
 #include "gum/quantity/unit_expression.h"
+#include "gum/quantity/unit_exponent.h"
 
 #include <algorithm>
 #include <array>
@@ -12,8 +13,6 @@ namespace gumcert::gum {
 
 namespace {
 
-constexpr int k_largest_exponent = 99;
-constexpr int k_largest_denominator = 9;
 constexpr std::size_t k_most_digits = 15;  // of a number: held exactly
 
 constexpr std::array<std::string_view, 2> k_dots{"·", "⋅"};
