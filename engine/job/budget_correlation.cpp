@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "engine/job/csv_table.h"
+#include "engine/job/matrix_limits.h"
 #include "gum/nearest_correlation.h"
 #include "gum/rounding.h"
 
@@ -21,9 +22,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array<std::string_view, 2> k_covariance_keys{"inputs", "matrix"};
-constexpr std::array<std::string_view, 1> k_file_keys{"file"};
-constexpr std::size_t k_most_in_matrix = 2000;  // dense, with its eigenvalues
-constexpr double k_same_number = 1e-9;          // of matrices that another program wrote with fewer digits
+constexpr std::array<std::string_view, 1> k_matrix_file_keys{"file"};
 constexpr double k_same_variance = 1e-6;
 
 constexpr double k_largest_repair = 5e-4;     // of a correlation coefficient
@@ -53,7 +52,8 @@ std::string unknown_action(std::string_view name, const std::vector<std::string>
     return nearest ? "did you mean " + in_quotes(*nearest) + "?" : "correct the name, or add the input";
 }
 
-/// A matrix in the job, row by row. \return nothing when it was refused
+/// A matrix in the job, row by row.
+/// \return nothing when it was refused
 std::optional<Eigen::MatrixXd> read_matrix(const json& rows, const std::string& pointer, std::size_t order,
                                            const JsonDocument& document, ProblemList& problems) {
     const auto size = static_cast<Eigen::Index>(order);
@@ -563,7 +563,7 @@ std::optional<StatedCovariance> read_covariance(const JsonObject& root, const Js
     std::string where = object->where("matrix");
     ProblemList* list = &problems;
     if (value->is_object()) {
-        const auto source = object->optional_object("matrix", k_file_keys);
+        const auto source = object->optional_object("matrix", k_matrix_file_keys);
         const auto name = source ? JobFiles::file_name(*source, "file", true) : std::nullopt;
         const auto file = name ? files.open(*name) : std::nullopt;
         if (file) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "engine/job/csv_table.h"
+#include "engine/job/matrix_limits.h"
 #include "gum/expression/name.h"
 #include "gum/expression/syntax_tree.h"
 
@@ -23,11 +24,9 @@ using nlohmann::json;
 constexpr std::array<std::string_view, 6> k_fit_keys{"equation", "parameters", "units",
                                                      "data",     "covariance", "scale_by_residuals"};
 constexpr std::array<std::string_view, 2> k_parameter_keys{"unit", "start"};
-constexpr std::array<std::string_view, 1> k_file_keys{"file"};
-const std::array<JobKeys, 2> k_objects{{{"/fits/*", k_fit_keys}, {"/fits/*/parameters/*", k_parameter_keys}}};
-constexpr std::size_t k_most_points = 100'000;
-constexpr std::size_t k_most_in_matrix = 2000;
-constexpr double k_same_number = 1e-9;
+constexpr std::array<std::string_view, 1> k_fit_file_keys{"file"};
+const std::array<JobKeys, 2> k_fit_objects{{{"/fits/*", k_fit_keys}, {"/fits/*/parameters/*", k_parameter_keys}}};
+constexpr std::size_t k_most_fit_points = 100'000;
 
 bool contains(const std::vector<std::string>& names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -415,7 +414,7 @@ private:
         }
         Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
         if (value.is_object()) {
-            const auto source = object.optional_object(key, k_file_keys);
+            const auto source = object.optional_object(key, k_fit_file_keys);
             const auto name = source ? JobFiles::file_name(*source, "file", true) : std::nullopt;
             const auto file = name ? files_.open(*name) : std::nullopt;
             const auto read =
@@ -484,9 +483,9 @@ private:
                                           "points than parameters"
                                         : "there must be at least as many points as parameters",
                            "add points, or remove parameters");
-        } else if (n > static_cast<Eigen::Index>(k_most_points)) {
+        } else if (n > static_cast<Eigen::Index>(k_most_fit_points)) {
             object_.refuse(k_too_many_quantities, "data", std::to_string(n) + " points",
-                           "a fit has at most " + std::to_string(k_most_points) + " points", "state fewer points");
+                           "a fit has at most " + std::to_string(k_most_fit_points) + " points", "state fewer points");
         }
     }
 
@@ -560,7 +559,7 @@ private:
 }  // namespace
 
 std::span<const JobKeys> budget_fit_keys() {
-    return k_objects;
+    return k_fit_objects;
 }
 
 bool is_quantity_name(const std::string& name, const std::string& where, ProblemList& problems) {

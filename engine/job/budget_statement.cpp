@@ -59,12 +59,12 @@ constexpr auto k_override_keys =
 constexpr auto k_input_keys = joined(k_override_keys, std::array<std::string_view, 2>{"unit", "description"});
 constexpr auto k_component_keys = joined(k_statement_keys, std::array<std::string_view, 1>{"name"});
 
-const std::array<JobKeys, 6> k_objects{{{"/inputs/*", k_input_keys},
-                                        {"/inputs/*/components/*", k_component_keys},
-                                        {"/inputs/*/pooled", StatementReader::k_pooled_keys},
-                                        {"/inputs/*/groups", StatementReader::k_groups_keys},
-                                        {"/inputs/*/distribution", StatementReader::k_distribution_keys},
-                                        {"/inputs/*/specification", StatementReader::k_specification_keys}}};
+const std::array<JobKeys, 6> k_statement_objects{{{"/inputs/*", k_input_keys},
+                                                  {"/inputs/*/components/*", k_component_keys},
+                                                  {"/inputs/*/pooled", StatementReader::k_pooled_keys},
+                                                  {"/inputs/*/groups", StatementReader::k_groups_keys},
+                                                  {"/inputs/*/distribution", StatementReader::k_distribution_keys},
+                                                  {"/inputs/*/specification", StatementReader::k_specification_keys}}};
 
 // ---- rows of the table of statements --------------------------------------------------------------------------------
 
@@ -619,7 +619,7 @@ std::span<const std::string_view> budget_column_keys() {
 }
 
 std::span<const JobKeys> budget_statement_keys() {
-    return k_objects;
+    return k_statement_objects;
 }
 
 std::optional<EvaluatedStatement> evaluate_statement(const StatementKeys& keys, const StatementContext& context) {

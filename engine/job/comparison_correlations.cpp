@@ -7,6 +7,7 @@
 
 #include "engine/job/comparison_keys.h"
 #include "engine/job/comparison_participants.h"
+#include "engine/job/matrix_limits.h"
 #include "engine/number_texts.h"
 
 namespace gumcert::engine {
@@ -14,8 +15,6 @@ namespace gumcert::engine {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::size_t k_most_in_matrix = 2000;  // dense, with its eigenvalues
 
 /// Correlations of participants: pairs and groups, and whether they can hold together.
 class CorrelationsReader {
@@ -280,7 +279,8 @@ std::optional<std::size_t> item_named(const ComparisonReading& reading, const Pa
     return found;
 }
 
-/// A correlation matrix of a vector. \return identity where the key is absent; nothing when it was refused
+/// A correlation matrix of a vector.
+/// \return identity where the key is absent; nothing when it was refused
 std::optional<Eigen::MatrixXd> read_correlation_matrix(const ComparisonReading& reading, const JsonObject& object,
                                                        std::string_view key, const std::vector<std::string>& items) {
     const auto n = static_cast<Eigen::Index>(items.size());

@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 
 using PointKey = std::pair<std::string, std::string>;
-PointKey key_of(const MethodPoint& point) {
+PointKey key_of_point(const MethodPoint& point) {
     return {point.name, point.direction};
 }
 /// The name of a point of a budget that stands for a point of the comparison.
@@ -124,11 +124,11 @@ private:
         }
         std::map<PointKey, std::size_t> places;
         for (std::size_t i = 0; i < laboratory.points.size(); ++i) {
-            places.emplace(key_of(laboratory.points[i].point), i);
+            places.emplace(key_of_point(laboratory.points[i].point), i);
         }
         std::vector<SidePoint> ordered(laboratory.points.size());
         for (SidePoint& point : reference.points) {
-            const std::size_t at = places.at(key_of(point.point));
+            const std::size_t at = places.at(key_of_point(point.point));
             reference_order_.push_back(at);
             ordered[at] = std::move(point);
         }
@@ -155,7 +155,7 @@ private:
         std::map<PointKey, const SidePoint*> seen;
         bool are = true;
         for (const SidePoint& point : side.points) {
-            const auto [entry, is_new] = seen.try_emplace(key_of(point.point), &point);
+            const auto [entry, is_new] = seen.try_emplace(key_of_point(point.point), &point);
             if (!is_new) {
                 are = false;
                 side.problems->refuse(
@@ -204,12 +204,12 @@ private:
         }
         std::set<PointKey> known;
         for (const SidePoint& point : other.points) {
-            known.insert(key_of(point.point));
+            known.insert(key_of_point(point.point));
         }
         std::vector<SidePoint> kept;
         std::vector<std::size_t> angles;
         for (std::size_t i = 0; i < side.points.size(); ++i) {
-            if (known.contains(key_of(side.points[i].point))) {
+            if (known.contains(key_of_point(side.points[i].point))) {
                 kept.push_back(std::move(side.points[i]));
                 angles.push_back(side.side.job_angles[i]);
             }
@@ -225,16 +225,17 @@ private:
         side.side.job_angles = std::move(angles);
     }
 
-    /// Refuses the points of one side that the other one does not have. \return true when there are none
+    /// Refuses the points of one side that the other one does not have.
+    /// \return true when there are none
     static bool has_counterparts(const SideReading& side, const SideReading& other, const std::string& name_of_other) {
         std::set<PointKey> known;
         for (const SidePoint& point : other.points) {
-            known.insert(key_of(point.point));
+            known.insert(key_of_point(point.point));
         }
         std::vector<std::string> missing;
         std::string where;
         for (const SidePoint& point : side.points) {
-            if (!known.contains(key_of(point.point))) {
+            if (!known.contains(key_of_point(point.point))) {
                 where = missing.empty() ? point.where : where;
                 missing.push_back(description(point.point));
             }

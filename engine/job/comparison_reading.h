@@ -19,6 +19,7 @@
 #include "engine/job/csv_table.h"
 #include "engine/job/job_files.h"
 #include "engine/job/json_document.h"
+#include "engine/job/matrix_limits.h"
 
 namespace gumcert::engine {
 
@@ -33,8 +34,6 @@ inline constexpr double k_least_compared_u = 1e-60;
 [[nodiscard]] NumberRange compared_uncertainty();
 inline constexpr NumberRange k_correlation_coefficient{
     .low = -1.0, .high = 1.0, .hint = "state a correlation coefficient, not a covariance"};
-/// Difference, relative, of numbers that another program wrote with fewer digits.
-inline constexpr double k_same_number = 1e-9;
 
 /// Budget jobs that results name, each read once.
 class ComparisonBudgets {

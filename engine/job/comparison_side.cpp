@@ -12,12 +12,12 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t k_most_points = 2000;  // their covariance is dense
+constexpr std::size_t k_most_side_points = 2000;  // their covariance is dense
 constexpr std::string_view k_if_no_value = "remove the point from both sides";
 
-constexpr std::array<std::string_view, 1> k_required_columns{"point"};
-constexpr std::array<std::string_view, 9> k_optional_columns{"direction", "position", "value",    "u",          "U",
-                                                             "k",         "nu",       "u_common", "uncertainty"};
+constexpr std::array<std::string_view, 1> k_required_side_columns{"point"};
+constexpr std::array<std::string_view, 9> k_optional_side_columns{"direction", "position", "value",      "u", "U", "k",
+                                                                  "nu",        "u_common", "uncertainty"};
 enum Column : std::size_t { c_point, c_direction, c_position, c_value, c_u, c_U, c_k, c_nu, c_common, c_bare };
 constexpr UncertaintyColumns k_uncertainty_columns{.u = c_u, .U = c_U, .k = c_k, .nu = c_nu, .bare = c_bare};
 
@@ -26,12 +26,12 @@ constexpr NumberRange k_common_part{.low = 0.0, .high = k_largest_compared};
 constexpr NumberRange k_audited_factor{
     .low = 1e-6, .high = 1e6, .hint = "state what every uncertainty is multiplied by, such as 0.577"};
 
-bool are_too_many(std::size_t points, const std::string& where, ProblemList& problems) {
-    if (points <= k_most_points) {
+bool are_too_many_points(std::size_t points, const std::string& where, ProblemList& problems) {
+    if (points <= k_most_side_points) {
         return false;
     }
     problems.refuse(k_too_many_quantities, where, std::to_string(points) + " points",
-                    "a comparison has at most " + std::to_string(k_most_points) + " points", "split the data");
+                    "a comparison has at most " + std::to_string(k_most_side_points) + " points", "split the data");
     return true;
 }
 
@@ -104,7 +104,7 @@ private:
             return;
         }
         side_.side.budget_file = *name;
-        (void)are_too_many(side_.side.budget->points.size(), object.where("budget"), reading_.problems);
+        (void)are_too_many_points(side_.side.budget->points.size(), object.where("budget"), reading_.problems);
         if (unit_) {
             refuse_other_results(*side_.side.budget, *unit_, object.where("budget"), reading_.problems);
         }
@@ -131,7 +131,7 @@ private:
             object.refuse(k_wrong_size, "points", "an empty list of points", "there must be at least one",
                           "list the points with their values");
         }
-        if (!are_too_many(points->size(), object.where("points"), reading_.problems)) {
+        if (!are_too_many_points(points->size(), object.where("points"), reading_.problems)) {
             for_each_object(reading_, *points, object.pointer("points"), k_point_keys, k_point_keys_and_bare,
                             [&](const JsonObject& point) { read_point(point); });
         }
@@ -193,9 +193,11 @@ private:
         }
         ProblemList& problems = *file->problems;
         side_.problems = &problems;
-        const auto table = read_csv_table(std::move(file->bytes), k_required_columns, k_optional_columns, problems);
+        const auto table =
+            read_csv_table(std::move(file->bytes), k_required_side_columns, k_optional_side_columns, problems);
         if (!table || !check_uncertainty_columns(*table, k_uncertainty_columns, problems) ||
-            are_too_many(table->rows(), printable(problems.file()), problems) || !check_columns(*table, problems)) {
+            are_too_many_points(table->rows(), printable(problems.file()), problems) ||
+            !check_columns(*table, problems)) {
             side_.is_whole = false;
             return;
         }
@@ -205,7 +207,8 @@ private:
         side_.is_whole = side_.is_whole && problems.refusals() == 0;
     }
 
-    /// Columns that no row can use, or that every row needs. \return true when there was nothing to refuse
+    /// Columns that no row can use, or that every row needs.
+    /// \return true when there was nothing to refuse
     [[nodiscard]] bool check_columns(const CsvTable& table, ProblemList& problems) const {
         const auto refuse = [&](const InputCode& code, Column column, const std::string& what, const std::string& rule,
                                 const std::string& action) {

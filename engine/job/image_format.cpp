@@ -9,17 +9,17 @@ namespace gumcert::engine {
 
 namespace {
 
-std::uint32_t byte_at(std::string_view bytes, std::size_t i) {
+std::uint32_t octet_at(std::string_view bytes, std::size_t i) {
     return static_cast<unsigned char>(bytes[i]);
 }
 
 std::uint32_t big_endian_32(std::string_view bytes, std::size_t i) {
-    return byte_at(bytes, i) << 24U | byte_at(bytes, i + 1) << 16U | byte_at(bytes, i + 2) << 8U |
-           byte_at(bytes, i + 3);
+    return octet_at(bytes, i) << 24U | octet_at(bytes, i + 1) << 16U | octet_at(bytes, i + 2) << 8U |
+           octet_at(bytes, i + 3);
 }
 
 std::uint32_t big_endian_16(std::string_view bytes, std::size_t i) {
-    return byte_at(bytes, i) << 8U | byte_at(bytes, i + 1);
+    return octet_at(bytes, i) << 8U | octet_at(bytes, i + 1);
 }
 
 constexpr std::uint32_t k_largest_side = 10000;
@@ -66,10 +66,10 @@ ImageFormat png_format(std::string_view bytes) {
 ImageFormat jpeg_format(std::string_view bytes) {
     bool has_frame = false;
     for (std::size_t at = 2; at + 4 <= bytes.size();) {
-        if (byte_at(bytes, at) != 0xFFU) {
+        if (octet_at(bytes, at) != 0xFFU) {
             break;
         }
-        const std::uint32_t marker = byte_at(bytes, at + 1);
+        const std::uint32_t marker = octet_at(bytes, at + 1);
         if (marker == 0xFFU) {  // a fill byte
             ++at;
             continue;

@@ -18,8 +18,8 @@ namespace {
 using gum::k_micrometre;
 using gum::k_millimetre;
 
-constexpr std::array<std::string_view, 4> k_keys{"by", "coordinates", "nominal_point_mm", "source"};
-constexpr std::array<JobKeys, 1> k_objects{{{"/machine_frame", k_keys}}};
+constexpr std::array<std::string_view, 4> k_frame_keys{"by", "coordinates", "nominal_point_mm", "source"};
+constexpr std::array<JobKeys, 1> k_frame_objects{{{"/machine_frame", k_frame_keys}}};
 constexpr std::array<std::pair<std::string_view, MachineFramePoints>, 2> k_points{
     {{"probing", MachineFramePoints::reflectors}, {"stations", MachineFramePoints::stations}}};
 constexpr NumberRange k_coordinate{
@@ -34,7 +34,7 @@ constexpr std::size_t k_least_points = 3;
 }  // namespace
 
 std::optional<MachineFrameRequest> read_machine_frame(const JsonObject& root) {
-    const std::optional<JsonObject> object = root.optional_object("machine_frame", k_keys);
+    const std::optional<JsonObject> object = root.optional_object("machine_frame", k_frame_keys);
     if (!object) {
         return std::nullopt;
     }
@@ -106,7 +106,7 @@ std::optional<MachineFrame> read_machine_points(MachineFrameRequest request, Job
 }
 
 std::span<const JobKeys> machine_frame_keys() {
-    return k_objects;
+    return k_frame_objects;
 }
 
 }  // namespace gumcert::engine

@@ -5,18 +5,16 @@
 #include <cmath>
 
 #include "certificate/stated_text.h"
+#include "engine/job/rotary_table_limits.h"
 
 namespace gumcert::engine {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> k_keys{"station",   "reflector", "pass",  "direction",
-                                                 "angle_deg", "lines",     "reason"};
-constexpr std::array<JobKeys, 1> k_objects{{{"/exclude/*", k_keys}}};
-constexpr double k_same_angle_deg = 1e-9;
+constexpr std::array<std::string_view, 7> k_exclusion_keys{"station",   "reflector", "pass",  "direction",
+                                                           "angle_deg", "lines",     "reason"};
+constexpr std::array<JobKeys, 1> k_exclusion_objects{{{"/exclude/*", k_exclusion_keys}}};
 constexpr std::size_t k_longest_reason = 1000;
-constexpr NumberRange k_angle{
-    .low = -3600.0, .high = 3600.0, .unit = "°", .hint = "check the unit: angles are in degrees"};
 constexpr NumberRange k_line{.low = 2.0, .high = 1e7, .hint = "the first line of the file holds the names of columns"};
 
 std::optional<std::pair<std::size_t, std::size_t>> read_lines(const JsonObject& object) {
@@ -64,7 +62,7 @@ std::optional<Exclusion> read_exclusion(const JsonObject& object) {
     }
     exclusion.reason = *reason;
     const bool selects_something =
-        std::ranges::any_of(k_keys, [&](std::string_view key) { return key != "reason" && object.has(key); });
+        std::ranges::any_of(k_exclusion_keys, [&](std::string_view key) { return key != "reason" && object.has(key); });
     if (!selects_something) {
         object.refuse(k_bad_exclusion, "", "no distance is named",
                       "an entry of \"exclude\" has a station, reflector, pass, direction, angle_deg or lines",
@@ -96,7 +94,8 @@ std::vector<Exclusion> read_exclusions(const JsonDocument& document, const JsonO
                             "an entry of \"exclude\" is an object", "write { … } with the distances and the reason");
             continue;
         }
-        if (std::optional<Exclusion> exclusion = read_exclusion(JsonObject(document, pointer, k_keys, problems))) {
+        if (std::optional<Exclusion> exclusion =
+                read_exclusion(JsonObject(document, pointer, k_exclusion_keys, problems))) {
             exclusions.push_back(std::move(*exclusion));
         }
     }
@@ -104,7 +103,7 @@ std::vector<Exclusion> read_exclusions(const JsonDocument& document, const JsonO
 }
 
 std::span<const JobKeys> exclusion_keys() {
-    return k_objects;
+    return k_exclusion_objects;
 }
 
 }  // namespace gumcert::engine

@@ -20,6 +20,7 @@
 #include "engine/job/machine_frame_reading.h"
 #include "engine/job/reference_budget.h"
 #include "engine/job/rotary_table_exclusion.h"
+#include "engine/job/rotary_table_limits.h"
 #include "engine/job/rotary_table_study.h"
 #include "gum/quantity/units.h"
 
@@ -136,7 +137,6 @@ constexpr std::array<Choice<bool>, 2> k_fixture_uncertainties{{{"stated", false}
 
 // ---- limits of what a campaign can be -------------------------------------------------------------------------------
 
-constexpr double k_same_angle_deg = 1e-9;
 constexpr double k_least_u = 1e-6;  // of a length, [µm]: a millionth of what the best interferometers reach
 constexpr double k_most_u = 1e5;    // [µm] and [µm/m]
 // With two digits of u some of the hundreds of quantities would need millions of trials to be decided.
@@ -157,13 +157,9 @@ constexpr std::size_t k_most_reflectors = 500;  // their covariance is dense
 constexpr double k_most_distances = 1e6;        // of a layout, as of a lengths file
 constexpr NumberRange k_fixture_coordinate{
     .low = -10'000.0, .high = 10'000.0, .unit = "mm", .hint = "check the unit: coordinates are in millimetres"};
-constexpr NumberRange k_station_coordinate{
-    .low = -100'000.0, .high = 100'000.0, .unit = "mm", .hint = "check the unit: coordinates are in millimetres"};
 // A displayed length is counted from where the beam was made; with its dead path it is a distance. It may be negative.
 constexpr NumberRange k_length{
     .low = -100'000.0, .high = 100'000.0, .unit = "mm", .hint = "check the unit: lengths are in millimetres"};
-constexpr NumberRange k_angle{
-    .low = -3600.0, .high = 3600.0, .unit = "°", .hint = "check the unit: angles are in degrees"};
 // From any origin: the beginning of the day, of the measurement, or of the epoch of a data logger.
 constexpr NumberRange k_time{.low = -1e11, .high = 1e11, .unit = "s", .hint = "check the unit: times are in seconds"};
 constexpr NumberRange k_temperature{
@@ -197,7 +193,8 @@ std::string plural(std::size_t count, const std::string& noun) {
 }
 
 /// Angles that are radians by mistake are no multiples of 0.1 as they stand, and multiples of half a degree once they
-/// are converted. \param angles  ascending, each once, as the file states them
+/// are converted.
+/// \param angles  ascending, each once, as the file states them
 bool look_like_radians(const std::vector<double>& angles) {
     const double span = angles.back() - angles.front();
     const auto off_multiple = [](double value, double step) {
@@ -1055,7 +1052,8 @@ private:
         check_angles(root, where(rows.front(), c_angle), printable(problems.file()), problems);
     }
 
-    /// \param where_angles  place of the first angle \param where_all  place for a warning of all angles
+    /// \param where_angles  place of the first angle
+    /// \param where_all  place for a warning of all angles
     void check_angles(const JsonObject& root, const std::string& where_angles, const std::string& where_all,
                       ProblemList& problems) const {
         if (look_like_radians(angles_deg_)) {
@@ -1262,7 +1260,8 @@ private:
 
     // ---- stations and environment -----------------------------------------------------------------------------------
 
-    /// Goes through a table with one row a station. \param use  called with row and index of a known station
+    /// Goes through a table with one row a station.
+    /// \param use  called with row and index of a known station
     template <typename Use>
     void for_each_station(const CsvTable& table, ProblemList& problems, const Use& use) {
         std::unordered_map<std::string_view, std::size_t> lines;

@@ -1,4 +1,5 @@
 #include "engine/job/rotary_table_study.h"
+#include "engine/job/rotary_table_limits.h"
 
 #include <algorithm>
 #include <array>
@@ -54,11 +55,6 @@ const std::array<JobKeys, 11> k_all_keys{{{"/simulation", k_simulation_keys},
 constexpr double k_most_runs = 1e6;
 constexpr double k_most_angles = 100'000.0;
 constexpr double k_most_candidates = 100'000.0;
-constexpr double k_same_angle_deg = 1e-9;
-constexpr NumberRange k_angle{
-    .low = -3600.0, .high = 3600.0, .unit = "°", .hint = "check the unit: angles are in degrees"};
-constexpr NumberRange k_station_coordinate{
-    .low = -100'000.0, .high = 100'000.0, .unit = "mm", .hint = "check the unit: coordinates are in millimetres"};
 // Beyond a centimetre and ten degrees it is not a set-up error and not an error motion.
 constexpr NumberRange k_small_linear{
     .low = 0.0, .high = 10'000.0, .unit = "µm", .hint = "check the unit: it is stated in micrometres"};

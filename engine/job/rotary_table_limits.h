@@ -1,0 +1,15 @@
+#pragma once
+
+#include "engine/job/json_document.h"
+
+namespace gumcert::engine {
+
+/// Two angles that differ by less are one, [°].
+inline constexpr double k_same_angle_deg = 1e-9;
+/// Angles of a table; ten turns, because a table may be driven on.
+inline constexpr NumberRange k_angle{
+    .low = -3600.0, .high = 3600.0, .unit = "°", .hint = "check the unit: angles are in degrees"};
+inline constexpr NumberRange k_station_coordinate{
+    .low = -100'000.0, .high = 100'000.0, .unit = "mm", .hint = "check the unit: coordinates are in millimetres"};
+
+}  // namespace gumcert::engine
