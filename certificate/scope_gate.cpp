@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "certificate/capability.h"
+#include "certificate/cited_documents.h"
 #include "certificate/dates.h"
 #include "certificate/finding_list.h"
 #include "certificate/gates.h"
@@ -23,9 +24,6 @@ namespace {
 
 using gum::number_text;
 using gum::Unit;
-
-constexpr const char* k_p8 = "ILAC-P8";
-constexpr const char* k_p14 = "ILAC-P14:09/2020";
 
 void validity(FindingList& found, const Accreditation& a) {
     constexpr long k_longest_in_days = 20 * 366;

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "certificate/accreditation_standard.h"
+#include "certificate/cited_documents.h"
 #include "certificate/dates.h"
 #include "certificate/finding_list.h"
 #include "certificate/gates.h"
@@ -14,9 +15,7 @@ namespace gumcert::certificate {
 
 namespace {
 
-constexpr const char* k_p8 = "ILAC-P8";
 constexpr const char* k_p10 = "ILAC-P10:07/2020";
-constexpr const char* k_p14 = "ILAC-P14:09/2020";
 
 /// A value that is neither from another laboratory nor without uncertainty by definition.
 bool is_claim(const CertifiedValue& value) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <string>
 
+#include "certificate/cited_documents.h"
 #include "certificate/finding_list.h"
 #include "certificate/gates.h"
 #include "certificate/statement_of_uncertainty.h"
@@ -8,8 +9,6 @@
 namespace gumcert::certificate {
 
 namespace {
-
-constexpr const char* k_p14 = "ILAC-P14:09/2020";
 
 bool is_negative_zero(const std::string& printed) {
     return printed.starts_with('-') && printed.find_first_of("123456789") == std::string::npos;

@@ -29,9 +29,6 @@ constexpr std::size_t k_most_data = 200;      // rows of the data of a fit
 constexpr std::size_t k_most_readings = 500;  // that are listed one by one
 constexpr std::size_t k_most_correlated = 8;  // more columns of a matrix do not fit on a page
 
-using Rows = std::vector<std::vector<Text>>;
-using Facts = std::vector<std::pair<Text, Text>>;  // label and value
-
 /// A number that has no printed form in the record, with two significant digits.
 std::string rounded(double v) {
     return gum::round_significant(v, 2);

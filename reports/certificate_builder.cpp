@@ -107,6 +107,12 @@ std::string degrees_of_freedom(double v) {
     return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
 }
 
+void add_fact(Facts& facts, const Text& label, const Text& value) {
+    if (!value.empty()) {
+        facts.emplace_back(label, value);
+    }
+}
+
 CertificateBuilder::CertificateBuilder(const Wording& wording)
     : wording_(wording), sections_(std::make_unique<json>(json::array())) {}
 

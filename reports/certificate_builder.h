@@ -14,6 +14,14 @@
 
 namespace gumcert::reports {
 
+/// Labels and values, one below the other.
+using Facts = std::vector<std::pair<Text, Text>>;
+/// Rows of a table, one text a column.
+using Rows = std::vector<std::vector<Text>>;
+
+/// Adds a fact that has a value.
+void add_fact(Facts& facts, const Text& label, const Text& value);
+
 struct Column {
     Text head;
     std::string unit = {};  ///< for people; "" leaves it out
@@ -45,16 +53,15 @@ public:
     }
     void paragraph(const Text& text);
     void formula(const Text& text);
-    void definitions(const std::vector<std::pair<Text, Text>>& rows);
+    void definitions(const Facts& rows);
     /// \param drawing  SVG; its numbers get the decimal sign of the binding language
     void figure(const std::string& id, const Text& caption, const std::string& alternative_text,
                 const std::string& drawing);
     /// \param rows    one text a column; "" is printed as "–"
     /// \param groups  heads above the heads, each over a number of columns; empty: none
     /// \param kinds   one a row; empty: all plain
-    void table(const std::string& id, const Text& caption, const std::vector<Column>& columns,
-               const std::vector<std::vector<Text>>& rows, const std::vector<std::pair<Text, std::size_t>>& groups = {},
-               const std::vector<RowKind>& kinds = {});
+    void table(const std::string& id, const Text& caption, const std::vector<Column>& columns, const Rows& rows,
+               const std::vector<std::pair<Text, std::size_t>>& groups = {}, const std::vector<RowKind>& kinds = {});
 
     /// Cells that were printed as "–", of all tables so far.
     [[nodiscard]] std::size_t absent_cells() const { return absent_cells_; }

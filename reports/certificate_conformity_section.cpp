@@ -24,14 +24,6 @@ using certificate::Certificate;
 using certificate::CertifiedColumn;
 using certificate::CertifiedTable;
 using certificate::CertifiedValue;
-using Rows = std::vector<std::pair<Text, Text>>;
-using Lines = std::vector<std::vector<Text>>;
-
-void add(Rows& rows, const Text& label, const Text& value) {
-    if (!value.empty()) {
-        rows.emplace_back(label, value);
-    }
-}
 
 /// A value with a verdict, and where it stands.
 struct Decided {
@@ -107,19 +99,19 @@ Text tolerance_limits(const std::vector<Decided>& decided, const AgreedSpecifica
 
 void specification_rows(CertificateBuilder& builder, const Wording& words, const AgreedSpecification& s,
                         const std::vector<Decided>& decided) {
-    Rows rows = {{words("certificate", "specification"), document_of(s)}};
-    add(rows, words("certificate", "tolerance"), tolerance_limits(decided, s, words));
+    Facts rows = {{words("certificate", "specification"), document_of(s)}};
+    add_fact(rows, words("certificate", "tolerance"), tolerance_limits(decided, s, words));
     rows.emplace_back(words("certificate", "decision_rule"), s.rule.id + ": " + words("rule_name", s.rule.id));
-    add(rows, words("certificate", "rule_parameters"), rule_parameters(s, words));
-    add(rows, words("certificate", "agreed_wording"), words.localised(s.rule.text));
-    add(rows, words("certificate", "prescribed_by"), s.rule.prescribed_by);
+    add_fact(rows, words("certificate", "rule_parameters"), rule_parameters(s, words));
+    add_fact(rows, words("certificate", "agreed_wording"), words.localised(s.rule.text));
+    add_fact(rows, words("certificate", "prescribed_by"), s.rule.prescribed_by);
     std::vector<std::string> agreed;
     for (const std::string& part : {s.agreed_by, s.agreed_on, s.agreement}) {
         if (!part.empty()) {
             agreed.push_back(part);
         }
     }
-    add(rows, words("certificate", "agreed"), joined(agreed));
+    add_fact(rows, words("certificate", "agreed"), joined(agreed));
     builder.definitions(rows);
 }
 
@@ -204,7 +196,7 @@ void verdict_table(CertificateBuilder& builder, const Wording& words, const Agre
     }
     const bool own_unit = columns.size() > numbers.size() + 1 + (any_argument ? 1U : 0U);
     columns.push_back({words("certificate", "verdict"), ""});
-    Lines lines;
+    Rows lines;
     for (std::size_t i = 0; i < decided.size(); ++i) {
         std::vector<Text> row = {name_of_result(decided[i].table, decided[i].column->result, words)};
         if (any_argument) {
@@ -226,7 +218,7 @@ void verdict_table(CertificateBuilder& builder, const Wording& words, const Agre
 void verdict_meanings(CertificateBuilder& builder, const Wording& words, const std::set<std::string>& used) {
     static constexpr std::array<const char*, 6> k_order = {
         "pass", "conditional_pass", "conditional_fail", "undetermined", "fail", "not_applicable"};
-    Rows rows;
+    Facts rows;
     for (const char* verdict : k_order) {
         if (used.contains(verdict)) {
             rows.emplace_back(words("verdict_name", verdict), words("verdict_meaning", verdict));

@@ -19,9 +19,6 @@ namespace gumcert::reports {
 
 namespace {
 
-using Rows = std::vector<std::vector<Text>>;
-using Facts = std::vector<std::pair<Text, Text>>;  // label and value
-
 std::string coordinate_along(const std::string& axis) {
     return axis == "A" ? "x" : axis == "B" ? "y" : "z";
 }

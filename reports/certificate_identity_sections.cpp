@@ -20,7 +20,6 @@ namespace {
 using certificate::Certificate;
 using certificate::CertificateData;
 using nlohmann::json;
-using Rows = std::vector<std::pair<Text, Text>>;
 
 /// The form of the documents: it changes when their layout changes in a way that an assessor would see.
 constexpr const char* k_form = "gumcert-certificate-1";
@@ -100,16 +99,10 @@ json symbol(const Certificate& certificate, const Wording& words) {
           {"alt", printable(alt.first())}}});
 }
 
-void add(Rows& rows, const Text& label, const Text& value) {
-    if (!value.empty()) {
-        rows.emplace_back(label, value);
-    }
-}
-
-/// Rows that an assessor looks for stand there even when nothing was stated: "–".
+/// Facts that an assessor looks for stand there even when nothing was stated: "–".
 void item_section(CertificateBuilder& builder, const Wording& words, const certificate::Item& item) {
     builder.section("item");
-    Rows rows;
+    Facts rows;
     bool marked = false;
     const auto row = [&](const char* key, const Text& value, bool always) {
         if (always || !value.empty()) {
@@ -132,12 +125,12 @@ void item_section(CertificateBuilder& builder, const Wording& words, const certi
 
 void customer_section(CertificateBuilder& builder, const Wording& words, const certificate::Customer& customer) {
     builder.section("customer");
-    Rows rows = {{words("certificate", "customer"), words.localised(customer.name)},
-                 {words("certificate", "address"), in_one_line(customer.address)}};
+    Facts rows = {{words("certificate", "customer"), words.localised(customer.name)},
+                  {words("certificate", "address"), in_one_line(customer.address)}};
     std::string contact = customer.contact;
     contact += contact.empty() || customer.email.empty() ? customer.email : ", " + customer.email;
-    add(rows, words("certificate", "contact"), contact);
-    add(rows, words("certificate", "order"), customer.order);
+    add_fact(rows, words("certificate", "contact"), contact);
+    add_fact(rows, words("certificate", "order"), customer.order);
     builder.definitions(rows);
 }
 
@@ -155,8 +148,8 @@ Text place_text(const CertificateData& data, const Wording& words) {
 
 void dates_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data) {
     builder.section("dates");
-    Rows rows;
-    add(rows, words("certificate", "received"), data.dates.received);
+    Facts rows;
+    add_fact(rows, words("certificate", "received"), data.dates.received);
     rows.emplace_back(words("certificate", "performed"), from_to(data.dates.performed_from, data.dates.performed_to));
     rows.emplace_back(words("certificate", "issued"), data.dates.issued);
     rows.emplace_back(words("certificate", "place"), place_text(data, words));
@@ -259,7 +252,7 @@ Text decided_names(const std::vector<Text>& all) {
 void summary_section(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     const Certificate& certificate = *record.certificate;
     builder.section("summary");
-    Rows rows = {{words("certificate", "results"), results_in_one_line(certificate, words, record.printed_coverage)}};
+    Facts rows = {{words("certificate", "results"), results_in_one_line(certificate, words, record.printed_coverage)}};
     if (certificate.data.specifications.empty()) {
         rows.emplace_back(words("certificate", "conformity"), words("statement", "no_conformity"));
     }
@@ -293,7 +286,7 @@ void summary_section(CertificateBuilder& builder, const Wording& words, const Ev
 
 void authorisation_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data) {
     builder.section("authorisation");
-    Rows rows;
+    Facts rows;
     const certificate::Person nobody;
     const certificate::Person& person = data.persons.authorised_by ? *data.persons.authorised_by : nobody;
     rows.emplace_back(words("certificate", "authorised_by"), person.name);

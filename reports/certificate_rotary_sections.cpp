@@ -22,9 +22,6 @@ namespace gumcert::reports {
 
 namespace {
 
-using Rows = std::vector<std::vector<Text>>;
-using Facts = std::vector<std::pair<Text, Text>>;  // label and value
-
 constexpr std::size_t k_most_listed = 60;  // rows of a list of exceptions; the record holds all
 
 /// A number that has no printed form in the record, with two significant digits and U+2212 as minus sign.

@@ -29,14 +29,6 @@ using certificate::CertificateData;
 using certificate::CertifiedTable;
 using certificate::CertifiedValue;
 using certificate::Finding;
-using Rows = std::vector<std::pair<Text, Text>>;
-using Lines = std::vector<std::vector<Text>>;
-
-void add(Rows& rows, const Text& label, const Text& value) {
-    if (!value.empty()) {
-        rows.emplace_back(label, value);
-    }
-}
 
 Text stated_number(const std::optional<double>& v, const std::string& unit, const Wording& words) {
     return v ? with_unit(words.number(plain(*v)), unit) : Text();
@@ -81,14 +73,14 @@ void legend(CertificateBuilder& builder, const Wording& words, const CertifiedOv
 }
 
 void remarks_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data) {
-    Rows rows;
+    Facts rows;
     if (!data.recalibration_date.empty() && !data.recalibration_agreement.empty()) {
         rows.emplace_back(
             words("certificate", "date_of_recalibration"),
             words.filled("statement", "recalibration",
                          {{"date", data.recalibration_date}, {"agreement", data.recalibration_agreement}}));
     }
-    add(rows, words("certificate", "simplified"), data.simplified_agreement);
+    add_fact(rows, words("certificate", "simplified"), data.simplified_agreement);
     for (const certificate::Omission& omission : data.omissions) {
         rows.emplace_back(words.filled("certificate", "omission", {{"clause", omission.clause}}),
                           words.localised(omission.reason));
@@ -155,12 +147,12 @@ void amendment_section(CertificateBuilder& builder, const Wording& words, const 
     const certificate::Amendment& a = *data.amendment;
     builder.section("amendment");
     builder.paragraph(amendment_sentence(a, words));
-    Rows rows;
-    add(rows, words("certificate", "reason"), words.localised(a.reason));
+    Facts rows;
+    add_fact(rows, words("certificate", "reason"), words.localised(a.reason));
     for (const certificate::LocalisedText& change : a.changes) {
         rows.emplace_back(words("certificate", "changes"), words.localised(change));
     }
-    add(rows, words("certificate", "earlier_digest"), a.sha256);
+    add_fact(rows, words("certificate", "earlier_digest"), a.sha256);
     if (!rows.empty()) {
         builder.definitions(rows);
     }
@@ -169,11 +161,11 @@ void amendment_section(CertificateBuilder& builder, const Wording& words, const 
 void method_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data) {
     builder.section("method_used");
     const certificate::Method& m = data.method;
-    Rows rows = {{words("certificate", "method"), m.identification}};
-    add(rows, words("certificate", "version"), m.version);
-    add(rows, words("certificate", "title"), words.localised(m.title));
-    add(rows, words("certificate", "standard"), m.standard);
-    add(rows, words("certificate", "procedure"), words.localised(m.description));
+    Facts rows = {{words("certificate", "method"), m.identification}};
+    add_fact(rows, words("certificate", "version"), m.version);
+    add_fact(rows, words("certificate", "title"), words.localised(m.title));
+    add_fact(rows, words("certificate", "standard"), m.standard);
+    add_fact(rows, words("certificate", "procedure"), words.localised(m.description));
     for (const certificate::LocalisedText& deviation : m.deviations) {
         rows.emplace_back(words("certificate", "deviations"), words.localised(deviation));
     }
@@ -205,7 +197,7 @@ void traceability_section(CertificateBuilder& builder, const Wording& words, con
         return;
     }
     builder.paragraph(words("statement", "traceable"));
-    Lines lines;
+    Rows lines;
     for (const certificate::StandardUsed& s : data.standards) {
         Text issuer = words.localised(s.issuer);
         if (!s.issuer_accreditation.empty()) {
@@ -244,7 +236,7 @@ void conditions_section(CertificateBuilder& builder, const Wording& words, const
         columns.push_back({words("certificate", "lower_limit"), "", true});
         columns.push_back({words("certificate", "upper_limit"), "", true});
     }
-    Lines lines;
+    Rows lines;
     const auto number = [](const std::optional<double>& v) { return Text(v ? plain(*v) : std::string()); };
     for (const certificate::Condition& c : data.conditions) {
         const auto [least, greatest] = with_equal_decimals(c.minimum, c.maximum);
@@ -282,7 +274,7 @@ void findings_section(CertificateBuilder& builder, const Wording& words, const C
     builder.section("findings");
     builder.paragraph(words("statement", "findings"));
     static constexpr std::array<const char*, 4> k_severities = {"information", "minor", "major", "critical"};
-    Lines lines;
+    Rows lines;
     for (const Finding& f : certificate.findings) {
         const Text severity = words("finding_severity", k_severities.at(static_cast<std::size_t>(f.severity)));
         lines.push_back(

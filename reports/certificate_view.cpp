@@ -36,8 +36,6 @@ namespace gumcert::reports {
 namespace {
 
 using nlohmann::json;
-using Facts = std::vector<std::pair<Text, Text>>;  // label and value
-using Rows = std::vector<std::vector<Text>>;
 
 constexpr const char* k_comparison_kind = "comparison";
 

@@ -17,7 +17,6 @@ namespace {
 using certificate::CertifiedColumn;
 using certificate::CertifiedTable;
 using certificate::CertifiedValue;
-using Lines = std::vector<std::vector<Text>>;
 
 constexpr std::size_t k_most_columns = 13;  // of a table on A4 upright
 
@@ -135,7 +134,7 @@ void quantity_table(CertificateBuilder& builder, const Wording& words, const Cer
     if (!unit) {
         columns.push_back({words("certificate", "unit"), ""});
     }
-    Lines lines;
+    Rows lines;
     std::vector<const CertifiedValue*> marked;
     for (const CertifiedColumn* column : rows_of) {
         std::vector<Text> row = {name_in_table(table.id, column->result)};
@@ -188,7 +187,7 @@ void argument_table(CertificateBuilder& builder, const Wording& words, const Cer
             heads(columns, quantities[q].parts, quantities[q].column->printed_unit, words, width > 6);
             groups.emplace_back(name_in_table(table.id, quantities[q].column->result), quantities[q].parts.count());
         }
-        Lines lines;
+        Rows lines;
         std::vector<const CertifiedValue*> marked;
         for (std::size_t r = 0; r < argument.printed.size(); ++r) {
             std::vector<Text> row = {argument.printed[r]};

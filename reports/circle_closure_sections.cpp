@@ -16,8 +16,6 @@ namespace {
 
 constexpr std::size_t k_most_series = 80;
 
-using Rows = std::vector<std::vector<Text>>;
-
 /// "0.31 ″"
 std::string with_unit(const std::string& number, const CircleClosure& c) {
     return number + "\u00A0" + c.printed.unit;

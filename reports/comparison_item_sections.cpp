@@ -12,9 +12,6 @@ namespace gumcert::reports {
 
 namespace {
 
-using Facts = ComparisonFacts;
-using Rows = ComparisonRows;
-
 /// The value was not computed from the results of the participants.
 bool is_independent(const std::string& method) {
     return method == "reference" || method == "given";

@@ -22,8 +22,6 @@ namespace gumcert::reports {
 
 namespace {
 
-using Facts = ComparisonFacts;
-using Rows = ComparisonRows;
 using Points = std::vector<const ComparisonPoint*>;
 
 constexpr std::size_t k_most_side_by_side = 4;    ///< items whose scores stand in one table of the first page

@@ -22,9 +22,6 @@ namespace gumcert::reports {
 
 namespace {
 
-using Facts = ComparisonFacts;
-using Rows = ComparisonRows;
-
 constexpr const char* k_validated = "validated";
 
 /// Unit of differences and uncertainties, for people: K for °C.
@@ -207,7 +204,7 @@ void companion_table(CertificateBuilder& builder, const Wording& words, const Co
 }
 
 /// One sentence for every number of the table above.
-void how_to_read(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+void how_to_read_methods(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
     builder.paragraph(words("comparison", "how_to_read"));
     Facts facts;
     for (const auto& [name, texts] : companion_rows(c)) {
@@ -367,7 +364,7 @@ void method_answer(CertificateBuilder& builder, const Wording& words, const Comp
 void method_sections_of_comparison(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
     builder.section("companion");
     companion_table(builder, words, c, "companion");
-    how_to_read(builder, words, c);
+    how_to_read_methods(builder, words, c);
     shared_sources_table(builder, words, c);
     remarks_section(builder, words, c);
     builder.section("bias");

@@ -16,8 +16,6 @@ namespace gumcert::reports {
 
 namespace {
 
-using Rows = ComparisonRows;
-
 /// Names of the laboratories of the pairs, in the order in which they first appear.
 std::vector<std::string> laboratories_of(const std::vector<PairEquivalence>& pairs) {
     std::vector<std::string> names;

@@ -12,14 +12,8 @@ Text printed_quantity(const Wording& words, const std::string& printed, const st
     return printed.empty() ? Text() : with_unit(words.number(printed), gum::unit_for_people(unit));
 }
 
-void add_fact(ComparisonFacts& facts, const Text& label, const Text& value) {
-    if (!value.empty()) {
-        facts.emplace_back(label, value);
-    }
-}
-
 void table_of_filled_columns(CertificateBuilder& builder, const std::string& id, const Text& caption,
-                             const std::vector<Column>& columns, const ComparisonRows& rows) {
+                             const std::vector<Column>& columns, const Rows& rows) {
     if (rows.empty()) {
         return;
     }
@@ -33,7 +27,7 @@ void table_of_filled_columns(CertificateBuilder& builder, const std::string& id,
     for (const std::size_t c : filled) {
         kept.push_back(columns[c]);
     }
-    ComparisonRows lines;
+    Rows lines;
     lines.reserve(rows.size());
     for (const auto& row : rows) {
         std::vector<Text> line;
@@ -84,7 +78,7 @@ void say_what_is_shown(CertificateBuilder& builder, const Wording& words, const 
 
 void shared_sources_table(CertificateBuilder& builder, const Wording& words, const Comparison& comparison) {
     const std::size_t count = comparison.shared_sources.size();
-    ComparisonRows rows;
+    Rows rows;
     for (const SharedSource& s : comparison.shared_sources) {
         if (rows.size() < k_most_rows) {
             rows.push_back({s.source, s.first, s.second, s.printed_correlation});

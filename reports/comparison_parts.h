@@ -14,9 +14,6 @@ namespace gumcert::reports {
 
 // What the sections of comparison reports share.
 
-using ComparisonFacts = std::vector<std::pair<Text, Text>>;  // label and value
-using ComparisonRows = std::vector<std::vector<Text>>;
-
 constexpr std::size_t k_most_rows = 200;       ///< of a table of results; beyond it, those with signals only
 constexpr std::size_t k_most_unrounded = 100;  ///< of the table of unrounded numbers; beyond it, the files have them
 constexpr std::size_t k_most_detailed = 24;    ///< items with a section of their own
@@ -24,12 +21,9 @@ constexpr std::size_t k_most_detailed = 24;    ///< items with a section of thei
 /// A printed number with its unit as people write it; empty where there is no number.
 [[nodiscard]] Text printed_quantity(const Wording& words, const std::string& printed, const std::string& unit);
 
-/// Adds a row, unless it has no value.
-void add_fact(ComparisonFacts& facts, const Text& label, const Text& value);
-
 /// A table without the columns that have no text in any row; nothing where there are no rows.
 void table_of_filled_columns(CertificateBuilder& builder, const std::string& id, const Text& caption,
-                             const std::vector<Column>& columns, const ComparisonRows& rows);
+                             const std::vector<Column>& columns, const Rows& rows);
 
 /// A figure; nothing where the plot has nothing to draw.
 void figure_if_any(CertificateBuilder& builder, const std::string& id, const Text& caption, const Text& description,

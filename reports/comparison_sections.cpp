@@ -21,9 +21,6 @@ namespace gumcert::reports {
 
 namespace {
 
-using Facts = ComparisonFacts;
-using Rows = ComparisonRows;
-
 Facts who_and_when(const Wording& words, const EvaluationRecord& record) {
     const ComparisonIdentity identity = comparison_identity(record, words);
     Facts facts = {{words("comparison", "organiser"), record.comparison->organiser}};

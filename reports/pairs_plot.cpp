@@ -17,8 +17,8 @@ namespace gumcert::reports {
 namespace {
 
 constexpr std::size_t k_most_laboratories = 40;
-constexpr std::size_t k_name_length = 22;
-constexpr double k_name_size = 9.5;
+constexpr std::size_t k_pair_name_length = 22;
+constexpr double k_pair_name_size = 9.5;
 
 /// Ids of the pairs, those with the lowest values first. Σ d over the partners of a laboratory is n times its distance
 /// from the mean.
@@ -60,7 +60,7 @@ std::string pairs_plot(const ComparisonItemEvaluation& item, const std::string& 
     double names = 0.0;
     for (std::size_t i = 0; i < ids.size(); ++i) {
         place[ids[i]] = i;
-        names = std::max(names, label_width(shortened_name(printable(ids[i]), k_name_length), k_name_size));
+        names = std::max(names, label_width(shortened_name(printable(ids[i]), k_pair_name_length), k_pair_name_size));
     }
     names += 10.0;
     const auto count = static_cast<double>(ids.size());
@@ -81,9 +81,9 @@ std::string pairs_plot(const ComparisonItemEvaluation& item, const std::string& 
     }
     for (std::size_t i = 0; i < ids.size(); ++i) {
         const double middle = cell * (static_cast<double>(i) + 0.5);
-        const std::string name = shortened_name(printable(ids[i]), k_name_length);
-        body.text(names - 5.0, top + middle + 3.2, name, "end", k_name_size);
-        draw_upright_name(body, names + middle + 3.2, bottom + 5.0, name, k_name_size);
+        const std::string name = shortened_name(printable(ids[i]), k_pair_name_length);
+        body.text(names - 5.0, top + middle + 3.2, name, "end", k_pair_name_size);
+        draw_upright_name(body, names + middle + 3.2, bottom + 5.0, name, k_pair_name_size);
         body.rectangle(names + middle - 0.5 * cell, top + middle - 0.5 * cell, cell, cell,
                        "fill=\"#ececec\" stroke=\"none\"");
     }

@@ -10,6 +10,7 @@
 
 #include "gum/quantity/unit.h"
 #include "reports/certificate_view.h"
+#include "reports/dcc/breach_limits.h"
 #include "reports/dcc/d_si_unit.h"
 #include "reports/dcc/dcc_document.h"
 #include "reports/dcc/dcc_element.h"
@@ -20,9 +21,6 @@
 namespace gumcert::reports {
 
 namespace {
-
-constexpr std::size_t k_most_breaches = 1000;  // of one document; nobody reads more
-constexpr std::size_t k_shown = 60;            // characters of a foreign text in a message
 
 // ISO 639-1, the two-letter codes.
 constexpr std::string_view k_languages =
@@ -437,7 +435,8 @@ void Rules::relative_uncertainty(const XmlElement& quantity) {
 }
 
 /// Reports the first row where the relative uncertainty is not the absolute one divided by the value; the others will
-/// have the same reason. \param scale  of the relative uncertainty
+/// have the same reason.
+/// \param scale  of the relative uncertainty
 bool Rules::contradicts(const XmlElement& relative, const XmlElement& form, double scale) {
     const std::vector<std::string> stated = words_inside(relative, {"si:value", "si:valueXMLList"});
     const std::vector<std::string> values = words_inside(form, {"si:value", "si:valueXMLList"});

@@ -12,6 +12,7 @@
 #include "gum/coverage.h"
 #include "gum/quantity/unit.h"
 #include "reports/certificate_view.h"
+#include "reports/dcc/breach_limits.h"
 #include "reports/dcc/d_si_unit.h"
 #include "reports/dcc/dcc_element.h"
 #include "reports/dcc/printed_number.h"
@@ -19,9 +20,6 @@
 namespace gumcert::reports {
 
 namespace {
-
-constexpr std::size_t k_most_breaches = 1000;  // of one document; nobody reads more
-constexpr std::size_t k_shown = 60;            // characters of a foreign text in a message
 
 std::string shown(const std::string& text) {
     return shortened(printable(text), k_shown);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "reports/certificate_view.h"
+#include "reports/dcc/breach_limits.h"
 #include "reports/dcc/content_model.h"
 #include "reports/dcc/dcc_schema_facts.h"
 #include "reports/dcc/dcc_text_types.h"
@@ -16,8 +17,6 @@ namespace gumcert::reports {
 
 namespace {
 
-constexpr std::size_t k_most_breaches = 1000;  // of one document; nobody reads more
-constexpr std::size_t k_shown = 60;            // characters of a foreign text in a message
 constexpr int k_first_version = 310;
 
 /// 331 for "3.3.1"; 0 for a text that is no version.

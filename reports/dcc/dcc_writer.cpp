@@ -18,13 +18,13 @@ namespace {
 
 constexpr std::string_view k_not_a_number = "NaN";
 
-bool is_digit(char c) {
+bool is_a_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
 std::size_t digits_at(std::string_view text, std::size_t at) {
     std::size_t end = at;
-    while (end < text.size() && is_digit(text[end])) {
+    while (end < text.size() && is_a_digit(text[end])) {
         ++end;
     }
     return end - at;
@@ -176,7 +176,7 @@ std::string date_or_nothing(const std::string& text) {
     constexpr std::string_view k_form = "dddd-dd-dd";
     bool fits = text.size() == k_form.size();
     for (std::size_t i = 0; fits && i < text.size(); ++i) {
-        fits = k_form[i] == 'd' ? is_digit(text[i]) : text[i] == '-';
+        fits = k_form[i] == 'd' ? is_a_digit(text[i]) : text[i] == '-';
     }
     return fits ? text : "";
 }
@@ -263,7 +263,7 @@ std::string d_si_unit(const std::string& udunits) {
 std::string as_token(const std::string& text) {
     std::string token;
     for (const char c : text) {
-        const bool plain = is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+        const bool plain = is_a_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
         if (plain || (!token.empty() && token.back() != '_')) {
             token += plain ? c : '_';
         }

@@ -19,7 +19,7 @@ std::string in_quotes(const std::string& text) {
     return '"' + text + '"';
 }
 
-std::string shortest(double v) {
+std::string shortest_text(double v) {
     std::array<char, 32> text{};
     return {text.data(), std::to_chars(text.data(), text.data() + text.size(), v).ptr};
 }
@@ -59,7 +59,7 @@ public:
 private:
     void correlation(const std::string& at, double r) const {
         if (!(std::abs(r) <= 1.0 + 1e-9)) {
-            report_(at, shortest(r), "a correlation coefficient lies between -1 and 1");
+            report_(at, shortest_text(r), "a correlation coefficient lies between -1 and 1");
         }
     }
     void participant(const Element& element, std::string_view key, const std::string& id) const {
@@ -73,7 +73,8 @@ private:
                     "must be one of the items, in its round");
         }
     }
-    /// A participant named by an element of a list inside an element. \param key  "" where the id is the element itself
+    /// A participant named by an element of a list inside an element.
+    /// \param key  "" where the id is the element itself
     void participant(const Element& element, std::string_view list, std::size_t position, std::string_view key,
                      const std::string& id) const {
         if (!participants_.contains(id)) {
