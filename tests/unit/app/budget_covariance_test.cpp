@@ -17,12 +17,12 @@
 namespace gumcert::app {
 namespace {
 
-BudgetResult evaluate(const std::string& keys) {
+BudgetResult evaluate_keys(const std::string& keys) {
     return evaluate_budget(engine::test::read_budget(keys), 1);
 }
 
 Eigen::MatrixXd covariance(const std::string& keys) {
-    return budget_covariance(evaluate(keys));
+    return budget_covariance(evaluate_keys(keys));
 }
 
 void expect_equal(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double tolerance, const std::string& of) {
@@ -34,7 +34,7 @@ const std::string k_a = R"("a": {"value": 0, "u": 1})";
 const std::string k_b = R"("b": {"value": 0, "u": 1})";
 const std::string k_own_b = R"("points": [{"b": {"value": 1, "u": 1}}, {"b": {"value": 2, "u": 2}}])";
 
-std::string job(const std::string& inputs, const std::string& model, double r) {
+std::string job_text(const std::string& inputs, const std::string& model, double r) {
     return R"("model": ["y = )" + model + R"("], "inputs": {)" + inputs + R"(}, "correlations": [["a", "b", )" +
            std::to_string(r) + "]], " + k_own_b;
 }
@@ -43,10 +43,10 @@ std::string job(const std::string& inputs, const std::string& model, double r) {
 TEST(BudgetCovariance, OfInputsThatThePointsStateGivenThoseThatTheyShare) {
     for (const double r : {0.5, -0.25, 0.99}) {
         for (const std::string& inputs : {k_a + ", " + k_b, k_b + ", " + k_a}) {
-            const Eigen::MatrixXd sum = covariance(job(inputs, "a + b", r));
+            const Eigen::MatrixXd sum = covariance(job_text(inputs, "a + b", r));
             EXPECT_NEAR(sum(0, 1), (1.0 + r) * (1.0 + 2.0 * r), 1e-14);
             EXPECT_NEAR(sum(0, 0), 2.0 + 2.0 * r, 1e-14);
-            const Eigen::MatrixXd alone = covariance(job(inputs, "b", r));
+            const Eigen::MatrixXd alone = covariance(job_text(inputs, "b", r));
             EXPECT_NEAR(alone(0, 1), r * r * 2.0, 1e-14);
             EXPECT_NEAR(alone(1, 1), 4.0, 1e-14);
         }
@@ -134,7 +134,7 @@ TEST(BudgetCovariance, DoesNotDependOnOrderNamesOrSplitting) {
     for (int round = 0; round < 40; ++round) {
         Table table = random_table(random);
         std::iota(order.begin(), order.end(), std::size_t{0});
-        const BudgetResult result = evaluate(table.keys(order));
+        const BudgetResult result = evaluate_keys(table.keys(order));
         const Eigen::MatrixXd V = budget_covariance(result);
         EXPECT_LE((V - V.transpose()).cwiseAbs().maxCoeff(), 0.0);
         const auto same = [&](const BudgetResult& other, const std::string& change) {
@@ -149,15 +149,15 @@ TEST(BudgetCovariance, DoesNotDependOnOrderNamesOrSplitting) {
             }
         };
         std::shuffle(order.begin(), order.end(), random);
-        same(evaluate(table.keys(order)), "order");
+        same(evaluate_keys(table.keys(order)), "order");
         table.names = {"zeta", "Y", "b", "a"};
-        same(evaluate(table.keys(order)), "names");
+        same(evaluate_keys(table.keys(order)), "names");
         for (std::size_t i = 0; i < 4; ++i) {
             if (!table.own[i]) {
                 table.split[i] = !table.split[i];
             }
         }
-        same(evaluate(table.keys(order)), "splitting");
+        same(evaluate_keys(table.keys(order)), "splitting");
     }
 }
 
@@ -170,7 +170,7 @@ TEST(BudgetCovariance, IsThatOfTheTrialsOfThePoints) {
         const Table table = random_table(random);
         std::string keys = table.keys(order);
         keys.replace(keys.find(table.names[2] + "*"), 2, "c - ");  // a linear model
-        const BudgetResult result = evaluate(keys);
+        const BudgetResult result = evaluate_keys(keys);
         const Eigen::MatrixXd V = budget_covariance(result);
         constexpr Eigen::Index k_trials = 20000;
         Eigen::MatrixXd y(k_trials, V.rows());

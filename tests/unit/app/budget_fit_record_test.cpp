@@ -17,7 +17,7 @@ namespace {
 using reports::BudgetRow;
 using reports::EvaluationRecord;
 
-EvaluationRecord record_of(const engine::BudgetJob& job) {
+EvaluationRecord record_of_fit(const engine::BudgetJob& job) {
     const BudgetResult result = evaluate_budget(job, 1);
     return budget_record(job, result, {}, budget_covariance(result), "");
 }
@@ -34,7 +34,7 @@ std::string line(double residual, const std::string& more = "", const std::strin
 
 TEST(BudgetFitRecord, TestsTheStatedUncertainties) {
     const auto consistency = [](double residual, const std::string& more = "") {
-        return record_of(engine::test::read_budget(line(residual, more))).fits.at(0).consistency;
+        return record_of_fit(engine::test::read_budget(line(residual, more))).fits.at(0).consistency;
     };
     EXPECT_EQ(consistency(0.1), "consistent");
     EXPECT_EQ(consistency(1.0), "refuted");
@@ -43,8 +43,9 @@ TEST(BudgetFitRecord, TestsTheStatedUncertainties) {
 }
 
 TEST(BudgetFitRecord, OffersWhatScalingByTheResidualsGives) {
-    const EvaluationRecord refuted = record_of(engine::test::read_budget(line(1.0)));
-    const EvaluationRecord scaled = record_of(engine::test::read_budget(line(1.0, R"("scale_by_residuals": true, )")));
+    const EvaluationRecord refuted = record_of_fit(engine::test::read_budget(line(1.0)));
+    const EvaluationRecord scaled =
+        record_of_fit(engine::test::read_budget(line(1.0, R"("scale_by_residuals": true, )")));
     for (std::size_t i = 0; i < 2; ++i) {
         ASSERT_TRUE(refuted.fits[0].parameters[i].scaled_u);
         EXPECT_NEAR(*refuted.fits[0].parameters[i].scaled_u, scaled.fits[0].parameters[i].u,
@@ -54,15 +55,15 @@ TEST(BudgetFitRecord, OffersWhatScalingByTheResidualsGives) {
 }
 
 TEST(BudgetFitRecord, LeavesOutWhatHasNoMeaning) {
-    const EvaluationRecord both = record_of(engine::test::read_budget(line(0.1, "", R"("u_y": 0.1, "u_x": 0.05)")));
+    const EvaluationRecord both = record_of_fit(engine::test::read_budget(line(0.1, "", R"("u_y": 0.1, "u_x": 0.05)")));
     EXPECT_FALSE(both.fits[0].r_squared);
     EXPECT_EQ(both.fits[0].printed.r_squared, "");
-    EXPECT_TRUE(record_of(engine::test::read_budget(line(0.1))).fits[0].r_squared);
+    EXPECT_TRUE(record_of_fit(engine::test::read_budget(line(0.1))).fits[0].r_squared);
 }
 
 TEST(BudgetFitRecord, PrintsTheDataWithTheirUncertainties) {
     const reports::FitSummary fit =
-        record_of(engine::test::read_budget(line(0.1, "", R"("u_y": 0.1, "u_x": 0.05)"))).fits.at(0);
+        record_of_fit(engine::test::read_budget(line(0.1, "", R"("u_y": 0.1, "u_x": 0.05)"))).fits.at(0);
     EXPECT_EQ(fit.printed.x, (std::vector<std::string>{"0", "1", "2", "3", "4", "5"}));
     EXPECT_EQ(fit.printed.y, (std::vector<std::string>{"0.1", "0.9", "1.9", "3.1", "4.1", "4.9"}));
     EXPECT_EQ(fit.printed.u_x, std::vector<std::string>(6, "0.050"));
@@ -98,7 +99,7 @@ TEST(BudgetFitRecord, RowsOfFitsAddUpToTheVariance) {
             R"("], "inputs": {"q": {"value": )" + q + R"(, "u": 0.1}}, "fits": {"f": {"equation": "y = a + b*x)" +
             (quadratic ? " + c*x^2" : "") + R"(", "parameters": {"a": {}, "b": {})" +
             (quadratic ? R"(, "c": {})" : "") + R"(}, "data": {)" + data + "}}}");
-        const EvaluationRecord record = record_of(job);
+        const EvaluationRecord record = record_of_fit(job);
         const reports::Result& z = record.results.at(0);
         ASSERT_EQ(z.budget.size(), 2U);
         EXPECT_FALSE(z.correlation);
@@ -124,7 +125,7 @@ TEST(BudgetFitRecord, RowsOfFitsAddUpToTheVariance) {
 /// The part of the abscissae is what is left when the ordinates get exact, and the other way round.
 TEST(BudgetFitRecord, SplitsTheVarianceByColumn) {
     const auto part_of = [](const std::string& data, std::size_t part) {
-        const EvaluationRecord record = record_of(engine::test::read_budget(line(0.1, "", data)));
+        const EvaluationRecord record = record_of_fit(engine::test::read_budget(line(0.1, "", data)));
         return record.results.at(0).budget.at(1).components.at(part).contribution;
     };
     const double alone = part_of(R"("u_y": 0.1)", 0);
@@ -139,7 +140,7 @@ TEST(BudgetFitRecord, SplitsTheVarianceByColumn) {
 TEST(BudgetFitRecord, ParametersAreResultsOfTheirData) {
     const engine::BudgetJob job = engine::test::read_budget(R"("fits": {"f": {"equation": "y = a + b*x",
         "parameters": {"a": {}, "b": {}}, "data": {"x": [0, 1, 2, 3], "y": [0, 1.1, 1.9, 3.2], "u_y": 0.1, "u_x": 0.1}}})");
-    const EvaluationRecord record = record_of(job);
+    const EvaluationRecord record = record_of_fit(job);
     ASSERT_EQ(record.results.size(), 2U);
     for (const reports::Result& result : record.results) {
         ASSERT_EQ(result.budget.size(), 1U) << result.name;

@@ -28,8 +28,8 @@ using engine::MemoryFileSource;
 using nlohmann::json;
 using reports::EvaluationRecord;
 
-const std::filesystem::path k_templates = std::filesystem::path(GUMCERT_SOURCE_DIR) / "templates";
-const std::filesystem::path k_examples = std::filesystem::path(GUMCERT_SOURCE_DIR) / "examples";
+const std::filesystem::path k_closure_templates = std::filesystem::path(GUMCERT_SOURCE_DIR) / "templates";
+const std::filesystem::path k_closure_examples = std::filesystem::path(GUMCERT_SOURCE_DIR) / "examples";
 
 /// A simulated comparison, in arcsec; its truth is 3 sin and 2 cos.
 struct Campaign {
@@ -75,7 +75,7 @@ MemoryFileSource files_of(const Campaign& campaign, const std::string& more = ""
 }
 
 EvaluationRecord record_of(const Campaign& campaign, const std::string& more = "") {
-    return evaluate_job(files_of(campaign, more), "job.json", CovarianceFile::none, 1, k_templates).record;
+    return evaluate_job(files_of(campaign, more), "job.json", CovarianceFile::none, 1, k_closure_templates).record;
 }
 
 std::vector<std::string> codes(const EvaluationRecord& record) {
@@ -146,17 +146,18 @@ TEST(CircleClosureRecord, StatesTheClosedFormWithItsBudget) {
 TEST(CircleClosureRecord, IsReadAgainAndEvaluatedAgain) {
     for (const char* const job : {"job.json", "indexing_tables.json", "comparison.json"}) {
         const EvaluationRecord record =
-            evaluate_job(k_examples / "circle_closure" / job, CovarianceFile::none, 1, k_templates).record;
+            evaluate_job(k_closure_examples / "circle_closure" / job, CovarianceFile::none, 1, k_closure_templates)
+                .record;
         const std::string text = reports::to_canonical_json(record);
         EvaluationRecord again = reports::record_from_json(text, "record.json");
         EXPECT_EQ(reports::to_canonical_json(again), text) << job;
-        EXPECT_FALSE(recompute_record(again, "record.json", 1, k_templates)) << job;
+        EXPECT_FALSE(recompute_record(again, "record.json", 1, k_closure_templates)) << job;
     }
 }
 
 /// Truth of an example, column by column.
 std::vector<std::vector<double>> truth_of(const std::string& file) {
-    const std::string text = engine::DiskFileSource(k_examples / "circle_closure").read(file);
+    const std::string text = engine::DiskFileSource(k_closure_examples / "circle_closure").read(file);
     std::vector<std::vector<double>> rows;
     std::size_t at = text.find('\n') + 1;
     while (at < text.size()) {
@@ -177,7 +178,8 @@ TEST(CircleClosureExamples, HoldTheirTruth) {
     for (const auto& [job, truth_file] :
          {std::pair("job.json", "truth.csv"), std::pair("indexing_tables.json", "indexing_tables_truth.csv")}) {
         const EvaluationRecord record =
-            evaluate_job(k_examples / "circle_closure" / job, CovarianceFile::none, 1, k_templates).record;
+            evaluate_job(k_closure_examples / "circle_closure" / job, CovarianceFile::none, 1, k_closure_templates)
+                .record;
         const auto truth = truth_of(truth_file);
         double sum = 0.0;
         for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -297,8 +299,9 @@ TEST(ComparedJobSide, TakesTheMeanOffWithItsCovariance) {
 }
 
 TEST(ComparedJobSide, BothMethodsAgreeOnTheSameTable) {
-    const EvaluationRecord record =
-        evaluate_job(k_examples / "circle_closure/comparison.json", CovarianceFile::none, 1, k_templates).record;
+    const EvaluationRecord record = evaluate_job(k_closure_examples / "circle_closure/comparison.json",
+                                                 CovarianceFile::none, 1, k_closure_templates)
+                                        .record;
     ASSERT_TRUE(record.comparison);
     const reports::Comparison& comparison = *record.comparison;
     ASSERT_EQ(comparison.points.size(), 36U);

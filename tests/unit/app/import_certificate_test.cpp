@@ -32,7 +32,7 @@ std::string quantity(const std::string& name, const std::string& value, const st
            "</si:value><si:unit>" + unit + "</si:unit>" + uncertainty + "</si:real></dcc:quantity>";
 }
 
-std::string expanded(const std::string& U, const std::string& k) {
+std::string expanded_value(const std::string& U, const std::string& k) {
     return "<si:measurementUncertaintyUnivariate><si:expandedMU><si:valueExpandedMU>" + U +
            "</si:valueExpandedMU><si:coverageFactor>" + k +
            "</si:coverageFactor><si:coverageProbability>0.95</si:coverageProbability></si:expandedMU>"
@@ -56,7 +56,7 @@ std::vector<std::string> of_numbers(const std::vector<gum::Diagnostic>& remarks)
 
 TEST(ImportCertificate, MakesAJobOfWhatHasAnUncertainty) {
     const ImportedJob imported = import_certificate(
-        with_quantities(quantity("Length", "1.50", expanded("0.020", "2.0")) + quantity("Nominal", "1.5", "") +
+        with_quantities(quantity("Length", "1.50", expanded_value("0.020", "2.0")) + quantity("Nominal", "1.5", "") +
                         quantity("max", "+.250E1", standard("0.010"))),
         "a.xml");
     const nlohmann::json job = nlohmann::json::parse(imported.job);
@@ -78,8 +78,9 @@ TEST(ImportCertificate, MakesAJobOfWhatHasAnUncertainty) {
 
 TEST(ImportCertificate, LeavesOutWhatCannotBeAnInput) {
     const ImportedJob imported = import_certificate(
-        with_quantities(quantity("a", "NaN", expanded("0.1", "2")) + quantity("b", "1", expanded("0.1", "2"), "|inch") +
-                        quantity("c", "1", expanded("0", "2")) + quantity("d", "1", standard("NaN"))),
+        with_quantities(quantity("a", "NaN", expanded_value("0.1", "2")) +
+                        quantity("b", "1", expanded_value("0.1", "2"), "|inch") +
+                        quantity("c", "1", expanded_value("0", "2")) + quantity("d", "1", standard("NaN"))),
         "a.xml");
     const nlohmann::json job = nlohmann::json::parse(imported.job);
     ASSERT_EQ(job["inputs"].size(), 1U);
@@ -96,10 +97,12 @@ TEST(ImportCertificate, LeavesOutFactorsAndProbabilitiesThatAreNone) {
                p + "</si:coverageProbability></si:expandedMU></si:measurementUncertaintyUnivariate>";
     };
     for (const std::string& uncertainty :
-         {expanded("0.1", "0"), expanded("0.1", "-2"), expanded("-0.1", "2"), expanded("1e400", "2"), without_k("95"),
-          without_k("0"), without_k("1"), without_k("NaN"), standard("-1"), standard("1e-400")}) {
+         {expanded_value("0.1", "0"), expanded_value("0.1", "-2"), expanded_value("-0.1", "2"),
+          expanded_value("1e400", "2"), without_k("95"), without_k("0"), without_k("1"), without_k("NaN"),
+          standard("-1"), standard("1e-400")}) {
         const ImportedJob imported = import_certificate(
-            with_quantities(quantity("good", "1", expanded("0.1", "2")) + quantity("bad", "1", uncertainty)), "a.xml");
+            with_quantities(quantity("good", "1", expanded_value("0.1", "2")) + quantity("bad", "1", uncertainty)),
+            "a.xml");
         const nlohmann::json job = nlohmann::json::parse(imported.job);
         EXPECT_EQ(job["inputs"].size(), 1U) << uncertainty;
         EXPECT_EQ(of_numbers(imported.remarks), std::vector<std::string>{"GC-DCC-0031"}) << uncertainty;
@@ -167,7 +170,7 @@ TEST(ImportCertificate, RefusesACertificateWithoutNumbers) {
 /// The job reader accepts what the import writes, for a certificate without uncertainties too.
 TEST(ImportCertificate, WritesJobsThatCanBeRead) {
     std::vector<std::string> certificates = {
-        with_quantities(quantity("Length", "1.50", expanded("0.020", "2.0"))),
+        with_quantities(quantity("Length", "1.50", expanded_value("0.020", "2.0"))),
         with_quantities(quantity("Length", "1.50", "") + quantity("y", "-0", standard("1e-3"), "\\one")),
         with_quantities(quantity("y", "1.", ""))};
     const std::filesystem::path folder = std::filesystem::path(GUMCERT_SHARED_DIR) / "dcc" / "examples";

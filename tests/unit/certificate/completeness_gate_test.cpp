@@ -5,14 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/finding_severities.h"
 #include "tests/unit/certificate/passed_certificate.h"
 
 namespace gumcert::certificate {
 namespace {
-
-constexpr FindingSeverity k_critical = FindingSeverity::critical;
-constexpr FindingSeverity k_major = FindingSeverity::major;
-constexpr FindingSeverity k_minor = FindingSeverity::minor;
 
 TEST(CompletenessGate, HasNothingToSayOfCompleteData) {
     EXPECT_THAT(ids(completeness_findings(passed_certificate())), testing::IsEmpty());

@@ -5,14 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/finding_severities.h"
 #include "tests/unit/certificate/passed_certificate.h"
 
 namespace gumcert::certificate {
 namespace {
-
-constexpr FindingSeverity k_critical = FindingSeverity::critical;
-constexpr FindingSeverity k_major = FindingSeverity::major;
-constexpr FindingSeverity k_minor = FindingSeverity::minor;
 
 std::vector<Finding> after(const std::function<void(CertificateData&)>& change) {
     Certificate c = passed_certificate();
@@ -20,7 +17,7 @@ std::vector<Finding> after(const std::function<void(CertificateData&)>& change) 
     return plausibility_findings(c);
 }
 
-std::string iso(const std::string& clause) {
+std::string clause_of_iso(const std::string& clause) {
     return "ISO/IEC 17025:2017, " + clause;
 }
 
@@ -29,8 +26,8 @@ TEST(PlausibilityGate, HasNothingToSayOfCompleteData) {
 }
 
 TEST(PlausibilityGate, FindsOneTextForTwoThings) {
-    expect_finding(only(after([](CertificateData& d) { d.number = d.item.serial_number; })), "Q01", iso("7.8.2.1"),
-                   k_major, "/item/serial_number");
+    expect_finding(only(after([](CertificateData& d) { d.number = d.item.serial_number; })), "Q01",
+                   clause_of_iso("7.8.2.1"), k_major, "/item/serial_number");
     const std::vector<Finding> three = after([](CertificateData& d) {
         d.number = "A 7";
         d.item.serial_number = "a-7";
@@ -45,29 +42,29 @@ TEST(PlausibilityGate, FindsOneTextForTwoThings) {
 
 TEST(PlausibilityGate, FindsTheLaboratoryAsItsCustomer) {
     expect_finding(only(after([](CertificateData& d) { d.customer.name = "Example Calibration Laboratory"; })), "Q02",
-                   iso("7.8.2.1 e"), k_minor, "/customer/name");
+                   clause_of_iso("7.8.2.1 e"), k_minor, "/customer/name");
 }
 
 TEST(PlausibilityGate, WantsSeveralPersonsWithNames) {
-    expect_finding(only(after([](CertificateData& d) { d.persons.reviewed_by.reset(); })), "P06", iso("7.8.1.1"),
-                   k_major, "/persons/reviewed_by");
-    expect_finding(only(after([](CertificateData& d) { d.persons.performed_by->name = "x"; })), "P06", iso("7.8.1.1"),
-                   k_minor, "/persons/performed_by");
+    expect_finding(only(after([](CertificateData& d) { d.persons.reviewed_by.reset(); })), "P06",
+                   clause_of_iso("7.8.1.1"), k_major, "/persons/reviewed_by");
+    expect_finding(only(after([](CertificateData& d) { d.persons.performed_by->name = "x"; })), "P06",
+                   clause_of_iso("7.8.1.1"), k_minor, "/persons/performed_by");
     expect_finding(only(after([](CertificateData& d) {
                        d.persons.performed_by = d.persons.reviewed_by = d.persons.authorised_by;
                    })),
-                   "P07", iso("7.8.1.1"), k_major, "/persons");
+                   "P07", clause_of_iso("7.8.1.1"), k_major, "/persons");
     expect_finding(only(after([](CertificateData& d) { d.persons.authorised_by->authorised_from.clear(); })), "P09",
-                   iso("6.2.6"), k_minor, "/persons/authorised_by/authorised_from");
+                   clause_of_iso("6.2.6"), k_minor, "/persons/authorised_by/authorised_from");
 }
 
 TEST(PlausibilityGate, FindsDatesYearsApart) {
-    expect_finding(only(after([](CertificateData& d) { d.dates.authorised.clear(); })), "P10", iso("7.8.1.1"), k_major,
-                   "/dates/authorised");
-    expect_finding(only(after([](CertificateData& d) { d.dates.received = "2020-01-01"; })), "P11", iso("7.5.1"),
-                   k_major, "/dates/received");
-    expect_finding(only(after([](CertificateData& d) { d.dates.issued = "2028-01-01"; })), "P11", iso("7.5.1"), k_major,
-                   "/dates/issued");
+    expect_finding(only(after([](CertificateData& d) { d.dates.authorised.clear(); })), "P10", clause_of_iso("7.8.1.1"),
+                   k_major, "/dates/authorised");
+    expect_finding(only(after([](CertificateData& d) { d.dates.received = "2020-01-01"; })), "P11",
+                   clause_of_iso("7.5.1"), k_major, "/dates/received");
+    expect_finding(only(after([](CertificateData& d) { d.dates.issued = "2028-01-01"; })), "P11",
+                   clause_of_iso("7.5.1"), k_major, "/dates/issued");
     EXPECT_EQ(only(after([](CertificateData& d) {
                   d.dates = {.received = "2016-11-16",
                              .performed_from = "2016-11-18",
@@ -80,7 +77,7 @@ TEST(PlausibilityGate, FindsDatesYearsApart) {
                        d.recalibration_date = d.dates.issued;
                        d.recalibration_agreement = "Contract 88-2026, 5";
                    })),
-                   "R08", iso("7.8.4.3"), k_critical, "/recalibration_date");
+                   "R08", clause_of_iso("7.8.4.3"), k_critical, "/recalibration_date");
 }
 
 TEST(PlausibilityGate, FindsConditionsThatNatureDoesNotHave) {
@@ -115,18 +112,18 @@ TEST(PlausibilityGate, FindsConditionsThatNatureDoesNotHave) {
         });
         EXPECT_EQ(found.empty(), c.possible) << c.quantity << c.minimum << c.unit;
         if (!c.possible) {
-            expect_finding(only(found), "E02", iso("7.8.4.1 b"), k_critical, "/conditions/0");
+            expect_finding(only(found), "E02", clause_of_iso("7.8.4.1 b"), k_critical, "/conditions/0");
         }
     }
 }
 
 TEST(PlausibilityGate, WantsAgreementsAndProvidersThatAreSome) {
-    expect_finding(only(after([](CertificateData& d) { d.simplified_agreement = "none"; })), "R15", iso("7.8.1.3"),
-                   k_major, "/simplified_agreement");
+    expect_finding(only(after([](CertificateData& d) { d.simplified_agreement = "none"; })), "R15",
+                   clause_of_iso("7.8.1.3"), k_major, "/simplified_agreement");
     expect_finding(only(after([](CertificateData& d) {
                        d.external_results = {{.results = {"l"}, .provider = "Example Calibration Laboratory"}};
                    })),
-                   "R09", iso("7.8.2.1 p"), k_major, "/external_results/0/provider");
+                   "R09", clause_of_iso("7.8.2.1 p"), k_major, "/external_results/0/provider");
 }
 
 }  // namespace

@@ -3,14 +3,12 @@
 
 #include <string>
 
+#include "tests/support/finding_severities.h"
 #include "tests/unit/certificate/passed_certificate.h"
 
 namespace gumcert::certificate {
 namespace {
 
-constexpr FindingSeverity k_critical = FindingSeverity::critical;
-constexpr FindingSeverity k_major = FindingSeverity::major;
-constexpr FindingSeverity k_minor = FindingSeverity::minor;
 constexpr const char* k_p8 = "ILAC-P8";
 constexpr const char* k_p14 = "ILAC-P14:09/2020";
 

@@ -4,13 +4,12 @@
 #include <functional>
 #include <string>
 
+#include "tests/support/finding_severities.h"
 #include "tests/unit/certificate/passed_certificate.h"
 
 namespace gumcert::certificate {
 namespace {
 
-constexpr FindingSeverity k_critical = FindingSeverity::critical;
-constexpr FindingSeverity k_major = FindingSeverity::major;
 constexpr const char* k_before_the_work = "ISO/IEC 17025:2017, 7.1.3";
 constexpr const char* k_rule = "ISO/IEC 17025:2017, 7.8.6.2 c";
 

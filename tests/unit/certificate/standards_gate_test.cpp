@@ -4,13 +4,11 @@
 #include <functional>
 #include <string>
 
+#include "tests/support/finding_severities.h"
 #include "tests/unit/certificate/passed_certificate.h"
 
 namespace gumcert::certificate {
 namespace {
-
-constexpr FindingSeverity k_critical = FindingSeverity::critical;
-constexpr FindingSeverity k_major = FindingSeverity::major;
 
 Finding after(const std::function<void(CertificateData&, StandardUsed&)>& change) {
     Certificate c = passed_certificate();
@@ -18,7 +16,7 @@ Finding after(const std::function<void(CertificateData&, StandardUsed&)>& change
     return only(standard_findings(c));
 }
 
-std::string iso(const std::string& clause) {
+std::string clause_of_standard(const std::string& clause) {
     return "ISO/IEC 17025:2017, " + clause;
 }
 
@@ -27,25 +25,25 @@ TEST(StandardsGate, HasNothingToSayOfCompleteData) {
 }
 
 TEST(StandardsGate, WantsAnEndOfTheValidity) {
-    expect_finding(after([](CertificateData&, StandardUsed& s) { s.valid_to.clear(); }), "T05", iso("6.4"), k_major,
-                   "/standards/0/valid_to");
+    expect_finding(after([](CertificateData&, StandardUsed& s) { s.valid_to.clear(); }), "T05",
+                   clause_of_standard("6.4"), k_major, "/standards/0/valid_to");
     const Finding old = after([](CertificateData&, StandardUsed& s) {
         s.valid_to.clear();
         s.calibrated = "1990-03-02";
     });
-    expect_finding(old, "T05", iso("6.4"), k_critical, "/standards/0/valid_to");
+    expect_finding(old, "T05", clause_of_standard("6.4"), k_critical, "/standards/0/valid_to");
     EXPECT_THAT(old.what, testing::HasSubstr("1990-03-02"));
-    expect_finding(after([](CertificateData&, StandardUsed& s) { s.valid_to = "2126-03-02"; }), "T05", iso("6.4"),
-                   k_major, "/standards/0/valid_to");
+    expect_finding(after([](CertificateData&, StandardUsed& s) { s.valid_to = "2126-03-02"; }), "T05",
+                   clause_of_standard("6.4"), k_major, "/standards/0/valid_to");
 }
 
 TEST(StandardsGate, FindsStandardsThatRestOnTheCertificateItself) {
-    expect_finding(after([](CertificateData& d, StandardUsed& s) { s.certificate = d.number; }), "T08", iso("6.5"),
-                   k_critical, "/standards/0/certificate");
-    expect_finding(after([](CertificateData&, StandardUsed& s) { s.identification = "sn1001"; }), "T08", iso("6.5"),
-                   k_critical, "/standards/0/identification");
+    expect_finding(after([](CertificateData& d, StandardUsed& s) { s.certificate = d.number; }), "T08",
+                   clause_of_standard("6.5"), k_critical, "/standards/0/certificate");
+    expect_finding(after([](CertificateData&, StandardUsed& s) { s.identification = "sn1001"; }), "T08",
+                   clause_of_standard("6.5"), k_critical, "/standards/0/identification");
     const auto own = [](CertificateData& d, StandardUsed& s) { s.issuer = d.laboratory.name; };
-    expect_finding(after(own), "T08", iso("6.5"), k_major, "/standards/0/issuer");
+    expect_finding(after(own), "T08", clause_of_standard("6.5"), k_major, "/standards/0/issuer");
     Certificate c = passed_certificate();
     own(c.data, c.data.standards[0]);
     c.data.standards[0].route = "in_house";
@@ -57,13 +55,13 @@ TEST(StandardsGate, FindsAStandardThatStandsTwice) {
                        d.standards.push_back(d.standards[0]);
                        d.standards[1].identification = "STD-018";
                    }),
-                   "T08", iso("6.5"), k_major, "/standards/1/certificate");
+                   "T08", clause_of_standard("6.5"), k_major, "/standards/1/certificate");
 }
 
 TEST(StandardsGate, FindsAStandardThatIsWorseThanTheResults) {
     // The results of its kind have u = 31.7 nm at most.
-    expect_finding(after([](CertificateData&, StandardUsed& s) { s.U = 0.0635; }), "T07", iso("7.6.1"), k_major,
-                   "/standards/0/U");
+    expect_finding(after([](CertificateData&, StandardUsed& s) { s.U = 0.0635; }), "T07", clause_of_standard("7.6.1"),
+                   k_major, "/standards/0/U");
     Certificate c = passed_certificate();
     c.data.standards[0].U = 0.0633;
     EXPECT_THAT(ids(standard_findings(c)), testing::IsEmpty());
@@ -79,8 +77,8 @@ TEST(StandardsGate, FindsAStandardThatIsWorseThanTheResults) {
 }
 
 TEST(StandardsGate, WantsANameOfTheStandard) {
-    expect_finding(after([](CertificateData&, StandardUsed& s) { s.name = "standard"; }), "R07-4c", iso("7.8.4.1 c"),
-                   k_major, "/standards/0/name");
+    expect_finding(after([](CertificateData&, StandardUsed& s) { s.name = "standard"; }), "R07-4c",
+                   clause_of_standard("7.8.4.1 c"), k_major, "/standards/0/name");
 }
 
 }  // namespace

@@ -4,13 +4,12 @@
 #include <functional>
 #include <string>
 
+#include "tests/support/finding_severities.h"
 #include "tests/unit/certificate/passed_certificate.h"
 
 namespace gumcert::certificate {
 namespace {
 
-constexpr FindingSeverity k_critical = FindingSeverity::critical;
-constexpr FindingSeverity k_major = FindingSeverity::major;
 constexpr FindingSeverity k_information = FindingSeverity::information;
 
 CertifiedValue& axial(Certificate& c) {

@@ -16,7 +16,7 @@ using synthetic::Campaign;
 using synthetic::CampaignPlan;
 
 /// The diagnostic with which a measurement is refused; an empty one when it is not.
-gum::Diagnostic refusal(const RotaryTableMeasurement& measurement) {
+gum::Diagnostic rank_refusal(const RotaryTableMeasurement& measurement) {
     try {
         (void)evaluate_jointly(measurement, EvaluationOptions{});
     } catch (const gum::NoResultError& error) {
@@ -53,7 +53,7 @@ TEST(Rank, RingOfReflectorsSeenFromTheAxisIsRefused) {
         plan.start_values = true;
         Campaign campaign = simulate(plan);
         campaign.measurement.station_start[2].reset();
-        const gum::Diagnostic diagnostic = refusal(campaign.measurement);
+        const gum::Diagnostic diagnostic = rank_refusal(campaign.measurement);
         EXPECT_EQ(diagnostic.code, "GC-RANK-0001");
         EXPECT_TRUE(mentions(diagnostic, "station P3")) << gum::message(diagnostic);
         EXPECT_TRUE(mentions(diagnostic, "dead path")) << gum::message(diagnostic);
@@ -65,7 +65,7 @@ TEST(Rank, RingOfReflectorsSeenFromTheAxisIsRefused) {
 
 TEST(Rank, RingWithoutAnyStartValuesIsRefused) {
     // A flat ring leaves the side of every station open (mirror image): no result from distances alone.
-    EXPECT_EQ(refusal(simulate(ring(0.0)).measurement).code, "GC-RANK-0001");
+    EXPECT_EQ(rank_refusal(simulate(ring(0.0)).measurement).code, "GC-RANK-0001");
 }
 
 TEST(Rank, NoisyRingIsRefusedOrHonest) {
@@ -106,7 +106,7 @@ TEST(Rank, RingOfReflectorsIsRefusedWithStartValuesToo) {
     CampaignPlan plan = ring(0.0);
     plan.start_values = true;
     const Campaign campaign = simulate(plan);
-    const gum::Diagnostic diagnostic = refusal(campaign.measurement);
+    const gum::Diagnostic diagnostic = rank_refusal(campaign.measurement);
     EXPECT_EQ(diagnostic.code, "GC-RANK-0001");
     EXPECT_TRUE(mentions(diagnostic, "station P3")) << gum::message(diagnostic);
     EXPECT_TRUE(mentions(diagnostic, "dead path P3")) << gum::message(diagnostic);
@@ -130,7 +130,7 @@ TEST(Rank, PoseWithTooFewDistancesIsRefusedByName) {
     std::size_t kept = 0;
     std::erase_if(campaign.measurement.lengths,
                   [&kept](const LengthObservation& length) { return length.angle == 4 && ++kept > 5; });
-    const gum::Diagnostic diagnostic = refusal(campaign.measurement);
+    const gum::Diagnostic diagnostic = rank_refusal(campaign.measurement);
     EXPECT_EQ(diagnostic.code, "GC-RANK-0001");
     EXPECT_TRUE(mentions(diagnostic, "at angle number 5")) << gum::message(diagnostic);
     EXPECT_FALSE(mentions(diagnostic, "at angle number 6")) << gum::message(diagnostic);
@@ -145,7 +145,7 @@ TEST(Rank, PoseSeenThroughOneReflectorIsRefused) {
     Campaign campaign = simulate(plan);
     std::erase_if(campaign.measurement.lengths,
                   [](const LengthObservation& length) { return length.angle == 7 && length.reflector != 2; });
-    const gum::Diagnostic diagnostic = refusal(campaign.measurement);
+    const gum::Diagnostic diagnostic = rank_refusal(campaign.measurement);
     EXPECT_EQ(diagnostic.code, "GC-RANK-0001");
     EXPECT_TRUE(mentions(diagnostic, "at angle number 8")) << gum::message(diagnostic);
 }
@@ -155,7 +155,7 @@ TEST(Rank, PoseThatWasNotMeasuredIsRefused) {
     plan.angles_deg = synthetic::full_turn(12);
     Campaign campaign = simulate(plan);
     std::erase_if(campaign.measurement.lengths, [](const LengthObservation& length) { return length.angle == 3; });
-    const gum::Diagnostic diagnostic = refusal(campaign.measurement);
+    const gum::Diagnostic diagnostic = rank_refusal(campaign.measurement);
     EXPECT_EQ(diagnostic.code, "GC-RANK-0001");
     EXPECT_TRUE(mentions(diagnostic, "at angle number 4")) << gum::message(diagnostic);
 }

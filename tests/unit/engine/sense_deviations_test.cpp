@@ -34,13 +34,13 @@ RotaryTableSolution solve(const RotaryTableMeasurement& measurement) {
     return evaluate_jointly(measurement, EvaluationOptions{});
 }
 
-const RotaryTableModel& model_of(const RotaryTableSolution& solution) {
+const RotaryTableModel& table_model_of(const RotaryTableSolution& solution) {
     return dynamic_cast<const RotaryTableModel&>(*solution.model);
 }
 
 TEST(SenseDeviations, AreThoseOfDenseMatrices) {
     const RotaryTableSolution solution = solve(simulate(both_senses()).measurement);
-    const JointAdjustment& solved = model_of(solution).solved();
+    const JointAdjustment& solved = table_model_of(solution).solved();
     const NormalEquations normal = solved.adjustment().linearise();
     const auto found = sense_deviations(solved, normal, normal.bordered_covariance());
     ASSERT_EQ(found.size(), 16U);
@@ -90,7 +90,7 @@ TEST(SenseDeviations, FindAReversalThatDependsOnTheAngle) {
     measurement.table_repeatability = {RepeatabilityMode::given, 0.2e-6, 2e-6, 1e-6};
     measurement.estimate_length_noise = false;
     const RotaryTableSolution sound = solve(measurement);
-    const JointAdjustment& before = model_of(sound).solved();
+    const JointAdjustment& before = table_model_of(sound).solved();
     const double planted = 5.0 * synthetic::k_arcsec;
     const std::size_t angle = 3;
     for (std::size_t v = 0; v < before.visits().size(); ++v) {
@@ -104,7 +104,7 @@ TEST(SenseDeviations, FindAReversalThatDependsOnTheAngle) {
     }
     measurement.outliers.test = OutlierTest::none;
     const RotaryTableSolution solution = solve(measurement);
-    const JointAdjustment& solved = model_of(solution).solved();
+    const JointAdjustment& solved = table_model_of(solution).solved();
     const NormalEquations normal = solved.adjustment().linearise();
     VectorXd up = VectorXd::Zero(8);
     VectorXd down = VectorXd::Zero(8);

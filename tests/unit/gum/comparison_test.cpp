@@ -9,6 +9,7 @@
 
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/special_values.h"
 #include "gum/type_b.h"
 #include "tests/unit/gum/printed.h"
 
@@ -19,8 +20,6 @@ using test::agrees;
 using test::code_of;
 using test::message_of;
 using test::prints_as;
-
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
 ComparedValue with_k_2(double value, double U) {
     return {.value = value, .standard_uncertainty = U / 2.0, .expanded_uncertainty = U};

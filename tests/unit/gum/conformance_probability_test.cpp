@@ -10,6 +10,7 @@
 #include "gum/coverage.h"
 #include "gum/distribution_quantile.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/special_values.h"
 #include "tests/unit/gum/printed.h"
 
 namespace gumcert::gum {
@@ -19,7 +20,6 @@ using test::agrees;
 using test::code_of;
 using test::prints_as;
 
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 const ToleranceLimits k_unit_tolerance{.lower = -1.0, .upper = 1.0};
 
 MeasuredValue normal(double y, double u) {

@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-const ToleranceLimits k_unit_tolerance{.lower = -1.0, .upper = 1.0};
+const ToleranceLimits k_tolerance_of_table{.lower = -1.0, .upper = 1.0};
 
 std::filesystem::path folder() {
     return std::filesystem::path(GUMCERT_SHARED_DIR) / "reference";
@@ -129,7 +129,7 @@ TEST(ConformityReference, GuardBandRules) {
             const std::string method = methods.at(quantity.substr(0, quantity.find('(')));
             const double ratio = expected["given"]["TUR"];
             const ConformityDecision decision = decide_conformity(DecisionRule::z540_3, {.method = method},
-                                                                  k_unit_tolerance, measured(0.0, 0.5 / ratio));
+                                                                  k_tolerance_of_table, measured(0.0, 0.5 / ratio));
             expect(expected, decision.acceptance.upper.value());
             expect(expected, -decision.acceptance.lower.value());
         }
@@ -185,7 +185,8 @@ TEST(ConformityReference, GlobalRisk) {
             const std::size_t bracket = quantity.find('(');
             const double reliability = test::number(quantity.substr(bracket + 1, quantity.size() - bracket - 2));
             const double deviation = population_deviation(1.0, reliability);
-            const GlobalRisk risk = global_risk(k_unit_tolerance, k_unit_tolerance, 0.0, deviation, deviation / 4.0);
+            const GlobalRisk risk =
+                global_risk(k_tolerance_of_table, k_tolerance_of_table, 0.0, deviation, deviation / 4.0);
             const std::string kind = expected["kind"];
             if (kind == "false_accept_percent") {
                 expect(expected, 100.0 * risk.false_accept);

@@ -24,16 +24,16 @@ using Parameters = DecisionRuleParameters;
 const ToleranceLimits k_limits{.lower = 9.0, .upper = 10.0};
 const ToleranceLimits k_upper{.upper = 10.0};
 const ToleranceLimits k_lower{.lower = 9.0};
-const ToleranceLimits k_unit_tolerance{.lower = -1.0, .upper = 1.0};
+const ToleranceLimits k_symmetric_tolerance{.lower = -1.0, .upper = 1.0};
 
-MeasuredValue normal(double y, double u) {
+MeasuredValue normal_value(double y, double u) {
     return {.value = y, .standard_uncertainty = u, .expanded_uncertainty = 2.0 * u};
 }
 
 /// U = 0.1 for values between 9 and 10.
 ConformityDecision decide(DecisionRule rule, double y, const Parameters& parameters = {},
                           const ToleranceLimits& limits = k_limits) {
-    return decide_conformity(rule, parameters, limits, normal(y, 0.05));
+    return decide_conformity(rule, parameters, limits, normal_value(y, 0.05));
 }
 ConformityVerdict verdict(DecisionRule rule, double y, const Parameters& parameters = {},
                           const ToleranceLimits& limits = k_limits) {
@@ -160,7 +160,7 @@ TEST(DecideConformity, Dr02TakesTheAgreedAlternative) {
     const ConformityDecision neither = decide_conformity(
         DecisionRule::simple_acceptance_with_ratio,
         {.guard_factor = 1.0, .test_uncertainty_ratio = 4.0, .alternative = DecisionRule::guard_band_factor}, k_limits,
-        normal(9.5, 0.3));
+        normal_value(9.5, 0.3));
     EXPECT_EQ(neither.verdict, not_applicable);
     EXPECT_EQ(neither.rule, DecisionRule::guard_band_factor);
     EXPECT_NE(neither.note.find("DR-04 cannot be applied: no value can pass"), std::string::npos) << neither.note;
@@ -242,21 +242,23 @@ TEST(DecideConformity, Dr06ThreeWay) {
 TEST(DecideConformity, Dr07SpecificRisk) {
     const auto rule = DecisionRule::specific_risk;
     // Golden vector 4: p_c = 0.977250, risk 2.275 %.
-    const ConformityDecision decision = decide_conformity(rule, {.probability = 0.023}, k_limits, normal(9.8, 0.1));
+    const ConformityDecision decision =
+        decide_conformity(rule, {.probability = 0.023}, k_limits, normal_value(9.8, 0.1));
     EXPECT_EQ(decision.verdict, pass);
     EXPECT_TRUE(prints_as(decision.conformance_probability, "0.977250"));
     EXPECT_EQ(decision.formula, "pass: 1 − P(TL ≤ Y ≤ TU) ≤ R, R = 0.023");
     EXPECT_TRUE(agrees(*decision.largest_specific_risk, 0.023, 1e-11));
-    EXPECT_EQ(decide_conformity(rule, {.probability = 0.0227}, k_limits, normal(9.8, 0.1)).verdict, fail);
+    EXPECT_EQ(decide_conformity(rule, {.probability = 0.0227}, k_limits, normal_value(9.8, 0.1)).verdict, fail);
     EXPECT_EQ(verdict(rule, 10.0, {.probability = 0.5}, k_upper), pass);
     EXPECT_EQ(decide(rule, 10.1, {.probability = 0.5}, k_upper).formula, "pass: 1 − P(Y ≤ TU) ≤ R, R = 0.5");
     EXPECT_EQ(verdict(rule, 9.08, {.probability = 0.05}, k_lower), fail);
     EXPECT_EQ(verdict(rule, 9.083, {.probability = 0.05}, k_lower), pass);
     // With few degrees of freedom the same value has more risk.
-    MeasuredValue few = normal(9.8, 0.1);
+    MeasuredValue few = normal_value(9.8, 0.1);
     few.degrees_of_freedom = 5.0;
     EXPECT_EQ(decide_conformity(rule, {.probability = 0.023}, k_limits, few).verdict, fail);
-    const ConformityDecision hopeless = decide_conformity(rule, {.probability = 0.023}, k_limits, normal(9.5, 0.3));
+    const ConformityDecision hopeless =
+        decide_conformity(rule, {.probability = 0.023}, k_limits, normal_value(9.5, 0.3));
     EXPECT_EQ(hopeless.verdict, not_applicable);
     EXPECT_FALSE(hopeless.acceptance.upper);
     EXPECT_EQ(hopeless.note,
@@ -299,17 +301,17 @@ TEST(DecideConformity, Dr08Iso14253) {
     EXPECT_EQ(verdict(rule, 9.9176, {.guard_factor = 0.825}), undetermined);
     EXPECT_EQ(verdict(rule, 10.0826, {.guard_factor = 0.825}), fail);
     // Narrow tolerances: both tails, then nothing at all.
-    const ConformityDecision narrow = decide_conformity(rule, {}, k_unit_tolerance, normal(0.25, 0.45));
+    const ConformityDecision narrow = decide_conformity(rule, {}, k_symmetric_tolerance, normal_value(0.25, 0.45));
     EXPECT_EQ(narrow.verdict, undetermined);
     EXPECT_TRUE(agrees(*narrow.acceptance.upper, 0.247379946360962, 1e-11));
-    EXPECT_EQ(decide_conformity(rule, {}, k_unit_tolerance, normal(0.24, 0.45)).verdict, pass);
-    EXPECT_EQ(decide_conformity(rule, {}, k_unit_tolerance, normal(0.0, 0.52)).verdict, not_applicable);
-    EXPECT_EQ(decide_conformity(rule, {}, k_unit_tolerance, normal(5.0, 0.52)).verdict, fail);
+    EXPECT_EQ(decide_conformity(rule, {}, k_symmetric_tolerance, normal_value(0.24, 0.45)).verdict, pass);
+    EXPECT_EQ(decide_conformity(rule, {}, k_symmetric_tolerance, normal_value(0.0, 0.52)).verdict, not_applicable);
+    EXPECT_EQ(decide_conformity(rule, {}, k_symmetric_tolerance, normal_value(5.0, 0.52)).verdict, fail);
 }
 
 /// Half of the tolerance is 1; y = 0.9 unless said otherwise.
 ConformityDecision z540_3(const Parameters& parameters, double ratio, double y = 0.9) {
-    return decide_conformity(DecisionRule::z540_3, parameters, k_unit_tolerance, normal(y, 0.5 / ratio));
+    return decide_conformity(DecisionRule::z540_3, parameters, k_symmetric_tolerance, normal_value(y, 0.5 / ratio));
 }
 
 TEST(DecideConformity, Dr09GuardBandsOfTheHandbook) {
@@ -413,7 +415,7 @@ TEST(DecideConformity, Dr09RatioWhereARiskIsImpracticable) {
 
 TEST(DecideConformity, Dr09OneSided) {
     const auto decide_upper = [](const Parameters& parameters, double y) {
-        return decide_conformity(DecisionRule::z540_3, parameters, {.upper = 1.0}, normal(y, 0.1));
+        return decide_conformity(DecisionRule::z540_3, parameters, {.upper = 1.0}, normal_value(y, 0.1));
     };
     const ConformityDecision decision = decide_upper(
         {.probability = 0.001, .population_deviation = 0.4, .population_centre = 0.2, .method = "1"}, 0.95);
@@ -457,7 +459,7 @@ TEST(DecideConformity, Dr11RejectsOnlyWhatIsProven) {
     EXPECT_TRUE(prints_as(100.0 * *decision.largest_specific_risk, "97.72"));
     EXPECT_LT(decide(DecisionRule::relaxed, 10.101).specific_risk, 0.025);
     // Even the poorest measurement can be decided: nothing is guarded.
-    EXPECT_EQ(decide_conformity(DecisionRule::relaxed, {}, k_limits, normal(9.5, 5.0)).verdict, pass);
+    EXPECT_EQ(decide_conformity(DecisionRule::relaxed, {}, k_limits, normal_value(9.5, 5.0)).verdict, pass);
 }
 
 TEST(DecideConformity, Dr12PrescribedLimits) {
@@ -490,7 +492,7 @@ TEST(DecideConformity, OnlyWhatIsProvenFailsWhereNothingCanPass) {
                                                           {DecisionRule::b89_7_3_1, {.guard_factor = 1.0}},
                                                           {DecisionRule::agreed, {.guard_band = 0.6}}}) {
         for (const double y : {8.6, 9.0, 9.5, 10.2, 10.4}) {
-            const ConformityDecision decision = decide_conformity(rule, parameters, k_limits, normal(y, 0.3));
+            const ConformityDecision decision = decide_conformity(rule, parameters, k_limits, normal_value(y, 0.3));
             EXPECT_EQ(decision.verdict, not_applicable) << decision_rule_id(rule) << ' ' << y;
             EXPECT_NE(decision.note.find("no value can pass"), std::string::npos) << decision.note;
             EXPECT_FALSE(decision.largest_specific_risk);
@@ -499,7 +501,7 @@ TEST(DecideConformity, OnlyWhatIsProvenFailsWhereNothingCanPass) {
             }
         }
         for (const double y : {-100.0, 8.39, 10.61, 50.0, 100.0}) {  // beyond the limits by more than U
-            const ConformityDecision decision = decide_conformity(rule, parameters, k_limits, normal(y, 0.3));
+            const ConformityDecision decision = decide_conformity(rule, parameters, k_limits, normal_value(y, 0.3));
             EXPECT_EQ(decision.verdict, fail) << decision_rule_id(rule) << ' ' << y;
             EXPECT_EQ(decision.specific_risk, decision.conformance_probability);
             EXPECT_NE(decision.note.find("Nonconformity is proven all the same"), std::string::npos) << decision.note;
@@ -507,12 +509,12 @@ TEST(DecideConformity, OnlyWhatIsProvenFailsWhereNothingCanPass) {
             EXPECT_FALSE(decision.largest_specific_risk);
         }
         // With one limit there is always a value that passes.
-        EXPECT_EQ(decide_conformity(rule, parameters, k_upper, normal(-100.0, 0.3)).verdict, pass);
+        EXPECT_EQ(decide_conformity(rule, parameters, k_upper, normal_value(-100.0, 0.3)).verdict, pass);
     }
     // The proof of ISO 14253-1 begins 1.645 u beyond the limit. A tolerance that is narrow against u proves nothing,
     // although every value has a small probability of conformity.
     const auto iso = [](double y, double u) {
-        return decide_conformity(DecisionRule::iso_14253_1, {}, k_limits, normal(y, u)).verdict;
+        return decide_conformity(DecisionRule::iso_14253_1, {}, k_limits, normal_value(y, u)).verdict;
     };
     EXPECT_EQ(iso(10.0 + 1.644 * 0.3, 0.3), not_applicable);
     EXPECT_EQ(iso(10.0 + 1.646 * 0.3, 0.3), fail);
@@ -553,7 +555,8 @@ TEST(DecisionFormula, IsThatOfADecision) {
 
 TEST(DecideConformity, SmallRatiosUseBothTails) {
     const auto risk = [](double ratio) {
-        return decide_conformity(DecisionRule::simple_acceptance, {}, k_unit_tolerance, normal(0.0, 0.5 / ratio));
+        return decide_conformity(DecisionRule::simple_acceptance, {}, k_symmetric_tolerance,
+                                 normal_value(0.0, 0.5 / ratio));
     };
     EXPECT_TRUE(prints_as(100.0 * risk(1.0).conformance_probability, "95.45"));
     EXPECT_TRUE(prints_as(100.0 * risk(0.8).conformance_probability, "89.0"));
@@ -572,8 +575,8 @@ TEST(DecideConformity, ValuesOnALimitPassByHandCalculation) {
 
 TEST(DecideConformity, MirrorImagesHaveTheSameVerdict) {
     const auto check = [](DecisionRule rule, const Parameters& parameters, const ToleranceLimits& limits, double y) {
-        const ConformityDecision one = decide_conformity(rule, parameters, limits, normal(y, 0.05));
-        const ConformityDecision other = mirrored(rule, parameters, limits, normal(y, 0.05));
+        const ConformityDecision one = decide_conformity(rule, parameters, limits, normal_value(y, 0.05));
+        const ConformityDecision other = mirrored(rule, parameters, limits, normal_value(y, 0.05));
         EXPECT_EQ(one.verdict, other.verdict) << decision_rule_id(rule) << ' ' << parameters.method << ' ' << y;
         EXPECT_NEAR(one.conformance_probability, other.conformance_probability, 1e-13);
         EXPECT_NEAR(one.guard_band, other.guard_band, 1e-12);
@@ -602,9 +605,9 @@ TEST(DecideConformity, VerdictDoesNotDependOnTheUnit) {
                 }
             }
             for (const double y : {8.85, 8.9, 9.0, 9.05, 9.1, 9.5, 9.9, 9.95, 10.0, 10.1, 10.15}) {
-                const ConformityDecision one = decide_conformity(rule, parameters, k_limits, normal(y, 0.05));
+                const ConformityDecision one = decide_conformity(rule, parameters, k_limits, normal_value(y, 0.05));
                 const ConformityDecision other =
-                    decide_conformity(rule, scaled, {9.0 * scale, 10.0 * scale}, normal(y * scale, 0.05 * scale));
+                    decide_conformity(rule, scaled, {9.0 * scale, 10.0 * scale}, normal_value(y * scale, 0.05 * scale));
                 EXPECT_EQ(one.verdict, other.verdict)
                     << decision_rule_id(rule) << ' ' << parameters.method << ' ' << y << ' ' << scale;
                 EXPECT_NEAR(one.conformance_probability, other.conformance_probability, 1e-12);
@@ -617,7 +620,7 @@ TEST(DecideConformity, VerdictDoesNotDependOnTheUnit) {
 TEST(DecideConformity, RisksAreProbabilitiesAndGuardedOnesAreSmall) {
     for (const auto& [rule, parameters] : every_two_sided_rule()) {
         for (double y = 8.8; y < 10.2; y += 0.05) {
-            const ConformityDecision decision = decide_conformity(rule, parameters, k_limits, normal(y, 0.05));
+            const ConformityDecision decision = decide_conformity(rule, parameters, k_limits, normal_value(y, 0.05));
             for (const double p : {decision.conformance_probability, decision.specific_risk,
                                    decision.largest_specific_risk.value_or(0.0), decision.false_accept.value_or(0.0),
                                    decision.false_reject.value_or(0.0)}) {
@@ -633,13 +636,15 @@ TEST(DecideConformity, RisksAreProbabilitiesAndGuardedOnesAreSmall) {
 }
 
 TEST(DecideConformity, PopulationAddsGlobalRisksToAnyRule) {
-    const ConformityDecision decision = decide_conformity(
-        DecisionRule::simple_acceptance, {.population_deviation = 0.5}, k_unit_tolerance, normal(0.0, 0.125));
+    const ConformityDecision decision =
+        decide_conformity(DecisionRule::simple_acceptance, {.population_deviation = 0.5}, k_symmetric_tolerance,
+                          normal_value(0.0, 0.125));
     EXPECT_TRUE(prints_as(100.0 * *decision.false_accept, "0.8006"));
-    MeasuredValue few = normal(0.0, 0.125);
+    MeasuredValue few = normal_value(0.0, 0.125);
     few.degrees_of_freedom = 7.0;
     EXPECT_EQ(
-        decide_conformity(DecisionRule::simple_acceptance, {.population_deviation = 0.5}, k_unit_tolerance, few).note,
+        decide_conformity(DecisionRule::simple_acceptance, {.population_deviation = 0.5}, k_symmetric_tolerance, few)
+            .note,
         "The global risk takes the measurement as normally distributed with u.");
 }
 
@@ -648,9 +653,9 @@ TEST(DecideConformity, RefusesLimitsValuesAndRules) {
                          const MeasuredValue& y) {
         return test::code_of<InputError>([&] { (void)decide_conformity(rule, parameters, limits, y); });
     };
-    const MeasuredValue fine = normal(0.0, 0.1);
+    const MeasuredValue fine = normal_value(0.0, 0.1);
     EXPECT_EQ(code(DecisionRule::simple_acceptance, {}, {}, fine), "GC-GUM-0080");
-    EXPECT_EQ(code(DecisionRule::simple_acceptance, {}, k_limits, normal(0.0, 0.0)), "GC-GUM-0081");
+    EXPECT_EQ(code(DecisionRule::simple_acceptance, {}, k_limits, normal_value(0.0, 0.0)), "GC-GUM-0081");
     EXPECT_EQ(code(DecisionRule::agreed, {}, k_limits, fine), "GC-GUM-0082");
     EXPECT_EQ(
         message_of<InputError>([&] { (void)decide_conformity(DecisionRule::guard_band_factor, {}, k_limits, fine); }),

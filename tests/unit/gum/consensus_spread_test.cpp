@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using test::code_of;
 
-constexpr double k_p = 0.9545;
+constexpr double k_coverage = 0.9545;
 
 LaboratoryResults five() {
     return {.x = VectorXd{{10.0, 10.3, 9.8, 10.1, 10.9}}, .u = VectorXd{{0.1, 0.2, 0.1, 0.3, 0.2}}};
@@ -28,7 +28,7 @@ LaboratoryResults five() {
 TEST(WeightedSpread, IsThatOfTheMeanForEqualWeights) {
     const LaboratoryResults results = five();
     const ReferenceValue mean = arithmetic_mean(results.x);
-    const SpreadUncertainty spread = weighted_spread(results.x, mean, k_p);
+    const SpreadUncertainty spread = weighted_spread(results.x, mean, k_coverage);
     EXPECT_NEAR(spread.u, mean.u, 1e-14);
     EXPECT_EQ(spread.degrees_of_freedom, 4.0);
 }
@@ -36,17 +36,17 @@ TEST(WeightedSpread, IsThatOfTheMeanForEqualWeights) {
 TEST(WeightedSpread, IsNotBelowHartungAndKnapp) {
     const LaboratoryResults results = five();
     for (const ReferenceValue& mean : {dersimonian_laird(results), mandel_paule(results)}) {
-        EXPECT_GE(weighted_spread(results.x, mean, k_p).u, hartung_knapp_u(results, mean) * (1.0 - 1e-12));
+        EXPECT_GE(weighted_spread(results.x, mean, k_coverage).u, hartung_knapp_u(results, mean) * (1.0 - 1e-12));
     }
 }
 
 TEST(WeightedSpread, ResultsThatAgreeByChanceDoNotClaimToKnow) {
-    const double k = coverage_factor(k_p, std::numeric_limits<double>::infinity());
+    const double k = coverage_factor(k_coverage, std::numeric_limits<double>::infinity());
     for (const Index n : {2, 3, 20}) {
         const LaboratoryResults equal{.x = VectorXd::Constant(n, 5.0), .u = VectorXd::Constant(n, 0.3)};
         const ReferenceValue mean = mandel_paule(equal);
-        const SpreadUncertainty spread = weighted_spread(equal.x, mean, k_p);
-        EXPECT_NEAR(coverage_factor(k_p, spread.degrees_of_freedom) * spread.u, k * mean.u, 1e-12);
+        const SpreadUncertainty spread = weighted_spread(equal.x, mean, k_coverage);
+        EXPECT_NEAR(coverage_factor(k_coverage, spread.degrees_of_freedom) * spread.u, k * mean.u, 1e-12);
     }
 }
 
@@ -58,14 +58,14 @@ TEST(WeightedSpread, OneGoodLaboratoryDoesNotHideTheScatter) {
     const VectorXd w = mean.weights / mean.weights.sum();
     const double plain = std::sqrt((results.x.array() - mean.value).square().sum() / 6.0);
     const double inequality = std::sqrt(1.0 - 1.0 / (3.0 * w.squaredNorm()));
-    EXPECT_NEAR(weighted_spread(results.x, mean, k_p).u, std::sqrt(inequality) * plain, 1e-12);
+    EXPECT_NEAR(weighted_spread(results.x, mean, k_coverage).u, std::sqrt(inequality) * plain, 1e-12);
 }
 
 TEST(WeightedSpread, RefusesWhatDoesNotFit) {
     ReferenceValue mean = mandel_paule(five());
-    EXPECT_EQ(code_of<InputError>([&] { (void)weighted_spread(VectorXd::Ones(3), mean, k_p); }), "GC-GUM-0135");
+    EXPECT_EQ(code_of<InputError>([&] { (void)weighted_spread(VectorXd::Ones(3), mean, k_coverage); }), "GC-GUM-0135");
     mean.weights = VectorXd::Ones(1);
-    EXPECT_EQ(code_of<InputError>([&] { (void)weighted_spread(VectorXd::Ones(1), mean, k_p); }), "GC-GUM-0131");
+    EXPECT_EQ(code_of<InputError>([&] { (void)weighted_spread(VectorXd::Ones(1), mean, k_coverage); }), "GC-GUM-0131");
 }
 
 TEST(SpreadOfOthers, DoesNotSeeTheResultItself) {
@@ -145,17 +145,17 @@ TEST(RobustSpread, LeavesOutOneByOne) {
 
 TEST(SpreadDifference, OfAResultOutsideAndInside) {
     const SpreadUncertainty exact{.u = 0.0};
-    const SpreadDifference outside = spread_difference({.u = 3.0}, {.u = 4.0}, 0.0, 0.0, 0.0, 1.0, k_p);
+    const SpreadDifference outside = spread_difference({.u = 3.0}, {.u = 4.0}, 0.0, 0.0, 0.0, 1.0, k_coverage);
     EXPECT_NEAR(outside.u, 5.0, 1e-12);
-    EXPECT_NEAR(outside.U, 5.0 * coverage_factor(k_p, std::numeric_limits<double>::infinity()), 1e-9);
-    const SpreadDifference inside = spread_difference({.u = 3.0}, {.u = 4.0}, 0.0, 0.0, 0.25, 1.5, k_p);
+    EXPECT_NEAR(outside.U, 5.0 * coverage_factor(k_coverage, std::numeric_limits<double>::infinity()), 1e-9);
+    const SpreadDifference inside = spread_difference({.u = 3.0}, {.u = 4.0}, 0.0, 0.0, 0.25, 1.5, k_coverage);
     EXPECT_NEAR(inside.u, 0.75 * 5.0, 1e-12);
     EXPECT_NEAR(inside.U, 1.5 * 0.75 * outside.U, 1e-9);
-    EXPECT_NEAR(spread_difference({.u = 3.0}, exact, 4.0, 0.0, 0.0, 1.0, k_p).u, 5.0, 1e-12);
-    EXPECT_NEAR(spread_difference({.u = 3.0}, {.u = 4.0}, 0.0, 4.5, 0.0, 1.0, k_p).u, 4.0, 1e-12);
+    EXPECT_NEAR(spread_difference({.u = 3.0}, exact, 4.0, 0.0, 0.0, 1.0, k_coverage).u, 5.0, 1e-12);
+    EXPECT_NEAR(spread_difference({.u = 3.0}, {.u = 4.0}, 0.0, 4.5, 0.0, 1.0, k_coverage).u, 4.0, 1e-12);
     // Welch and Satterthwaite: (9 + 16)²/(16²/2)
-    EXPECT_NEAR(spread_difference({.u = 3.0}, {4.0, 2.0}, 0.0, 0.0, 0.0, 1.0, k_p).degrees_of_freedom, 625.0 / 128.0,
-                1e-9);
+    EXPECT_NEAR(spread_difference({.u = 3.0}, {4.0, 2.0}, 0.0, 0.0, 0.0, 1.0, k_coverage).degrees_of_freedom,
+                625.0 / 128.0, 1e-9);
 }
 
 TEST(MedianDifferenceFactor, FallsTowardsOne) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/special_values.h"
 #include "tests/unit/gum/printed.h"
 
 namespace gumcert::gum {
@@ -20,7 +21,6 @@ using test::code_of;
 using test::message_of;
 using test::prints_as;
 
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr double k_one_sigma = 0.682689492137086;
 constexpr double k_two_sigma = 0.954499736103642;
 constexpr double k_three_sigma = 0.99730020393674;

@@ -11,6 +11,7 @@
 
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/special_values.h"
 #include "tests/unit/gum/printed.h"
 
 namespace gumcert::gum {
@@ -18,8 +19,6 @@ namespace {
 
 using test::agrees;
 using test::code_of;
-
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
 Distribution standard(DistributionKind kind, double shape = 0.0, double second_shape = 0.0) {
     return {.kind = kind, .scale = 1.0, .shape = shape, .second_shape = second_shape};

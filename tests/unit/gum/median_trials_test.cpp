@@ -21,7 +21,7 @@ LaboratoryResults equal_results(Eigen::Index n, double x, double u) {
     return {.x = Eigen::VectorXd::Constant(n, x), .u = Eigen::VectorXd::Constant(n, u)};
 }
 
-LaboratoryResults key_comparison() {
+LaboratoryResults key_comparison_of_medians() {
     return {.x = Eigen::VectorXd{{12.31, 12.18, 12.42, 12.25, 12.95, 12.05}},
             .u = Eigen::VectorXd{{0.10, 0.15, 0.20, 0.12, 0.15, 0.30}}};
 }
@@ -60,7 +60,7 @@ TEST(MedianTrials, MedianOfTwoIsTheirMean) {
 }
 
 TEST(MedianTrials, FullyCorrelatedResultsMoveTogether) {
-    LaboratoryResults labs = key_comparison();
+    LaboratoryResults labs = key_comparison_of_medians();
     labs.u.setConstant(0.2);
     labs.covariance = Eigen::MatrixXd::Constant(6, 6, 0.04);  // r = 1 everywhere
     const MedianTrials outcome = median_trials(labs, 100'000, 5, k_p);
@@ -71,7 +71,7 @@ TEST(MedianTrials, FullyCorrelatedResultsMoveTogether) {
 
 TEST(MedianTrials, SameNumbersForAnyNumberOfThreads) {
     for (const bool correlated : {false, true}) {
-        LaboratoryResults labs = key_comparison();
+        LaboratoryResults labs = key_comparison_of_medians();
         if (correlated) {
             labs.covariance = 0.3 * labs.u * labs.u.transpose();
             labs.covariance.diagonal() = labs.u.array().square();
@@ -114,7 +114,7 @@ TEST(MedianTrials, BlocksOfResultsBelongToTheSameTrials) {
 }
 
 TEST(MedianTrials, CommonOffsetCostsNoDigits) {
-    LaboratoryResults near = key_comparison();
+    LaboratoryResults near = key_comparison_of_medians();
     near.x = Eigen::VectorXd{{0.25, 0.5, 0.3125, 0.75, 0.4375, 0.625}};
     LaboratoryResults far = near;
     far.x.array() += 1073741824.0;
@@ -125,7 +125,7 @@ TEST(MedianTrials, CommonOffsetCostsNoDigits) {
 }
 
 TEST(MedianTrials, RefusesTrialsThatCannotBeDone) {
-    const LaboratoryResults labs = key_comparison();
+    const LaboratoryResults labs = key_comparison_of_medians();
     EXPECT_EQ(code_of<InputError>([&] { (void)median_trials(labs, 999, 1, k_p); }), "GC-GUM-0136");
     EXPECT_EQ(code_of<InputError>([&] { (void)median_trials(labs, 10'000'001, 1, k_p); }), "GC-GUM-0136");
     EXPECT_EQ(code_of<InputError>([&] { (void)median_trials(equal_results(2000, 0, 1), 1'000'000, 1, k_p); }),

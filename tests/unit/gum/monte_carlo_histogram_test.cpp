@@ -59,7 +59,7 @@ void count(const std::vector<double>& values, Histogram& histogram) {
     count_values(values.data(), static_cast<Eigen::Index>(values.size()), histogram);
 }
 
-MonteCarloOptions options(std::uint64_t trials, unsigned threads) {
+MonteCarloOptions histogram_options(std::uint64_t trials, unsigned threads) {
     MonteCarloOptions result;
     result.trials = trials;
     result.threads = threads;
@@ -74,7 +74,7 @@ void expect_same(const Histogram& a, const Histogram& b) {
 
 TEST(MonteCarloHistogram, EveryTrialInItsCell) {
     const Multiples model(Distribution::uniform(1.0, 2.0), {1.0, -3.0});
-    const MonteCarloResult result = run_monte_carlo(model, options(5000, 2));
+    const MonteCarloResult result = run_monte_carlo(model, histogram_options(5000, 2));
     for (std::size_t j = 0; j < 2; ++j) {
         std::vector<double> values;
         for (std::uint64_t trial = 0; trial < 5000; ++trial) {
@@ -103,7 +103,7 @@ TEST(MonteCarloHistogram, EveryTrialInItsCell) {
 
 TEST(MonteCarloHistogram, ReachesFourStandardDeviations) {
     const Multiples model(Distribution::student_t(7.0, 0.5, 3.0), {1.0});
-    const MonteCarloOutput output = run_monte_carlo(model, options(200'000, 2)).outputs[0];
+    const MonteCarloOutput output = run_monte_carlo(model, histogram_options(200'000, 2)).outputs[0];
     EXPECT_EQ(output.histogram.low, output.mean - 4.0 * output.standard_uncertainty);
     EXPECT_EQ(output.histogram.high, output.mean + 4.0 * output.standard_uncertainty);
     // t with 3 degrees of freedom, u = 0.5 √3: P(|t| > 4 √3) = 0.00617.
@@ -112,7 +112,7 @@ TEST(MonteCarloHistogram, ReachesFourStandardDeviations) {
 
 TEST(MonteCarloHistogram, ShapeOfTheNormalDistribution) {
     const Multiples model(Distribution::normal(-2.0, 0.01), {1.0});
-    const MonteCarloOutput output = run_monte_carlo(model, options(1'000'000, 2)).outputs[0];
+    const MonteCarloOutput output = run_monte_carlo(model, histogram_options(1'000'000, 2)).outputs[0];
     const Histogram& histogram = output.histogram;
     const auto probability_below = [](double y) { return 0.5 * std::erfc(-(y + 2.0) / 0.01 / std::sqrt(2.0)); };
     const double width = (histogram.high - histogram.low) / 60.0;
@@ -128,11 +128,11 @@ TEST(MonteCarloHistogram, ShapeOfTheNormalDistribution) {
 
 TEST(MonteCarloHistogram, SameForAnyThreadsAndMemory) {
     const Multiples model(Distribution::student_t(0.0, 1.0, 2.0), {1.0, 0.0, 1e-9, 2.0});
-    const MonteCarloResult one = run_monte_carlo(model, options(50'001, 1));
+    const MonteCarloResult one = run_monte_carlo(model, histogram_options(50'001, 1));
     for (const unsigned threads : {2U, 3U}) {
         for (const bool kept : {true, false}) {
             for (const std::uint64_t collected : {std::uint64_t{1} << 24, std::uint64_t{1}}) {
-                MonteCarloOptions o = options(50'001, threads);
+                MonteCarloOptions o = histogram_options(50'001, threads);
                 o.memory.kept_trials = kept ? o.memory.kept_trials : 1000;
                 o.memory.collected_values = collected;
                 const MonteCarloResult other = run_monte_carlo(model, o);
@@ -148,7 +148,7 @@ TEST(MonteCarloHistogram, SameForAnyThreadsAndMemory) {
 
 TEST(MonteCarloHistogram, OnlyWhenAskedFor) {
     const Multiples model(Distribution::normal(0.0, 1.0), {1.0});
-    MonteCarloOptions o = options(10'000, 1);
+    MonteCarloOptions o = histogram_options(10'000, 1);
     const MonteCarloOutput with = run_monte_carlo(model, o).outputs[0];
     o.histogram = false;
     const MonteCarloOutput without = run_monte_carlo(model, o).outputs[0];

@@ -11,6 +11,7 @@
 
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/special_values.h"
 #include "gum/type_b.h"
 #include "tests/unit/gum/printed.h"
 
@@ -21,8 +22,6 @@ using test::agrees;
 using test::code_of;
 using test::message_of;
 using test::prints_as;
-
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
 class FunctionModel : public MeasurementModel {
 public:

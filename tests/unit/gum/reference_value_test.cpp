@@ -25,12 +25,12 @@ using test::message_of;
 using test::prints_as;
 using ::testing::HasSubstr;
 
-Eigen::VectorXd vector(const std::vector<double>& values) {
+Eigen::VectorXd to_vector(const std::vector<double>& values) {
     return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-LaboratoryResults results(const std::vector<double>& x, const std::vector<double>& u) {
-    return {.x = vector(x), .u = vector(u)};
+LaboratoryResults laboratory_results(const std::vector<double>& x, const std::vector<double>& u) {
+    return {.x = to_vector(x), .u = to_vector(u)};
 }
 
 LaboratoryResults with_correlation(LaboratoryResults of, Eigen::Index i, Eigen::Index j, double r) {
@@ -44,7 +44,7 @@ LaboratoryResults with_correlation(LaboratoryResults of, Eigen::Index i, Eigen::
 
 /// Key comparison of golden vector 6.
 LaboratoryResults key_comparison() {
-    return results({12.31, 12.18, 12.42, 12.25, 12.95, 12.05}, {0.10, 0.15, 0.20, 0.12, 0.15, 0.30});
+    return laboratory_results({12.31, 12.18, 12.42, 12.25, 12.95, 12.05}, {0.10, 0.15, 0.20, 0.12, 0.15, 0.30});
 }
 
 TEST(ReferenceValue, GoldenVectorSixOfAKeyComparison) {
@@ -88,7 +88,7 @@ TEST(ReferenceValue, LaboratoryOutsideTheMeanTakesThePlusSign) {
 // 43877 and 53. The degrees of equivalence were computed with NumPy.
 TEST(ReferenceValue, ProcedureAForFiveLaboratories) {
     const LaboratoryResults labs =
-        results({43772.0, 43910.0, 43947.0, 43910.0, 43900.0}, {97.0, 100.0, 104.5, 160.0, 280.0});
+        laboratory_results({43772.0, 43910.0, 43947.0, 43910.0, 43900.0}, {97.0, 100.0, 104.5, 160.0, 280.0});
     const ReferenceValue mean = weighted_mean(labs);
     EXPECT_TRUE(prints_as(mean.value, "43877"));
     EXPECT_TRUE(prints_as(mean.u, "53"));
@@ -119,7 +119,7 @@ TEST(ReferenceValue, ProcedureAForFiveLaboratories) {
 
 // Two results of equal u with r = 0.5, one independent: by hand. V⁻¹1 = (2/3, 2/3, 1)/u², total 7/3.
 TEST(ReferenceValue, GeneralisedWeightedMeanByHand) {
-    const LaboratoryResults labs = with_correlation(results({1.0, 3.0, 5.0}, {0.3, 0.3, 0.3}), 0, 1, 0.5);
+    const LaboratoryResults labs = with_correlation(laboratory_results({1.0, 3.0, 5.0}, {0.3, 0.3, 0.3}), 0, 1, 0.5);
     const ReferenceValue mean = weighted_mean(labs);
     EXPECT_TRUE(agrees(mean.weights(0), 2.0 / 7.0, 1e-14));
     EXPECT_TRUE(agrees(mean.weights(2), 3.0 / 7.0, 1e-14));
@@ -139,7 +139,8 @@ TEST(ReferenceValue, GeneralisedWeightedMeanByHand) {
 }
 
 TEST(ReferenceValue, StrongCorrelationGivesANegativeWeight) {
-    const ReferenceValue mean = weighted_mean(with_correlation(results({10.0, 11.0}, {1.0, 3.0}), 0, 1, 0.9));
+    const ReferenceValue mean =
+        weighted_mean(with_correlation(laboratory_results({10.0, 11.0}, {1.0, 3.0}), 0, 1, 0.9));
     EXPECT_LT(mean.weights(1), 0.0);
     EXPECT_LT(mean.value, 10.0);
     EXPECT_TRUE(agrees(mean.weights.sum(), 1.0, 1e-14));
@@ -154,8 +155,8 @@ TEST(ReferenceValue, CommonOffsetCostsNoDigits) {
     for (double& value : shifted) {
         value += offset;
     }
-    const LaboratoryResults near = results(x, u);
-    const LaboratoryResults far = results(shifted, u);
+    const LaboratoryResults near = laboratory_results(x, u);
+    const LaboratoryResults far = laboratory_results(shifted, u);
     EXPECT_EQ(consistency_test(near).chi_square, consistency_test(far).chi_square);
     EXPECT_EQ(weighted_mean(near).u, weighted_mean(far).u);
     const DegreesOfEquivalence a = degrees_of_equivalence(near, weighted_mean(near));
@@ -165,13 +166,13 @@ TEST(ReferenceValue, CommonOffsetCostsNoDigits) {
 }
 
 TEST(ReferenceValue, UncertaintiesOverTwelveDecades) {
-    const LaboratoryResults labs = results({1.0, 1.0 + 2e-6, 1.5, 30.0, 4e5}, {1e-6, 2e-6, 1.0, 1e3, 1e6});
+    const LaboratoryResults labs = laboratory_results({1.0, 1.0 + 2e-6, 1.5, 30.0, 4e5}, {1e-6, 2e-6, 1.0, 1e3, 1e6});
     const ReferenceValue mean = weighted_mean(labs);
     EXPECT_TRUE(agrees(mean.u, 1e-6 / std::sqrt(1.25 + 1e-12), 1e-13));
     const DegreesOfEquivalence degrees = degrees_of_equivalence(labs, mean);
     // The mean is almost laboratory 1 alone in the next case: u² − u²(y) by itself would be 0 there.
     EXPECT_TRUE(agrees(degrees.u(4), 1e6, 1e-12));
-    const LaboratoryResults two = results({7.0, 9.0}, {1e-6, 1e6});
+    const LaboratoryResults two = laboratory_results({7.0, 9.0}, {1e-6, 1e6});
     const ReferenceValue of_two = weighted_mean(two);
     const DegreesOfEquivalence inside = degrees_of_equivalence(two, of_two);
     EXPECT_TRUE(agrees(inside.d(0) / inside.u(0), -2.0 / std::hypot(1e-6, 1e6), 1e-12));
@@ -179,18 +180,18 @@ TEST(ReferenceValue, UncertaintiesOverTwelveDecades) {
 
 TEST(ReferenceValue, IndependentReferenceAndASingleLaboratory) {
     const ReferenceValue given{.value = 10.0, .u = 0.3};
-    const DegreesOfEquivalence degrees = degrees_of_equivalence(results({10.5}, {0.4}), given);
+    const DegreesOfEquivalence degrees = degrees_of_equivalence(laboratory_results({10.5}, {0.4}), given);
     EXPECT_EQ(degrees.d(0), 0.5);
     EXPECT_TRUE(agrees(degrees.u(0), 0.5, 1e-15));
     EXPECT_EQ(degrees.correlation(0), 0.0);
     ReferenceValue zero_weights = given;
     zero_weights.weights = Eigen::VectorXd::Zero(1);
-    EXPECT_EQ(degrees_of_equivalence(results({10.5}, {0.4}), zero_weights).u(0), degrees.u(0));
+    EXPECT_EQ(degrees_of_equivalence(laboratory_results({10.5}, {0.4}), zero_weights).u(0), degrees.u(0));
 }
 
 TEST(ReferenceValue, CorrelationNeverExceedsOne) {
     // Three values that agree by chance: u of their mean is far below what their uncertainties allow.
-    const LaboratoryResults labs = results({5.0, 5.001, 5.002}, {1.0, 1.0, 1.0});
+    const LaboratoryResults labs = laboratory_results({5.0, 5.001, 5.002}, {1.0, 1.0, 1.0});
     const ReferenceValue mean = arithmetic_mean(labs.x);
     const DegreesOfEquivalence degrees = degrees_of_equivalence(labs, mean);
     for (Eigen::Index i = 0; i < 3; ++i) {
@@ -198,23 +199,23 @@ TEST(ReferenceValue, CorrelationNeverExceedsOne) {
         EXPECT_TRUE(agrees(degrees.u(i), 1.0 - mean.u, 1e-14));
     }
     const DegreesOfEquivalence equal =
-        degrees_of_equivalence(results({5.0, 5.0}, {1.0, 2.0}), arithmetic_mean(vector({5.0, 5.0})));
+        degrees_of_equivalence(laboratory_results({5.0, 5.0}, {1.0, 2.0}), arithmetic_mean(to_vector({5.0, 5.0})));
     EXPECT_EQ(equal.u(1), 2.0);
     EXPECT_EQ(equal.correlation(1), 0.0);
 }
 
 TEST(ReferenceValue, ArithmeticMeanHasTheStandardDeviationOfTheValues) {
-    const ReferenceValue mean = arithmetic_mean(vector({1.0, 2.0, 3.0, 4.0}));
+    const ReferenceValue mean = arithmetic_mean(to_vector({1.0, 2.0, 3.0, 4.0}));
     EXPECT_TRUE(agrees(mean.value, 2.5, 1e-15));
     EXPECT_TRUE(agrees(mean.u, std::sqrt(5.0 / 3.0 / 4.0), 1e-15));
     EXPECT_EQ(mean.weights(2), 0.25);
-    EXPECT_EQ(code_of<InputError>([] { (void)arithmetic_mean(vector({1.0})); }), "GC-GUM-0131");
-    EXPECT_EQ(code_of<InputError>([] { (void)arithmetic_mean(vector({1.0, std::nan("")})); }), "GC-GUM-0001");
+    EXPECT_EQ(code_of<InputError>([] { (void)arithmetic_mean(to_vector({1.0})); }), "GC-GUM-0131");
+    EXPECT_EQ(code_of<InputError>([] { (void)arithmetic_mean(to_vector({1.0, std::nan("")})); }), "GC-GUM-0001");
     // Squares beyond the numbers, and a range beyond them.
     for (const double factor : {1e200, 1e-200, 1e-320}) {
-        EXPECT_TRUE(agrees(arithmetic_mean(vector({factor, 3.0 * factor})).u, factor, 1e-15)) << factor;
+        EXPECT_TRUE(agrees(arithmetic_mean(to_vector({factor, 3.0 * factor})).u, factor, 1e-15)) << factor;
     }
-    EXPECT_EQ(code_of<InputError>([] { (void)arithmetic_mean(vector({1e308, -1e308})); }), "GC-GUM-0001");
+    EXPECT_EQ(code_of<InputError>([] { (void)arithmetic_mean(to_vector({1e308, -1e308})); }), "GC-GUM-0001");
 }
 
 TEST(ReferenceValue, IncompatiblePairs) {
@@ -222,27 +223,27 @@ TEST(ReferenceValue, IncompatiblePairs) {
     // 0.671. All other pairs: at most 0.37.
     EXPECT_EQ(incompatible_pairs(key_comparison(), 2.0), 5u);
     EXPECT_EQ(incompatible_pairs(key_comparison(), 10.0), 0u);
-    const LaboratoryResults pair = results({0.0, 2.0}, {1.0, 1.0});
+    const LaboratoryResults pair = laboratory_results({0.0, 2.0}, {1.0, 1.0});
     EXPECT_EQ(incompatible_pairs(pair, 2.0), 0u);
     EXPECT_EQ(incompatible_pairs(with_correlation(pair, 0, 1, 0.9), 2.0), 1u);
     // Just at the limit, where 10.3 − 10.1 is a little more than 0.2, and a little beyond it.
-    EXPECT_EQ(incompatible_pairs(results({10.1, 10.3}, {0.06, 0.08})), 0u);
-    EXPECT_EQ(incompatible_pairs(results({10.1, 10.3 + 1e-13}, {0.06, 0.08})), 1u);
+    EXPECT_EQ(incompatible_pairs(laboratory_results({10.1, 10.3}, {0.06, 0.08})), 0u);
+    EXPECT_EQ(incompatible_pairs(laboratory_results({10.1, 10.3 + 1e-13}, {0.06, 0.08})), 1u);
     // Two that differ by 7 u, beside a first one that is far away.
-    EXPECT_EQ(incompatible_pairs(results({1e6, 1e-12, 2e-12}, {1e6, 1e-13, 1e-13})), 1u);
+    EXPECT_EQ(incompatible_pairs(laboratory_results({1e6, 1e-12, 2e-12}, {1e6, 1e-13, 1e-13})), 1u);
     EXPECT_EQ(code_of<InputError>([&] { (void)incompatible_pairs(pair, 0.0); }), "GC-GUM-0003");
     EXPECT_EQ(code_of<InputError>([&] { (void)pair_difference(pair, 1, 1); }), "GC-GUM-0135");
     EXPECT_EQ(code_of<InputError>([&] { (void)pair_difference(pair, 0, 2); }), "GC-GUM-0135");
 }
 
 TEST(ReferenceValue, PairOfFullyCorrelatedResults) {
-    const LaboratoryResults labs = with_correlation(results({1.0, 2.0}, {0.1, 0.1}), 0, 1, 1.0);
+    const LaboratoryResults labs = with_correlation(laboratory_results({1.0, 2.0}, {0.1, 0.1}), 0, 1, 1.0);
     EXPECT_EQ(pair_difference(labs, 0, 1).u, 0.0);
     EXPECT_EQ(incompatible_pairs(labs), 1u);
 }
 
 TEST(ReferenceValue, SingularCovarianceHasNoWeightedMeanButDegreesOfEquivalence) {
-    const LaboratoryResults labs = with_correlation(results({1.0, 1.1, 1.2}, {0.1, 0.1, 0.2}), 0, 1, 1.0);
+    const LaboratoryResults labs = with_correlation(laboratory_results({1.0, 1.1, 1.2}, {0.1, 0.1, 0.2}), 0, 1, 1.0);
     EXPECT_NO_THROW(require_results(labs));
     EXPECT_EQ(code_of<NoResultError>([&] { (void)weighted_mean(labs); }), "GC-GUM-0132");
     EXPECT_EQ(code_of<NoResultError>([&] { (void)consistency_test(labs); }), "GC-GUM-0132");
@@ -252,32 +253,47 @@ TEST(ReferenceValue, SingularCovarianceHasNoWeightedMeanButDegreesOfEquivalence)
 
 TEST(ReferenceValue, RefusesWhatIsNoResult) {
     const double not_a_number = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(code_of<InputError>([] { (void)weighted_mean(results({1.0}, {0.1})); }), "GC-GUM-0131");
-    EXPECT_EQ(code_of<InputError>([] { (void)weighted_mean(results({}, {})); }), "GC-GUM-0131");
-    EXPECT_EQ(code_of<InputError>([] { (void)weighted_mean(results({1.0, 2.0}, {0.1})); }), "GC-GUM-0135");
+    EXPECT_EQ(code_of<InputError>([] { (void)weighted_mean(laboratory_results({1.0}, {0.1})); }), "GC-GUM-0131");
+    EXPECT_EQ(code_of<InputError>([] { (void)weighted_mean(laboratory_results({}, {})); }), "GC-GUM-0131");
+    EXPECT_EQ(code_of<InputError>([] { (void)weighted_mean(laboratory_results({1.0, 2.0}, {0.1})); }), "GC-GUM-0135");
     EXPECT_EQ(code_of<InputError>([&] {
-                  (void)weighted_mean(results({1.0, not_a_number}, {0.1, 0.1}));
+                  (void)weighted_mean(laboratory_results({1.0, not_a_number}, {0.1, 0.1}));
               }),
               "GC-GUM-0001");
     EXPECT_EQ(code_of<InputError>([&] {
-                  (void)weighted_mean(results({1.0, 2.0}, {0.1, not_a_number}));
+                  (void)weighted_mean(laboratory_results({1.0, 2.0}, {0.1, not_a_number}));
               }),
               "GC-GUM-0001");
-    EXPECT_EQ(code_of<InputError>([] { (void)weighted_mean(results({1.0, 2.0}, {0.1, 0.0})); }), "GC-GUM-0003");
-    EXPECT_EQ(code_of<InputError>([] { (void)weighted_mean(results({1.0, 2.0}, {0.1, -0.1})); }), "GC-GUM-0003");
-    EXPECT_EQ(code_of<InputError>([] { (void)weighted_mean(results({1.0, 2.0}, {0.1, 1e-300})); }), "GC-GUM-0135");
-    EXPECT_EQ(code_of<InputError>([] { (void)weighted_mean(results({1.0, 1e140}, {0.1, 1e-100})); }), "GC-GUM-0135");
-    EXPECT_EQ(code_of<InputError>([] { (void)consistency_test(results({1.0, 2.0}, {0.1, 0.1}), 1.0); }), "GC-GUM-0004");
+    EXPECT_EQ(code_of<InputError>([] {
+                  (void)weighted_mean(laboratory_results({1.0, 2.0}, {0.1, 0.0}));
+              }),
+              "GC-GUM-0003");
+    EXPECT_EQ(code_of<InputError>([] {
+                  (void)weighted_mean(laboratory_results({1.0, 2.0}, {0.1, -0.1}));
+              }),
+              "GC-GUM-0003");
+    EXPECT_EQ(code_of<InputError>([] {
+                  (void)weighted_mean(laboratory_results({1.0, 2.0}, {0.1, 1e-300}));
+              }),
+              "GC-GUM-0135");
+    EXPECT_EQ(code_of<InputError>([] {
+                  (void)weighted_mean(laboratory_results({1.0, 1e140}, {0.1, 1e-100}));
+              }),
+              "GC-GUM-0135");
+    EXPECT_EQ(code_of<InputError>([] {
+                  (void)consistency_test(laboratory_results({1.0, 2.0}, {0.1, 0.1}), 1.0);
+              }),
+              "GC-GUM-0004");
     // All problems together, each with the number of its result.
     const std::string text = message_of<InputError>([&] {
-        require_results(results({1.0, not_a_number, 3.0}, {0.0, 0.1, 0.1}));
+        require_results(laboratory_results({1.0, not_a_number, 3.0}, {0.0, 0.1, 0.1}));
     });
     EXPECT_THAT(text, HasSubstr("result 1 — standard uncertainty 0 — must be greater than 0"));
     EXPECT_THAT(text, HasSubstr("result 2 — value NaN"));
 }
 
 TEST(ReferenceValue, RefusesACovarianceThatIsNone) {
-    const LaboratoryResults labs = results({1.0, 2.0, 3.0}, {0.5, 0.25, 0.5});
+    const LaboratoryResults labs = laboratory_results({1.0, 2.0, 3.0}, {0.5, 0.25, 0.5});
     LaboratoryResults wrong = with_correlation(labs, 0, 1, 0.5);
     wrong.covariance(1, 0) *= 1.1;
     EXPECT_EQ(code_of<InputError>([&] { require_results(wrong); }), "GC-GUM-0052");
@@ -300,12 +316,12 @@ TEST(ReferenceValue, RefusesACovarianceThatIsNone) {
 }
 
 TEST(ReferenceValue, RefusesAReferenceThatDoesNotFit) {
-    const LaboratoryResults labs = results({1.0, 2.0}, {0.1, 0.1});
+    const LaboratoryResults labs = laboratory_results({1.0, 2.0}, {0.1, 0.1});
     EXPECT_EQ(code_of<InputError>([&] { (void)degrees_of_equivalence(labs, {.value = std::nan("")}); }), "GC-GUM-0001");
     EXPECT_EQ(code_of<InputError>([&] { (void)degrees_of_equivalence(labs, {.value = 1.0, .u = -0.1}); }),
               "GC-GUM-0002");
     EXPECT_EQ(code_of<InputError>(
-                  [&] { (void)degrees_of_equivalence(labs, {.value = 1.0, .u = 0.1, .weights = vector({1.0})}); }),
+                  [&] { (void)degrees_of_equivalence(labs, {.value = 1.0, .u = 0.1, .weights = to_vector({1.0})}); }),
               "GC-GUM-0135");
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/special_values.h"
 #include "tests/unit/gum/printed.h"
 
 namespace gumcert::gum {
@@ -23,8 +24,6 @@ namespace {
 using test::code_of;
 using test::message_of;
 using test::number;
-
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
 TEST(RoundToUncertainty, GoldenVectors) {
     EXPECT_EQ(round_to_uncertainty(693.1, 11.8), (RoundedPair{"693", "12"}));

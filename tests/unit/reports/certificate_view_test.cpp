@@ -31,7 +31,7 @@ void expect_strings_only(const json& value, const std::string& at) {
     }
 }
 
-const json& table(const json& view, const std::string& id) {
+const json& table_of_view(const json& view, const std::string& id) {
     for (const json& section : view["sections"]) {
         for (const json& block : section["blocks"]) {
             if (!block["table"].empty() && block["table"][0]["id"] == id) {
@@ -63,7 +63,7 @@ TEST(CertificateView, DecimalSignsStandBelowEachOther) {
     record.rotary->errors[0].errors[0].printed = {.value = "12", .U = "3", .unit = "µm"};
     record.rotary->errors[1].errors[0].printed = {.value = "1.5", .U = "0.25", .unit = "µm"};
     const json view = certificate_view(record, wording());
-    const json& rows = table(view, "errors")["rows"];
+    const json& rows = table_of_view(view, "errors")["rows"];
     EXPECT_EQ(rows[0]["cells"][1]["text"], "12");
     EXPECT_EQ(rows[0]["cells"][1]["pad"], ".00");
     EXPECT_EQ(rows[1]["cells"][1]["pad"], "0");

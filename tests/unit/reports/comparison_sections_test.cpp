@@ -42,7 +42,7 @@ const std::vector<std::string> k_verdicts = {"disagreement",
                                              "validated",
                                              ""};
 
-json wording(const std::string& language) {
+json comparison_wording(const std::string& language) {
     std::ifstream file(assets().templates / "wording" / (language + ".json"));
     return json::parse(file);
 }
@@ -54,7 +54,7 @@ RenderAssets in(const std::string& language) {
 }
 
 json view_of(const EvaluationRecord& record, const std::string& language = "en") {
-    return certificate_view(record, wording(language));
+    return certificate_view(record, comparison_wording(language));
 }
 
 std::string text_of(const EvaluationRecord& record, const std::string& language = "en") {
@@ -100,7 +100,7 @@ std::vector<EvaluationRecord> samples() {
 /// Text of the first page: the section with the answer.
 std::string answer_of(const EvaluationRecord& record, const std::string& language = "en") {
     const std::string text = text_of(record, language);
-    const json words = wording(language);
+    const json words = comparison_wording(language);
     const std::size_t end = text.find(
         words["heading"][record.comparison->form == "laboratories" ? "how_to_read" : "companion"].get<std::string>());
     EXPECT_NE(end, std::string::npos);
@@ -217,7 +217,7 @@ TEST(ComparisonReport, MissingTestOfConsistencyIsNotLaidToResultsThatHaveUncerta
 
 TEST(ComparisonReport, SummaryOfPointsDoesNotCallChanceADisagreement) {
     for (const std::string& language : k_languages) {
-        EXPECT_THAT(wording(language)["sentence"]["comparison_summary"].get<std::string>(), HasSubstr("20"))
+        EXPECT_THAT(comparison_wording(language)["sentence"]["comparison_summary"].get<std::string>(), HasSubstr("20"))
             << language;
     }
 }
@@ -225,7 +225,7 @@ TEST(ComparisonReport, SummaryOfPointsDoesNotCallChanceADisagreement) {
 TEST(ComparisonReport, IsNoCertificate) {
     for (const EvaluationRecord& record : samples()) {
         for (const std::string& language : k_languages) {
-            const json words = wording(language)["document"];
+            const json words = comparison_wording(language)["document"];
             const std::string html = render_html(record, in(language));
             const std::string text = text_of(record, language);
             for (const char* key : {"type", "mark", "mark_reason", "end_mark", "only_items", "draft"}) {
@@ -357,7 +357,7 @@ TEST(ComparisonReport, SaysValidatedForThatVerdictOnly) {
         {"zh-Hant", {"驗證", "確證", "確效"}},
         {"es", {"validad", "validac"}}};
     for (const auto& [language, stems] : k_words) {
-        const std::string said = wording(language)["comparison_verdict_name"]["validated"];
+        const std::string said = comparison_wording(language)["comparison_verdict_name"]["validated"];
         EXPECT_THAT(said, HasSubstr(stems[0]));
         for (const std::string& verdict : k_verdicts) {
             const EvaluationRecord record = with_verdicts({verdict});
@@ -389,7 +389,7 @@ TEST(ComparisonReport, OneDirectionAloneValidatesNothing) {
               std::vector<std::string>{objection, "validated", "validated"}}) {
             const EvaluationRecord record = with_verdicts(verdicts);
             for (const std::string& language : k_languages) {
-                const json words = wording(language);
+                const json words = comparison_wording(language);
                 const std::string text = text_of(record, language);
                 EXPECT_THAT(text, Not(HasSubstr(words["comparison_verdict_name"]["validated"].get<std::string>())))
                     << language << " " << objection;
@@ -680,7 +680,7 @@ TEST(ComparisonReport, HoldsStringsOnlyAndIsTheSameTwice) {
 }
 
 TEST(ComparisonReport, ATextThatIsMissingIsAnError) {
-    json words = wording("en");
+    json words = comparison_wording("en");
     words["comparison_verdict"].erase("reference_not_better");
     EXPECT_THROW(static_cast<void>(certificate_view(with_verdicts({"reference_not_better"}), words)),
                  gum::StorageError);

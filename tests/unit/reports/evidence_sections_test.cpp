@@ -24,14 +24,14 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-json wording(const std::string& language = "en") {
+json evidence_wording(const std::string& language = "en") {
     std::ifstream file(std::string(GUMCERT_SOURCE_DIR) + "/templates/wording/" + language + ".json");
     return json::parse(file);
 }
 
 using test::record_with_evidence;
 
-std::string text_of(const EvaluationRecord& record) {
+std::string text_of_evidence(const EvaluationRecord& record) {
     return squeezed(render_text(record, assets()));
 }
 
@@ -43,7 +43,7 @@ TEST(EvidenceSections, StandInARecord) {
 
 TEST(EvidenceSections, BeginWithWhatTheTableDoes) {
     const EvaluationRecord record = record_with_evidence();
-    const json view = certificate_view(record, wording());
+    const json view = certificate_view(record, evidence_wording());
     EXPECT_EQ(view["sections"][0]["id"], "overview");
     const auto rows = rows_of(view, "overview");
     ASSERT_EQ(rows.size(), 6U + 3U + 4U);
@@ -54,13 +54,13 @@ TEST(EvidenceSections, BeginWithWhatTheTableDoes) {
     EXPECT_EQ(rows[7][0], "R");
     EXPECT_EQ(rows[8][0], "E");
     EXPECT_EQ(rows[9][0], "axis_y");
-    const std::string text = text_of(record);
+    const std::string text = text_of_evidence(record);
     EXPECT_THAT(text, HasSubstr("Groups of distances 1 kinds were tested; none is suspicious."));
     EvaluationRecord suspicious = record;
     suspicious.rotary->group_tests->kinds.front().suspicious = true;
     suspicious.rotary->adjustment.global_test.accepted = false;
-    EXPECT_THAT(text_of(suspicious), HasSubstr("1 are suspicious: see their table"));
-    EXPECT_THAT(text_of(suspicious), HasSubstr("The residuals do not agree with the uncertainties"));
+    EXPECT_THAT(text_of_evidence(suspicious), HasSubstr("1 are suspicious: see their table"));
+    EXPECT_THAT(text_of_evidence(suspicious), HasSubstr("The residuals do not agree with the uncertainties"));
 }
 
 TEST(EvidenceSections, NameTheGroupWithTheLargestTestValue) {
@@ -74,7 +74,7 @@ TEST(EvidenceSections, NameTheGroupWithTheLargestTestValue) {
     scatter.pass = "";
     scatter.unit = "1";
     record.rotary->group_tests->kinds.insert(record.rotary->group_tests->kinds.end(), {drift, point, scatter});
-    const auto rows = rows_of(certificate_view(record, wording()), "group-tests");
+    const auto rows = rows_of(certificate_view(record, evidence_wording()), "group-tests");
     ASSERT_EQ(rows.size(), 4U);
     EXPECT_THAT(rows[0], ElementsAre("distances of a visit, one error in common", "216", "station P2, pass P2-1, 20°",
                                      "61.2", "21.2", "4.9 µm", "1.8 µm", "not suspicious"));
@@ -88,7 +88,7 @@ TEST(EvidenceSections, NameTheGroupWithTheLargestTestValue) {
 
 TEST(EvidenceSections, HaveAWordForEveryKindInEveryLanguage) {
     for (const char* language : {"en", "de", "es", "zh-Hant"}) {
-        const json words = wording(language);
+        const json words = evidence_wording(language);
         for (const char* kind : {"visit_length", "visit_pose", "dead_path_change", "drift", "angle_index", "succession",
                                  "fixture_scale", "station", "reflector"}) {
             EXPECT_FALSE(words["value"]["group_kind"].value(kind, "").empty()) << language << ", " << kind;
@@ -98,7 +98,7 @@ TEST(EvidenceSections, HaveAWordForEveryKindInEveryLanguage) {
 
 TEST(EvidenceSections, ShowVisitsInTheirOrderWithTheirLimits) {
     const EvaluationRecord record = record_with_evidence();
-    const json words = wording();
+    const json words = evidence_wording();
     const Plot plot = visit_plot(*record.rotary, Wording(words));
     ASSERT_EQ(plot.panels.size(), 1U);
     ASSERT_EQ(plot.panels[0].marks.size(), 2U);
@@ -113,7 +113,7 @@ TEST(EvidenceSections, ShowVisitsInTheirOrderWithTheirLimits) {
 
 TEST(EvidenceSections, CloseTheCurvesOfAFullTurn) {
     EvaluationRecord record = record_with_evidence();
-    const json words = wording();
+    const json words = evidence_wording();
     const std::size_t angles = record.rotary->errors.size();
     Plot plot = error_motion_plot(*record.rotary, Wording(words));
     ASSERT_EQ(plot.panels.size(), 6U);
@@ -133,7 +133,7 @@ TEST(EvidenceSections, CloseTheCurvesOfAFullTurn) {
 
 TEST(EvidenceSections, ShowRunsMeansAndSpreadOfThePositioning) {
     const EvaluationRecord record = record_with_evidence();
-    const json words = wording();
+    const json words = evidence_wording();
     const Plot plot = positioning_plot(*record.rotary, Wording(words));
     const auto& series = plot.panels.at(0).series;
     ASSERT_EQ(series.size(), 6U);
@@ -148,7 +148,7 @@ TEST(EvidenceSections, ShowRunsMeansAndSpreadOfThePositioning) {
 }
 
 TEST(EvidenceSections, StateHarmonicsWithTheirUncertainty) {
-    const json view = certificate_view(record_with_evidence(), wording());
+    const json view = certificate_view(record_with_evidence(), evidence_wording());
     const auto rows = rows_of(view, "harmonics-linear");
     ASSERT_EQ(rows.size(), 3U);
     EXPECT_THAT(rows[0], ElementsAre("1", "1.234", "0.060", "271", "1.234", "0.060", "271", "1.234", "0.060", "271"));
@@ -159,21 +159,21 @@ TEST(EvidenceSections, StateHarmonicsWithTheirUncertainty) {
 
 TEST(EvidenceSections, SayWhatTheTemperaturesDid) {
     const EvaluationRecord record = record_with_evidence();
-    const auto rows = rows_of(certificate_view(record, wording()), "environment");
+    const auto rows = rows_of(certificate_view(record, evidence_wording()), "environment");
     ASSERT_EQ(rows.size(), 2U);
     EXPECT_THAT(rows[0], ElementsAre("1", "P1", "20.100", "0.030", "0.36", "–")) << "no pressure, no humidity";
     EXPECT_THAT(rows[1], ElementsAre("2", "P2", "20.300", "0.030", "1.08", "20.26"));
-    EXPECT_THAT(text_of(record), HasSubstr("at its largest distance, 312 mm, this is 0.36 µm to 1.08 µm"));
-    EXPECT_THAT(text_of(record), HasSubstr("at most 1.2 % of the mean variance"));
+    EXPECT_THAT(text_of_evidence(record), HasSubstr("at its largest distance, 312 mm, this is 0.36 µm to 1.08 µm"));
+    EXPECT_THAT(text_of_evidence(record), HasSubstr("at most 1.2 % of the mean variance"));
 }
 
 TEST(EvidenceSections, ListDistancesOfASmallMeasurementInAnAnnex) {
     EvaluationRecord record = record_with_evidence();
-    EXPECT_THAT(text_of(record), Not(HasSubstr("Distances as read")));
+    EXPECT_THAT(text_of_evidence(record), Not(HasSubstr("Distances as read")));
     record.rotary->reliability.resize(2);
     record.rotary->reliability[0].printed_length = "808.831212";
     record.rotary->reliability[1].printed_length = "715.346954";
-    const json view = certificate_view(record, wording());
+    const json view = certificate_view(record, evidence_wording());
     const auto rows = rows_of(view, "distances");
     ASSERT_EQ(rows.size(), 2U);
     EXPECT_EQ(rows[0][4], "808.831212");
@@ -192,7 +192,7 @@ TEST(EvidenceSections, ThinTablesOfManyAnglesAndKeepExtremes) {
         r.errors.back().printed_angle = std::to_string(i);
     }
     r.errors[333].errors[4].value = 1e3;
-    const json view = certificate_view(record, wording());
+    const json view = certificate_view(record, evidence_wording());
     const auto rows = rows_of(view, "errors");
     EXPECT_LT(rows.size(), 90U);
     EXPECT_GT(rows.size(), 70U);
@@ -201,7 +201,7 @@ TEST(EvidenceSections, ThinTablesOfManyAnglesAndKeepExtremes) {
 }
 
 TEST(EvidenceSections, OfRecordsWithoutEvidenceAreLeftOut) {
-    const json view = certificate_view(test::sample_record(), wording());
+    const json view = certificate_view(test::sample_record(), evidence_wording());
     for (const json& section : view["sections"]) {
         EXPECT_THAT(section["id"].get<std::string>(),
                     Not(::testing::AnyOf("group_tests", "harmonics", "environment", "distances")));

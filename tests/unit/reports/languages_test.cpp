@@ -30,9 +30,9 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::vector<std::string> k_languages = {"en", "de", "zh-Hant", "es"};
+const std::vector<std::string> k_four_languages = {"en", "de", "zh-Hant", "es"};
 
-RenderAssets in(const std::vector<std::string>& languages) {
+RenderAssets in_languages(const std::vector<std::string>& languages) {
     RenderAssets a = assets();
     a.languages = languages;
     return a;
@@ -99,7 +99,7 @@ std::string difference(const std::vector<std::string>& a, const std::vector<std:
 TEST(WordingFiles, HaveTheSameKeysAndPlaceholders) {
     const std::map<std::string, std::string> english = texts_of(wording_file("en"));
     EXPECT_GT(english.size(), 600U);
-    for (const std::string& language : k_languages) {
+    for (const std::string& language : k_four_languages) {
         const std::map<std::string, std::string> texts = texts_of(wording_file(language));
         EXPECT_EQ(texts.at("/language"), language);
         EXPECT_EQ(texts.at("/document/decimal_sign"), sign_of(language));
@@ -119,7 +119,7 @@ TEST(WordingFiles, HaveTheSameKeysAndPlaceholders) {
 }
 
 TEST(WordingFiles, HoldTextsAndNothingThatMisleads) {
-    for (const std::string& language : k_languages) {
+    for (const std::string& language : k_four_languages) {
         for (const auto& [path, text] : texts_of(wording_file(language))) {
             EXPECT_EQ(printable(text), text) << language << " " << path;
         }
@@ -130,11 +130,12 @@ TEST(Languages, NumbersAreTheSameInAllOfThem) {
     for (const auto& [name, record] : all_records()) {
         for (const bool html : {true, false}) {
             const auto text = [&](const std::string& language) {
-                return html ? html_text(render_html(record, in({language}))) : render_text(record, in({language}));
+                return html ? html_text(render_html(record, in_languages({language})))
+                            : render_text(record, in_languages({language}));
             };
             const std::vector<std::string> english = numbers_of(text("en"), ".");
             EXPECT_GT(english.size(), 100U) << name;
-            for (const std::string& language : k_languages) {
+            for (const std::string& language : k_four_languages) {
                 const std::vector<std::string> numbers = numbers_of(text(language), sign_of(language));
                 EXPECT_TRUE(numbers == english)
                     << name << (html ? " html " : " text ") << language << ": " << difference(english, numbers);
@@ -163,7 +164,7 @@ TEST(Languages, DecimalSignsFollowTheBindingLanguage) {
             }
         }
         for (const char* language : {"de", "es"}) {
-            const std::string text = html_text(render_html(record, in({language})));
+            const std::string text = html_text(render_html(record, in_languages({language})));
             const auto commas =
                 std::distance(std::sregex_iterator(text.begin(), text.end(), k_with_comma), std::sregex_iterator());
             EXPECT_GT(commas, 40) << name << " " << language;
@@ -174,7 +175,7 @@ TEST(Languages, DecimalSignsFollowTheBindingLanguage) {
             }
         }
         for (const char* language : {"en", "zh-Hant"}) {
-            const std::string text = html_text(render_html(record, in({language})));
+            const std::string text = html_text(render_html(record, in_languages({language})));
             EXPECT_FALSE(std::regex_search(text, k_with_comma)) << name << " " << language;
         }
     }
@@ -183,9 +184,9 @@ TEST(Languages, DecimalSignsFollowTheBindingLanguage) {
 TEST(Languages, EveryPrintedNumberOfTheCertificateIsThere) {
     std::size_t count = 0;
     for (const EvaluationRecord& record : {test::certified_rotary_record(), test::certified_budget_record()}) {
-        for (const std::string& language : k_languages) {
-            const std::string html = html_text(render_html(record, in({language})));
-            const std::string text = squeezed(render_text(record, in({language})));
+        for (const std::string& language : k_four_languages) {
+            const std::string html = html_text(render_html(record, in_languages({language})));
+            const std::string text = squeezed(render_text(record, in_languages({language})));
             for (const certificate::CertifiedTable& table : record.certificate->tables) {
                 for (const certificate::CertifiedColumn& column : table.columns) {
                     for (const certificate::CertifiedValue& v : column.values) {
@@ -206,7 +207,7 @@ TEST(Languages, PdfHasTheSameNumbers) {
     SKIP_WITHOUT_PDF();
     const EvaluationRecord record = test::certified_rotary_record();
     for (const char* language : {"en", "de", "es"}) {  // Chinese needs fonts that a machine may lack
-        const std::string text = pdf_text(render_pdf(record, in({language})));
+        const std::string text = pdf_text(render_pdf(record, in_languages({language})));
         if (text.empty()) {
             GTEST_SKIP() << "pdftotext is missing: the numbers of the PDF were not read back";
         }
@@ -232,14 +233,14 @@ TEST(Languages, ABilingualDocumentHoldsBoth) {
     EXPECT_THAT(text, HasSubstr("Results of the calibration / Ergebnisse der Kalibrierung"));
     EXPECT_THAT(squeezed(text), HasSubstr("/ Die Ergebnisse beziehen sich nur auf den beschriebenen Gegenstand"));
 
-    const std::string german_first = render_text(record, in({"de", "zh-Hant"}));
+    const std::string german_first = render_text(record, in_languages({"de", "zh-Hant"}));
     EXPECT_THAT(german_first, HasSubstr("Kalibrierschein / 校正證書"));
     EXPECT_THAT(german_first, HasSubstr("Anhang (nicht Teil der akkreditierten Ergebnisse): Güte der Ausgleichung"));
     EXPECT_THAT(german_first, Not(HasSubstr("Calibration certificate")));
 }
 
 TEST(Languages, NumbersOfABilingualTableAreThoseOfTheBindingLanguage) {
-    const json view = certificate_view(test::certified_rotary_record(), read_wording(in({"de", "en"})));
+    const json view = certificate_view(test::certified_rotary_record(), read_wording(in_languages({"de", "en"})));
     std::size_t numbers = 0;
     for (const json& section : view["sections"]) {
         for (const json& block : section["blocks"]) {
@@ -271,7 +272,7 @@ TEST(Languages, TheSecondLanguageStandsWhereItDiffersOnly) {
 }
 
 TEST(Languages, TextsOfTheCertificateDataFollowTheDocument) {
-    const json wording = read_wording(in({"de", "es"}));
+    const json wording = read_wording(in_languages({"de", "es"}));
     const Wording words(wording);
     certificate::LocalisedText text;
     text.by_language = {{"en", "laser"}, {"de", "Laser-"}};
@@ -281,7 +282,7 @@ TEST(Languages, TextsOfTheCertificateDataFollowTheDocument) {
 }
 
 TEST(Languages, ANumberKeepsItsDigitsAndItsForm) {
-    const json wording = read_wording(in({"de", "en"}));
+    const json wording = read_wording(in_languages({"de", "en"}));
     const Wording words(wording);
     EXPECT_EQ(words.number("-12.340").in(0), "\u221212,340");
     EXPECT_EQ(words.number("-12.340").in(1), "\u221212.340");
@@ -293,13 +294,14 @@ TEST(Languages, ANumberKeepsItsDigitsAndItsForm) {
 
 TEST(Languages, WhatIsMissingIsNamed) {
     try {
-        static_cast<void>(render_text(test::sample_record(), in({"en", "fr"})));
+        static_cast<void>(render_text(test::sample_record(), in_languages({"en", "fr"})));
         FAIL() << "no message";
     } catch (const gum::StorageError& e) {
         EXPECT_EQ(e.diagnostics().front().code, "GC-REPORT-0002");
         EXPECT_THAT(e.what(), HasSubstr("\"fr\""));
     }
-    EXPECT_THROW(static_cast<void>(render_text(test::sample_record(), in({"en", "de", "es"}))), gum::StorageError);
+    EXPECT_THROW(static_cast<void>(render_text(test::sample_record(), in_languages({"en", "de", "es"}))),
+                 gum::StorageError);
     json incomplete = json::array({wording_file("en"), wording_file("de")});
     incomplete[1]["sentence"].erase("validity");
     try {
@@ -313,7 +315,7 @@ TEST(Languages, WhatIsMissingIsNamed) {
 TEST(Languages, AreThoseOfTheDataUnlessTheAssetsAsk) {
     const EvaluationRecord certified = test::certified_budget_record();
     EXPECT_EQ(languages_of(certified, assets()), (std::vector<std::string>{"en", "de"}));
-    EXPECT_EQ(languages_of(certified, in({"es"})), (std::vector<std::string>{"es"}));
+    EXPECT_EQ(languages_of(certified, in_languages({"es"})), (std::vector<std::string>{"es"}));
     EXPECT_EQ(languages_of(test::sample_record(), assets()), (std::vector<std::string>{"en"}));
     EvaluationRecord many = certified;
     many.certificate->data.languages = {"de", "en", "es"};  // the digital certificate has all of them
@@ -321,7 +323,7 @@ TEST(Languages, AreThoseOfTheDataUnlessTheAssetsAsk) {
 }
 
 TEST(Languages, LinesOfChineseTextAreFilledAndNotTooLong) {
-    const std::string text = render_text(test::certified_rotary_record(), in({"zh-Hant"}));
+    const std::string text = render_text(test::certified_rotary_record(), in_languages({"zh-Hant"}));
     std::istringstream lines(text);
     std::size_t long_lines = 0;
     for (std::string line; std::getline(lines, line);) {

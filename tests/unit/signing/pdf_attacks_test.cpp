@@ -21,7 +21,7 @@ using testing::HasSubstr;
 using testing::Not;
 using namespace test;
 
-const std::string k_dcc =
+const std::string k_attacked_pdf_dcc =
     "<dcc:digitalCalibrationCertificate xmlns:dcc=\"https://ptb.de/dcc\" schemaVersion=\"3.3.0\">10.0023"
     "</dcc:digitalCalibrationCertificate>";
 
@@ -113,7 +113,7 @@ protected:
     }
 
     Laboratory laboratory_{ec_key()};
-    Bytes dcc_ = sign_dcc(k_dcc, *laboratory_.signer, k_signing_time);
+    Bytes dcc_ = sign_dcc(k_attacked_pdf_dcc, *laboratory_.signer, k_signing_time);
     Bytes good_ = sign_pdf(plain_pdf(dcc_), *laboratory_.signer, k_signing_time);
 };
 
@@ -125,7 +125,7 @@ TEST_F(PdfAttack, AnUpdateBehindTheSignature) {
     const int page = number_of([](QPDFObjectHandle o) { return o.isDictionaryOfType("/Page"); });
     const int file = number_of([](QPDFObjectHandle o) { return o.isStreamOfType("/EmbeddedFile"); });
     const int signature = number_of([](QPDFObjectHandle o) { return o.isDictionary() && o.hasKey("/ByteRange"); });
-    const std::string other_dcc = replaced(k_dcc, "10.0023", "99");
+    const std::string other_dcc = replaced(k_attacked_pdf_dcc, "10.0023", "99");
     // Another page is shown, another file is attached, the signature is overwritten, nothing at all is changed.
     const std::vector<std::vector<std::pair<int, std::string>>> updates = {
         {{page, "<< /Type /Page /MediaBox [0 0 1 1] /Resources << >> >>"}},
@@ -280,7 +280,7 @@ TEST_F(PdfAttack, DamagedFilesNeverCrash) {
 
 TEST_F(PdfAttack, TheAttachmentIsSignedBySomebodyElse) {
     const Laboratory stranger(ec_key());
-    const Bytes theirs = sign_dcc(k_dcc, *stranger.signer, k_signing_time);
+    const Bytes theirs = sign_dcc(k_attacked_pdf_dcc, *stranger.signer, k_signing_time);
     const Bytes pdf = sign_pdf(plain_pdf(theirs), *laboratory_.signer, k_signing_time);
     EXPECT_EQ(error_of(pdf), "GC-SIGN-0130");
     EXPECT_TRUE(verify(pdf).signatures.at(0).valid);

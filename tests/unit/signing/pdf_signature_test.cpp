@@ -15,7 +15,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using namespace test;
 
-const std::string k_dcc =
+const std::string k_signed_pdf_dcc =
     "<dcc:digitalCalibrationCertificate xmlns:dcc=\"https://ptb.de/dcc\" schemaVersion=\"3.3.0\">10.0023"
     "</dcc:digitalCalibrationCertificate>";
 
@@ -103,7 +103,7 @@ TEST(SignPdfOnce, TheCmsHasTheAttributesOfPades) {
 
 TEST(SignPdfOnce, TheSameInputGivesTheSameBytesWithRsa) {
     const Laboratory laboratory(rsa_key());
-    const Bytes pdf = plain_pdf(k_dcc);
+    const Bytes pdf = plain_pdf(k_signed_pdf_dcc);
     EXPECT_EQ(sign_pdf(pdf, *laboratory.signer, k_signing_time), sign_pdf(pdf, *laboratory.signer, k_signing_time));
 }
 
@@ -179,7 +179,7 @@ TEST(SignPdfOnce, TheKeyComesFromTheTrustStoreOnly) {
 
 TEST(SignPdfOnce, TheAttachmentStaysAndIsVerified) {
     const Laboratory laboratory(ec_key());
-    const Bytes dcc = sign_dcc(k_dcc, *laboratory.signer, k_signing_time);
+    const Bytes dcc = sign_dcc(k_signed_pdf_dcc, *laboratory.signer, k_signing_time);
     const Bytes pdf = sign_pdf(plain_pdf(dcc), *laboratory.signer, k_signing_time);
     QPDF document;
     document.processMemoryFile("signed", pdf.data(), pdf.size());

@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::Not;
 using namespace test;
 
-const std::string k_dcc =
+const std::string k_attacked_dcc =
     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
     "<dcc:digitalCalibrationCertificate xmlns:dcc=\"https://ptb.de/dcc\" xmlns:si=\"https://ptb.de/si\" "
     "schemaVersion=\"3.3.0\">\n  <dcc:administrativeData><dcc:name refType=\"basic_name\">Gauge</dcc:name>"
@@ -62,7 +62,7 @@ protected:
     }
 
     Laboratory laboratory_{ec_key()};
-    Bytes good_ = sign_dcc(k_dcc, *laboratory_.signer, k_signing_time);
+    Bytes good_ = sign_dcc(k_attacked_dcc, *laboratory_.signer, k_signing_time);
 };
 
 TEST_F(XmlAttack, TheDocumentItselfIsValid) {
@@ -193,7 +193,7 @@ TEST_F(XmlAttack, SecondPartsOfTheSignature) {
     EXPECT_NE(error_of(replaced(good_, info, "<ds:Object>" + info + "</ds:Object>" + info)), "valid");
     EXPECT_NE(error_of(replaced(good_, signature(), signature() + signature())), "valid");
     // Another signature of ours, taken from another document.
-    const Bytes other = sign_dcc(replaced(k_dcc, "10.0023", "99"), *laboratory_.signer, k_signing_time);
+    const Bytes other = sign_dcc(replaced(k_attacked_dcc, "10.0023", "99"), *laboratory_.signer, k_signing_time);
     const std::size_t from = other.find("<ds:Signature ");
     const std::string foreign = other.substr(from, other.find("</ds:Signature>") + 15 - from);
     EXPECT_EQ(error_of(replaced(good_, signature(), foreign)), "GC-SIGN-0117");

@@ -13,7 +13,7 @@ using testing::HasSubstr;
 using namespace test;
 
 // The frame of a DCC is enough here; the whole schema is tested with the shared example below.
-const std::string k_dcc =
+const std::string k_signed_dcc =
     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
     "<dcc:digitalCalibrationCertificate xmlns:dcc=\"https://ptb.de/dcc\" xmlns:si=\"https://ptb.de/si\" "
     "schemaVersion=\"3.3.0\">\n  <dcc:administrativeData><!-- a comment -->\n    "
@@ -23,7 +23,7 @@ const std::string k_dcc =
 
 const std::string k_shared = std::string(GUMCERT_SHARED_DIR) + "/dcc";
 
-Verification verify(const Bytes& xml, const Laboratory& laboratory) {
+Verification verified(const Bytes& xml, const Laboratory& laboratory) {
     return verify_signatures(xml, "certificate.xml", laboratory.trusted(), k_now);
 }
 
@@ -46,12 +46,12 @@ protected:
 
 TEST_P(SignDcc, IsVerifiedHereAndByXmlsec) {
     const Laboratory laboratory(key());
-    const Bytes signed_dcc = sign_dcc(k_dcc, *laboratory.signer, k_signing_time);
+    const Bytes signed_dcc = sign_dcc(k_signed_dcc, *laboratory.signer, k_signing_time);
     // Every byte of the document stays; the signature is the last child of the root.
-    EXPECT_TRUE(signed_dcc.starts_with(k_dcc.substr(0, k_dcc.find("</dcc:digital"))));
+    EXPECT_TRUE(signed_dcc.starts_with(k_signed_dcc.substr(0, k_signed_dcc.find("</dcc:digital"))));
     EXPECT_TRUE(signed_dcc.ends_with("</ds:Signature></dcc:digitalCalibrationCertificate>\n"));
 
-    const Verification verification = verify(signed_dcc, laboratory);
+    const Verification verification = verified(signed_dcc, laboratory);
     ASSERT_EQ(verification.signatures.size(), 1U);
     const SignatureReport& report = verification.signatures[0];
     EXPECT_TRUE(verification.valid) << (report.findings.empty() ? "" : gum::message(report.findings[0]));
@@ -83,9 +83,9 @@ INSTANTIATE_TEST_SUITE_P(Keys, SignDcc, testing::Values("RSA", "P-256", "P-384",
 
 TEST(SignDccOnce, EveryChangeIsFound) {
     const Laboratory laboratory(ec_key());
-    const Bytes good = sign_dcc(k_dcc, *laboratory.signer, k_signing_time);
+    const Bytes good = sign_dcc(k_signed_dcc, *laboratory.signer, k_signing_time);
     const auto error_of = [&](const Bytes& xml) {
-        const Verification verification = verify(xml, laboratory);
+        const Verification verification = verified(xml, laboratory);
         EXPECT_FALSE(verification.valid);
         return verification.signatures.empty() ? "no signature" : first_error(verification.signatures[0]);
     };
@@ -95,7 +95,7 @@ TEST(SignDccOnce, EveryChangeIsFound) {
     EXPECT_EQ(error_of(replaced(good, "</si:real>", "</si:real> ")), "GC-SIGN-0117");
     EXPECT_EQ(error_of(replaced(good, "Id=\"gumcert-signed-document\"", "Id=\"other\"")), "GC-SIGN-0118");
     // The comment is not part of what is signed, and the report says so.
-    EXPECT_TRUE(verify(replaced(good, "a comment", "b comment"), laboratory).valid);
+    EXPECT_TRUE(verified(replaced(good, "a comment", "b comment"), laboratory).valid);
     // Without the signature there is nothing to rely on.
     const std::size_t from = good.find("<ds:Signature ");
     const std::size_t to = good.find("</ds:Signature>") + 15;
@@ -104,7 +104,7 @@ TEST(SignDccOnce, EveryChangeIsFound) {
 
 TEST(SignDccOnce, WrappingIsRefused) {
     const Laboratory laboratory(ec_key());
-    const Bytes good = sign_dcc(k_dcc, *laboratory.signer, k_signing_time);
+    const Bytes good = sign_dcc(k_signed_dcc, *laboratory.signer, k_signing_time);
     const std::size_t root = good.find("<dcc:digital");
     const std::string original = good.substr(root);
     // The signed document inside another one, whose numbers differ.
@@ -112,13 +112,13 @@ TEST(SignDccOnce, WrappingIsRefused) {
         "<dcc:digitalCalibrationCertificate xmlns:dcc=\"https://ptb.de/dcc\" "
         "schemaVersion=\"3.3.0\"><value>99</value>" +
         original + "</dcc:digitalCalibrationCertificate>";
-    const Verification wrapped = verify(outer, laboratory);
+    const Verification wrapped = verified(outer, laboratory);
     ASSERT_EQ(wrapped.signatures.size(), 1U);
     EXPECT_EQ(first_error(wrapped.signatures[0]), "GC-SIGN-0119");
     EXPECT_FALSE(wrapped.valid);
 
     const auto error_of = [&](const Bytes& xml) {
-        const Verification verification = verify(xml, laboratory);
+        const Verification verification = verified(xml, laboratory);
         EXPECT_FALSE(verification.valid);
         return verification.signatures.empty() ? "" : first_error(verification.signatures[0]);
     };
@@ -143,27 +143,27 @@ TEST(SignDccOnce, WrappingIsRefused) {
 TEST(SignDccOnce, TheKeyComesFromTheTrustStoreOnly) {
     const Laboratory laboratory(ec_key());
     const Laboratory stranger(ec_key());
-    const Bytes good = sign_dcc(k_dcc, *laboratory.signer, k_signing_time);
-    const Verification untrusted = verify(good, stranger);
+    const Bytes good = sign_dcc(k_signed_dcc, *laboratory.signer, k_signing_time);
+    const Verification untrusted = verified(good, stranger);
     EXPECT_FALSE(untrusted.valid);
     EXPECT_EQ(first_error(untrusted.signatures.at(0)), "GC-SIGN-0130");
     EXPECT_FALSE(verify_signatures(good, "c.xml", {}, k_now).valid);
     // The signer's own certificate may be trusted by itself.
     EXPECT_TRUE(verify_signatures(good, "c.xml", std::vector<Bytes>{der(laboratory.own)}, k_now).valid);
     // Signed by the stranger, with the certificate of the laboratory put in.
-    const Bytes forged = sign_dcc(k_dcc, *stranger.signer, k_signing_time);
+    const Bytes forged = sign_dcc(k_signed_dcc, *stranger.signer, k_signing_time);
     const auto certificate = [](const Bytes& xml) {
         const std::size_t from = xml.find("<ds:X509Certificate>");
         return xml.substr(from, xml.find("</ds:X509Data>") - from);
     };
-    const Verification swapped = verify(replaced(forged, certificate(forged), certificate(good)), laboratory);
+    const Verification swapped = verified(replaced(forged, certificate(forged), certificate(good)), laboratory);
     EXPECT_FALSE(swapped.valid);
     EXPECT_EQ(first_error(swapped.signatures.at(0)), "GC-SIGN-0116");
 }
 
 TEST(SignDccOnce, TimesAreChecked) {
     const Laboratory laboratory(ec_key());
-    const Bytes good = sign_dcc(k_dcc, *laboratory.signer, k_signing_time);
+    const Bytes good = sign_dcc(k_signed_dcc, *laboratory.signer, k_signing_time);
     const Verification before = verify_signatures(good, "c.xml", laboratory.trusted(), k_signing_time - k_day);
     EXPECT_EQ(first_error(before.signatures.at(0)), "GC-SIGN-0134");
     // Years later: the certificate has expired since; the signature stays valid at its time, with a warning.
@@ -171,9 +171,9 @@ TEST(SignDccOnce, TimesAreChecked) {
         verify_signatures(good, "c.xml", std::vector<Bytes>{der(laboratory.own)}, k_signing_time + 1000 * k_day);
     EXPECT_TRUE(late.valid);
     EXPECT_THAT(late.signatures.at(0).findings, Contains(testing::Field(&gum::Diagnostic::code, "GC-SIGN-0135")));
-    EXPECT_THROW(static_cast<void>(sign_dcc(k_dcc, *laboratory.signer, k_signing_time + 1000 * k_day)),
+    EXPECT_THROW(static_cast<void>(sign_dcc(k_signed_dcc, *laboratory.signer, k_signing_time + 1000 * k_day)),
                  gum::InputError);
-    EXPECT_THROW(static_cast<void>(sign_dcc(k_dcc, *laboratory.signer, k_signing_time - 1000 * k_day)),
+    EXPECT_THROW(static_cast<void>(sign_dcc(k_signed_dcc, *laboratory.signer, k_signing_time - 1000 * k_day)),
                  gum::InputError);
 }
 
@@ -187,11 +187,11 @@ TEST(SignDccOnce, RefusesWhatItCannotSign) {
         }
         return std::string("signed");
     };
-    EXPECT_EQ(refused(replaced(k_dcc, "\"3.3.0\"", "\"3.1.2\"")), "GC-SIGN-0031");
-    EXPECT_EQ(refused(replaced(k_dcc, "\"3.3.0\"", "\"3.2.0\"")), "signed");
-    EXPECT_EQ(refused(replaced(k_dcc, "https://ptb.de/dcc", "https://example.org")), "GC-SIGN-0031");
-    EXPECT_EQ(refused(sign_dcc(k_dcc, *laboratory.signer, k_signing_time)), "GC-SIGN-0032");
-    EXPECT_EQ(refused(k_dcc + "<!-- </x> -->"), "GC-SIGN-0033");
+    EXPECT_EQ(refused(replaced(k_signed_dcc, "\"3.3.0\"", "\"3.1.2\"")), "GC-SIGN-0031");
+    EXPECT_EQ(refused(replaced(k_signed_dcc, "\"3.3.0\"", "\"3.2.0\"")), "signed");
+    EXPECT_EQ(refused(replaced(k_signed_dcc, "https://ptb.de/dcc", "https://example.org")), "GC-SIGN-0031");
+    EXPECT_EQ(refused(sign_dcc(k_signed_dcc, *laboratory.signer, k_signing_time)), "GC-SIGN-0032");
+    EXPECT_EQ(refused(k_signed_dcc + "<!-- </x> -->"), "GC-SIGN-0033");
     EXPECT_EQ(refused("not XML"), "GC-SIGN-0030");
 }
 
@@ -255,7 +255,7 @@ TEST(SharedSamples, TheSignedExampleKeepsToTheSchema) {
     }
     const Laboratory laboratory(rsa_key());
     const Bytes xml = sign_dcc(file_text(example), *laboratory.signer, k_signing_time);
-    EXPECT_TRUE(verify(xml, laboratory).valid);
+    EXPECT_TRUE(verified(xml, laboratory).valid);
     const auto file = laboratory.folder.put("signed.xml", xml);
     int status = 1;
     const std::string said =

@@ -40,13 +40,13 @@ TEST(Mutations, BudgetJobEndsInAResultOrARefusal) {
                                                               "µ",
                                                               "\"observations\"",
                                                               "1e7"};
-    test::run_word_mutations({.target = "budget_job",
-                              .seeds = 3,
-                              .accepted_seeds = 2,
-                              .words = k_words,
-                              .random_seed = 20240229,
-                              .count = 3000},
-                             fuzz::budget_job);
+    gumcert::test::run_word_mutations({.target = "budget_job",
+                                       .seeds = 3,
+                                       .accepted_seeds = 2,
+                                       .words = k_words,
+                                       .random_seed = 20240229,
+                                       .count = 3000},
+                                      fuzz::budget_job);
 }
 
 }  // namespace

@@ -15,13 +15,13 @@ TEST(Mutations, CircleClosureJobEndsInAResultOrARefusal) {
         ",",       "}",   "]",     "\"u\"",    "\"value\"",    "\"U\"",     "\"acts_on\"", "\"nu\"",       "\"a\"",
         "\"inf\"", "\\n", "\"d\"", "\"turn\"", "\"constant\"", "\"steps\"", "\"scale\"",   "\"readings\"", "\\u0007",
         "µ",       "4,0", "1e7"};
-    test::run_word_mutations({.target = "circle_closure_job",
-                              .seeds = 3,
-                              .accepted_seeds = 2,
-                              .words = k_words,
-                              .random_seed = 20260401,
-                              .count = 3000},
-                             fuzz::circle_closure_job);
+    gumcert::test::run_word_mutations({.target = "circle_closure_job",
+                                       .seeds = 3,
+                                       .accepted_seeds = 2,
+                                       .words = k_words,
+                                       .random_seed = 20260401,
+                                       .count = 3000},
+                                      fuzz::circle_closure_job);
 }
 
 }  // namespace

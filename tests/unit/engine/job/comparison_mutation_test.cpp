@@ -15,13 +15,13 @@ TEST(Mutations, ComparisonJobEndsInAResultOrARefusal) {
         "[]",       "{}",        ",",       "}",        "]",       "\"u\"", "\"value\"",   "\"U\"",
         "\"k\"",    "\"nu\"",    "\"id\"",  "\"<0.3\"", "\"inf\"", "degF",  "\"sources\"", "\"median\"",
         "\"item\"", "\"round\"", "\\u0007", "µ",        "\n",      "A,,",   "\"budget\"",  "NaN"};
-    test::run_word_mutations({.target = "comparison_job",
-                              .seeds = 5,
-                              .accepted_seeds = 4,
-                              .words = k_words,
-                              .random_seed = 20240301,
-                              .count = 4000},
-                             fuzz::comparison_job);
+    gumcert::test::run_word_mutations({.target = "comparison_job",
+                                       .seeds = 5,
+                                       .accepted_seeds = 4,
+                                       .words = k_words,
+                                       .random_seed = 20240301,
+                                       .count = 4000},
+                                      fuzz::comparison_job);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 3> k_columns{"name", "x_mm", "run"};
 constexpr std::array<std::string_view, 1> k_optional{"u_mm"};
 
 /// Reads a table and every cell of it, like a job reader would.
-std::vector<gum::Diagnostic> refusals(const std::string& text, std::vector<gum::Diagnostic>* warnings = nullptr) {
+std::vector<gum::Diagnostic> table_refusals(const std::string& text, std::vector<gum::Diagnostic>* warnings = nullptr) {
     ProblemList problems("t.csv");
     const auto table = read_csv_table(text, k_columns, k_optional, problems, {.rows = 5});
     if (table) {
@@ -34,7 +34,7 @@ std::vector<gum::Diagnostic> refusals(const std::string& text, std::vector<gum::
 
 void expect_refusal(const std::string& text, const InputCode& code, const std::string& where, const std::string& part) {
     SCOPED_TRACE(text.substr(0, 80));
-    const auto found = refusals(text);
+    const auto found = table_refusals(text);
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0].code, code.code);
     EXPECT_EQ(found[0].where, where);
@@ -64,7 +64,7 @@ TEST(CsvTable, ReadsColumnsInAnyOrderWithBomCrlfQuotesAndBlankLines) {
 }
 
 TEST(CsvTable, ReadsALastLineWithoutLineEnd) {
-    EXPECT_TRUE(refusals("name,x_mm,run\na,1,2").empty());
+    EXPECT_TRUE(table_refusals("name,x_mm,run\na,1,2").empty());
 }
 
 TEST(CsvTable, RefusesWhatIsNotATable) {
@@ -84,12 +84,12 @@ TEST(CsvTable, RefusesHeadersThatMissOrRepeatColumns) {
     expect_refusal("name,run\na,1\n", k_csv_missing_column, "t.csv:1:1", "the column \"x_mm\" is missing");
     expect_refusal("Name,x_mm,run\na,1,1\n", k_csv_missing_column, "t.csv:1:1", "is it the column \"Name\"?");
     expect_refusal("name,x_mm,run,x_mm\na,1,1,1\n", k_csv_repeated_column, "t.csv:1:15", "\"x_mm\" occurs twice");
-    EXPECT_EQ(refusals("foo,bar\n1,2\n").size(), 3U);
+    EXPECT_EQ(table_refusals("foo,bar\n1,2\n").size(), 3U);
 }
 
 TEST(CsvTable, WarnsOfColumnsThatNobodyUses) {
     std::vector<gum::Diagnostic> warnings;
-    EXPECT_TRUE(refusals("name,x_mm,run,colour,u_m\na,1,2,red,1\n", &warnings).empty());
+    EXPECT_TRUE(table_refusals("name,x_mm,run,colour,u_m\na,1,2,red,1\n", &warnings).empty());
     ASSERT_EQ(warnings.size(), 2U);
     EXPECT_EQ(warnings[0].code, k_warn_extra_column.code);
     EXPECT_EQ(warnings[0].severity, gum::Severity::warning);
@@ -147,7 +147,7 @@ TEST(CsvTable, RefusesNamesThatDeceive) {
                    k_csv_name, "t.csv:2:1", "U+202E");
     expect_refusal(row("\"P\n1\""), k_csv_name, "t.csv:2:1", "U+000A");
     expect_refusal(row(std::string(257, 'P')), k_csv_name, "t.csv:2:1", "has 257 bytes");
-    EXPECT_TRUE(refusals(row(std::string(256, 'P'))).empty());
+    EXPECT_TRUE(table_refusals(row(std::string(256, 'P'))).empty());
 }
 
 TEST(CsvTable, LimitsRowsAndColumns) {
@@ -155,7 +155,7 @@ TEST(CsvTable, LimitsRowsAndColumns) {
     for (int i = 0; i < 5; ++i) {
         text += "a,1,2\n";
     }
-    EXPECT_TRUE(refusals(text).empty());
+    EXPECT_TRUE(table_refusals(text).empty());
     expect_refusal(text + "a,1,2\n", k_csv_too_many_rows, "t.csv:7:1", "more than 5 rows");
     expect_refusal(std::string(20'000, ','), k_csv_too_many_columns, "t.csv:1:10001", "more than 10000 fields");
     EXPECT_EQ(CsvLimits{}.rows, 1'000'000U);

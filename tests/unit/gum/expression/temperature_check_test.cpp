@@ -213,12 +213,12 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 
 /// Both cures of every message, followed to the letter, give what they promise.
 TEST(TemperatureCheck, CuresLeadToTheRightNumber) {
-    struct Case {
+    struct Cure {
         std::string equation;
         double with_kelvin, with_difference;  // at t = 25 °C, dt = 1 K, p = 101325, n = 2, T = 300 K
     };
     const double R = 8.314462618;
-    const std::vector<Case> cases{
+    const std::vector<Cure> cases{
         {"y = p*M/(R*t)", 101325 * 0.028964 / (R * 298.15), 101325 * 0.028964 / (R * 25.0)},
         {"y = p*M/(R*(t + dt))", 101325 * 0.028964 / (R * 299.15), 101325 * 0.028964 / (R * 26.0)},
         {"y = s*t^4", 5.67e-8 * std::pow(298.15, 4), 5.67e-8 * std::pow(25.0, 4)},
@@ -240,7 +240,7 @@ TEST(TemperatureCheck, CuresLeadToTheRightNumber) {
         }
         return system.evaluate(x)(0);
     };
-    for (const Case& one : cases) {
+    for (const Cure& one : cases) {
         SCOPED_TRACE(one.equation);
         const std::vector<Diagnostic> warnings{system_of({one.equation}, symbols).warnings()};
         ASSERT_FALSE(warnings.empty());
