@@ -71,7 +71,7 @@ reports::Result result_of(const QuantityUncertainty& uncertainty, const gum::Mea
     result.k = numbers.k;
     result.coverage_probability = propagation.coverage_probability;
     result.U = numbers.U;
-    result.distribution = numbers.nu_eff ? "t" : "normal";
+    result.distribution = numbers.nu_eff ? "student_t" : "normal";
     result.printed = numbers.text;
     for (std::size_t g = 0; g < model.inputs().size(); ++g) {
         const gum::InputGroup& group = model.inputs()[g];

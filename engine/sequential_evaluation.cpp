@@ -54,6 +54,11 @@ struct Distance {
     Eigen::Index path = 0;  ///< of its dead path among those of its station
 };
 
+constexpr int k_most_steps_of_a_stage = 50;
+constexpr double k_station_step = 1e-12;    // [m]: what is left is rounding
+constexpr double k_settled_station = 1e-9;  // [m]: rounding of a station whose place is hardly determined
+constexpr double k_point_step = 1e-13;      // [m]
+
 [[noreturn]] void refuse(const std::string& where, const std::string& what, const std::string& action) {
     throw gum::NoResultError(gum::Diagnostic{"GC-SEQUENTIAL-0001", where, what,
                                              "each stage of the sequential method must be determined by itself", action,
@@ -248,7 +253,8 @@ Stages SequentialModel::solve(const Inputs& in) const {
         const double stretch = 1.0 + in.expansion * in.temperature[static_cast<Eigen::Index>(j)];
         Eigen::MatrixXd design(station.observations.size(), size);
         Eigen::VectorXd misclosure(station.observations.size());
-        for (int iteration = 0; iteration < 50; ++iteration) {
+        double last_step = 0.0;
+        for (int iteration = 0; iteration < k_most_steps_of_a_stage; ++iteration) {
             const double scale =
                 1.0 + (scale_is_free() ? station.unknowns[size - 1] : in.scale[static_cast<Eigen::Index>(j)]);
             design.setZero();
@@ -276,9 +282,14 @@ Stages SequentialModel::solve(const Inputs& in) const {
             }
             const Eigen::VectorXd step = station.gain * misclosure;
             station.unknowns += step;
-            if (step.head<3>().norm() < 1e-12) {
+            last_step = step.head<3>().norm();
+            if (last_step < k_station_step) {
                 break;
             }
+        }
+        if (!(last_step < k_settled_station)) {
+            refuse("station " + measurement_.stations[j], "its position does not settle at the home position",
+                   "look for interchanged reflectors or a wrong dead path at home, or use \"method\": \"joint\"");
         }
         stages.stations.push_back(std::move(station));
     }
@@ -299,7 +310,7 @@ Stages SequentialModel::solve(const Inputs& in) const {
             }
             Eigen::MatrixXd design(point.observations.size(), 3);
             Eigen::VectorXd misclosure(point.observations.size());
-            for (int iteration = 0; iteration < 50; ++iteration) {
+            for (int iteration = 0; iteration < k_most_steps_of_a_stage; ++iteration) {
                 for (std::size_t row = 0; row < point.observations.size(); ++row) {
                     const std::size_t k = point.observations[row];
                     const std::size_t j = distances_[k].station;
@@ -322,7 +333,7 @@ Stages SequentialModel::solve(const Inputs& in) const {
                 }
                 const Eigen::Vector3d step = point.gain * misclosure;
                 point.position += step;
-                if (step.norm() < 1e-13) {
+                if (step.norm() < k_point_step) {
                     point.determined = true;
                     break;
                 }

@@ -31,7 +31,7 @@ std::size_t axis_index(const LayoutPlot& plot) {
     if (plot.axis == "A" || plot.axis == "B" || plot.axis == "C") {
         return static_cast<std::size_t>(plot.axis[0] - 'A');
     }
-    throw gum::NoResultError(gum::Diagnostic{.code = "GC-REPORT-0003",
+    throw gum::NoResultError(gum::Diagnostic{.code = "GC-REPORT-0005",
                                              .where = "plot " + plot.id,
                                              .what = "axis \"" + plot.axis + '"',
                                              .rule = "an axis of rotation is A, B or C",

@@ -105,6 +105,7 @@ inline constexpr InputCode k_fixture_budget_differs{"GC-INPUT-0231",
 inline constexpr InputCode k_bad_exclusion{"GC-INPUT-0232", "an exclusion that names no distance, or has no reason"};
 inline constexpr InputCode k_bad_machine_frame{"GC-INPUT-0236", "points that do not tell the frame of the machine"};
 inline constexpr InputCode k_bad_reversal{"GC-INPUT-0237", "a reversal that the measurement cannot tell"};
+inline constexpr InputCode k_monte_carlo_of_sequential{"GC-INPUT-0238", "Monte Carlo with the sequential method"};
 
 // Budget jobs.
 inline constexpr InputCode k_no_statement{"GC-INPUT-0300", "an input without a statement of what is known of it"};

@@ -1567,7 +1567,7 @@ public:
     /// \param action  a record that breaks its own rules is a fault of the program, unless the caller knows better
     [[noreturn]] static void refuse(const std::string& pointer, std::string what, std::string rule,
                                     std::string action = "nothing was written; report this as a defect") {
-        throw gum::NoResultError(gum::Diagnostic{.code = "GC-RECORD-0003",
+        throw gum::NoResultError(gum::Diagnostic{.code = "GC-RECORD-0028",
                                                  .where = "record#" + pointer,
                                                  .what = std::move(what),
                                                  .rule = std::move(rule),

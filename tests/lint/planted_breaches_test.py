@@ -207,7 +207,7 @@ class Tree(PlantedTree):
                 ("scripts/run", "#!/bin/sh\ncd /ho" "me/someone/tree\n", "a path of one machine"),
                 ("gum/a.cpp", "\n// TO" "DO: later\n", "without the number of an issue"),
                 ("gum/a.cpp", "\nint a;\r\n", "CR LF"),
-                ("gum/a.h", "/// A value. \\param x  of what\n", "a doc tag inside a line of text"),
+                ("gum/a.h", "\n/// A value. \\param x  of what\n", "a doc tag inside a line of text"),
                 ("package-lock.json", "{\n\"resolved\": " "\"https://example.org/a.tgz\"}", "a package registry"),
                 (".npmrc", "\nregistry " "= https://example.org\n", "a package registry"),
                 ("docs/a.md", "\nsee [b](b.md#c) and [d](https://example.org)\n", "links to b.md, which does not exist"),
