@@ -105,13 +105,18 @@ QuantityUncertainty stated_by_all_coefficients(const gum::MeasurementModel& mode
 
 }  // namespace
 
-engine::EvaluationOptions evaluation_options(const engine::RotaryTableMeasurement& measurement) {
+engine::EvaluationOptions single_test_options(const engine::RotaryTableMeasurement& measurement) {
     engine::EvaluationOptions options;
     options.critical_value = gum::two_sided_normal_critical_value(measurement.outliers.alpha);
     options.non_centrality = options.critical_value + gum::standard_normal_quantile(k_detection_power);
     options.student_critical_value = [alpha = measurement.outliers.alpha](double degrees_of_freedom) {
         return gum::coverage_factor(1.0 - alpha, degrees_of_freedom);
     };
+    return options;
+}
+
+engine::EvaluationOptions evaluation_options(const engine::RotaryTableMeasurement& measurement) {
+    engine::EvaluationOptions options = single_test_options(measurement);
     options.chi_square_upper_tail = gum::chi_square_upper_tail;
     options.fisher_upper_tail = [](double f, double numerator, double denominator) {
         return std::isinf(denominator) ? gum::chi_square_upper_tail(numerator * f, numerator)
@@ -125,7 +130,7 @@ RotaryTableResult evaluate_rotary_table(RotaryTableJob& job, unsigned threads, c
     const bool joint = measurement.method == engine::AdjustmentMethod::joint;
     if (job.monte_carlo && !joint) {
         throw gum::InputError(gum::Diagnostic{
-            "GC-INPUT-0201", job.files.front() + "#/monte_carlo", "Monte Carlo is asked for with the sequential method",
+            "GC-INPUT-0238", job.files.front() + "#/monte_carlo", "Monte Carlo is asked for with the sequential method",
             "Monte Carlo repeats the joint adjustment", "remove \"monte_carlo\", or choose \"method\": \"joint\"",
             gum::Severity::error});
     }

@@ -50,7 +50,10 @@ struct RotaryTableResult {
     bool validation_failed = false;  ///< validation was demanded, and a quantity is not validated
 };
 
-/// Options of the adjustment for a job: critical values and non-centrality of its tests.
+/// Options of an adjustment that tests single distances: critical values and non-centrality. What does not change a result,
+/// tests of groups and of the fixture, is left out.
+[[nodiscard]] engine::EvaluationOptions single_test_options(const engine::RotaryTableMeasurement& measurement);
+/// Options of the adjustment for a job, with all its tests.
 [[nodiscard]] engine::EvaluationOptions evaluation_options(const engine::RotaryTableMeasurement& measurement);
 
 /// Evaluates a rotary-table job: adjustment, law of propagation, derived parameters, Monte Carlo, validation.

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "app/evaluate_rotary_table.h"
 #include "app/fixture_budget.h"
 #include "app/simulation_document.h"
 #include "app/simulation_study.h"
 #include "engine/campaign_layout.h"
 #include "engine/rotary_table_evaluation.h"
-#include "gum/coverage.h"
 #include "gum/quantity/units.h"
 
 namespace gumcert::app {
@@ -58,9 +58,9 @@ Basis basis_of(const engine::RotaryTableJob& job, std::optional<std::size_t> run
         }
         RotaryTableMeasurement measurement = layout;
         measurement.method = engine::AdjustmentMethod::joint;
-        engine::EvaluationOptions options;
-        options.critical_value = gum::two_sided_normal_critical_value(measurement.outliers.alpha);
-        const engine::RotaryTableSolution solution = engine::evaluate_jointly(measurement, options);
+        measurement.reversal = job.measurement.reversal;
+        const engine::RotaryTableSolution solution =
+            engine::evaluate_jointly(measurement, evaluation_options(measurement));
         if (table_unknown) {
             basis.table.u_linear = std::sqrt(solution.stochastic.variance_linear);
             basis.table.u_axial = std::sqrt(solution.stochastic.variance_axial);

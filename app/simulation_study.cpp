@@ -10,12 +10,12 @@
 #include <utility>
 
 #include "app/campaign_draws.h"
+#include "app/evaluate_rotary_table.h"
 #include "engine/campaign_simulation.h"
 #include "engine/joint_adjustment.h"
 #include "engine/rotary_table_contributions.h"
 #include "engine/rotary_table_evaluation.h"
 #include "engine/sequential_evaluation.h"
-#include "gum/coverage.h"
 #include "gum/propagation.h"
 
 namespace gumcert::app {
@@ -27,8 +27,7 @@ using engine::CampaignTruth;
 using engine::Datum;
 using engine::RotaryTableMeasurement;
 
-constexpr double k_detection_power = 0.8;  // of the minimal detectable bias, as Baarda chose it
-constexpr std::size_t k_batch = 256;       // campaigns
+constexpr std::size_t k_batch = 256;  // campaigns
 
 /// The same campaign with the weights, and without the outliers, that the joint adjustment found: what the sequential
 /// method itself cannot find out.
@@ -75,13 +74,6 @@ void count_histogram(std::vector<std::size_t>& histogram, const Eigen::VectorXd&
     }
 }
 
-engine::EvaluationOptions options_of(const RotaryTableMeasurement& measurement) {
-    engine::EvaluationOptions options;
-    options.critical_value = gum::two_sided_normal_critical_value(measurement.outliers.alpha);
-    options.non_centrality = options.critical_value + gum::standard_normal_quantile(k_detection_power);
-    return options;
-}
-
 /// The sequential method for exact distances of one layout, values only.
 ///
 /// The inputs of the method that are not distances are the stated ones in every exact campaign: the model of the first
@@ -93,7 +85,7 @@ public:
     explicit SequentialOfExactDistances(RotaryTableMeasurement first) {
         first.method = AdjustmentMethod::sequential;
         first.datum = Datum::home;
-        model_ = engine::evaluate_sequentially(first, options_of(first)).model;
+        model_ = engine::evaluate_sequentially(first, single_test_options(first)).model;
         inputs_ = gum::input_estimates(*model_);
         for (const engine::Visit& visit : engine::visits_of(first, std::vector<bool>(first.lengths.size(), true))) {
             order_.insert(order_.end(), visit.observations.begin(), visit.observations.end());
@@ -154,7 +146,7 @@ public:
         if (measurement.fixture_component == engine::FixtureComponent::check) {
             measurement.fixture_component = engine::FixtureComponent::given;
         }
-        const engine::EvaluationOptions options = options_of(measurement);
+        const engine::EvaluationOptions options = single_test_options(measurement);
         RotaryTableMeasurement for_sequential;
         try {
             const engine::RotaryTableSolution joint = engine::evaluate_jointly(measurement, options);
