@@ -801,7 +801,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
                 test_reversals(adjustment, normal, covariance, solution.components, options.fisher_upper_tail);
         }
     } else if (options.chi_square_upper_tail && options.fisher_upper_tail) {
-        may_depend = may_depend_on_angle(adjustment, but_gross, stochastic, options.solver.rank_tolerance,
+        may_depend = may_depend_on_angle(adjustment, active, stochastic, options.solver.rank_tolerance,
                                          options.chi_square_upper_tail);
     }
 
