@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "app/document_units.h"
 #include "app/record_parts.h"
 #include "app/table_parameter_record.h"
 #include "engine/contact_point_model.h"
+#include "engine/job/input_codes.h"
 #include "engine/rotary_table_contributions.h"
 #include "engine/rotary_table_trials.h"
 #include "engine/sequential_evaluation.h"
@@ -130,9 +132,9 @@ RotaryTableResult evaluate_rotary_table(RotaryTableJob& job, unsigned threads, c
     const bool joint = measurement.method == engine::AdjustmentMethod::joint;
     if (job.monte_carlo && !joint) {
         throw gum::InputError(gum::Diagnostic{
-            "GC-INPUT-0238", job.files.front() + "#/monte_carlo", "Monte Carlo is asked for with the sequential method",
-            "Monte Carlo repeats the joint adjustment", "remove \"monte_carlo\", or choose \"method\": \"joint\"",
-            gum::Severity::error});
+            std::string(engine::k_monte_carlo_of_sequential.code), job.files.front() + "#/monte_carlo",
+            "Monte Carlo is asked for with the sequential method", "Monte Carlo repeats the joint adjustment",
+            "remove \"monte_carlo\", or choose \"method\": \"joint\"", gum::Severity::error});
     }
     if (!joint) {
         engine::require_evaluable_size(measurement);

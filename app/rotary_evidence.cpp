@@ -168,12 +168,9 @@ void fill_sense_curves_by_angle(reports::RotaryTable& rotary, const engine::Rota
     const gum::UncertaintyBudget& propagation = result.reported.budget;
     const engine::JointAdjustment& solved = model.solved();
     const engine::RotaryTableMeasurement& measurement = model.measurement();
-    const engine::DatumSolution datum =
-        engine::transform_to_datum(measurement, solved.poses(), solved.set_up(), measurement.datum);
-    const Eigen::VectorXd variance =
-        engine::contributions_of(model,
-                                 engine::map_of_both_senses(engine::reported_map(solved, model.equations(), datum)))
-            .covariance.diagonal();
+    const engine::AnglewiseMap map =
+        engine::map_of_both_senses(engine::reported_map(solved, model.equations(), result.solution.datum));
+    const Eigen::VectorXd variance = engine::contributions_of(model, map).covariance.diagonal();
     rotary.sense_curves = {{.direction = "+", .points = {}}, {.direction = "-", .points = {}}};
     for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
         const Eigen::Matrix<double, 6, 1> half = 0.5 * solved.reversal(i);

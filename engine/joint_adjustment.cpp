@@ -384,12 +384,12 @@ void JointAdjustment::copy_parameters_from(const JointAdjustment& other) {
         adjustment_.set_parameters(dead_path_blocks_[d], other.adjustment_.parameters(other.dead_path_blocks_[d]));
     }
     for (std::size_t i = 0; i < pose_blocks_.size(); ++i) {
-        set_pose(i, other.adjustment_.parameters(other.pose_blocks_[i]).head<6>());
+        Eigen::VectorXd pose(pose_size());
+        pose.head<6>() = other.adjustment_.parameters(other.pose_blocks_[i]).head<6>();
         if (reversal_by_angle_) {
-            Eigen::VectorXd pose = adjustment_.parameters(pose_blocks_[i]);
             pose.tail<6>() = other.reversal(i);
-            adjustment_.set_parameters(pose_blocks_[i], std::move(pose));
         }
+        adjustment_.set_parameters(pose_blocks_[i], std::move(pose));
     }
     adjustment_.set_parameters(fixture_block_, other.adjustment_.parameters(other.fixture_block_));
     adjustment_.set_parameters(expansion_block_, other.adjustment_.parameters(other.expansion_block_));

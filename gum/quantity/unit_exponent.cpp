@@ -4,8 +4,6 @@
 
 namespace gumcert::gum {
 
-namespace {}  // namespace
-
 std::optional<UnitExponent> unit_exponent(double value) {
     constexpr double k_rounding = 1e-9;
     for (int denominator = 1; denominator <= k_largest_denominator; ++denominator) {
