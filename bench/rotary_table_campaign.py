@@ -2,6 +2,7 @@
 """Writes a rotary-table job of any size with simulated distances, for measurements of time and memory.
 
     rotary_table_campaign.py DIR [--angles N] [--stations S] [--reflectors M] [--both-senses] [--seed K] [--stated-weights]
+                             [--outliers SHARE --least METRE --largest METRE]
 
 The table turns about x. Stations and reflectors stand on a spiral around the axis, the six error motions are harmonics
 of a few micrometres and arcseconds, every visit of the table deviates by its repeatability and every distance by its
@@ -50,8 +51,12 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--stated-weights", action="store_true",
                         help="state the repeatability of the table, keep the noise, and leave nothing out")
+    parser.add_argument("--outliers", type=float, default=0.0, help="share of the distances that are wrong")
+    parser.add_argument("--least", type=float, default=5e-7, help="size of the least error, in metre")
+    parser.add_argument("--largest", type=float, default=1.0, help="size of the largest; evenly in the logarithm between")
     a = parser.parse_args()
 
+    blunders = np.random.default_rng(a.seed + 1000)  # the same measurement with and without them
     random = np.random.default_rng(a.seed)
     degrees = 360.0 * np.arange(a.angles) / a.angles
     angles = np.radians(degrees)
@@ -75,6 +80,9 @@ def main():
                 places = turned(poses, angles, fixture)
                 lengths = np.linalg.norm(places - stations[j], axis=2) - dead_paths[j]
                 lengths += random.normal(0.0, 0.1e-6, lengths.shape)
+                sizes = np.exp(blunders.uniform(np.log(a.least), np.log(a.largest), lengths.shape))
+                lengths += np.where(blunders.random(lengths.shape) < a.outliers,
+                                    blunders.choice([-1.0, 1.0], lengths.shape) * sizes, 0.0)
                 order = range(a.angles) if sense == "+" else reversed(range(a.angles))
                 for i in order:
                     for m in range(a.reflectors):

@@ -140,8 +140,8 @@ public:
         for (std::size_t g = 0; g < size_; ++g) {
             if (effect[g].size() > 0) {
                 const MatrixXd whitened = whitening_[g] * effect[g];
-                result.weighted += effect[g].transpose() * weighted_[g];
-                result.spread += whitened.transpose() * whitened;
+                result.weighted.noalias() += effect[g].transpose().lazyProduct(weighted_[g]);
+                result.spread.noalias() += whitened.transpose().lazyProduct(whitened);
             }
         }
         result.weight = result.spread.diagonal().maxCoeff();
@@ -149,11 +149,26 @@ public:
         for (Index k = 0; k < q; ++k) {
             result.spread.col(k) -= pull.transpose() * covariance_.times(pull.col(k));
         }
-        for (const LeftOut& left : left_out_) {
-            const MatrixXd across = left.across(effect, q);
-            result.spread -= across.transpose() * left.inverse * across;
-        }
+        result.spread -= taken_from(effect, q, 0);
         return result;
+    }
+    /// What all that was left out after the first `from` takes from Cᵀ M C.
+    [[nodiscard]] MatrixXd taken_from(const Effect& effect, Index q, std::size_t from) const {
+        MatrixXd taken = MatrixXd::Zero(q, q);
+        for (std::size_t i = from; i < left_out_.size(); ++i) {
+            const MatrixXd across = left_out_[i].across(effect, q);
+            taken += across.transpose() * left_out_[i].inverse * across;
+        }
+        return taken;
+    }
+    [[nodiscard]] std::size_t left_out_count() const { return left_out_.size(); }
+    /// Cᵀ V⁻¹ v of one column.
+    [[nodiscard]] double weighted(const Effect& effect) const {
+        double sum = 0.0;
+        for (std::size_t g = 0; g < size_; ++g) {
+            sum += effect[g].size() > 0 ? effect[g].col(0).dot(weighted_[g]) : 0.0;
+        }
+        return sum;
     }
 
 private:
@@ -166,7 +181,7 @@ private:
             MatrixXd sum = MatrixXd::Zero(inverse.rows(), q);
             for (std::size_t g = 0; g < effect.size(); ++g) {
                 if (effect[g].size() > 0) {
-                    sum += columns[g].transpose() * effect[g];
+                    sum.noalias() += columns[g].transpose().lazyProduct(effect[g]);
                 }
             }
             return sum;
@@ -707,6 +722,8 @@ private:
         const double step = measurement.angles[1] - measurement.angles[0];
         const int most = std::min(static_cast<int>(angles) / 2, k_most_steps);
         moved_.resize(measurement.stations.size(), false);
+        index_spreads_.resize(measurement.stations.size(),
+                              std::vector<IndexSpread>(2 * static_cast<std::size_t>(most) + 1));
         std::vector<std::optional<Candidate>> best_of(measurement.stations.size());
         FixedParts(measurement.stations.size(), 1)
             .run(adjustment_.adjustment().workers(), [&](std::size_t j, std::size_t, std::size_t) {
@@ -735,8 +752,8 @@ private:
         Visits::Effect effect(visits_.size());
         for (std::size_t g = 0; g < visits_.size(); ++g) {
             const Visit& visit = adjustment_.visits()[g];
-            if (visit.station != station || visits_.is_out(g)) {
-                continue;
+            if (visit.station != station) {
+                continue;  // and one that is out says nothing: M is zero there
             }
             const std::size_t other =
                 (visit.angle + angles + static_cast<std::size_t>(steps + static_cast<int>(angles))) % angles;
@@ -746,12 +763,19 @@ private:
             change -= poses.col(static_cast<Index>(visit.angle));
             effect[g] = poses_[g] * change;
         }
-        const Visits::Projection projection = visits_.projection(effect, 1);
-        const double spread = projection.spread(0, 0);
-        if (!(spread > k_controlled * projection.weight)) {
+        IndexSpread& spread = index_spreads_[station][static_cast<std::size_t>(steps + most)];
+        if (spread.weight > 0.0) {
+            spread.value -= visits_.taken_from(effect, 1, spread.left_out)(0, 0);
+        } else {
+            const Visits::Projection projection = visits_.projection(effect, 1);
+            spread.value = projection.spread(0, 0);
+            spread.weight = projection.weight;
+        }
+        spread.left_out = visits_.left_out_count();
+        if (!(spread.value > k_controlled * spread.weight)) {
             return;
         }
-        const double deviate = projection.weighted[0] / std::sqrt(spread) / std::max(used_scale_, pose_scale_);
+        const double deviate = visits_.weighted(effect) / std::sqrt(spread.value) / std::max(used_scale_, pose_scale_);
         GroupTest test = judged(GroupKind::angle_index, deviate * deviate, 1,
                                 2 * static_cast<std::size_t>(most) * measurement.stations.size());
         test.station = station;
@@ -937,6 +961,13 @@ private:
     mutable std::map<std::pair<int, double>, double> limits_;  ///< by degrees of freedom and level
     double used_scale_ = 1.0, pose_scale_ = 1.0;               ///< of common errors, of poses
     std::vector<bool> moved_;                                  ///< by station: its angles were found to be others
+    /// Cᵀ M C of angles that are off, with which each later round begins.
+    struct IndexSpread {
+        double value = 0.0;
+        double weight = 0.0;       ///< 0: not computed yet
+        std::size_t left_out = 0;  ///< number of the last that was taken from it
+    };
+    std::vector<std::vector<IndexSpread>> index_spreads_;  ///< by station, then by steps
     GroupTests result_;
 };
 

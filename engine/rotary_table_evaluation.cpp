@@ -29,28 +29,44 @@ std::string micrometres(double length) {
     return significant_text(length / gum::k_micrometre, 3) + " µm";
 }
 
-/// Whether distances that were left out are many of one visit or of one reflector: then it may be the group that is
-/// wrong, and what is left of it does not say so any more.
+/// Probability that at least `least` of `all` distances are wrong when each is with probability `share`, independently.
+double binomial_tail(std::size_t least, std::size_t all, double share) {
+    const double odds = share / (1.0 - share);
+    double probability = std::pow(1.0 - share, static_cast<double>(all));  // of k wrong ones, from none upwards
+    double below = 0.0;
+    for (std::size_t k = 0; k < least; ++k) {
+        below += probability;
+        probability *= odds * static_cast<double>(all - k) / static_cast<double>(k + 1);
+    }
+    return std::max(0.0, 1.0 - below);
+}
+
+/// Whether distances that were left out are so many of one visit or of one reflector that wrong ones scattered over the
+/// measurement would hardly be: then it may be the group that is wrong, and what is left of it does not say so any more.
 bool is_concentrated(const RotaryTableMeasurement& measurement, const std::vector<bool>& active) {
-    constexpr std::size_t k_fewest = 2;
-    constexpr double k_share = 0.2;
+    constexpr double k_expected = 0.5;  // groups with as many, by chance
     struct Count {
         std::size_t out = 0, all = 0;
-        [[nodiscard]] bool is_large() const {
-            return out >= k_fewest && static_cast<double>(out) > k_share * static_cast<double>(all);
-        }
     };
     std::map<std::pair<std::size_t, std::size_t>, Count> visits;  // by pass and angle
     std::vector<Count> reflectors(measurement.reflectors.size());
+    std::size_t out = 0;
     for (std::size_t i = 0; i < active.size(); ++i) {
         const LengthObservation& length = measurement.lengths[i];
         for (Count* count : {&visits[{length.pass, length.angle}], &reflectors[length.reflector]}) {
             ++count->all;
             count->out += active[i] ? std::size_t{0} : std::size_t{1};
         }
+        out += active[i] ? std::size_t{0} : std::size_t{1};
     }
-    return std::ranges::any_of(visits, [](const auto& visit) { return visit.second.is_large(); }) ||
-           std::ranges::any_of(reflectors, &Count::is_large);
+    const double share = static_cast<double>(out) / static_cast<double>(active.size());
+    const auto is_many = [&](const Count& count, std::size_t groups) {
+        constexpr std::size_t k_fewest = 2;
+        return count.out >= k_fewest &&
+               static_cast<double>(groups) * binomial_tail(count.out, count.all, share) < k_expected;
+    };
+    return std::ranges::any_of(visits, [&](const auto& visit) { return is_many(visit.second, visits.size()); }) ||
+           std::ranges::any_of(reflectors, [&](const Count& count) { return is_many(count, reflectors.size()); });
 }
 
 /// Kept in, they would carry the solution away from every other distance.
@@ -127,6 +143,8 @@ JointAdjustment with_active(const JointAdjustment& from, const std::vector<bool>
 constexpr double k_robust_scale = 10.0;
 // Mean whitened residual above which something is grossly wrong, and the robust search is asked.
 constexpr double k_gross_misfit = 30.0;
+// Gauss-Newton steps within which an adjustment without gross errors comes to its end; sound ones need three.
+constexpr int k_refinements_without_gross_errors = 8;
 // Deviation from the others of a visit that no repeatability makes, and that the linear search would not survive.
 constexpr double k_gross_deviation = 200.0 * gum::k_micrometre;
 
@@ -309,6 +327,10 @@ double second_order_effect(double error) {
 constexpr double k_many_outliers = 0.05;
 // Solver step of adjustments that only check: neither the last digits of the parameters nor of components matter.
 constexpr double k_step_of_a_check = 1e-4;
+// The same where outliers are all in: they make the steps slow, and test values are asked for no more than two digits.
+constexpr double k_step_of_many_outliers = 1e-2;
+// Change of a variance, in parts of its uncertainty, at which such an adjustment ends.
+constexpr double k_component_of_a_check = 1e-2;
 // Probability of warning of a fixture that is as stated: what the tests of groups leave of their level.
 constexpr double k_fixture_test_level = 0.001;
 
@@ -347,8 +369,8 @@ StochasticModel variances_without(const GroupTest& group, const JointAdjustment&
     Iteration iteration(estimated, silent);
     SolverOptions solver = options.solver;
     solver.step_tolerance = std::max(solver.step_tolerance, k_step_of_a_check);
-    iteration.settle(without, stochastic, options.max_component_iterations, std::max(options.component_tolerance, 1e-2),
-                     solver);
+    iteration.settle(without, stochastic, options.max_component_iterations,
+                     std::max(options.component_tolerance, k_component_of_a_check), solver);
     return stochastic;
 }
 
@@ -387,7 +409,10 @@ std::optional<GroupTests> groups_with_all(const JointAdjustment& adjustment, con
     Iteration iteration(estimated, silent);
     try {
         JointAdjustment whole = with_active(adjustment, active, stochastic);
-        iteration.settle_exactly(whole, stochastic, options);
+        EvaluationOptions check = options;
+        check.solver.step_tolerance = std::max(options.solver.step_tolerance, k_step_of_many_outliers);
+        check.component_tolerance = std::max(options.component_tolerance, k_component_of_a_check);
+        iteration.settle_exactly(whole, stochastic, check);
         return groups_of(whole, *iteration.normal, iteration.covariance, iteration.estimated(), stochastic, options,
                          group_options);
     } catch (const gum::NoResultError&) {
@@ -596,9 +621,15 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
     // While an outlier may still be in, the last digits of the solution are not worth their steps.
     SolverOptions rough = options.solver;
     rough.step_tolerance = 1e-3;
-    SolveSummary summary = first.adjustment().solve(rough);
+    // Gross errors make the last steps slow. Where there may be some, they are searched for before those steps are taken.
+    const bool may_leave_out = snooping && outliers.action == OutlierAction::remove;
+    SolverOptions first_steps = rough;
+    if (may_leave_out) {
+        first_steps.max_refinements = std::min(k_refinements_without_gross_errors, rough.max_refinements);
+    }
+    SolveSummary summary = first.adjustment().solve(first_steps);
     const double misfit = std::sqrt(summary.chi_square / static_cast<double>(measurement.lengths.size()));
-    if (snooping && outliers.action == OutlierAction::remove && (!summary.converged || misfit > k_gross_misfit)) {
+    if (may_leave_out && (!summary.converged || misfit > k_gross_misfit)) {
         JointAdjustment robust(measurement, active, RigidMotion{}, start, stochastic);
         for (const std::size_t i : find_gross_deviations(robust, rough)) {
             set_aside(i);
