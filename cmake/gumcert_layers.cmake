@@ -30,17 +30,17 @@ set(GUMCERT_THIRD_PARTY_encoding       openssl fcntl.h sys/stat.h unistd.h)  # i
 set(GUMCERT_THIRD_PARTY_gum_quantity   Eigen)
 set(GUMCERT_THIRD_PARTY_gum_expression Eigen)
 set(GUMCERT_THIRD_PARTY_gum            Eigen unsupported boost Random123)
-set(GUMCERT_THIRD_PARTY_engine         Eigen ceres glog cholmod.h umfpack.h SuiteSparseQR.hpp suitesparse)
-set(GUMCERT_THIRD_PARTY_engine_job     Eigen nlohmann valijson)
-set(GUMCERT_THIRD_PARTY_certificate    Eigen)
+set(GUMCERT_THIRD_PARTY_engine         Eigen ceres glog)
+set(GUMCERT_THIRD_PARTY_engine_job     Eigen nlohmann)
+set(GUMCERT_THIRD_PARTY_certificate)
 set(GUMCERT_THIRD_PARTY_reports_record nlohmann)
-set(GUMCERT_THIRD_PARTY_reports        fmt kainjow nlohmann qpdf
+set(GUMCERT_THIRD_PARTY_reports        kainjow nlohmann qpdf
                                        fcntl.h poll.h spawn.h sys/wait.h unistd.h)  # PDF is set by a program of its own
 set(GUMCERT_THIRD_PARTY_reports_dcc    libxml nlohmann)
 set(GUMCERT_THIRD_PARTY_signing        libxml nlohmann openssl qpdf xmlsec
                                        fcntl.h poll.h spawn.h sys/wait.h unistd.h)  # a signer may be a program
-set(GUMCERT_THIRD_PARTY_app            Eigen fmt gumcert_build_info.h nlohmann fcntl.h sys/stat.h unistd.h)
-set(GUMCERT_THIRD_PARTY_app_cli        CLI fmt glog gumcert_build_info.h nlohmann unistd.h)
+set(GUMCERT_THIRD_PARTY_app            Eigen gumcert_build_info.h nlohmann fcntl.h sys/stat.h unistd.h)
+set(GUMCERT_THIRD_PARTY_app_cli        CLI fmt gumcert_build_info.h nlohmann unistd.h)
 
 # Layers that may open files; the others are handed what they need and hand back what they made.
 set(GUMCERT_MAY_TOUCH_FILES encoding engine/job reports signing app app/cli)

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Who includes whom, checked against the tables of cmake/gumcert_layers.cmake.
 
-    check_includes.py [ROOT]
+    check_includes.py [ROOT] [--no-spare-permissions]
 
 Prints `path:line: reason` for every breach and exits with 1, or 0 when there is none. A file belongs to the layer with
-the longest folder prefix. Four laws:
+the longest folder prefix. Four laws, and with the option a fifth:
 
 1. An #include of ours names a layer in the list of the file's layer; one from outside is in its list of third-party
    headers, or in the C++ standard library.
@@ -13,6 +13,7 @@ the longest folder prefix. Four laws:
 3. Only the layers of GUMCERT_MAY_TOUCH_FILES include <fstream> or <filesystem>.
 4. Libraries never print, exit, or read the clock, the locale or the environment: only the program (app/cli) does.
    Numbers are read and printed without the locale: std::from_chars and std::to_chars.
+5. A permission of the tables that no file of its layer uses is taken back: it would let in what nobody decided.
 """
 
 import pathlib
@@ -72,6 +73,18 @@ class Law:
             raise SystemExit("cmake/gumcert_layers.cmake: no GUMCERT_LAYER_FOLDERS found — the scanner reads its law there")
         self.edges = {layer: tables["EDGES_" + layer.replace("/", "_")] for layer in self.layers}
         self.third_party = {layer: tables["THIRD_PARTY_" + layer.replace("/", "_")] for layer in self.layers}
+        self.used = set()  # (layer, word) of each permission that an #include needed
+
+    def spare_permissions(self):
+        """A sentence for each permission that no #include needed."""
+        for layer in self.layers:
+            for table, words in (("EDGES", self.edges), ("THIRD_PARTY", self.third_party)):
+                for word in words[layer]:
+                    if (layer, word) not in self.used:
+                        yield f"GUMCERT_{table}_{layer.replace('/', '_')}: no file of {layer} includes {word}"
+        for layer in self.may_touch_files:
+            if not any((layer, header) in self.used for header in FILE_HEADERS):
+                yield f"GUMCERT_MAY_TOUCH_FILES: no file of {layer} includes {' or '.join(FILE_HEADERS)}"
 
     def layer_of(self, path):
         """The layer with the longest folder prefix of a path relative to the root, or None."""
@@ -101,6 +114,7 @@ def breaches(root, path, layer, law):
         name, at = include["name"], line(include.start())
         used = law.layer_of(name)
         if used is not None:
+            law.used.add((layer, used))
             if include["form"] != '"':
                 yield at, f'<{name}> is ours — own headers are included as "{name}"'
             if used != layer and used not in law.edges[layer]:
@@ -114,6 +128,7 @@ def breaches(root, path, layer, law):
             yield at, f'"{name}" is in no layer — own headers are included from the root of the tree, others with <>'
             continue
         standard = "/" not in name and "." not in name
+        law.used.update((layer, word) for word in [*law.third_party[layer], *FILE_HEADERS] if in_list(name, [word]))
         if not standard and not in_list(name, law.third_party[layer]):
             yield at, f"<{name}> is not among the third-party headers of {layer}: {', '.join(law.third_party[layer])}"
         if path.endswith(".h") and path not in law.private_headers and in_list(name, law.not_in_headers):
@@ -132,7 +147,9 @@ def breaches(root, path, layer, law):
 
 
 def main(arguments):
-    root = pathlib.Path(arguments[0] if arguments else ".").resolve()
+    no_spare_permissions = "--no-spare-permissions" in arguments
+    roots = [argument for argument in arguments if not argument.startswith("--")]
+    root = pathlib.Path(roots[0] if roots else ".").resolve()
     law = Law(root)
     found = checked = 0
     for top in sorted({layer.split("/")[0] for layer in law.layers}):
@@ -151,6 +168,9 @@ def main(arguments):
             for line, reason in reasons:
                 print(f"{path}:{line}: {reason}")
                 found += 1
+    for reason in law.spare_permissions() if no_spare_permissions else ():
+        print(f"cmake/gumcert_layers.cmake: {reason} — take the word out of the table")
+        found += 1
     if checked == 0:
         print(f"{root}: no source found to check")
         return 1

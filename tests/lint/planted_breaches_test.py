@@ -48,8 +48,8 @@ class Includes(PlantedTree):
         self.plant("gum/coverage.h", '#pragma once\n#include "gum/quantity/diagnostic.h"\n')
         self.plant("engine/adjustment.h", "#pragma once\n#include <Eigen/Core>\n")
 
-    def scan(self):
-        return self.run_program(sys.executable, ROOT / "tests/lint/check_includes.py", self.root)
+    def scan(self, *options):
+        return self.run_program(sys.executable, ROOT / "tests/lint/check_includes.py", self.root, *options)
 
     def refused(self, path, text, line, reason):
         self.plant(path, text)
@@ -59,6 +59,15 @@ class Includes(PlantedTree):
         self.plant("engine/adjustment.cpp", '#include "engine/adjustment.h"\n#include <ceres/ceres.h>\n')
         self.plant("app/cli/main.cpp", "#include <CLI/CLI.hpp>\n#include <iostream>\nint main() { std::cout << 1; }\n")
         self.expect(self.scan(), 0, "5 files checked, 0 breaches")
+
+    def test_permission_that_nobody_uses(self):
+        self.expect(self.scan("--no-spare-permissions"), 1,
+                    "GUMCERT_EDGES_gum_expression: no file of gum/expression includes gum/quantity",
+                    "GUMCERT_THIRD_PARTY_engine: no file of engine includes ceres",
+                    "GUMCERT_MAY_TOUCH_FILES: no file of signing includes fstream or filesystem")
+        code, text = self.scan("--no-spare-permissions")
+        for used in ("no file of gum includes gum/quantity", "no file of engine includes Eigen"):
+            self.assertNotIn(used, text)
 
     def test_tree_without_sources_is_not_clean(self):
         for folder in ("gum", "engine"):
