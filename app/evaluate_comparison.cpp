@@ -54,7 +54,10 @@ reports::EvaluationRecord evaluate_comparison(const engine::ComparisonJob& job,
     reports::Comparison comparison =
         job.methods ? evaluate_methods(job, &found) : evaluate_laboratories(job, progress, &found);
     if (job.certificate) {
-        comparison.languages = job.certificate->languages;
+        const certificate::CertificateData& data = *job.certificate;
+        comparison.languages = data.languages;
+        comparison.issuer = reports::ComparisonIssuer{
+            .laboratory = data.laboratory.name, .number = data.number, .issued = data.dates.issued};
     }
     const std::vector<gum::Diagnostic> notes = notes_on(job, comparison, std::move(found));
     reports::EvaluationRecord record = record_head(

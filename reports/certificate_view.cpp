@@ -10,7 +10,6 @@
 #include "reports/certificate_rotary_sections.h"
 #include "reports/certificate_statement_sections.h"
 #include "reports/circle_closure_sections.h"
-#include "reports/comparison_identity.h"
 #include "reports/comparison_sections.h"
 #include "reports/record/canonical_json.h"
 #include "reports/reported_results.h"
@@ -267,11 +266,8 @@ void uncertainty_statement(CertificateBuilder& builder, const Wording& words, co
     if (coverage.any) {
         const std::string low = fixed(coverage.k_low, 2);
         const std::string high = fixed(coverage.k_high, 2);
-        const auto nu = [&](const std::optional<double>& v) {
-            return v ? Text(whole_below(*v)) : words("document", "infinite");
-        };
-        const Text nu_low = nu(coverage.nu_low);
-        const Text nu_high = nu(coverage.nu_high);
+        const Text nu_low = degrees_of_freedom(coverage.nu_low, words);
+        const Text nu_high = degrees_of_freedom(coverage.nu_high, words);
         const Text k = low == high
                            ? words.fill("k_one", {{"k", words.number(low)}})
                            : words.fill("k_between", {{"low", words.number(low)}, {"high", words.number(high)}});
@@ -452,25 +448,26 @@ void certificate_sections(CertificateBuilder& builder, const Wording& words, con
 
 /// Head and foot of the pages of a comparison report.
 json comparison_running_texts(const Wording& words, const EvaluationRecord& record) {
-    const ComparisonIdentity identity = comparison_identity(record, words);
+    const ComparisonIssuer issuer = record.comparison->issuer.value_or(ComparisonIssuer{});
     const Text type = words("document", "comparison_type");
-    const Text head = identity.number.empty() ? type
-                                              : words.filled("certificate", "certificate_of_head",
-                                                             {{"type", type}, {"number", identity.number}});
-    const std::string issuer = identity.laboratory.empty() ? record.comparison->organiser : identity.laboratory.first();
+    const Text head = issuer.number.empty() ? type
+                                            : words.filled("certificate", "certificate_of_head",
+                                                           {{"type", type}, {"number", issuer.number}});
+    const Text laboratory = words.localised(issuer.laboratory);
+    const std::string name = laboratory.empty() ? record.comparison->organiser : laboratory.first();
     const std::string title = shortened(printable(record.title), 80);
-    return {{"header_left", issuer.empty() ? title : shortened(printable(issuer), 80)},
+    return {{"header_left", name.empty() ? title : shortened(printable(name), 80)},
             {"header_right", printable(head.first())},
             {"footer_left", "gumcert-comparison-1 · " + record.software.name + " " + record.software.version}};
 }
 
 /// "2026-11-21" as {year, month, day} without leading zeros; 1970-01-01 where no date is stated, because PDF/A demands
 /// one and that of the computer would change the bytes with every run.
-json date_of_creation(const EvaluationRecord& record, const Wording& words) {
+json date_of_creation(const EvaluationRecord& record) {
     std::array<int, 3> parts = {1970, 1, 1};
-    const std::string date = record.certificate                 ? record.certificate->data.dates.issued
-                             : record.kind == k_comparison_kind ? comparison_identity(record, words).issued
-                                                                : "";
+    const std::string date = record.certificate                               ? record.certificate->data.dates.issued
+                             : record.comparison && record.comparison->issuer ? record.comparison->issuer->issued
+                                                                              : "";
     if (date.size() == 10 && date[4] == '-' && date[7] == '-') {
         std::array<int, 3> read = {};
         const auto digits = [&](std::size_t from, std::size_t count, int& v) {
@@ -576,7 +573,7 @@ nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::
     view["mark"] = is_comparison ? json::array() : certificate_marks(words, record);
     view["running_title"] = shortened(printable(record.title), 80);
     view["pages"] = pages(words);
-    view["created"] = date_of_creation(record, words);
+    view["created"] = date_of_creation(record);
     view["attachment"] = json::array();
     view["closing"] = json::array();
     if (is_comparison || !record.certificate) {  // the first page of a certificate says it

@@ -1,7 +1,6 @@
 #include "reports/comparison_sections.h"
 
 #include "gum/quantity/unit.h"
-#include "reports/comparison_identity.h"
 #include "reports/comparison_laboratory_sections.h"
 #include "reports/comparison_method_sections.h"
 #include "reports/comparison_parts.h"
@@ -22,11 +21,11 @@ namespace gumcert::reports {
 namespace {
 
 Facts who_and_when(const Wording& words, const EvaluationRecord& record) {
-    const ComparisonIdentity identity = comparison_identity(record, words);
+    const ComparisonIssuer issuer = record.comparison->issuer.value_or(ComparisonIssuer{});
     Facts facts = {{words("comparison", "organiser"), record.comparison->organiser}};
-    add_fact(facts, words("comparison", "laboratory"), identity.laboratory);
-    add_fact(facts, words("comparison", "number"), identity.number);
-    add_fact(facts, words("comparison", "issued"), identity.issued);
+    add_fact(facts, words("comparison", "laboratory"), words.localised(issuer.laboratory));
+    add_fact(facts, words("comparison", "number"), issuer.number);
+    add_fact(facts, words("comparison", "issued"), issuer.issued);
     return facts;
 }
 

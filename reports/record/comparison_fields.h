@@ -453,6 +453,13 @@ void describe(Archive& a, Struct& r) {
     });
 }
 
+template <class Archive, certificate::Described<ComparisonIssuer> Struct>
+void describe(Archive& a, Struct& r) {
+    a("laboratory", r.laboratory);
+    a("number", r.number);
+    a("issued", r.issued);
+}
+
 template <class Archive, certificate::Described<Comparison> Struct>
 void describe(Archive& a, Struct& r) {
     a("reference_name", r.reference_name);
@@ -483,6 +490,7 @@ void describe(Archive& a, Struct& r) {
     a.added("participants", r.participants);
     a.added("vectors", r.vectors);
     a.added("youden", r.youden);
+    a.added("issuer", r.issuer);
 }
 
 }  // namespace gumcert::reports

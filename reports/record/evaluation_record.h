@@ -463,6 +463,13 @@ struct ComparisonSummary {
     std::optional<BiasLineSummary> bias = {};
 };
 
+/// Who issues a comparison report, and under which number and date; "" where the job does not say it.
+struct ComparisonIssuer {
+    certificate::LocalisedText laboratory;
+    std::string number;
+    std::string issued;  ///< "2026-11-21"
+};
+
 struct Comparison {
     std::string reference_name;
     std::vector<double> contact_point_mm;
@@ -493,6 +500,7 @@ struct Comparison {
     std::vector<ParticipantSummary> participants = {};
     std::vector<VectorScore> vectors = {};
     std::vector<YoudenDiagram> youden = {};
+    std::optional<ComparisonIssuer> issuer = {};  ///< none where the job has no certificate data
 };
 
 struct Software {

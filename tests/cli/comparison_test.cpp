@@ -321,6 +321,25 @@ TEST_F(ComparisonProgram, SameBytesForAnyNumberOfThreads) {
     }
 }
 
+TEST_F(ComparisonProgram, TheIssuerStandsInTheReportWhereverItsDataAreWritten) {
+    const json data = {{"status", "specimen"},
+                       {"number", "KC-14"},
+                       {"laboratory", {{"name", "Example Metrology Institute"}}},
+                       {"dates", {{"issued", "2026-11-21"}}}};
+    write_bytes(folder() / "issuer.json", data.dump());
+    for (const json& stated : {data, json("issuer.json")}) {
+        json job = json::parse(k_key_comparison);
+        job["certificate"] = stated;
+        EXPECT_EQ(record_of(job.dump())["comparison"]["issuer"],
+                  json({{"laboratory", "Example Metrology Institute"}, {"number", "KC-14"}, {"issued", "2026-11-21"}}));
+        ASSERT_EQ(render(record_file(), "text", folder() / "report.txt").code, 0);
+        const std::string text = bytes_of(folder() / "report.txt");
+        for (const char* shown : {"Example Metrology Institute", "KC-14", "2026-11-21"}) {
+            EXPECT_NE(text.find(shown), std::string::npos) << shown;
+        }
+    }
+}
+
 TEST_F(ComparisonProgram, CertificateDataMakeNoCertificate) {
     json job = json::parse(k_key_comparison);
     job["certificate"] = {{"status", "specimen"}};

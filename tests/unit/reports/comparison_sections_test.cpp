@@ -263,19 +263,20 @@ TEST(ComparisonReport, BeginsWithTheAnswer) {
 
 TEST(ComparisonReport, SaysWhoIssuedItAndWhen) {
     EvaluationRecord record = one_item(6);
-    record.job_json = R"({"certificate": {"number": "KC-14", "dates": {"issued": "2026-11-21"},
-        "laboratory": {"name": {"en": "Example Metrology Institute", "de": "Beispiel-Institut"}}}})";
+    certificate::LocalisedText laboratory;
+    laboratory.by_language = {{"de", "Beispiel-Institut"}, {"en", "Example Metrology Institute"}};
+    record.comparison->issuer = ComparisonIssuer{laboratory, "KC-14", "2026-11-21"};
     const json view = view_of(record, "de");
     EXPECT_EQ(view["header_left"], "Beispiel-Institut");
     EXPECT_EQ(view["header_right"], "Vergleichsbericht KC-14");
     EXPECT_EQ(view["created"]["year"], "2026");
     EXPECT_EQ(view["created"]["month"], "11");
     EXPECT_THAT(view["sections"][0].dump(), HasSubstr("2026-11-21"));
-    for (const char* job : {"", "[]", "{\"certificate\": \"data.json\"}", "{\"certificate\": {\"number\": 7}}"}) {
-        record.job_json = job;
-        EXPECT_EQ(view_of(record)["header_right"], "Comparison report") << job;
-        EXPECT_EQ(view_of(record)["created"]["year"], "1970") << job;
-    }
+    record.job_json = R"({"certificate": {"number": "OTHER", "dates": {"issued": "2020-01-01"}}})";
+    EXPECT_THAT(view_of(record)["header_right"].get<std::string>(), HasSubstr("KC-14")) << "no document reads the job";
+    record.comparison->issuer.reset();
+    EXPECT_EQ(view_of(record)["header_right"], "Comparison report");
+    EXPECT_EQ(view_of(record)["created"]["year"], "1970");
 }
 
 TEST(ComparisonReport, HoldsEveryPrintedNumberOfTheResults) {
@@ -637,7 +638,7 @@ EvaluationRecord with_text(EvaluationRecord record, const std::string& text) {
     Comparison& c = *record.comparison;
     record.title = c.organiser = c.method_name = c.reference_name = c.position_name = c.audit_finding = text;
     c.published_source = text;
-    record.job_json = json{{"certificate", {{"number", text}, {"laboratory", {{"name", text}}}}}}.dump();
+    c.issuer = ComparisonIssuer{certificate::LocalisedText(text), text, text};
     c.remarks = {text};
     for (ComparisonItemEvaluation& item : c.items) {
         item.name = item.traceability = item.reference_participant = text;
