@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/record_parts.h"
+#include "certificate/statement_of_uncertainty.h"
 #include "gum/rounding.h"
 
 namespace gumcert::app {
@@ -34,7 +35,7 @@ std::string printed_degrees_of_freedom(double nu) {
     if (std::isnan(nu)) {
         return "–";
     }
-    return std::isinf(nu) ? "∞" : rounded(nu, nu < 1000.0 ? 3 : 4);
+    return certificate::printed_degrees_of_freedom(finite_or_none(nu));
 }
 
 }  // namespace gumcert::app

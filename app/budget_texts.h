@@ -17,6 +17,7 @@ inline constexpr int k_digits_of_u = 2;
 [[nodiscard]] std::string printed_estimate(double value, double u);
 /// A number that a person wrote, after it went to SI and back: 15 digits at most, without the traces of conversion.
 [[nodiscard]] std::string as_stated(double value);
+/// Degrees of freedom as a certificate prints them; "–" for NaN, where none can be stated.
 [[nodiscard]] std::string printed_degrees_of_freedom(double nu);
 
 }  // namespace gumcert::app

@@ -1,7 +1,5 @@
 #include "app/comparison_print.h"
 
-#include <cmath>
-
 #include "app/record_parts.h"
 #include "gum/rounding.h"
 
@@ -49,14 +47,6 @@ std::string printed_as_stated(const std::optional<double>& number) {
 
 std::string printed_score(const std::optional<double>& score) {
     return score ? gum::round_to_quantum(*score, k_decimals_of_score) : "";
-}
-
-std::string printed_degrees_of_freedom(const std::optional<double>& nu) {
-    constexpr double k_whole_from = 10.0;
-    if (!nu) {
-        return "";
-    }
-    return gum::round_to_quantum(*nu, *nu >= k_whole_from || *nu == std::floor(*nu) ? 0 : 1);
 }
 
 std::string printed_probability(const std::optional<double>& probability) {

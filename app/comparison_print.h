@@ -19,8 +19,6 @@ namespace gumcert::app {
 [[nodiscard]] std::string printed_as_stated(const std::optional<double>& number);
 /// Two decimals, as of a score or a coverage factor; "" for nothing.
 [[nodiscard]] std::string printed_score(const std::optional<double>& score);
-/// Degrees of freedom: whole from 10 on, one decimal below; "" for nothing.
-[[nodiscard]] std::string printed_degrees_of_freedom(const std::optional<double>& nu);
 /// Two significant digits, not less than 0.0001 in plain decimals, "<1E-300" below that; "" for nothing.
 [[nodiscard]] std::string printed_probability(const std::optional<double>& probability);
 

@@ -7,6 +7,7 @@
 #include "app/comparison_print.h"
 #include "app/laboratory_estimates.h"
 #include "app/record_parts.h"
+#include "certificate/statement_of_uncertainty.h"
 #include "gum/comparison.h"
 #include "gum/consensus_spread.h"
 #include "gum/coverage.h"
@@ -285,7 +286,7 @@ void add_uncertainty(const engine::ComparisonJob& job, const LaboratoryData& dat
         evaluation.printed.low = printed_value(*evaluation.low, evaluation.U);
         evaluation.printed.high = printed_value(*evaluation.high, evaluation.U);
     }
-    evaluation.printed.nu = printed_degrees_of_freedom(evaluation.nu);
+    evaluation.printed.nu = evaluation.nu ? certificate::printed_degrees_of_freedom(evaluation.nu) : "";
     evaluation.printed.U_of_scores = printed_uncertainty(evaluation.U_of_scores);
     evaluation.printed.coverage_with_scatter =
         evaluation.coverage_with_scatter ? gum::percent(*evaluation.coverage_with_scatter) + " %" : "";

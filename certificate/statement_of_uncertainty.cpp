@@ -91,15 +91,16 @@ std::string printed_coverage_factor(double k) {
     return gum::round_to_quantum(k, 2);
 }
 
+std::string whole_degrees_of_freedom(double nu_eff) {
+    return nu_eff < 10000.0 ? gum::round_to_quantum(std::floor(nu_eff * (1.0 + k_noise)), 0) : ">9999";
+}
+
 std::string printed_degrees_of_freedom(std::optional<double> nu_eff) {
     if (!nu_eff) {
         return "∞";
     }
-    if (*nu_eff >= 10000.0) {
-        return ">9999";
-    }
     if (*nu_eff >= 100.0) {
-        return gum::round_to_quantum(std::floor(*nu_eff * (1.0 + k_noise)), 0);
+        return whole_degrees_of_freedom(*nu_eff);
     }
     const std::string text = gum::round_to_quantum(*nu_eff, 1);
     return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;

@@ -40,8 +40,11 @@ struct StatedPair {
 
 /// k with two decimals.
 [[nodiscard]] std::string printed_coverage_factor(double k);
-/// Effective degrees of freedom with one decimal below 100, so that k can be looked up for them, else the next lower
-/// whole number, and ">9999"; "∞" for none (infinite).
+/// The next lower whole number (JCGM 100:2008, G.4.1, note 1), where 3.999…9 is 4; ">9999" from 10 000 on, where the
+/// digits say nothing.
+[[nodiscard]] std::string whole_degrees_of_freedom(double nu_eff);
+/// Degrees of freedom with one decimal below 100, so that k can be looked up for them: k is taken for ν_eff as it is,
+/// and t(16.8) is not t(16). Else as whole_degrees_of_freedom; "∞" for none (infinite).
 [[nodiscard]] std::string printed_degrees_of_freedom(std::optional<double> nu_eff);
 
 /// A capability as the scope states it; with two significant digits, and not less than it is, where it was computed and

@@ -2,6 +2,7 @@
 #include "reports/record/reported_result.h"
 #include "reports/reported_results.h"
 
+#include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
 #include "reports/budget_plots.h"
@@ -64,10 +65,6 @@ std::string percent_text(double probability) {
         text.pop_back();
     }
     return text + " %";
-}
-
-Text nu_text(const std::optional<double>& nu, const Wording& words) {
-    return nu ? words.number(degrees_of_freedom(*nu)) : words("document", "infinite");
 }
 
 /// "a, b and 3 more"
@@ -140,7 +137,7 @@ Text coverage_sentence(const CoverageGroup& group, const Wording& words) {
     std::optional<double> k_high;
     std::optional<double> nu_low;
     bool nu_differs = false;
-    const Text first_nu = nu_text(group.results.front()->nu_eff, words);
+    const Text first_nu = degrees_of_freedom(group.results.front()->nu_eff, words);
     for (const Result* r : group.results) {
         if (const std::optional<double> k = reported_result(*r).k) {
             k_low = k_low ? std::min(*k_low, *k) : *k;
@@ -149,7 +146,7 @@ Text coverage_sentence(const CoverageGroup& group, const Wording& words) {
         if (r->nu_eff && r->coverage == "student_t") {
             nu_low = nu_low ? std::min(*nu_low, *r->nu_eff) : *r->nu_eff;
         }
-        nu_differs = nu_differs || nu_text(r->nu_eff, words) != first_nu;
+        nu_differs = nu_differs || degrees_of_freedom(r->nu_eff, words) != first_nu;
     }
     Text k = "k";
     if (k_low) {
@@ -173,8 +170,8 @@ Text coverage_sentence(const CoverageGroup& group, const Wording& words) {
     if (!nu_low) {
         return words.fill("coverage_normal", {{"k", k}, {"p", p}});
     }
-    const Text nu = nu_differs ? words.fill("nu_between", {{"low", whole_below(*nu_low)}})
-                               : words.fill("nu_one", {{"nu", words.number(degrees_of_freedom(*nu_low))}});
+    const Text nu = nu_differs ? words.fill("nu_between", {{"low", certificate::whole_degrees_of_freedom(*nu_low)}})
+                               : words.fill("nu_one", {{"nu", degrees_of_freedom(nu_low, words)}});
     return words.fill("coverage_student_t", {{"k", k}, {"nu_eff", nu}, {"p", p}});
 }
 
@@ -290,10 +287,9 @@ void result_table(CertificateBuilder& builder, const Wording& words, const Resul
         }
         if (with_U) {
             row.push_back(of.k ? fixed(*of.k, 2) : "");
-            row.push_back(of.method == "monte_carlo"         ? Text()
-                          : coverage_kind(*r) == "student_t" ? nu_text(r->nu_eff, words)
-                          : r->nu_eff                        ? words.number(degrees_of_freedom(*r->nu_eff))
-                                                             : Text());
+            row.push_back(of.method == "monte_carlo"                      ? Text()
+                          : coverage_kind(*r) == "student_t" || r->nu_eff ? degrees_of_freedom(r->nu_eff, words)
+                                                                          : Text());
         }
         if (!one_p) {
             row.push_back(percent_text(r->coverage_probability));
@@ -417,7 +413,7 @@ std::vector<Text> budget_line(const BudgetRow& row, const Result& result, bool p
             with_unit(row.printed.u, gum::unit_for_people(difference_unit(row.unit))),
             distribution_name(row.distribution, words),
             type_of(row),
-            row.printed.nu.empty() ? nu_text(row.nu, words) : Text(row.printed.nu),
+            row.printed.nu.empty() ? degrees_of_freedom(row.nu, words) : Text(row.printed.nu),
             with_unit(row.printed.sensitivity, sensitivity_unit(result.unit, row.unit)),
             bracketed(row.printed.contribution),
             bracketed(row.printed.share)};
@@ -442,7 +438,7 @@ void budget(CertificateBuilder& builder, const Wording& words, const Result& res
     const bool nu_known = coverage_kind(result) == "student_t" || result.nu_eff;
     rows.push_back({result.name, with_unit(result.printed.value, result.printed.unit), "",
                     distribution_name(result.distribution, words), "",
-                    nu_known ? nu_text(result.nu_eff, words) : Text(), "", rounded(result.u), "100"});
+                    nu_known ? degrees_of_freedom(result.nu_eff, words) : Text(), "", rounded(result.u), "100"});
     kinds.push_back(RowKind::closing);
     builder.table("budget-" + std::to_string(number), words.fill("budget_result", {{"name", result.name}}),
                   {{words("label", "quantity_x"), ""},
@@ -649,7 +645,7 @@ void region(CertificateBuilder& builder, const Wording& words, const CoverageReg
         {words("label", "parallelepiped"), r.k_q ? words.fill("parallelepiped", {{"k_q", words.number(r.printed.k_q)}})
                                                  : words("sentence", "no_parallelepiped")}};
     if (r.degrees_of_freedom) {
-        rows.emplace_back(words("label", "region_nu"), words.number(degrees_of_freedom(*r.degrees_of_freedom)));
+        rows.emplace_back(words("label", "region_nu"), degrees_of_freedom(r.degrees_of_freedom, words));
     }
     if (r.smallest_region) {
         rows.emplace_back(
@@ -912,10 +908,11 @@ void variance_analysis(CertificateBuilder& builder, const Wording& words, const 
          {words("label", "F"), "", true},
          {words("label", "F_critical"), "", true},
          {words("label", "p_value_short"), "", true}},
-        {{words("label", "between"), rounded(v.sum_of_squares_between), whole_below(v.degrees_of_freedom_between),
-          v.printed.mean_square[0], v.printed.F, v.printed.F_critical, v.printed.p_value},
-         {words("label", "within"), rounded(v.sum_of_squares_within), whole_below(v.degrees_of_freedom_within),
-          v.printed.mean_square[1], "", "", ""}});
+        {{words("label", "between"), rounded(v.sum_of_squares_between),
+          certificate::whole_degrees_of_freedom(v.degrees_of_freedom_between), v.printed.mean_square[0], v.printed.F,
+          v.printed.F_critical, v.printed.p_value},
+         {words("label", "within"), rounded(v.sum_of_squares_within),
+          certificate::whole_degrees_of_freedom(v.degrees_of_freedom_within), v.printed.mean_square[1], "", "", ""}});
     builder.definitions(
         {{words("label", "mean"), words.number(with_unit(v.printed.mean, unit))},
          {words("label", "s_within"), words.number(with_unit(v.printed.within, unit))},

@@ -1,5 +1,6 @@
 #include "reports/certificate_builder.h"
 
+#include "certificate/statement_of_uncertainty.h"
 #include "reports/certificate_view.h"
 
 #include <nlohmann/json.hpp>
@@ -95,16 +96,8 @@ std::string fixed(double v, int decimals) {
     return {buffer.data(), end};
 }
 
-std::string whole_below(double v) {
-    return v < 10000.0 ? fixed(std::floor(v * (1.0 + 1e-12)), 0) : ">9999";  // 3.999…9 is 4
-}
-
-std::string degrees_of_freedom(double v) {
-    if (v >= 100.0) {
-        return whole_below(v);
-    }
-    const std::string text = fixed(v, 1);
-    return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
+Text degrees_of_freedom(const std::optional<double>& nu, const Wording& words) {
+    return nu ? words.number(certificate::printed_degrees_of_freedom(nu)) : words("document", "infinite");
 }
 
 void add_fact(Facts& facts, const Text& label, const Text& value) {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -94,13 +95,7 @@ void put(nlohmann::json& object, const std::string& key, const Text& text, const
 
 /// A coverage factor or a redundancy, rounded for display.
 [[nodiscard]] std::string fixed(double v, int decimals);
-
-/// Degrees of freedom as documents state them: the next lower whole number (JCGM 100:2008, G.4.1, note 1); from 10 000
-/// on their digits say nothing.
-[[nodiscard]] std::string whole_below(double v);
-
-/// Effective degrees of freedom with one decimal below 100, so that k can be looked up for them: k is taken for ν_eff
-/// as it is, and t(16.8) is not t(16).
-[[nodiscard]] std::string degrees_of_freedom(double v);
+/// Degrees of freedom, as certificate::printed_degrees_of_freedom prints them; a word for infinitely many.
+[[nodiscard]] Text degrees_of_freedom(const std::optional<double>& nu, const Wording& words);
 
 }  // namespace gumcert::reports

@@ -61,10 +61,6 @@ std::string detectable(double bias_um) {
     return bias_um > 0.0 ? rounded(bias_um) : "";
 }
 
-Text nu_text(const std::optional<double>& nu, const Wording& words) {
-    return nu ? Text(degrees_of_freedom(*nu)) : words("document", "infinite");
-}
-
 /// What Monte Carlo says of a quantity; "" where it was not asked.
 Text verdict_of(const std::optional<MonteCarloSummary>& m, const Wording& words) {
     if (!m || !m->validation) {
@@ -103,7 +99,7 @@ void parameter_table(CertificateBuilder& builder, const Wording& words, const st
     for (const TableParameter& p : parameters) {
         rows.push_back({p.name, result_meaning(table, p.name, p.description, words), p.printed.value,
                         stated_uncertainty(p.printed, p.reported, words), p.printed.unit, printed_k(p),
-                        by_monte_carlo(p) ? Text() : nu_text(p.nu_eff, words)});
+                        by_monte_carlo(p) ? Text() : degrees_of_freedom(p.nu_eff, words)});
         if (compared) {
             rows.back().push_back(verdict_of(p.monte_carlo, words));
         }
@@ -220,7 +216,7 @@ void variance_components(CertificateBuilder& builder, const Wording& words, cons
         std::vector<Text> row = {words.sentence(v.name), v.printed.value, v.printed.U, v.printed.unit};
         if (in_depth) {
             row.push_back(v.printed_stated);
-            row.push_back(v.degrees_of_freedom ? degrees_of_freedom(*v.degrees_of_freedom) : "");
+            row.push_back(v.degrees_of_freedom ? degrees_of_freedom(v.degrees_of_freedom, words) : Text());
         }
         row.push_back(fixed(v.redundancy, 1));
         row.push_back(words("value", v.estimated ? "estimated" : "given"));
@@ -357,8 +353,7 @@ void budget_table(CertificateBuilder& builder, const Wording& words, const std::
     Rows rows;
     for (const BudgetRow& row : budget) {
         rows.push_back({source_name(row.input, words), source_name(row.source, words), row.type,
-                        distribution_name(row.distribution, words),
-                        row.nu ? Text(whole_below(*row.nu)) : words("document", "infinite"), row.printed.u,
+                        distribution_name(row.distribution, words), degrees_of_freedom(row.nu, words), row.printed.u,
                         gum::unit_for_people(row.unit), row.printed.contribution, row.printed.share});
     }
     builder.table(id, caption,

@@ -1,5 +1,6 @@
 #include "reports/certificate_uncertainty_section.h"
 
+#include "certificate/statement_of_uncertainty.h"
 #include "reports/printed_texts.h"
 #include "reports/reported_results.h"
 #include "reports/result_names.h"
@@ -91,7 +92,8 @@ Text student_t_sentence(const std::vector<const CertifiedValue*>& values, const 
         least = v->nu_eff.value_or(0.0) < least->nu_eff.value_or(0.0) ? v : least;
     }
     const std::string key = common(nus) ? "nu_one" : "nu_between";
-    const Text lowest = words.number(key == "nu_one" ? nus.front() : whole_below(least->nu_eff.value_or(0.0)));
+    const Text lowest = words.number(
+        key == "nu_one" ? nus.front() : certificate::whole_degrees_of_freedom(least->nu_eff.value_or(0.0)));
     const Text nu = words.fill(key, {{key == "nu_one" ? "nu" : "low", lowest}});
     return words.fill("coverage_student_t", {{"k", k}, {"nu_eff", nu}, {"p", p}});
 }

@@ -22,7 +22,8 @@ TEST(BudgetTexts, EstimatesEndWithTheirUncertainty) {
     EXPECT_EQ(printed_estimate(10.12345, 0.0), "10.12345");
     EXPECT_EQ(printed_degrees_of_freedom(INFINITY), "∞");
     EXPECT_EQ(printed_degrees_of_freedom(NAN), "–");
-    EXPECT_EQ(printed_degrees_of_freedom(7.1234), "7.12");
+    EXPECT_EQ(printed_degrees_of_freedom(7.1234), "7.1");
+    EXPECT_EQ(printed_degrees_of_freedom(148.6), "148") << "as in the line of the result: never more than there are";
     EXPECT_EQ(rounded(0.012345, 2), "0.012");
 }
 
