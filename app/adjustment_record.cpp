@@ -10,6 +10,7 @@
 #include "app/record_parts.h"
 #include "gum/coverage.h"
 #include "gum/rounding.h"
+#include "text/numbers.h"
 
 namespace gumcert::app {
 
@@ -190,7 +191,7 @@ reports::FlaggedDistance flagged_distance(const RotaryTableSolution& solution,
     const engine::DistanceReliability& reliability = solution.reliability[finding.length];
     reports::FlaggedDistance row;
     name_distance(row, measurement, finding.length);
-    row.angle = shortest(measurement.angles_deg[measurement.lengths[finding.length].angle]);
+    row.angle = text::shortest(measurement.angles_deg[measurement.lengths[finding.length].angle]);
     row.residual_um = gum::round_to_quantum(reliability.residual / gum::k_micrometre, 2);
     row.test_value = gum::round_to_quantum(reliability.test_value, 1);
     row.removed = finding.removed;

@@ -11,6 +11,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/random_effects.h"
 #include "gum/robust_statistics.h"
+#include "text/lists.h"
 
 namespace gumcert::app {
 
@@ -57,7 +58,7 @@ void require_usable(const engine::ComparisonJob& job, const LaboratoryData& data
                 without.push_back(job.participants[data.results[i]->participant].id);
             }
         }
-        gum::refuse("GC-COMPARE-0101", data.where, "no uncertainty is stated by " + listed(without, k_most_names),
+        gum::refuse("GC-COMPARE-0101", data.where, "no uncertainty is stated by " + text::listed(without, k_most_names),
                     method + " weighs results by their uncertainties",
                     "State u, or U and k, let these results not contribute, or take median or algorithm_a.");
     }

@@ -17,6 +17,8 @@
 #include "gum/outlying_readings.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
+#include "text/lists.h"
+#include "text/numbers.h"
 
 namespace gumcert::app {
 
@@ -47,7 +49,7 @@ std::string place_of(const std::string& input, const std::string& component, con
         }
     }
     if (!named.empty()) {
-        text += (named.size() == 1 ? " at point " : " at points ") + listed(named, k_most_points);
+        text += (named.size() == 1 ? " at point " : " at points ") + text::listed(named, k_most_points);
     }
     return text;
 }
@@ -62,15 +64,15 @@ Remark refuted_fit(const FitSummary& fit) {
         .message = {.code = "GC-BUDGET-0032",
                     .where = "fit " + fit.name,
                     .what = "chi-square is " + fit.printed.sum_of_squares + " with " +
-                            shortest(fit.degrees_of_freedom) + " degrees of freedom (p-value " + fit.printed.p_value +
-                            "): the residuals are " + fit.printed.residual_standard_deviation +
+                            text::shortest(fit.degrees_of_freedom) + " degrees of freedom (p-value " +
+                            fit.printed.p_value + "): the residuals are " + fit.printed.residual_standard_deviation +
                             " times as large as the stated uncertainties of the data explain",
                     .rule = "a fit is used when its residuals do not refute the stated uncertainties and the curve: "
                             "chi-square is tested at 5 % (ISO/TS 28037:2010)",
                     .action = "Correct the uncertainties of the data, or the equation; or add "
                               "\"scale_by_residuals\": true to the fit, which takes the uncertainty from the "
                               "residuals: " +
-                              listed(scaled) + ".",
+                              text::listed(scaled) + ".",
                     .severity = gum::Severity::warning},
         .id = "F01",
         .clause = "ISO/TS 28037:2010",
@@ -83,7 +85,7 @@ Remark overstated_fit(const FitSummary& fit) {
         .message = {.code = "GC-BUDGET-0033",
                     .where = "fit " + fit.name,
                     .what = "chi-square is " + fit.printed.sum_of_squares + " with " +
-                            shortest(fit.degrees_of_freedom) +
+                            text::shortest(fit.degrees_of_freedom) +
                             " degrees of freedom: the residuals are far smaller than the stated uncertainties of "
                             "the data",
                     .rule = "by chance alone this happens less than once in a hundred fits",
@@ -210,8 +212,8 @@ Remark refuted_pool(const ReadingsSummary& of, const PoolTest& test) {
                         .where = place_of(of.input, of.component, test.points),
                         .what = "the readings scatter " + gum::round_significant(std::sqrt(test.F), 2) +
                                 " times as much as their pooled standard deviation says (F = " +
-                                gum::round_significant(test.F, 3) + " with " + shortest(test.nu) + " and " +
-                                (std::isinf(test.nu_pool) ? "∞" : shortest(test.nu_pool)) +
+                                gum::round_significant(test.F, 3) + " with " + text::shortest(test.nu) + " and " +
+                                (std::isinf(test.nu_pool) ? "∞" : text::shortest(test.nu_pool)) +
                                 " degrees of freedom, p-value " + printed_p(test.p_value) + ")",
                         .rule = "a pooled standard deviation holds for readings of the same procedure: by chance alone "
                                 "they scatter so much less than once in a thousand times",

@@ -2,7 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -23,6 +22,9 @@
 #include "gum/quantity/decimal_rounding.h"
 #include "gum/quantity/special_values.h"
 #include "gum/rounding.h"
+#include "text/csv_field.h"
+#include "text/lists.h"
+#include "text/numbers.h"
 
 namespace gumcert::app {
 
@@ -388,7 +390,7 @@ void warn_of_lost_digits(const BudgetResult& result, reports::EvaluationRecord& 
     if (!names.empty()) {
         record.diagnostics.push_back(
             {.code = "GC-BUDGET-0034",
-             .where = (names.size() == 1 ? "result " : "results ") + listed(names, 5),
+             .where = (names.size() == 1 ? "result " : "results ") + text::listed(names, 5),
              .what = "the rounding of the numbers that it is computed from may be " + worst,
              .rule = "a number has about 16 digits; what is lost of the inputs and constants must be small beside the "
                      "uncertainty",
@@ -400,7 +402,7 @@ void warn_of_lost_digits(const BudgetResult& result, reports::EvaluationRecord& 
     if (!inexact.empty()) {
         record.diagnostics.push_back(
             {.code = "GC-BUDGET-0034",
-             .where = (inexact.size() == 1 ? "result " : "results ") + listed(inexact, 5),
+             .where = (inexact.size() == 1 ? "result " : "results ") + text::listed(inexact, 5),
              .what =
                  "exact by definition, and fewer than six of its digits are held by the numbers that it is computed "
                  "from",
@@ -567,22 +569,15 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
 std::string budget_covariance_csv(const BudgetJob& job, const BudgetResult& result, const Eigen::MatrixXd& covariance) {
     const auto [names, units, matrix] = named(job, result, covariance);
     const Eigen::MatrixXd scaled = in_units(matrix, units);
-    const auto quoted = [](const std::string& name) {
-        std::string text = "\"";
-        for (const char c : name) {
-            text += c == '"' ? "\"\"" : std::string(1, c);
-        }
-        return text + "\"";
-    };
     std::string csv = "result";
     for (const std::string& name : names) {
-        csv += "," + quoted(name);
+        csv += "," + text::csv_field(name);
     }
     csv += "\n";
     for (Eigen::Index i = 0; i < scaled.rows(); ++i) {
-        csv += quoted(names[static_cast<std::size_t>(i)]);
+        csv += text::csv_field(names[static_cast<std::size_t>(i)]);
         for (Eigen::Index j = 0; j < scaled.cols(); ++j) {
-            csv += "," + all_digits(scaled(i, j));
+            csv += "," + text::shortest(scaled(i, j));
         }
         csv += "\n";
     }

@@ -7,19 +7,16 @@
 #include "app/record_parts.h"
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/rounding.h"
+#include "text/numbers.h"
 
 namespace gumcert::app {
-
-std::string all_digits(double value) {
-    return shortest(value == 0.0 ? 0.0 : value);
-}
 
 std::string rounded(double value, int digits) {
     return gum::round_significant(value, digits);
 }
 
 std::string printed_estimate(double value, double u) {
-    return u > 0.0 ? gum::round_to_uncertainty(value, u, k_digits_of_u).value : all_digits(value);
+    return u > 0.0 ? gum::round_to_uncertainty(value, u, k_digits_of_u).value : text::shortest(value);
 }
 
 std::string as_stated(double value) {
@@ -28,7 +25,7 @@ std::string as_stated(double value) {
     double back = value;
     std::from_chars(text.data(), written.ptr, back);
     // The 15 digits are what was written, unless conversion moved the number by more than its own rounding.
-    return all_digits(std::fabs(back - value) <= 4e-16 * std::fabs(value) ? back : value);
+    return text::shortest(std::fabs(back - value) <= 4e-16 * std::fabs(value) ? back : value);
 }
 
 std::string printed_degrees_of_freedom(double nu) {

@@ -9,8 +9,6 @@ namespace gumcert::app {
 
 inline constexpr int k_digits_of_u = 2;
 
-/// All digits, and no negative zero.
-[[nodiscard]] std::string all_digits(double value);
 /// A number with a few significant digits.
 [[nodiscard]] std::string rounded(double value, int digits);
 /// A value beside a standard uncertainty: digits down to those of u; all of them where u is 0.

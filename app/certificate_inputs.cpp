@@ -15,6 +15,7 @@
 #include "engine/job/certificate_statement.h"
 #include "gum/convolution.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/lists.h"
 
 namespace gumcert::app {
 
@@ -39,7 +40,7 @@ std::string known_profiles(const fs::path& folder) {
         }
     }
     std::sort(names.begin(), names.end());
-    return names.empty() ? "none" : listed(names);
+    return names.empty() ? "none" : text::listed(names);
 }
 
 /// A certificate names its profile: a file of the laboratory that is called as one of the program is the same as it.

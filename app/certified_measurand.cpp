@@ -9,6 +9,7 @@
 #include "gum/argument_check.h"
 #include "gum/quantity/unit.h"
 #include "reports/record/certified_tables.h"
+#include "text/numbers.h"
 
 namespace gumcert::app {
 
@@ -84,7 +85,7 @@ bool range(FindingList& found, const ScopeEntry& entry, std::size_t i, const Sco
                               : FindingSeverity::major,
               "X12", "ILAC-P14:09/2020", certificate::place_in("/accreditation/scope", i, "ranges"),
               "the range of \"" + entry.id + "\" is held against the input \"" + row->input +
-                  "\" = " + gum::number_text(*row->value) + " " + row->unit + ", and the result \"" +
+                  "\" = " + text::shortest(*row->value) + " " + row->unit + ", and the result \"" +
                   budgeted.column.result + "\" is " + budgeted.value.printed_value + " " + budgeted.column.unit,
               "Hold the range against the result (\"of\": \"value\"), or state the true parameter.");
     return true;

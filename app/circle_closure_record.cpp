@@ -16,6 +16,7 @@
 #include "gum/propagation.h"
 #include "gum/rounding.h"
 #include "reports/record/reported_result.h"
+#include "text/numbers.h"
 
 namespace gumcert::app {
 
@@ -46,11 +47,11 @@ std::vector<OutputName> output_names(const CircleClosureJob& job) {
     const std::string table = table_quantity(job);
     std::vector<OutputName> names;
     for (std::size_t j = 0; j < job.measurement.steps; ++j) {
-        const std::string point = shortest(job.step_angle_deg(j));
+        const std::string point = text::shortest(job.step_angle_deg(j));
         names.push_back({table + "[" + point + "]", table, point, "deviation of the table"});
     }
     for (std::size_t i = 0; i < job.measurement.steps; ++i) {
-        const std::string point = shortest(job.side_angle_deg(i));
+        const std::string point = text::shortest(job.side_angle_deg(i));
         names.push_back({std::string(k_artefact_quantity) + "[" + point + "]", k_artefact_quantity, point,
                          "deviation of the artefact"});
     }
@@ -462,7 +463,7 @@ std::string circle_closure_covariance_csv(const CircleClosureJob& job, const Cir
     for (Index i = 0; i < V.rows(); ++i) {
         csv += names[static_cast<std::size_t>(i)];
         for (Index j = 0; j < V.cols(); ++j) {
-            csv += "," + shortest(V(i, j));
+            csv += "," + text::shortest(V(i, j));
         }
         csv += "\n";
     }

@@ -2,6 +2,7 @@
 
 #include "app/record_parts.h"
 #include "gum/rounding.h"
+#include "text/numbers.h"
 
 namespace gumcert::app {
 
@@ -14,15 +15,10 @@ constexpr int k_decimals_of_score = 2;
 constexpr double k_least_probability = 1e-300;
 constexpr const char* k_below_least = "<1E-300";
 
-/// No negative zero.
-std::string all_digits(double value) {
-    return shortest(value == 0.0 ? 0.0 : value);
-}
-
 }  // namespace
 
 std::string printed_value(double value, const std::optional<double>& U) {
-    return U && *U > 0.0 ? gum::round_to_uncertainty(value, *U, k_digits_of_u).value : all_digits(value);
+    return U && *U > 0.0 ? gum::round_to_uncertainty(value, *U, k_digits_of_u).value : text::shortest(value);
 }
 
 std::string printed_difference(double difference, const std::optional<double>& U, const std::optional<double>& scale) {
@@ -42,7 +38,7 @@ std::string printed_uncertainty(const std::optional<double>& u) {
 }
 
 std::string printed_as_stated(const std::optional<double>& number) {
-    return number ? all_digits(*number) : "";
+    return number ? text::shortest(*number) : "";
 }
 
 std::string printed_score(const std::optional<double>& score) {

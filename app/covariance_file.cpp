@@ -6,6 +6,8 @@
 
 #include "app/record_parts.h"
 #include "encoding/npy.h"
+#include "text/csv_field.h"
+#include "text/numbers.h"
 
 namespace gumcert::app {
 
@@ -21,14 +23,14 @@ std::string as_csv(const engine::AnglewiseCovariance& covariance, const std::vec
                    const Eigen::VectorXd& per_unit) {
     std::string text;
     for (std::size_t i = 0; i < names.size(); ++i) {
-        text += (i == 0 ? "" : ",") + names[i];
+        text += (i == 0 ? "" : ",") + text::csv_field(names[i]);
     }
     text += '\n';
     for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
         for (Eigen::Index j = 0; j < covariance.rows(); ++j) {
             // The lower element for both, so that the file is symmetric to the last bit, as a reader may check.
             const double element = i >= j ? covariance(i, j) : covariance(j, i);
-            text += (j == 0 ? "" : ",") + shortest(element * (per_unit[i] * per_unit[j]));
+            text += (j == 0 ? "" : ",") + text::shortest(element * (per_unit[i] * per_unit[j]));
         }
         text += '\n';
     }

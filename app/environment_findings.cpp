@@ -11,6 +11,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
+#include "text/numbers.h"
 
 namespace gumcert::app {
 
@@ -61,7 +62,7 @@ Observed observed_fixture(const std::vector<StationEnvironment>& rows) {
 
 /// Half a unit of the last decimal place of a number as it is written.
 double half_of_last_place(double value) {
-    const std::string text = shortest(value);
+    const std::string text = text::shortest(value);
     if (text.find_first_of("eE") != std::string::npos) {
         return 0.0;
     }
@@ -136,7 +137,7 @@ Finding not_as_stated(const Observed& values, const Condition& condition, std::s
             .severity = FindingSeverity::critical,
             .where = "/conditions/" + std::to_string(index),
             .what = says(values) + ", and \"" + condition.quantity.in("en") + "\" is stated from " +
-                    shortest(condition.minimum) + unit + " to " + shortest(condition.maximum) + unit,
+                    text::shortest(condition.minimum) + unit + " to " + text::shortest(condition.maximum) + unit,
             .action = "Correct the condition, or the file: both are of this measurement."};
 }
 
@@ -145,7 +146,7 @@ Finding outside_of_limits(const Observed& values, const Condition& condition, do
             .clause = "ISO/IEC 17025:2017, 7.8.2.1 n",
             .severity = FindingSeverity::critical,
             .where = "/conditions/" + std::to_string(index),
-            .what = says(values) + ", beyond the limit of the method, " + shortest(limit) + " " +
+            .what = says(values) + ", beyond the limit of the method, " + text::shortest(limit) + " " +
                     gum::unit_for_people(condition.unit) + ", and no deviation is stated",
             .action = "State the deviation from the method and what it does to the results, or repeat the work."};
 }

@@ -11,13 +11,13 @@
 #include "engine/job/input_codes.h"
 #include "engine/job/input_text.h"
 #include "gum/quantity/units.h"
+#include "text/numbers.h"
 
 namespace gumcert::app {
 
 namespace {
 
 using engine::RotaryTableJob;
-using engine::shortest;
 using gum::Diagnostic;
 using gum::InputGroup;
 using gum::k_micrometre;
@@ -106,8 +106,8 @@ void check_values(const RotaryTableJob& job, const engine::BudgetJob& budget, co
         if (!(std::abs(value - stated) <= k_greatest_difference)) {
             problems.push_back({.code = code(engine::k_fixture_budget_differs),
                                 .where = job.fixture_budget_file + "#/points",
-                                .what = budget.points[p].name + " is " + shortest(value * 1e3) +
-                                        " mm in the budget and " + shortest(stated * 1e3) +
+                                .what = budget.points[p].name + " is " + text::shortest_plain(value * 1e3) +
+                                        " mm in the budget and " + text::shortest_plain(stated * 1e3) +
                                         " mm in the coordinates file",
                                 .rule = "both state the same coordinate, within 0.1 µm",
                                 .action = "Correct whichever is wrong."});
@@ -137,7 +137,8 @@ void warn_of_columns(const RotaryTableJob& job, const Eigen::MatrixXd& covarianc
     notes.push_back({.code = code(engine::k_warn_fixture_u_differs),
                      .where = "fixture coordinates",
                      .what = "u of " + engine::fixture_coordinate_name(reflector, static_cast<std::size_t>(at % 3)) +
-                             " is " + shortest(job.stated_fixture_u(at) / k_micrometre) + " µm in the coordinates file",
+                             " is " + text::shortest_plain(job.stated_fixture_u(at) / k_micrometre) +
+                             " µm in the coordinates file",
                      .rule = "the column is not used; what is used instead differs by more than a factor of 2",
                      .action = "Find out which of the two is right.",
                      .severity = gum::Severity::warning});

@@ -8,6 +8,8 @@
 #include "app/laboratory_estimates.h"
 #include "app/record_parts.h"
 #include "gum/rounding.h"
+#include "text/lists.h"
+#include "text/numbers.h"
 
 namespace gumcert::app {
 
@@ -77,8 +79,8 @@ bool inconsistent(const ComparisonItemEvaluation& item) {
 std::string test_text(const ComparisonItemEvaluation& item) {
     const reports::ConsistencySummary& test = *item.consistency;
     return "the results are not consistent with their uncertainties: chi-square " + test.printed.chi_square + " on " +
-           count_of(test.degrees_of_freedom, "degree") + " of freedom, p = " + test.printed.p_value +
-           ", below alpha = " + shortest(test.alpha);
+           text::count_of(test.degrees_of_freedom, "degree") + " of freedom, p = " + test.printed.p_value +
+           ", below alpha = " + text::shortest(test.alpha);
 }
 
 void add_consistency(ItemMessages& messages) {
@@ -235,9 +237,9 @@ std::string subset_remark(const EvaluatedItem& item, const ComparisonItemEvaluat
     std::string remark =
         "All " + std::to_string(item.data->contributing.size()) + " results together are not consistent: chi-square " +
         gum::round_significant(all.chi_square, 4) + " on " +
-        count_of(static_cast<std::int64_t>(all.degrees_of_freedom), "degree") +
+        text::count_of(static_cast<std::int64_t>(all.degrees_of_freedom), "degree") +
         " of freedom, p = " + printed_probability(all.p_value) + ". The largest consistent subset leaves out ";
-    remark += listed(evaluation.not_consistent) +
+    remark += text::listed(evaluation.not_consistent) +
               ". Being left out says that a result does not fit the others, not that it is wrong.";
     if (!item.assigned.subset_unique) {
         remark += " Another subset of the same size fits as well: the choice between them is arbitrary.";
@@ -293,7 +295,7 @@ void add_remarks_on_coverage(const engine::ComparisonJob& job, const reports::Co
         }
     }
     if (!converted.empty()) {
-        remarks.push_back("The coverage factors of " + listed(converted, k_most_names_in_remark) +
+        remarks.push_back("The coverage factors of " + text::listed(converted, k_most_names_in_remark) +
                           " are not those of about 95 %: En takes U = k u with the factor for " +
                           in_percent(comparison.score_probability) +
                           " and the stated degrees of freedom in place of the stated U.");
@@ -345,7 +347,7 @@ void add_remarks_on_correlation(const engine::ComparisonJob& job, const reports:
     }
     if (!job.independent_sources.empty()) {
         remarks.push_back(
-            "Taken as not shared although several results may name it: " + listed(job.independent_sources) + ".");
+            "Taken as not shared although several results may name it: " + text::listed(job.independent_sources) + ".");
     }
     if (count_points(comparison, [](const ComparisonPoint& point) { return point.En_worst.has_value(); }) > 0) {
         remarks.emplace_back(
@@ -378,7 +380,7 @@ void add_remarks_on_sources(const std::vector<EvaluatedItem>& items, std::vector
         remarks.push_back(
             "Budgets name a source for several inputs, and not for the same ones: how their results share it cannot be "
             "told, and the largest covariance that it can give was taken (" +
-            listed({ambiguous.begin(), ambiguous.end()}) + ").");
+            text::listed({ambiguous.begin(), ambiguous.end()}) + ").");
     }
 }
 

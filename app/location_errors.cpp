@@ -9,9 +9,9 @@
 #include "app/document_units.h"
 #include "app/record_parts.h"
 #include "app/table_parameter_record.h"
-#include "engine/number_texts.h"
 #include "gum/coverage.h"
 #include "gum/quantity/units.h"
+#include "text/numbers.h"
 
 namespace gumcert::app {
 
@@ -92,8 +92,8 @@ LocationErrors evaluate_location_errors(const engine::RotaryTableJob& job, const
         result.notes.push_back(not_stated(
             "GC-FRAME-0002",
             "the points do not carry the frame of the machine: their residuals of " +
-                engine::significant_text(rms / gum::k_micrometre, 2) +
-                " µm (rms) have p = " + engine::significant_text(result.p_value, 2) + "; no location errors are stated",
+                text::significant(rms / gum::k_micrometre, 2) +
+                " µm (rms) have p = " + text::significant(result.p_value, 2) + "; no location errors are stated",
             "location errors are stated in a frame whose points agree within their uncertainties",
             "Look for a wrong point, or state larger uncertainties, with a reason"));
         return result;
@@ -102,7 +102,7 @@ LocationErrors evaluate_location_errors(const engine::RotaryTableJob& job, const
     if (const double angle = model.angle_to_machine_axis(); !(angle <= k_largest_angle)) {
         result.notes.push_back(
             not_stated("GC-FRAME-0003",
-                       "the axis stands at " + engine::fixed_text(angle / gum::k_degree, 1) +
+                       "the axis stands at " + text::fixed(angle / gum::k_degree, 1) +
                            "° to the machine axis of its letter; no location errors are stated",
                        "location errors are small deviations from a coordinate axis of the machine",
                        "Check the frame of the coordinates, their order, and the letter of the axis"));
@@ -136,8 +136,8 @@ void fill_location_errors(reports::RotaryTable& rotary, const engine::RotaryTabl
     record.chi_square = errors.fit.chi_square;
     record.degrees_of_freedom = errors.fit.degrees_of_freedom;
     record.p_value = errors.p_value;
-    record.printed_p = engine::significant_text(errors.p_value, 2);
-    record.printed_residual = engine::significant_text(
+    record.printed_p = text::significant(errors.p_value, 2);
+    record.printed_residual = text::significant(
         std::sqrt(errors.fit.residuals.squaredNorm() / static_cast<double>(errors.fit.residuals.size())) /
             gum::k_micrometre,
         2);

@@ -15,6 +15,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/special_values.h"
 #include "gum/rounding.h"
+#include "text/numbers.h"
 
 namespace gumcert::app {
 
@@ -41,7 +42,7 @@ struct Differences {
 std::string place_of(const ComparedPoint& point, std::size_t i) {
     std::string place = "point " + (point.name.empty() ? std::to_string(i + 1) : point.name);
     if (point.name.empty() && point.angle_deg) {
-        place = "point at " + shortest(*point.angle_deg) + "°";
+        place = "point at " + text::shortest(*point.angle_deg) + "°";
     }
     return point.direction.empty() ? place : place + ", direction " + point.direction;
 }
@@ -69,8 +70,9 @@ double correlation_of(const MethodComparison& comparison, std::size_t i) {
     if (!(std::abs(r) <= 1.0 + k_rounding_of_correlation)) {
         gum::refuse(
             "GC-COMPARE-0202", place_of(point, i),
-            "the covariance of both methods is " + shortest(comparison.cross_covariance(at, at)) +
-                ", with standard uncertainties " + shortest(point.u) + " and " + shortest(point.reference_u),
+            "the covariance of both methods is " + text::shortest(comparison.cross_covariance(at, at)) +
+                ", with standard uncertainties " + text::shortest(point.u) + " and " +
+                text::shortest(point.reference_u),
             "a correlation coefficient lies between -1 and 1",
             "State the same uncertainty of a shared source in both budgets, or list it in \"independent_sources\".");
     }

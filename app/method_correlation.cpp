@@ -8,6 +8,7 @@
 #include "app/record_parts.h"
 #include "app/shared_sources.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/lists.h"
 
 namespace gumcert::app {
 
@@ -83,7 +84,7 @@ std::vector<std::string> sources_in_both(const MethodComparisonRequest& request,
     throw gum::InputError(gum::Diagnostic{
         .code = "GC-COMPARE-0207",
         .where = "correlation",
-        .what = "both budgets name " + listed(names) + ", and what they say of it cannot hold together",
+        .what = "both budgets name " + text::listed(names) + ", and what they say of it cannot hold together",
         .rule = "an input whose source both methods share is the same at all points in both budgets, or "
                 "\"between_points\": \"independent\" in both",
         .action = "State it alike in both budgets, or list the source in \"independent_sources\"."});
@@ -109,12 +110,12 @@ void add_shared_sources(const ComparisonJob& job, const MethodSide& method, cons
             !is_possible(comparison.covariance, comparison.reference_covariance, comparison.cross_covariance)) {
             refuse_shared_sources(names);
         }
-        record.remarks.push_back("Both budgets name " + listed(names) +
+        record.remarks.push_back("Both budgets name " + text::listed(names) +
                                  ". The covariance between the methods is computed from what these sources contribute "
                                  "to each of them, with its sign.");
     }
     if (!ambiguous.empty()) {
-        record.remarks.push_back("The budgets do not tell which inputs of " + listed(ambiguous) +
+        record.remarks.push_back("The budgets do not tell which inputs of " + text::listed(ambiguous) +
                                  " are the same quantity: the largest covariance that they can have is taken, which "
                                  "makes |En| larger.");
     }
@@ -125,7 +126,7 @@ void add_shared_sources(const ComparisonJob& job, const MethodSide& method, cons
         }
     }
     if (!set_aside.empty()) {
-        record.remarks.push_back("Both budgets name " + listed(set_aside) +
+        record.remarks.push_back("Both budgets name " + text::listed(set_aside) +
                                  "; the job states that they are independent of each other all the same.");
     }
 }
@@ -196,7 +197,7 @@ void add_correlation(const ComparisonJob& job, const MethodSide& method, const M
     }
     const std::vector<std::string> both = sources_in_both(request, method, reference);
     if (!both.empty()) {
-        record.remarks.push_back("Both budgets name " + listed(both) +
+        record.remarks.push_back("Both budgets name " + text::listed(both) +
                                  "; the covariance that follows from it is not used, because the job states the "
                                  "correlation of the methods.");
     }

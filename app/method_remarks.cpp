@@ -9,6 +9,7 @@
 #include "app/record_parts.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
+#include "text/lists.h"
 
 namespace gumcert::app {
 
@@ -80,7 +81,7 @@ private:
         if (row.points < 2) {
             return;
         }
-        const std::string points = count_of(row.points, "point");
+        const std::string points = text::count_of(row.points, "point");
         if (*row.effective_points < k_nearly_all * static_cast<double>(row.points)) {
             say("The " + points + " are not as many independent proofs: they share effects of their set-up, and by " +
                 "their covariance they tell as much as about " + row.printed.effective_points +
@@ -129,7 +130,7 @@ private:
                                           ? "The agreement rests on the assumption that both methods share nothing: "
                                           : "The number of points above 1 is that of methods that share nothing: ";
             say(rests + "with the worst plausible correlation |En| would be above 1 at " +
-                std::to_string(*row.count_above_1_worst) + " of " + count_of(row.points, "point") + ".");
+                std::to_string(*row.count_above_1_worst) + " of " + text::count_of(row.points, "point") + ".");
         }
     }
 
@@ -182,7 +183,7 @@ private:
             return;
         }
         say("The covariance of the differences has rank " + std::to_string(*row.rank) + " for " +
-            count_of(row.points, "point") +
+            text::count_of(row.points, "point") +
             ": some differences follow from others. The joint numbers (vector En, p of the Mahalanobis distance) are "
             "those of what is free to vary.");
         if (findings_.beyond_covariance.back() > k_visible_beyond * std::sqrt(static_cast<double>(row.points))) {
@@ -236,7 +237,7 @@ private:
             converted += point.U_of_scores || point.reference_U_of_scores ? 1 : 0;
         }
         if (converted > 0) {
-            say("At " + std::to_string(converted) + " of " + count_of(whole().points, "point") +
+            say("At " + std::to_string(converted) + " of " + text::count_of(whole().points, "point") +
                 " a stated coverage factor is not that of about 95 %: En takes U = k u with the factor for " +
                 gum::round_significant(100.0 * record_.score_probability, 4) + " %" +
                 " and the stated degrees of freedom there.");
@@ -310,8 +311,8 @@ private:
         const ComparisonSummary& row = whole();
         if (row.count_above_1_audited) {
             say("With the findings of the audit on the uncertainties corrected, |En| is above 1 at " +
-                std::to_string(*row.count_above_1_audited) + " of " + count_of(row.points, "point") + " instead of " +
-                std::to_string(row.count_above_1) + ".");
+                std::to_string(*row.count_above_1_audited) + " of " + text::count_of(row.points, "point") +
+                " instead of " + std::to_string(row.count_above_1) + ".");
         }
     }
 

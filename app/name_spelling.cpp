@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "gum/expression/name.h"
+#include "text/utf8.h"
 
 namespace gumcert::app {
 
@@ -95,7 +96,7 @@ std::string folded(char32_t code) {
     const auto* const found = std::find_if(k_foldings.begin(), k_foldings.end(), [&](const Folding& folding) {
         return folding.first <= plain && plain <= folding.last;
     });
-    return found != k_foldings.end() ? std::string(found->folded) : gum::encode_utf8(small_letter(plain));
+    return found != k_foldings.end() ? std::string(found->folded) : text::encode_utf8(small_letter(plain));
 }
 
 }  // namespace
@@ -103,7 +104,7 @@ std::string folded(char32_t code) {
 std::string without_spelling(std::string_view name) {
     std::string letters;
     for (std::size_t i = 0; i < name.size();) {
-        const gum::Character character = gum::decode_utf8(name, i);
+        const text::Character character = text::decode_utf8(name, i);
         const std::size_t bytes = std::max<std::size_t>(character.bytes, 1);
         letters += character.bytes == 0 ? std::string(name.substr(i, 1)) : folded(character.code);
         i += bytes;

@@ -11,6 +11,7 @@
 #include "engine/geometry_check.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/rounding.h"
+#include "text/lists.h"
 
 namespace gumcert::app::plan {
 
@@ -23,15 +24,6 @@ using reports::StudyTable;
 
 std::string angle_text(const RotaryTableMeasurement& layout, std::size_t angle) {
     return plain(layout.angles_deg[angle]) + "°";
-}
-
-/// Names with commas between them, the last one behind "and".
-std::string listed(const std::vector<std::string>& names) {
-    std::string text;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-    }
-    return text;
 }
 
 /// How many of the targets a layout meets.
@@ -54,7 +46,7 @@ std::string targets_sentence(const Setting& setting, const Expected& expected) {
     if (wanted > 0) {
         text += parameters.empty()
                     ? " It meets those of the parameters of the table."
-                    : " Of the parameters of the table it misses the target of " + listed(parameters) + ".";
+                    : " Of the parameters of the table it misses the target of " + text::all_of(parameters) + ".";
     }
     return text;
 }
@@ -63,8 +55,8 @@ std::string targets_sentence(const Setting& setting, const Expected& expected) {
 std::string broken_sentence(const Proposal& proposal) {
     return proposal.broken.empty()
                ? ""
-               : "The proposed stations break what the planned ones meet: the target of " + listed(proposal.broken) +
-                     ". State \"keep_met_targets\": true to keep what is met.";
+               : "The proposed stations break what the planned ones meet: the target of " +
+                     text::all_of(proposal.broken) + ". State \"keep_met_targets\": true to keep what is met.";
 }
 
 std::string U_of(const PlannedParameter& parameter) {
@@ -140,7 +132,7 @@ std::vector<std::string> sight_sentences(const Setting& setting) {
     sentences.push_back(names.empty()
                             ? "The job states no obstacle: whether the table, the fixture or the machine is in "
                               "the way of a beam was not looked at."
-                            : "Obstacles: " + listed(names) +
+                            : "Obstacles: " + text::all_of(names) +
                                   ". Whatever else is in the way of a beam was not "
                                   "looked at.");
     sentences.push_back(rules.reflector_diameter > 0.0
@@ -162,7 +154,7 @@ std::vector<std::string> sight_sentences(const Setting& setting) {
         sentences.push_back("Reflectors accept beams within " + plain(*rules.acceptance_angle / gum::k_degree) +
                             "° of the direction in which they look" +
                             (open.empty() ? "."
-                                          : "; of " + listed(open) +
+                                          : "; of " + text::all_of(open) +
                                                 " the direction is not stated, and it was not "
                                                 "looked at."));
     }

@@ -11,6 +11,8 @@
 #include "app/record_parts.h"
 #include "encoding/sha2.h"
 #include "reports/record/canonical_json.h"
+#include "text/lists.h"
+#include "text/utf8.h"
 
 namespace gumcert::app {
 
@@ -33,7 +35,7 @@ std::string shown(const json& value) {
     text.pop_back();
     if (text.size() > k_longest_text) {
         std::size_t end = k_longest_text;
-        while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
+        while (end > 0 && text::is_continuation(text[end])) {
             --end;
         }
         text = text.substr(0, end) + "…";
@@ -235,7 +237,7 @@ std::optional<gum::Diagnostic> not_recomputable(const EvaluationRecord& record, 
     }
     if (!missing.empty() || record.job_files.empty()) {
         return because("GC-RECORD-0027", "/job/files",
-                       record.job_files.empty() ? "none" : "the record does not hold " + listed(missing),
+                       record.job_files.empty() ? "none" : "the record does not hold " + text::listed(missing),
                        "what a document says is evaluated again from the files of the job, which the record holds up "
                        "to 8 MiB each and 16 MiB together");
     }

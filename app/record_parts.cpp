@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "encoding/sha2.h"
 #include "gum/quantity/unit_table.h"
 #include "gum/rounding.h"
+#include "text/numbers.h"
 
 namespace gumcert::app {
 
@@ -37,24 +37,6 @@ reports::EvaluationRecord record_head(const std::string& kind, const JobHead& jo
 
 std::optional<double> finite_or_none(double value) {
     return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
-}
-
-std::string shortest(double value) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-    return {text.data(), end};
-}
-
-std::string listed(const std::vector<std::string>& names, std::size_t most) {
-    std::string text;
-    for (std::size_t i = 0; i < std::min(names.size(), most); ++i) {
-        text += (i == 0 ? "" : ", ") + names[i];
-    }
-    return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " more" : text;
-}
-
-std::string count_of(std::int64_t count, const std::string& noun) {
-    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 void at_place(const std::string& where, const std::function<void()>& work) {
@@ -148,7 +130,7 @@ reports::MonteCarloSummary monte_carlo_summary(const gum::MonteCarloOutput& from
     const auto shown = [&](double value, double error) {
         const double quantum = std::max(error, 1e-4 * *summary.u);
         return quantum > 0.0 ? gum::round_to_uncertainty(value, quantum, 1).value
-                             : shortest(value == 0.0 ? 0.0 : value);
+                             : text::shortest(value == 0.0 ? 0.0 : value);
     };
     summary.printed.trials = std::to_string(summary.trials);
     summary.printed.mean = shown(*summary.mean, summary.numerical_error.mean);

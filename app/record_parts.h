@@ -36,15 +36,6 @@ struct JobHead {
 /// Degrees of freedom as a record holds them: none stands for infinite, or for none that can be stated.
 [[nodiscard]] std::optional<double> finite_or_none(double value);
 
-/// Shortest decimal text that reads back as the same double.
-[[nodiscard]] std::string shortest(double value);
-
-/// Names one after the other, with a comma between; after `most` of them "and 3 more".
-[[nodiscard]] std::string listed(const std::vector<std::string>& names,
-                                 std::size_t most = std::numeric_limits<std::size_t>::max());
-/// "1 point", "3 points".
-[[nodiscard]] std::string count_of(std::int64_t count, const std::string& noun);
-
 /// Does some work on a part of a job; what gum refuses is told with its place.
 void at_place(const std::string& where, const std::function<void()>& work);
 

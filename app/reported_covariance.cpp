@@ -14,6 +14,7 @@
 #include "app/reported_result.h"
 #include "gum/propagation.h"
 #include "gum/random_draws.h"
+#include "text/lists.h"
 
 namespace gumcert::app {
 
@@ -148,7 +149,7 @@ void note_covariance(const engine::BudgetJob& job, const Eigen::MatrixXd& covari
     }
     if (!without.empty()) {
         constexpr std::size_t k_most_names = 5;
-        add("GC-BUDGET-0042", (without.size() == 1 ? "result " : "results ") + listed(without, k_most_names),
+        add("GC-BUDGET-0042", (without.size() == 1 ? "result " : "results ") + text::listed(without, k_most_names),
             "left out of the covariance of the results", "a distribution without a variance has no covariance",
             "State the coverage interval.");
     }

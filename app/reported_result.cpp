@@ -11,6 +11,7 @@
 #include "app/trial_distribution.h"
 #include "gum/linearity_check.h"
 #include "reports/record/reported_result.h"
+#include "text/lists.h"
 
 namespace gumcert::app {
 
@@ -272,7 +273,7 @@ void note_reported(const BudgetJob& job, BudgetResult& result) {
         const std::string name = "result " + result.output_names[output];
         return places.points.empty() ? name
                                      : name + " at " + (places.points.size() == 1 ? "point " : "points ") +
-                                           listed(places.points, k_most_names);
+                                           text::listed(places.points, k_most_names);
     };
     static constexpr std::array<const char*, 6> k_reasons{"second_order", "vanishing",  "no_derivative",
                                                           "not_linear",   "asymmetric", "contradicted"};

@@ -17,6 +17,7 @@
 #include "engine/sense_deviations.h"
 #include "gum/coverage.h"
 #include "gum/rounding.h"
+#include "text/numbers.h"
 
 namespace gumcert::app {
 
@@ -66,7 +67,7 @@ reports::GroupTestRow group_row(const GroupTest& test, const RotaryTableMeasurem
         row.pass = name(measurement.passes, test.pass);
         if (test.angle != GroupTest::k_none) {
             row.angle_deg = measurement.angles_deg[test.angle];
-            row.printed.angle = shortest(*row.angle_deg);
+            row.printed.angle = text::shortest(*row.angle_deg);
         }
     }
     const auto [name_of_unit, unit] = unit_of(test.kind);
@@ -342,7 +343,7 @@ void fill_environment(reports::RotaryTable& rotary, const engine::RotaryTableJob
     environment.printed.highest = warm->printed.fixture;
     environment.printed.least_expansion = cold->printed.expansion;
     environment.printed.most_expansion = warm->printed.expansion;
-    environment.printed.reference = shortest(environment.reference_degC);
+    environment.printed.reference = text::shortest(environment.reference_degC);
     environment.printed.expansion = gum::round_significant(1e6 * environment.expansion_per_K, 3);
     environment.printed.u_expansion = gum::round_significant(1e6 * environment.u_expansion_per_K, 2);
     environment.printed.largest_distance = gum::round_to_quantum(environment.largest_distance_mm, 0);

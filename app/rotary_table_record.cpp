@@ -1,7 +1,6 @@
 #include "app/rotary_table_record.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -18,6 +17,7 @@
 #include "gum/coverage.h"
 #include "gum/rounding.h"
 #include "reports/record/reported_result.h"
+#include "text/numbers.h"
 
 namespace gumcert::app {
 
@@ -237,7 +237,7 @@ void fill_exclusions(reports::RotaryTable& rotary, const RotaryTableJob& job) {
         row.reflector = from.reflector.value_or("");
         row.pass = from.pass.value_or("");
         row.direction = from.direction.value_or("");
-        row.angle = from.angle_deg ? shortest(*from.angle_deg) : "";
+        row.angle = from.angle_deg ? text::shortest(*from.angle_deg) : "";
         if (from.lines) {
             const auto& [first, last] = *from.lines;
             row.lines = std::to_string(first) + (first == last ? "" : "–" + std::to_string(last));
@@ -270,7 +270,7 @@ std::vector<std::string> covariance_order(const RotaryTableJob& job, const engin
     const auto motions = engine::error_motion_names(job.measurement.axis);
     for (const double angle : job.measurement.angles_deg) {
         for (const std::string& motion : motions) {
-            names.push_back(motion + "@" + shortest(angle));
+            names.push_back(motion + "@" + text::shortest(angle));
         }
     }
     for (std::size_t i = names.size(); i < quantities.outputs.size(); ++i) {
@@ -317,7 +317,7 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const R
     for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
         reports::ErrorsAtAngle row;
         row.angle_deg = measurement.angles_deg[i];
-        row.printed_angle = shortest(row.angle_deg);
+        row.printed_angle = text::shortest(row.angle_deg);
         for (std::size_t c = 0; c < 6; ++c) {
             row.errors[c] =
                 error_value(reported(propagation, static_cast<Eigen::Index>(6 * i + c), c < 3 ? k_um : k_arcsec));

@@ -10,6 +10,7 @@
 #include "app/document_units.h"
 #include "app/record_parts.h"
 #include "gum/rounding.h"
+#include "text/numbers.h"
 
 namespace gumcert::app {
 
@@ -38,7 +39,7 @@ std::pair<std::size_t, std::size_t> run_counts(const std::vector<std::vector<Eig
 reports::PositioningTarget target_of(double angle_deg, const engine::PositioningTarget& from, double u) {
     reports::PositioningTarget target;
     target.angle_deg = angle_deg;
-    target.printed_angle = shortest(angle_deg);
+    target.printed_angle = text::shortest(angle_deg);
     const auto place = [&](const std::optional<double>& value, std::optional<double>& number, std::string& text) {
         if (value) {
             number = *value / k_arcsec.si;

@@ -10,12 +10,12 @@
 #include "certificate/capability_equation.h"
 #include "gum/argument_check.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/numbers.h"
 
 namespace gumcert::certificate {
 namespace {
 
 using gum::Diagnostic;
-using gum::number_text;
 
 // A value that was converted into the unit of the scope may miss a point of it by a few roundings.
 constexpr double k_rounding = 16.0 * std::numeric_limits<double>::epsilon();
@@ -50,7 +50,7 @@ double linear(double first, double second, double share) {
 }
 
 std::string with_unit(double value, const std::string& unit) {
-    return number_text(value) + (unit.empty() || unit == "1" ? "" : " " + unit);
+    return text::shortest(value) + (unit.empty() || unit == "1" ? "" : " " + unit);
 }
 
 std::string outside(const CapabilityArgument& argument, double value, const std::vector<double>& points) {
@@ -168,7 +168,7 @@ CapabilityAt CapabilityEvaluator::at(const std::vector<ArgumentValue>& arguments
                                         [&](const ArgumentValue& argument) { return argument.name == name; });
         if (found == arguments.end() || !std::isfinite(found->value)) {
             gum::refuse("GC-CERT-0202", "capability, argument " + name,
-                        found == arguments.end() ? "no value" : "the value " + number_text(found->value),
+                        found == arguments.end() ? "no value" : "the value " + text::shortest(found->value),
                         "each argument of a capability has a finite value", "State where the value comes from.");
         }
         values(static_cast<Eigen::Index>(i)) = found->value;

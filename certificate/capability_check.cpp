@@ -11,11 +11,10 @@
 #include "gum/expression/name.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
+#include "text/numbers.h"
 
 namespace gumcert::certificate {
 namespace {
-
-using gum::number_text;
 
 constexpr double k_about_95_percent = 0.95;
 constexpr double k_tolerance_of_95_percent = 0.01;  // 95.45 % is the same statement
@@ -64,14 +63,14 @@ void Check::unit(const std::string& key, const std::string& text) {
 
 void Check::U(const std::string& key, double value) {
     if (!(std::isfinite(value) && value > 0.0)) {
-        say(key, "U is " + number_text(value), "a capability is a finite uncertainty greater than 0",
+        say(key, "U is " + text::shortest(value), "a capability is a finite uncertainty greater than 0",
             "State the smallest uncertainty of the scope here.");
     }
 }
 
 void Check::rising(const std::string& key, double before, double value) {
     if (!(std::isfinite(value) && value > before)) {
-        say(key, number_text(value) + " after " + number_text(before), "points rise, so that each stands once",
+        say(key, text::shortest(value) + " after " + text::shortest(before), "points rise, so that each stands once",
             "Put the points in order, each once.");
     }
 }
@@ -136,7 +135,7 @@ void Check::points(std::size_t least, std::size_t most) {
     for (std::size_t i = 0; i < c_.points.size(); ++i) {
         const std::string key = "/points/" + std::to_string(i);
         if (!std::isfinite(c_.points[i].at)) {
-            say(key + "/at", number_text(c_.points[i].at), "a capability has a finite range", "State the end.");
+            say(key + "/at", text::shortest(c_.points[i].at), "a capability has a finite range", "State the end.");
         } else if (i > 0) {
             rising(key + "/at", c_.points[i - 1].at, c_.points[i].at);
         }
@@ -153,7 +152,7 @@ void Check::matrix() {
         for (std::size_t i = 0; i < values.size(); ++i) {
             const std::string at = key + "/" + std::to_string(i);
             if (!std::isfinite(values[i])) {
-                say(at, number_text(values[i]), "a capability has a finite range", "State the end.");
+                say(at, text::shortest(values[i]), "a capability has a finite range", "State the end.");
             } else if (i > 0) {
                 rising(at, values[i - 1], values[i]);
             }
@@ -222,7 +221,7 @@ std::vector<CapabilityProblem> Check::run() {
     }
     unit("/unit", c_.unit);
     if (!(std::abs(c_.coverage_probability - k_about_95_percent) <= k_tolerance_of_95_percent)) {
-        say("/coverage_probability", "a coverage probability of " + number_text(c_.coverage_probability),
+        say("/coverage_probability", "a coverage probability of " + text::shortest(c_.coverage_probability),
             "a capability is stated with a coverage probability of about 95 % (ILAC-P14:09/2020)",
             "State the capability as the scope does, with 0.95, 0.9545 or without this key.");
     }

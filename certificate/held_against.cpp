@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "gum/argument_check.h"
+#include "text/numbers.h"
 
 namespace gumcert::certificate {
 
-using gum::number_text;
 using gum::Unit;
 
 bool of_one_kind(const Unit& a, const Unit& b) {
@@ -47,9 +47,9 @@ bool capability_taken_elsewhere(FindingList& found, const ScopeEntry& entry, std
     const bool larger = std::abs(measured) > std::abs(claimed);
     found.add(larger ? FindingSeverity::critical : FindingSeverity::minor, "X12", "ILAC-P14:09/2020",
               place_in("/accreditation/scope", i, "capability"),
-              "the capability of \"" + entry.id + "\" is taken at \"" + held.name + "\" = " + number_text(held.value) +
-                  " " + held.unit + ", and the result \"" + column.result + "\" is " + value.printed_value + " " +
-                  column.unit,
+              "the capability of \"" + entry.id + "\" is taken at \"" + held.name +
+                  "\" = " + text::shortest(held.value) + " " + held.unit + ", and the result \"" + column.result +
+                  "\" is " + value.printed_value + " " + column.unit,
               "Take it at the result (\"of\": \"value\"), or state the true parameter.");
     return true;
 }

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <set>
@@ -15,12 +14,11 @@
 #include "gum/argument_check.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
+#include "text/numbers.h"
 
 namespace gumcert::certificate {
 
 namespace {
-
-using gum::number_text;
 
 // --- texts ---
 
@@ -223,15 +221,15 @@ std::string impossible(const Condition& c) {
         return "a temperature has no unit \"" + c.unit + "\"";
     }
     if (thermal && unit.is_celsius_temperature() && low < k_absolute_zero) {
-        return number_text(c.minimum) + " " + c.unit + " is below absolute zero";
+        return text::shortest(c.minimum) + " " + c.unit + " is below absolute zero";
     }
     if (thermal && !unit.is_celsius_temperature() && is_temperature(c) && low <= 0.0) {
-        return number_text(c.minimum) + " " + c.unit + " is not above absolute zero";
+        return text::shortest(c.minimum) + " " + c.unit + " is not above absolute zero";
     }
     if (is_short_for_humidity(c) ||
         is_of(c, "humidity", {U"humidity", U"feuchte", U"feuchtigkeit", U"humedad", U"濕度", U"湿度"})) {
         if (c.kind == "humidity" && !unit.dimension().is_one() && low < 0.0) {
-            return number_text(c.minimum) + " " + c.unit + " of water are less than none";
+            return text::shortest(c.minimum) + " " + c.unit + " of water are less than none";
         }
         if (unit.dimension().is_one() && (low < 0.0 || high > 1.0)) {
             return "a relative humidity is between 0 % and 100 %";
@@ -245,7 +243,7 @@ std::string impossible(const Condition& c) {
         if (!(unit.dimension() == gum::Unit::parse("Pa").dimension())) {
             return c.kind == "pressure" ? "a pressure has no unit \"" + c.unit + "\"" : "";
         }
-        return low <= 0.0 ? number_text(c.minimum) + " " + c.unit + " is no pressure of air" : "";
+        return low <= 0.0 ? text::shortest(c.minimum) + " " + c.unit + " is no pressure of air" : "";
     }
     return {};
 }
@@ -265,15 +263,15 @@ void wide_condition(FindingList& found, const Condition& c, std::size_t i) {
     const double allowed = c.lower_limit && c.upper_limit ? *c.upper_limit - *c.lower_limit : 0.0;
     if (widest > 0.0 && unit.difference_to_si(c.maximum - c.minimum) > widest) {
         found.major("E03", iso_17025("7.8.4.1 b"), place_in("/conditions", i),
-                    "\"" + c.quantity.in("en") + "\" is stated from " + number_text(c.minimum) + " " + c.unit + " to " +
-                        number_text(c.maximum) + " " + c.unit + ", which is too wide to tell anything",
+                    "\"" + c.quantity.in("en") + "\" is stated from " + text::shortest(c.minimum) + " " + c.unit +
+                        " to " + text::shortest(c.maximum) + " " + c.unit + ", which is too wide to tell anything",
                     "Correct number, unit or kind.");
     }
     const bool beside_limits = allowed > 0.0 && c.U && *c.U > allowed;
     if (c.U && (beside_limits || (largest_U > 0.0 && unit.difference_to_si(*c.U) > largest_U))) {
         found.major("E03", iso_17025("7.8.4.1 b"), place_in("/conditions", i, "U"),
-                    "\"" + c.quantity.in("en") + "\" was measured with an uncertainty of " + number_text(*c.U) + " " +
-                        c.unit + ", which is too large to tell anything",
+                    "\"" + c.quantity.in("en") + "\" was measured with an uncertainty of " + text::shortest(*c.U) +
+                        " " + c.unit + ", which is too large to tell anything",
                     "Correct number, unit or kind.");
     }
 }

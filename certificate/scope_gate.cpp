@@ -17,12 +17,12 @@
 #include "gum/argument_check.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
+#include "text/numbers.h"
 
 namespace gumcert::certificate {
 
 namespace {
 
-using gum::number_text;
 using gum::Unit;
 
 void validity(FindingList& found, const Accreditation& a) {
@@ -137,7 +137,7 @@ void ranges(FindingList& found, const Certificate& certificate, const ScopeEntry
             const bool beyond = is_beyond(value, low, range.high);
             found.add(beyond ? FindingSeverity::critical : FindingSeverity::minor, "X12", k_p14, where,
                       "the range of \"" + entry.id + "\" is held against the parameter \"" + parameter.name +
-                          "\" = " + number_text(parameter.value) + " " + parameter.unit + ", and the result \"" +
+                          "\" = " + text::shortest(parameter.value) + " " + parameter.unit + ", and the result \"" +
                           covered.columns[v]->result + "\" is " + covered.values[v]->printed_value + " " +
                           covered.columns[v]->unit,
                       beyond ? "Hold the range against the result (\"of\": \"value\"), or state the true parameter."
@@ -302,7 +302,7 @@ void capability(FindingList& found, const Certificate& certificate, const ScopeE
             if (!at.U) {
                 found.critical("X05", k_p14, where + "/expression",
                                "the capability of \"" + entry.id + "\" has no value in its own range, at " +
-                                   place.front().name + " = " + number_text(place.front().value) + ": " + at.reason,
+                                   place.front().name + " = " + text::shortest(place.front().value) + ": " + at.reason,
                                "State the expression as the scope does, or the range in which it holds.");
                 break;
             }

@@ -12,6 +12,7 @@
 #include "certificate/stated_text.h"
 #include "certificate/text_words.h"
 #include "gum/argument_check.h"
+#include "text/numbers.h"
 
 namespace gumcert::certificate {
 
@@ -55,7 +56,7 @@ void empty_parameter(FindingList& found, const AgreedSpecification& s, std::size
     const auto tell = [&](FindingSeverity severity, const char* key, double value) {
         found.add(severity, "D11", iso_17025("7.8.6.1"), place_in("/specifications", i, "rule/" + std::string(key)),
                   "the rule " + r.id + " of the specification \"" + s.id + "\" is stated with " + key + " = " +
-                      gum::number_text(value) + ", which demands next to nothing",
+                      text::shortest(value) + ", which demands next to nothing",
                   "State what was agreed, or the rule that this is: DR-01 is simple acceptance, DR-11 relaxed "
                   "acceptance.");
     };

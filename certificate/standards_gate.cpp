@@ -11,6 +11,7 @@
 #include "gum/argument_check.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
+#include "text/numbers.h"
 
 namespace gumcert::certificate {
 
@@ -49,7 +50,7 @@ void uncertainty(FindingList& found, const StandardUsed& s, std::size_t i) {
     constexpr double k_largest_factor = 14.0;  // of 95 % with one degree of freedom
     if (s.U && s.k && *s.k > k_largest_factor) {
         found.major("T04", iso_17025("6.5"), where("k"),
-                    "the coverage factor of " + named(s) + " is " + gum::number_text(*s.k),
+                    "the coverage factor of " + named(s) + " is " + text::shortest(*s.k),
                     "State U and k as the certificate of the standard does.");
     }
 }

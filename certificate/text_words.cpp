@@ -1,4 +1,5 @@
 #include "certificate/text_words.h"
+#include "text/utf8.h"
 
 #include <algorithm>
 #include <array>
@@ -26,17 +27,6 @@ bool is_letter(char32_t point) {
     return std::none_of(k_no_letters.begin(), k_no_letters.end(),
                         [&](const Range& r) { return r.first <= point && point <= r.last; }) &&
            std::find(k_more.begin(), k_more.end(), point) == k_more.end();
-}
-
-/// The code point that begins at a byte of UTF-8; moves behind it.
-char32_t next_point(std::string_view text, std::size_t& at) {
-    const auto byte = static_cast<unsigned char>(text[at++]);
-    const int more = byte < 0xC0 ? 0 : byte < 0xE0 ? 1 : byte < 0xF0 ? 2 : 3;
-    char32_t point = more == 0 ? byte : byte & (0x3FU >> static_cast<unsigned>(more));
-    for (int i = 0; i < more && at < text.size(); ++i) {
-        point = (point << 6U) | (static_cast<unsigned char>(text[at++]) & 0x3FU);
-    }
-    return point;
 }
 
 /// À to ÿ without their accents; '*' for the two signs among them, and for letters that become two.
@@ -89,7 +79,9 @@ std::vector<std::u32string> words_of(std::string_view text) {
         }
     };
     for (std::size_t at = 0; at < text.size();) {
-        const char32_t point = next_point(text, at);
+        const text::Character character = text::decode_utf8(text, at);
+        const char32_t point = character.bytes == 0 ? char32_t{0xFFFD} : character.code;
+        at += std::max<std::size_t>(character.bytes, 1);
         const bool without_image = point == 0xAD || (point >= 0x200B && point <= 0x200F) || point == 0xFEFF;
         if (is_accent(point) || without_image) {
             continue;

@@ -14,8 +14,8 @@
 #include <limits>
 #include <utility>
 
-#include "engine/number_texts.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/numbers.h"
 
 namespace gumcert::engine {
 
@@ -33,13 +33,6 @@ constexpr Real k_offset_accepted = 1e-9L;  // and a result is given from here
 constexpr Real k_same_minimum = 1e-7L;     // sums of squares that differ by less, relatively, are one minimum
 constexpr int k_descent_iterations = 5000;
 constexpr int k_polish_iterations = 500;
-
-std::string number_text(double value) {
-    if (std::isnan(value)) {
-        return "NaN";
-    }
-    return shortest_text(value);
-}
 
 /// The decimal number that a double was read from: its shortest digits, with the precision that sums are kept in. Data
 /// are written in decimal; a polynomial of the tenth degree turns the rounding to double into lost digits of its
@@ -607,7 +600,7 @@ void require_rank(const Linearised& at, const std::vector<std::string>& names) {
                          : "the points do not determine the parameters " + list + " apart from each other",
         "the smallest singular value of the weighted design matrix, its columns scaled to unit length, must be more "
         "than " +
-            number_text(k_curve_rank_tolerance) + " of the largest",
+            text::shortest(k_curve_rank_tolerance) + " of the largest",
         "Measure at more different abscissae, refer x to the middle of its range, or leave out a parameter."));
 }
 
@@ -637,21 +630,21 @@ Attempt best_of(std::vector<Attempt> attempts, const std::vector<std::string>& n
     };
     if (best == nullptr) {
         require_rank(lowest->at, names);
-        throw gum::NoResultError(
-            diagnostic("GC-FIT-0011", "curve fit",
-                       "not converged after " + std::to_string(iterations) + " iterations: sum of squares " +
-                           number_text(static_cast<double>(lowest->at.sum)) + ", length of the next step " +
-                           number_text(static_cast<double>(lowest->offset)),
-                       "a result is given only where the next step is shorter than " +
-                           number_text(static_cast<double>(k_offset_accepted)) + " of the residual standard deviation",
-                       "Give start values nearer to the solution, or a curve with fewer parameters."));
+        throw gum::NoResultError(diagnostic(
+            "GC-FIT-0011", "curve fit",
+            "not converged after " + std::to_string(iterations) + " iterations: sum of squares " +
+                text::shortest(static_cast<double>(lowest->at.sum)) + ", length of the next step " +
+                text::shortest(static_cast<double>(lowest->offset)),
+            "a result is given only where the next step is shorter than " +
+                text::shortest(static_cast<double>(k_offset_accepted)) + " of the residual standard deviation",
+            "Give start values nearer to the solution, or a curve with fewer parameters."));
     }
     if (above(*best, *lowest)) {
         throw gum::NoResultError(
             diagnostic("GC-FIT-0012", "curve fit",
-                       "a minimum with sum of squares " + number_text(static_cast<double>(best->at.sum)) +
+                       "a minimum with sum of squares " + text::shortest(static_cast<double>(best->at.sum)) +
                            " was found, but a search that did not converge met the lower sum " +
-                           number_text(static_cast<double>(lowest->at.sum)),
+                           text::shortest(static_cast<double>(lowest->at.sum)),
                        "the estimate is the lowest minimum of the sum of squares",
                        "Give start values nearer to the solution, or a curve with fewer parameters."));
     }
@@ -709,7 +702,7 @@ public:
                 for (Eigen::Index k = 0; k < p; ++k) {
                     if (!std::isfinite(start[k])) {
                         add("GC-FIT-0006", "start value of " + names[static_cast<std::size_t>(k)],
-                            number_text(start[k]), "must be a finite number", "Correct the value.");
+                            text::shortest(start[k]), "must be a finite number", "Correct the value.");
                     }
                 }
             }
@@ -729,7 +722,7 @@ private:
         for (Eigen::Index i = 0; i < values.rows(); ++i) {
             for (Eigen::Index k = 0; k < values.cols(); ++k) {
                 if (!std::isfinite(values(i, k))) {
-                    add("GC-FIT-0002", "point " + std::to_string(i + 1) + ", " + name, number_text(values(i, k)),
+                    add("GC-FIT-0002", "point " + std::to_string(i + 1) + ", " + name, text::shortest(values(i, k)),
                         "must be a finite number", "Correct the value or leave out the point.");
                 }
             }
@@ -752,7 +745,7 @@ private:
             const double value = values.cols() == 1 ? values(i, 0) : values(i, i);
             if (!std::isfinite(value) || value <= 0.0) {
                 add("GC-FIT-0004", "point " + std::to_string(i + 1) + ", " + name,
-                    (values.cols() == 1 ? "" : "variance ") + number_text(value),
+                    (values.cols() == 1 ? "" : "variance ") + text::shortest(value),
                     "must be finite and greater than 0: it is a weight",
                     "State a standard uncertainty greater than 0.");
                 good = false;
@@ -777,7 +770,7 @@ private:
         if (!(smallest > 1e-13 * static_cast<double>(n_))) {
             add("GC-FIT-0005", name,
                 "the covariance matrix is not positive definite: smallest eigenvalue of its correlations " +
-                    number_text(smallest),
+                    text::shortest(smallest),
                 "weights are the inverse of the covariance",
                 "State correlation coefficients that belong together and are not exactly 1 or −1.");
         }

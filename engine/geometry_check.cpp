@@ -16,9 +16,10 @@
 #include <string>
 
 #include "engine/datum.h"
+#include "engine/degrees_text.h"
 #include "engine/joint_adjustment.h"
-#include "engine/number_texts.h"
 #include "gum/quantity/units.h"
+#include "text/numbers.h"
 
 namespace gumcert::engine {
 
@@ -47,7 +48,7 @@ std::string rounded(double value, int digits) {
     const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
     const double unit = std::pow(10.0, exponent - digits + 1);
     const double nearest = std::round(value / unit) * unit;
-    return fixed_text(nearest, std::clamp(digits - 1 - exponent, 0, 12));
+    return text::fixed(nearest, std::clamp(digits - 1 - exponent, 0, 12));
 }
 
 std::string in_mm(double metres) {
@@ -57,7 +58,7 @@ std::string in_mm(double metres) {
 }
 
 std::string in_degrees(double radians) {
-    return fixed_text(std::round(radians / gum::k_degree * 10.0) / 10.0, 1) + "°";
+    return text::fixed(std::round(radians / gum::k_degree * 10.0) / 10.0, 1) + "°";
 }
 
 /// How the reflectors look from a station over all angles at which it saw them, set-up errors and motions left out.

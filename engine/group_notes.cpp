@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include "engine/number_texts.h"
 #include "gum/quantity/units.h"
+#include "text/numbers.h"
 
 namespace gumcert::engine {
 
@@ -14,11 +14,11 @@ constexpr std::size_t k_most_notes = 5;
 
 std::string size_of(double length) {
     const double size = std::abs(length) / gum::k_micrometre;
-    return size < 999.5 ? significant_text(size, 3) + " µm" : significant_text(size / 1000.0, 3) + " mm";
+    return size < 999.5 ? text::significant(size, 3) + " µm" : text::significant(size / 1000.0, 3) + " mm";
 }
 
 std::string chi_square_of(double value) {
-    return value < 1000.0 ? significant_text(value, 3) : significant_text(std::round(value), 12);
+    return value < 1000.0 ? text::significant(value, 3) : text::significant(std::round(value), 12);
 }
 
 /// "station P1, pass P1-1+, 105°"
@@ -35,7 +35,7 @@ std::string place_of(const GroupTest& test, const RotaryTableMeasurement& measur
     std::string place = "station " + measurement.stations[test.station];
     if (test.pass != GroupTest::k_none && test.kind != GroupKind::drift) {
         place += ", pass " + measurement.passes[test.pass] + ", " +
-                 significant_text(measurement.angles_deg[test.angle], 8) + "°";
+                 text::significant(measurement.angles_deg[test.angle], 8) + "°";
     }
     return place;
 }
@@ -45,10 +45,10 @@ std::string place_of(const GroupTest& test, const RotaryTableMeasurement& measur
 std::string scale_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
     const double size = std::abs(test.estimate);
     const bool is_smaller = test.estimate > 0.0;
-    std::string text = "the distances put the whole fixture " + significant_text(size * 1e6, 3) + " ppm " +
+    std::string text = "the distances put the whole fixture " + text::significant(size * 1e6, 3) + " ppm " +
                        (is_smaller ? "smaller" : "larger") + " than its coordinates at its temperature";
     if (measurement.expansion > 0.0) {
-        text += ", as if it were " + significant_text(size / measurement.expansion, 2) + " K " +
+        text += ", as if it were " + text::significant(size / measurement.expansion, 2) + " K " +
                 (is_smaller ? "colder" : "warmer") + " than stated";
     }
     return text;
@@ -72,13 +72,13 @@ std::string what_of(const GroupTest& test, const RotaryTableMeasurement& measure
         case GroupKind::angle_index:
             return "the distances of this station agree with the others when its angles are " +
                    (std::abs(test.estimate) < 1.5 ? std::string("one step")
-                                                  : significant_text(std::abs(test.estimate), 6) + " steps") +
+                                                  : text::significant(std::abs(test.estimate), 6) + " steps") +
                    (test.estimate > 0.0 ? " higher" : " lower");
         case GroupKind::succession:
             return "successive visits deviate alike: their autocorrelation coefficient is " +
-                   significant_text(test.estimate, 2);
+                   text::significant(test.estimate, 2);
         case GroupKind::station:
-            return "the visits of this station scatter " + significant_text(test.estimate, 2) +
+            return "the visits of this station scatter " + text::significant(test.estimate, 2) +
                    " times as much as those of the "
                    "others";
         case GroupKind::reflector:
@@ -97,7 +97,7 @@ std::string exclusion_of(const GroupTest& test, const RotaryTableMeasurement& me
         case GroupKind::visit_pose:
             selectors = "\"station\": \"" + measurement.stations[test.station] + "\", \"pass\": \"" +
                         measurement.passes[test.pass] +
-                        "\", \"angle_deg\": " + significant_text(measurement.angles_deg[test.angle], 12);
+                        "\", \"angle_deg\": " + text::significant(measurement.angles_deg[test.angle], 12);
             break;
         case GroupKind::angle_index:
         case GroupKind::station:

@@ -4,13 +4,12 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "engine/number_texts.h"
 #include "gum/quantity/units.h"
+#include "text/numbers.h"
 
 namespace gumcert::engine {
 
@@ -219,9 +218,9 @@ std::optional<gum::Diagnostic> reversal_note(const std::vector<ReversalTest>& te
     const bool adopted = measurement.reversal == ReversalModel::automatic;
     const double unit = most->motion < 3 ? gum::k_micrometre : gum::k_arcsecond;
     const std::string what = "that of " + error_motion_names(measurement.axis)[most->motion] +
-                             " depends on the angle: it varies by " + significant_text(most->spread / unit, 3) +
+                             " depends on the angle: it varies by " + text::significant(most->spread / unit, 3) +
                              (most->motion < 3 ? " µm" : "″") +
-                             " (root mean square) about its mean, test value F = " + significant_text(most->f, 3);
+                             " (root mean square) about its mean, test value F = " + text::significant(most->f, 3);
     const std::string rule =
         "one reversal holds for all angles unless the F tests of the six error motions refute it at "
         "0.1 % together";

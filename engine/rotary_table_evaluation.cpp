@@ -12,12 +12,13 @@
 #include <utility>
 
 #include "engine/anglewise_map.h"
+#include "engine/degrees_text.h"
 #include "engine/geometry_check.h"
 #include "engine/group_notes.h"
 #include "engine/median.h"
-#include "engine/number_texts.h"
 #include "engine/station_covariance.h"
 #include "gum/quantity/units.h"
+#include "text/numbers.h"
 
 namespace gumcert::engine {
 
@@ -26,7 +27,7 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 std::string micrometres(double length) {
-    return significant_text(length / gum::k_micrometre, 3) + " µm";
+    return text::significant(length / gum::k_micrometre, 3) + " µm";
 }
 
 /// Probability that at least `least` of `all` distances are wrong when each is with probability `share`, independently.

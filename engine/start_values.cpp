@@ -15,12 +15,13 @@
 #include <utility>
 
 #include "engine/datum.h"
+#include "engine/degrees_text.h"
 #include "engine/geometry_check.h"
 #include "engine/joint_adjustment.h"
 #include "engine/median.h"
-#include "engine/number_texts.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/units.h"
+#include "text/numbers.h"
 
 namespace gumcert::engine {
 
@@ -754,7 +755,7 @@ private:
         const double unit = std::pow(10.0, -decimals);
         value = std::round(value / gum::k_millimetre / unit) * unit;
         value = value == 0.0 ? 0.0 : value;  // no minus sign on a zero
-        return fixed_text(value, decimals);
+        return text::fixed(value, decimals);
     }
 
     [[nodiscard]] static std::string in_millimetres(const Eigen::Vector3d& position) {
@@ -1071,7 +1072,7 @@ void refuse_interrupted_beams(const RotaryTableMeasurement& measurement) {
                             "station " + measurement.stations[j] + ", pass " + measurement.passes[length.pass] + ", " +
                                 degrees_text(measurement.angles_deg[length.angle]),
                             "from this visit on all distances of the station are off by about " +
-                                fixed_text(std::abs(found->size) / gum::k_micrometre, 0) + " µm alike",
+                                text::fixed(std::abs(found->size) / gum::k_micrometre, 0) + " µm alike",
                             "distances of one dead path have one constant",
                             "the beam was interrupted there: give the distances from there on a dead path of their own",
                             gum::Severity::error});

@@ -14,6 +14,7 @@
 #include "gum/comparison.h"
 #include "gum/coverage.h"
 #include "gum/propagation.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -64,7 +65,7 @@ void require_covariance(const MatrixXd& covariance) {
     for (Index i = 0; i < m; ++i) {
         require_finite(covariance(i, i), "variance of the " + point_name(i));
         if (!(covariance(i, i) > 0.0)) {
-            refuse("GC-GUM-0031", "u of the " + point_name(i), "variance " + number_text(covariance(i, i)),
+            refuse("GC-GUM-0031", "u of the " + point_name(i), "variance " + text::shortest(covariance(i, i)),
                    "a score divides by it, so it must be greater than 0",
                    "State the uncertainty of at least one side.");
         }
@@ -76,17 +77,17 @@ void require_covariance(const MatrixXd& covariance) {
                 return "covariance of points " + std::to_string(j + 1) + " and " + std::to_string(i + 1);
             };
             if (!std::isfinite(covariance(i, j)) || !std::isfinite(covariance(j, i))) {
-                refuse("GC-GUM-0001", where(), number_text(covariance(i, j)), "must be a finite number",
+                refuse("GC-GUM-0001", where(), text::shortest(covariance(i, j)), "must be a finite number",
                        "Correct the covariance.");
             }
             if (!(std::abs(covariance(i, j) - covariance(j, i)) <= k_stated_symmetry_tolerance * scale)) {
                 refuse("GC-GUM-0052", where(),
-                       number_text(covariance(i, j)) + " below and " + number_text(covariance(j, i)) +
+                       text::shortest(covariance(i, j)) + " below and " + text::shortest(covariance(j, i)) +
                            " above the diagonal",
                        "a covariance matrix is symmetric", "Correct the covariance.");
             }
             if (!(std::abs(covariance(i, j)) <= k_largest_correlation * scale)) {
-                refuse("GC-GUM-0053", where(), "a correlation of " + number_text(covariance(i, j) / scale),
+                refuse("GC-GUM-0053", where(), "a correlation of " + text::shortest(covariance(i, j) / scale),
                        "a correlation coefficient lies between -1 and 1", "Correct the covariance.");
             }
         }
@@ -101,7 +102,7 @@ void require_differences(const MethodDifferences& differences) {
         require_not_negative(differences.U_reference(i), "U of the reference at point " + std::to_string(i + 1));
         require_finite(differences.U(i), "U of the " + point_name(i));
         if (!(differences.U(i) > 0.0)) {
-            refuse("GC-GUM-0031", "U of the " + point_name(i), number_text(differences.U(i)),
+            refuse("GC-GUM-0031", "U of the " + point_name(i), text::shortest(differences.U(i)),
                    "a score divides by it, so it must be greater than 0",
                    "State the uncertainty of at least one side.");
         }
@@ -111,7 +112,7 @@ void require_differences(const MethodDifferences& differences) {
 
 [[noreturn]] void refuse_indefinite(double smallest) {
     refuse("GC-GUM-0054", "covariance of the differences",
-           "smallest eigenvalue of the correlation matrix is " + number_text(smallest),
+           "smallest eigenvalue of the correlation matrix is " + text::shortest(smallest),
            "a covariance matrix is positive semi-definite",
            "Correct the correlations of the points and of both methods; they contradict each other.");
 }

@@ -8,6 +8,7 @@
 
 #include "gum/argument_check.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -333,9 +334,9 @@ double f_critical_value(double probability, double numerator_degrees_of_freedom,
     if (!std::isfinite(critical)) {
         throw NoResultError(Diagnostic{.code = "GC-GUM-0010",
                                        .where = "critical value of F",
-                                       .what = "no finite value for probability " + number_text(probability) + ", " +
-                                               number_text(numerator_degrees_of_freedom) + " and " +
-                                               number_text(denominator_degrees_of_freedom) + " degrees of freedom",
+                                       .what = "no finite value for probability " + text::shortest(probability) + ", " +
+                                               text::shortest(numerator_degrees_of_freedom) + " and " +
+                                               text::shortest(denominator_degrees_of_freedom) + " degrees of freedom",
                                        .rule = "a test needs a finite critical value",
                                        .action = "Choose a probability that is farther from 1."});
     }

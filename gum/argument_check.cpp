@@ -1,22 +1,12 @@
 #include "gum/argument_check.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
-
-std::string number_text(double value) {
-    if (std::isnan(value)) {
-        return "NaN";  // to_chars would show the sign bit of a NaN, which means nothing to a reader
-    }
-    std::array<char, 32> buffer{};
-    const std::to_chars_result result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-    return {buffer.data(), result.ptr};
-}
 
 void refuse(std::string code, std::string where, std::string what, std::string rule, std::string action) {
     throw InputError(Diagnostic{.code = std::move(code),
@@ -28,34 +18,34 @@ void refuse(std::string code, std::string where, std::string what, std::string r
 
 void require_finite(double value, const std::string& name) {
     if (!std::isfinite(value)) {
-        refuse("GC-GUM-0001", name, number_text(value), "must be a finite number", "Correct the value.");
+        refuse("GC-GUM-0001", name, text::shortest(value), "must be a finite number", "Correct the value.");
     }
 }
 
 void require_not_negative(double value, const std::string& name) {
     require_finite(value, name);
     if (value < 0.0) {
-        refuse("GC-GUM-0002", name, number_text(value), "must not be negative", "Correct the sign or the value.");
+        refuse("GC-GUM-0002", name, text::shortest(value), "must not be negative", "Correct the sign or the value.");
     }
 }
 
 void require_positive(double value, const std::string& name) {
     require_finite(value, name);
     if (value <= 0.0) {
-        refuse("GC-GUM-0003", name, number_text(value), "must be greater than 0", "Correct the value.");
+        refuse("GC-GUM-0003", name, text::shortest(value), "must be greater than 0", "Correct the value.");
     }
 }
 
 void require_probability(double value, const std::string& name) {
     if (!(value > 0.0 && value < 1.0)) {
-        refuse("GC-GUM-0004", name, number_text(value), "must lie between 0 and 1, both excluded",
+        refuse("GC-GUM-0004", name, text::shortest(value), "must lie between 0 and 1, both excluded",
                "State it as a fraction, e.g. 0.9545 for 95.45 %.");
     }
 }
 
 void require_degrees_of_freedom(double value, const std::string& name) {
     if (!(value > 0.0)) {
-        refuse("GC-GUM-0005", name, number_text(value), "degrees of freedom must be greater than 0 or infinite",
+        refuse("GC-GUM-0005", name, text::shortest(value), "degrees of freedom must be greater than 0 or infinite",
                "Correct the value, or leave it out where it is infinite.");
     }
 }

@@ -4,9 +4,6 @@
 
 namespace gumcert::gum {
 
-/// Shortest decimal text that reads back as the same double, for messages only; documents use gum/rounding.h.
-[[nodiscard]] std::string number_text(double value);
-
 /// Throws InputError with one Diagnostic "where — what — rule — action".
 [[noreturn]] void refuse(std::string code, std::string where, std::string what, std::string rule, std::string action);
 

@@ -8,6 +8,7 @@
 
 #include "gum/argument_check.h"
 #include "gum/coverage.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -27,8 +28,8 @@ double difference_uncertainty_for_score(double laboratory, double reference, dou
     const double combined = uncertainty_of_difference(laboratory, reference, correlation);
     if (!(combined > 0.0) || !std::isfinite(combined)) {
         refuse("GC-GUM-0031", std::string(symbol) + " of the difference",
-               number_text(combined) + " from laboratory " + number_text(laboratory) + " and reference " +
-                   number_text(reference) + " with correlation " + number_text(correlation),
+               text::shortest(combined) + " from laboratory " + text::shortest(laboratory) + " and reference " +
+                   text::shortest(reference) + " with correlation " + text::shortest(correlation),
                "a score divides by it, so it must be greater than 0",
                laboratory > 0.0 && reference > 0.0
                    ? "State a smaller correlation: with this one both values have all of their uncertainty in common."
@@ -43,7 +44,7 @@ double uncertainty_of_difference(double laboratory, double reference, double cor
     require_not_negative(laboratory, "uncertainty of the laboratory value");
     require_not_negative(reference, "uncertainty of the reference value");
     if (!(correlation >= -1.0 && correlation <= 1.0)) {
-        refuse("GC-GUM-0030", "correlation of laboratory and reference", number_text(correlation),
+        refuse("GC-GUM-0030", "correlation of laboratory and reference", text::shortest(correlation),
                "must lie between -1 and 1", "Correct the correlation coefficient.");
     }
     if (correlation == 0.0) {

@@ -8,6 +8,7 @@
 
 #include "gum/argument_check.h"
 #include "gum/distribution_quantile.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -108,7 +109,7 @@ double good_value(const Dispersion& dispersion, const ToleranceLimits& limits, d
 void require_measured_value(const MeasuredValue& y) {
     const auto check = [](bool fine, const char* what, double value, const char* rule) {
         if (!fine) {
-            refuse("GC-GUM-0081", "decision on conformity", std::string(what) + " " + number_text(value), rule,
+            refuse("GC-GUM-0081", "decision on conformity", std::string(what) + " " + text::shortest(value), rule,
                    "Correct the measured value or its uncertainty.");
         }
     };
@@ -165,7 +166,7 @@ std::optional<ToleranceLimits> acceptance_limits_for_risk(const MeasuredValue& y
     require_limits(limits);
     require_measured_value(y);
     if (!(risk > 0.0 && risk <= 0.5)) {
-        refuse("GC-GUM-0082", "decision on conformity", "largest risk " + number_text(risk),
+        refuse("GC-GUM-0082", "decision on conformity", "largest risk " + text::shortest(risk),
                "must be greater than 0 and not above 0.5", "Correct the decision rule.");
     }
     const Dispersion dispersion(y);
@@ -202,7 +203,7 @@ ToleranceLimits rejection_limits_for_probability(const MeasuredValue& y, const T
     require_limits(limits);
     require_measured_value(y);
     if (!(probability > 0.5 && probability < 1.0)) {
-        refuse("GC-GUM-0082", "decision on conformity", "probability of nonconformity " + number_text(probability),
+        refuse("GC-GUM-0082", "decision on conformity", "probability of nonconformity " + text::shortest(probability),
                "must be above 0.5 and below 1", "Correct the decision rule.");
     }
     const Dispersion dispersion(y);

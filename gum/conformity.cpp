@@ -9,6 +9,7 @@
 
 #include "gum/argument_check.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -135,7 +136,7 @@ void Application::guard(double w, const std::string& text, const std::string& wh
 }
 
 void Application::guard_by_factor(double r) {
-    guard(r * y_.expanded_uncertainty, "r·U", "r = " + number_text(r));
+    guard(r * y_.expanded_uncertainty, "r·U", "r = " + text::shortest(r));
 }
 
 /// Least ratio and largest U, where they are stated.
@@ -143,14 +144,14 @@ bool Application::ratio_holds() {
     std::string condition;
     bool holds = true;
     if (p_.test_uncertainty_ratio) {
-        condition = "TUR ≥ " + number_text(*p_.test_uncertainty_ratio);
+        condition = "TUR ≥ " + text::shortest(*p_.test_uncertainty_ratio);
         if (*decision_.test_uncertainty_ratio < *p_.test_uncertainty_ratio * (1.0 - k_rounding)) {
             holds = false;
             cannot("the test uncertainty ratio is below the least one of the rule");
         }
     }
     if (p_.largest_U) {
-        condition += (condition.empty() ? "U ≤ " : " and U ≤ ") + number_text(*p_.largest_U);
+        condition += (condition.empty() ? "U ≤ " : " and U ≤ ") + text::shortest(*p_.largest_U);
         if (y_.expanded_uncertainty > *p_.largest_U * (1.0 + k_rounding)) {
             holds = false;
             cannot("the expanded uncertainty is above the largest one of the rule");
@@ -177,7 +178,7 @@ void Application::prove(double probability) {
     solve_risk(1.0 - probability);
     decision_.rejection = rejection_limits_for_probability(y_, limits_, probability);
     decision_.formula = "pass: " + in_tolerance() + " ≥ p; fail: " + in_tolerance() +
-                        " ≤ 1 − p; else undetermined; p = " + number_text(probability);
+                        " ≤ 1 − p; else undetermined; p = " + text::shortest(probability);
 }
 
 /// DR-09, method 4: of the measured value against the centre of the population.
@@ -217,7 +218,7 @@ void Application::posterior() {
                      limits_.upper ? *limits_.upper - *solved->upper : -std::numeric_limits<double>::infinity());
     }
     decision_.formula =
-        "pass: 1 − " + in_tolerance() + " ≤ R with the population as prior; R = " + number_text(largest_risk_);
+        "pass: 1 − " + in_tolerance() + " ≤ R with the population as prior; R = " + text::shortest(largest_risk_);
 }
 
 void Application::z540_3() {
@@ -255,7 +256,7 @@ void Application::z540_3() {
             guard_band_for_global_risk(limits_, population_->centre, population_->deviation, y_.standard_uncertainty,
                                        risk, conditional ? FalseAccept::conditional : FalseAccept::unconditional);
         const std::string text = std::string("w ≥ 0 the smallest with ") +
-                                 (conditional ? "conditional PFA ≤ " : "global PFA ≤ ") + number_text(risk);
+                                 (conditional ? "conditional PFA ≤ " : "global PFA ≤ ") + text::shortest(risk);
         if (w) {
             guard(*w, "w", text);
         } else {
@@ -289,7 +290,7 @@ void Application::set_zones() {
             decision_.rejection = guarded_limits(limits_, -w);
             decision_.formula = "pass: " + acceptance_text(limits_, "w") + "; conditional pass: up to the limit; " +
                                 "conditional fail: up to w beyond the limit; " +
-                                (p_.guard_factor ? "w = r·U, r = " + number_text(*p_.guard_factor)
+                                (p_.guard_factor ? "w = r·U, r = " + text::shortest(*p_.guard_factor)
                                                  : std::string(p_.guard_band ? "w as agreed" : "w = U"));
             return;
         }
@@ -302,7 +303,7 @@ void Application::set_zones() {
         case DecisionRule::specific_risk:
             zones_ = Zones::by_risk;
             solve_risk(*p_.probability);
-            decision_.formula = "pass: 1 − " + in_tolerance() + " ≤ R, R = " + number_text(*p_.probability);
+            decision_.formula = "pass: 1 − " + in_tolerance() + " ≤ R, R = " + text::shortest(*p_.probability);
             return;
         case DecisionRule::iso_14253_1:
             if (p_.guard_factor) {

@@ -10,6 +10,7 @@
 
 #include "gum/argument_check.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -48,8 +49,8 @@ double coverage_factor(double coverage_probability, double degrees_of_freedom) {
         throw NoResultError(Diagnostic{.code = "GC-GUM-0010",
                                        .where = "coverage factor",
                                        .what = "no finite value for coverage probability " +
-                                               number_text(coverage_probability) + " and " +
-                                               number_text(degrees_of_freedom) + " degrees of freedom",
+                                               text::shortest(coverage_probability) + " and " +
+                                               text::shortest(degrees_of_freedom) + " degrees of freedom",
                                        .rule = "an expanded uncertainty needs a finite coverage factor",
                                        .action = "State the contribution with few degrees of freedom better."});
     }
@@ -66,12 +67,12 @@ double ellipsoid_coverage_factor(double coverage_probability, std::size_t output
     }
     const double denominator = degrees_of_freedom + 1.0 - m;
     if (!(denominator > 0.0)) {
-        throw NoResultError(Diagnostic{
-            .code = "GC-GUM-0011",
-            .where = "coverage region",
-            .what = number_text(degrees_of_freedom) + " degrees of freedom for " + std::to_string(outputs) + " outputs",
-            .rule = "a joint region needs more degrees of freedom than outputs less one",
-            .action = "Take more observations, or report intervals of single outputs."});
+        throw NoResultError(Diagnostic{.code = "GC-GUM-0011",
+                                       .where = "coverage region",
+                                       .what = text::shortest(degrees_of_freedom) + " degrees of freedom for " +
+                                               std::to_string(outputs) + " outputs",
+                                       .rule = "a joint region needs more degrees of freedom than outputs less one",
+                                       .action = "Take more observations, or report intervals of single outputs."});
     }
     const double F = boost::math::quantile(boost::math::complement(FisherDistribution(m, denominator), tail));
     return std::sqrt(m * degrees_of_freedom / denominator * F);

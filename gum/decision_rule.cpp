@@ -7,6 +7,7 @@
 
 #include "gum/argument_check.h"
 #include "gum/global_risk.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -89,7 +90,7 @@ private:
 
 void Check::range(bool fine, const char* key, const std::optional<double>& value, const char* rule) {
     if (value && !(std::isfinite(*value) && fine)) {
-        say(std::string(key) + " is " + number_text(*value) + "; it must be " + rule + ".");
+        say(std::string(key) + " is " + text::shortest(*value) + "; it must be " + rule + ".");
     }
 }
 

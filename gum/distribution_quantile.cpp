@@ -14,6 +14,7 @@
 
 #include "gum/argument_check.h"
 #include "gum/quantity/special_values.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -320,7 +321,7 @@ void require_usable(const Distribution& distribution) {
 
 void require_argument(bool usable, const std::string& name, double value, const std::string& rule) {
     if (!usable) {
-        refuse("GC-GUM-0125", name, number_text(value), rule, "Correct the value.");
+        refuse("GC-GUM-0125", name, text::shortest(value), rule, "Correct the value.");
     }
 }
 
@@ -339,18 +340,18 @@ double standardised(const Distribution& distribution, double x) {
 std::string distribution_problem(const Distribution& distribution) {
     const double shape = distribution.shape;
     const auto between_0_and_1 = [&](const char* name) -> std::string {
-        return shape >= 0.0 && shape <= 1.0 ? "" : name + (" " + number_text(shape)) + "; must be from 0 to 1";
+        return shape >= 0.0 && shape <= 1.0 ? "" : name + (" " + text::shortest(shape)) + "; must be from 0 to 1";
     };
     const auto positive = [](const char* name, double value) -> std::string {
         return value > 0.0 && std::isfinite(value)
                    ? ""
-                   : name + (" " + number_text(value)) + "; must be finite and greater than 0";
+                   : name + (" " + text::shortest(value)) + "; must be finite and greater than 0";
     };
     if (!std::isfinite(distribution.location)) {
-        return "location " + number_text(distribution.location) + "; must be finite";
+        return "location " + text::shortest(distribution.location) + "; must be finite";
     }
     if (distribution.kind == DistributionKind::constant) {
-        return distribution.scale == 0.0 ? "" : "scale " + number_text(distribution.scale) + "; a constant has none";
+        return distribution.scale == 0.0 ? "" : "scale " + text::shortest(distribution.scale) + "; a constant has none";
     }
     if (const std::string problem = positive("scale", distribution.scale); !problem.empty()) {
         return problem;

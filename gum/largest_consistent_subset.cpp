@@ -15,6 +15,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/special_values.h"
 #include "gum/reference_value.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -441,8 +442,8 @@ void require_possible_search(const LaboratoryResults& results, double alpha) {
     require_results(results);
     require_probability(alpha, "alpha of the consistency test");
     if (alpha > k_largest_alpha) {
-        refuse("GC-GUM-0004", "alpha of the consistency test", number_text(alpha),
-               "the search for the largest consistent subset needs at most " + number_text(k_largest_alpha),
+        refuse("GC-GUM-0004", "alpha of the consistency test", text::shortest(alpha),
+               "the search for the largest consistent subset needs at most " + text::shortest(k_largest_alpha),
                "State the probability of rejecting a good set of results, 0.05 as a rule.");
     }
     const bool correlated = results.covariance.size() != 0;
@@ -467,7 +468,7 @@ ConsistentSubset largest_consistent_subset(const LaboratoryResults& results, dou
             .code = "GC-GUM-0134",
             .where = "largest consistent subset",
             .what = "no two of the " + std::to_string(results.x.size()) + " results are consistent with each other",
-            .rule = "chi-square of a subset must not exceed its critical value for alpha = " + number_text(alpha),
+            .rule = "chi-square of a subset must not exceed its critical value for alpha = " + text::shortest(alpha),
             .action = "Review the uncertainties, or choose a median or a random-effects mean."});
     }
     ConsistentSubset subset;

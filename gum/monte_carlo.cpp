@@ -21,6 +21,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/random_draws.h"
 #include "gum/worker_threads.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -318,7 +319,8 @@ public:
             for (Eigen::Index i = 0; i < group.size() && column < 20; ++i, ++column) {
                 inputs += inputs.empty() ? "" : ", ";
                 inputs += group.name + (group.size() > 1 ? "[" + std::to_string(i + 1) + "]" : "") + " = " +
-                          number_text(x(0, column)) + (group.unit.empty() || group.unit == "1" ? "" : " " + group.unit);
+                          text::shortest(x(0, column)) +
+                          (group.unit.empty() || group.unit == "1" ? "" : " " + group.unit);
             }
         }
         if (column < draws_.size()) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "gum/argument_check.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -65,7 +66,7 @@ ItemStatistics item_statistics(const Eigen::MatrixXd& results) {
 double sigma_pt_of_mass_fraction(double mass_fraction) {
     require_positive(mass_fraction, "mass fraction");
     if (mass_fraction > 1.0) {
-        refuse("GC-GUM-0112", "mass fraction", number_text(mass_fraction), "must not be greater than 1",
+        refuse("GC-GUM-0112", "mass fraction", text::shortest(mass_fraction), "must not be greater than 1",
                "State the mass fraction as a share of the whole: 1 mg/kg is 1e-6.");
     }
     if (mass_fraction < 1.2e-7) {
@@ -80,8 +81,8 @@ double sigma_pt_of_precision(double reproducibility, double repeatability, std::
     require_items(1, replicates, 1);
     if (repeatability > reproducibility) {
         refuse("GC-GUM-0110", "repeatability standard deviation",
-               number_text(repeatability) + " with a reproducibility standard deviation of " +
-                   number_text(reproducibility),
+               text::shortest(repeatability) + " with a reproducibility standard deviation of " +
+                   text::shortest(reproducibility),
                "repeatability is a part of reproducibility and cannot be greater",
                "Check whether the two numbers were exchanged.");
     }

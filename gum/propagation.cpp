@@ -17,6 +17,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/distribution_shape.h"
 #include "gum/quantity/special_values.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -71,12 +72,12 @@ GroupFactor factor_group(const InputGroup& group, std::vector<Diagnostic>& probl
 
     if (!(group.degrees_of_freedom > 0.0) &&
         !(std::isnan(group.degrees_of_freedom) && !group.no_degrees_of_freedom_because.empty())) {
-        report("GC-GUM-0005", "degrees of freedom " + number_text(group.degrees_of_freedom),
+        report("GC-GUM-0005", "degrees of freedom " + text::shortest(group.degrees_of_freedom),
                "must be greater than 0 or infinite", "Correct the value, or leave it out where it is infinite.");
     }
     for (Eigen::Index i = 0; i < n; ++i) {
         if (!std::isfinite(group.value(i))) {
-            report("GC-GUM-0050", "estimate of " + ordinal(i) + " is " + number_text(group.value(i)),
+            report("GC-GUM-0050", "estimate of " + ordinal(i) + " is " + text::shortest(group.value(i)),
                    "estimates must be finite", "Correct the estimate.");
             break;
         }
@@ -98,7 +99,7 @@ GroupFactor factor_group(const InputGroup& group, std::vector<Diagnostic>& probl
     const Eigen::VectorXd variance = diagonal ? Eigen::VectorXd(V.col(0)) : Eigen::VectorXd(V.diagonal());
     for (Eigen::Index i = 0; i < n; ++i) {
         if (variance(i) < 0.0) {
-            report("GC-GUM-0051", "variance of " + ordinal(i) + " is " + number_text(variance(i)),
+            report("GC-GUM-0051", "variance of " + ordinal(i) + " is " + text::shortest(variance(i)),
                    "a variance must not be negative", "Correct the covariance.");
             return factor;
         }
@@ -117,17 +118,17 @@ GroupFactor factor_group(const InputGroup& group, std::vector<Diagnostic>& probl
             const double upper = V(j, i);
             if (std::abs(lower - upper) > std::max(k_symmetry_tolerance, tolerance) * scale) {
                 report("GC-GUM-0052",
-                       "covariance of " + ordinal(i) + " and " + ordinal(j) + " is " + number_text(lower) +
-                           " below and " + number_text(upper) + " above the diagonal",
+                       "covariance of " + ordinal(i) + " and " + ordinal(j) + " is " + text::shortest(lower) +
+                           " below and " + text::shortest(upper) + " above the diagonal",
                        "a covariance matrix is symmetric", "Correct the covariance.");
                 return factor;
             }
             const double covariance = 0.5 * (lower + upper);
             if (std::abs(covariance) > (1.0 + tolerance) * scale) {
                 report("GC-GUM-0053",
-                       "covariance of " + ordinal(j) + " and " + ordinal(i) + " is " + number_text(covariance) +
-                           " for standard uncertainties " + number_text(factor.u(j)) + " and " +
-                           number_text(factor.u(i)),
+                       "covariance of " + ordinal(j) + " and " + ordinal(i) + " is " + text::shortest(covariance) +
+                           " for standard uncertainties " + text::shortest(factor.u(j)) + " and " +
+                           text::shortest(factor.u(i)),
                        "a correlation coefficient lies between -1 and 1", "Correct the covariance.");
                 return factor;
             }
@@ -151,7 +152,7 @@ GroupFactor factor_group(const InputGroup& group, std::vector<Diagnostic>& probl
     const double smallest = eigen.eigenvalues()(0);
     if (smallest < -tolerance * eigen.eigenvalues()(n - 1)) {
         report("GC-GUM-0054",
-               "correlation matrix has the eigenvalue " + number_text(smallest) + ", caused by " +
+               "correlation matrix has the eigenvalue " + text::shortest(smallest) + ", caused by " +
                    causes(eigen.eigenvectors().col(0)),
                "a covariance matrix is positive semi-definite",
                "Correct the correlations of these quantities; they contradict each other.");
@@ -190,7 +191,7 @@ std::string output_place(const MeasurementModel& model, Eigen::Index output) {
 void require_finite_value(const MeasurementModel& model, const Eigen::VectorXd& value) {
     for (Eigen::Index i = 0; i < value.size(); ++i) {
         if (!std::isfinite(value(i))) {
-            no_result("GC-GUM-0055", output_place(model, i), "the model gives " + number_text(value(i)),
+            no_result("GC-GUM-0055", output_place(model, i), "the model gives " + text::shortest(value(i)),
                       "a measurement model must be finite at the estimates",
                       "Check the estimates for a division by 0 or a function outside its domain.");
         }
@@ -208,7 +209,7 @@ void require_finite_jacobian(const MeasurementModel& model, const Eigen::MatrixX
                 if (!std::isfinite(jacobian(i, j))) {
                     no_result("GC-GUM-0056", output_place(model, i),
                               "the sensitivity coefficient for " + ordinal(j - first) + " of " + place_of(group) +
-                                  " is " + number_text(jacobian(i, j)),
+                                  " is " + text::shortest(jacobian(i, j)),
                               "the law of propagation needs a finite derivative at the estimates",
                               "The model cannot be made linear there: use the Monte Carlo method.");
                 }
@@ -266,7 +267,7 @@ UncertaintyBudget uncertainty_budget(const MeasurementModel& model, Eigen::Vecto
     }
     for (Eigen::Index i = 0; i < m; ++i) {
         if (!std::isfinite(total(i))) {
-            no_result("GC-GUM-0057", output_place(model, i), "the variance is " + number_text(total(i)),
+            no_result("GC-GUM-0057", output_place(model, i), "the variance is " + text::shortest(total(i)),
                       "a standard uncertainty must be finite", "Check the input uncertainties and their units.");
         }
     }

@@ -11,6 +11,7 @@
 #include "gum/argument_check.h"
 #include "gum/correlated_results.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -153,7 +154,7 @@ ReferenceValue power_moderated_mean(const LaboratoryResults& results) {
 ReferenceValue power_moderated_mean(const LaboratoryResults& results, double alpha) {
     require_independent_results(results);
     if (!(alpha >= 0.0 && alpha <= 2.0)) {
-        refuse("GC-GUM-0137", "power of the power-moderated mean", number_text(alpha), "must lie between 0 and 2",
+        refuse("GC-GUM-0137", "power of the power-moderated mean", text::shortest(alpha), "must lie between 0 and 2",
                "Take 2 - 3/n for n results, or leave it out.");
     }
     const ShiftedResults c = shifted(results);

@@ -14,6 +14,7 @@
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/special_values.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -52,22 +53,22 @@ private:
 void check_values(const LaboratoryResults& results, Problems& problems) {
     for (Index i = 0; i < results.x.size(); ++i) {
         if (!std::isfinite(results.x(i))) {
-            problems.add("GC-GUM-0001", name_of(i), "value " + number_text(results.x(i)), "must be a finite number",
+            problems.add("GC-GUM-0001", name_of(i), "value " + text::shortest(results.x(i)), "must be a finite number",
                          "Correct the value, or leave the laboratory out.");
         }
         const double u = results.u(i);
         if (std::abs(results.x(i)) > k_largest_magnitude || u > k_largest_magnitude ||
             (u > 0.0 && u < 1.0 / k_largest_magnitude)) {
             problems.add("GC-GUM-0135", name_of(i),
-                         "value " + number_text(results.x(i)) + ", standard uncertainty " + number_text(u),
+                         "value " + text::shortest(results.x(i)) + ", standard uncertainty " + text::shortest(u),
                          "magnitudes from 1e-150 to 1e+150 can be squared", "State the results in another unit.");
         }
         if (!std::isfinite(u)) {
-            problems.add("GC-GUM-0001", name_of(i), "standard uncertainty " + number_text(u), "must be a finite number",
-                         "Correct the uncertainty, or leave the laboratory out.");
+            problems.add("GC-GUM-0001", name_of(i), "standard uncertainty " + text::shortest(u),
+                         "must be a finite number", "Correct the uncertainty, or leave the laboratory out.");
         } else if (u <= 0.0) {
-            problems.add("GC-GUM-0003", name_of(i), "standard uncertainty " + number_text(u), "must be greater than 0",
-                         "Ask the laboratory for its uncertainty, or leave it out.");
+            problems.add("GC-GUM-0003", name_of(i), "standard uncertainty " + text::shortest(u),
+                         "must be greater than 0", "Ask the laboratory for its uncertainty, or leave it out.");
         }
     }
 }
@@ -78,8 +79,8 @@ void check_elements(const LaboratoryResults& results, Problems& problems) {
         const double variance = results.u(j) * results.u(j);
         if (std::abs(V(j, j) - variance) > k_diagonal_tolerance * variance) {
             problems.add("GC-GUM-0135", "covariance of the results",
-                         "variance of " + name_of(j) + " is " + number_text(V(j, j)) + " for a standard uncertainty " +
-                             number_text(results.u(j)),
+                         "variance of " + name_of(j) + " is " + text::shortest(V(j, j)) +
+                             " for a standard uncertainty " + text::shortest(results.u(j)),
                          "the diagonal holds the squares of the standard uncertainties", "Correct one of the two.");
         }
         for (Index i = j + 1; i < V.rows(); ++i) {
@@ -87,13 +88,13 @@ void check_elements(const LaboratoryResults& results, Problems& problems) {
             const std::string pair = "of " + name_of(j) + " and " + name_of(i);
             if (std::abs(V(i, j) - V(j, i)) > k_computed_symmetry_tolerance * scale) {
                 problems.add("GC-GUM-0052", "covariance of the results",
-                             "element " + pair + " is " + number_text(V(i, j)) + " below and " + number_text(V(j, i)) +
-                                 " above the diagonal",
+                             "element " + pair + " is " + text::shortest(V(i, j)) + " below and " +
+                                 text::shortest(V(j, i)) + " above the diagonal",
                              "a covariance matrix is symmetric", "Correct the covariance.");
             } else if (std::abs(V(i, j)) > (1.0 + k_diagonal_tolerance) * scale) {
                 problems.add("GC-GUM-0053", "covariance of the results",
-                             "element " + pair + " is " + number_text(V(i, j)) + ", a correlation of " +
-                                 number_text(V(i, j) / scale),
+                             "element " + pair + " is " + text::shortest(V(i, j)) + ", a correlation of " +
+                                 text::shortest(V(i, j) / scale),
                              "a correlation coefficient lies between -1 and 1", "Correct the correlation.");
             }
         }
@@ -110,7 +111,7 @@ void check_semidefinite(const LaboratoryResults& results, Problems& problems) {
     const double tolerance = 10.0 * static_cast<double>(R.rows()) * k_epsilon;
     if (!(smallest >= -std::max(tolerance, k_diagonal_tolerance) * eigen.eigenvalues().tail(1)(0))) {
         problems.add("GC-GUM-0054", "covariance of the results",
-                     "smallest eigenvalue of the correlation matrix is " + number_text(smallest),
+                     "smallest eigenvalue of the correlation matrix is " + text::shortest(smallest),
                      "a covariance matrix is positive semi-definite",
                      "Correct the correlations; they contradict each other.");
     }
@@ -158,7 +159,7 @@ LeastSquares correlated_least_squares(const LaboratoryResults& results, const Ce
             .code = "GC-GUM-0132",
             .where = "covariance of the results",
             .what = "singular: the reciprocal condition number of the correlation matrix is " +
-                    number_text(reciprocal_condition),
+                    text::shortest(reciprocal_condition),
             .rule = "the weighted mean of correlated results needs the inverse of their covariance",
             .action = "Leave out one of the results that are fully correlated, or correct the correlations."});
     }
@@ -228,9 +229,10 @@ void require_results(const LaboratoryResults& results, std::size_t fewest) {
     problems.throw_if_any();
     const double largest = std::max(results.x.maxCoeff() - results.x.minCoeff(), results.u.maxCoeff());
     if (largest / results.u.minCoeff() > k_largest_magnitude) {
-        refuse("GC-GUM-0135", "results",
-               "range " + number_text(largest) + " with a standard uncertainty " + number_text(results.u.minCoeff()),
-               "magnitudes up to 1e+150 times the smallest uncertainty can be squared", "Correct the uncertainty.");
+        refuse(
+            "GC-GUM-0135", "results",
+            "range " + text::shortest(largest) + " with a standard uncertainty " + text::shortest(results.u.minCoeff()),
+            "magnitudes up to 1e+150 times the smallest uncertainty can be squared", "Correct the uncertainty.");
     }
     if (V.size() != 0) {
         check_elements(results, problems);

@@ -13,6 +13,7 @@
 #include "gum/argument_check.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -552,8 +553,8 @@ AlgorithmSFactors algorithm_s_factors(double degrees_of_freedom) {
     require_positive(degrees_of_freedom, "degrees of freedom of a standard deviation");
     constexpr double k_most_degrees_of_freedom = 1e10;
     if (degrees_of_freedom > k_most_degrees_of_freedom) {
-        refuse("GC-GUM-0005", "degrees of freedom of a standard deviation", number_text(degrees_of_freedom),
-               "must not be greater than " + number_text(k_most_degrees_of_freedom), "Correct the number.");
+        refuse("GC-GUM-0005", "degrees of freedom of a standard deviation", text::shortest(degrees_of_freedom),
+               "must not be greater than " + text::shortest(k_most_degrees_of_freedom), "Correct the number.");
     }
     const boost::math::chi_squared_distribution<double> distribution(degrees_of_freedom);
     const double limit_square = boost::math::quantile(distribution, 0.9) / degrees_of_freedom;

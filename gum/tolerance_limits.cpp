@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "gum/argument_check.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 
@@ -14,8 +15,8 @@ std::string limits_problem(const ToleranceLimits& limits) {
         return "a tolerance limit that is not a finite number";
     }
     if (limits.two_sided() && !(*limits.lower < *limits.upper)) {
-        return "the lower limit " + number_text(*limits.lower) + " is not below the upper limit " +
-               number_text(*limits.upper);
+        return "the lower limit " + text::shortest(*limits.lower) + " is not below the upper limit " +
+               text::shortest(*limits.upper);
     }
     return "";
 }

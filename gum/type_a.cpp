@@ -7,6 +7,7 @@
 
 #include "gum/argument_check.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -110,7 +111,7 @@ std::vector<double> autocorrelation(std::span<const double> observations, std::s
     const Real mean = mean_of(observations);
     const Real whole = lagged_sum(observations, mean, 0);
     if (!(whole > 0.0L)) {
-        refuse("GC-GUM-0023", "observations", "all equal to " + number_text(observations.front()),
+        refuse("GC-GUM-0023", "observations", "all equal to " + text::shortest(observations.front()),
                "a correlation needs observations that vary", "Observe with a finer resolution.");
     }
     std::vector<double> coefficients;

@@ -10,6 +10,7 @@
 #include "gum/argument_check.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/random_effects.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -271,10 +272,11 @@ void require_replicates(const ReplicatedResults& results) {
     const double largest = std::max(results.x.maxCoeff() - results.x.minCoeff(), results.s.maxCoeff());
     constexpr double k_most = 1e100;
     if (!(largest / results.s.minCoeff() <= k_most)) {
-        refuse("GC-GUM-0135", "replicated results",
-               "range " + number_text(largest) + " with a standard deviation " + number_text(results.s.minCoeff()),
-               "magnitudes up to 1e+100 times the smallest standard deviation can be handled",
-               "Correct the standard deviation.");
+        refuse(
+            "GC-GUM-0135", "replicated results",
+            "range " + text::shortest(largest) + " with a standard deviation " + text::shortest(results.s.minCoeff()),
+            "magnitudes up to 1e+100 times the smallest standard deviation can be handled",
+            "Correct the standard deviation.");
     }
 }
 

@@ -13,6 +13,7 @@
 #include "gum/argument_check.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -98,7 +99,7 @@ public:
         }
         throw NoResultError(Diagnostic{.code = "GC-GUM-0140",
                                        .where = "sum of chi-squares",
-                                       .what = "the integral at " + number_text(of_.x) + " times the largest of " +
+                                       .what = "the integral at " + text::shortest(of_.x) + " times the largest of " +
                                                std::to_string(of_.weights.size()) + " weights has not converged",
                                        .rule = "two steps of integration agree within 1e-10",
                                        .action = "Report the weights; this is not expected to happen."});

@@ -8,6 +8,7 @@
 #include "reports/budget_plots.h"
 #include "reports/result_names.h"
 #include "reports/svg_plot.h"
+#include "text/numbers.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -59,7 +60,7 @@ std::string squared(const std::string& people) {
 
 /// "95.45 %"
 std::string percent_text(double probability) {
-    std::string text = fixed(100.0 * probability, 6);
+    std::string text = text::fixed(100.0 * probability, 6);
     text.erase(text.find_last_not_of('0') + 1);
     if (text.back() == '.') {
         text.pop_back();
@@ -150,8 +151,8 @@ Text coverage_sentence(const CoverageGroup& group, const Wording& words) {
     }
     Text k = "k";
     if (k_low) {
-        const Text low = words.number(fixed(*k_low, 2));
-        const Text high = words.number(fixed(*k_high, 2));
+        const Text low = words.number(text::fixed(*k_low, 2));
+        const Text high = words.number(text::fixed(*k_high, 2));
         k = low == high ? words.fill("k_one", {{"k", low}}) : words.fill("k_between", {{"low", low}, {"high", high}});
     }
     if (group.kind == "monte_carlo") {
@@ -286,7 +287,7 @@ void result_table(CertificateBuilder& builder, const Wording& words, const Resul
             row.push_back(r->printed.unit);
         }
         if (with_U) {
-            row.push_back(of.k ? fixed(*of.k, 2) : "");
+            row.push_back(of.k ? text::fixed(*of.k, 2) : "");
             row.push_back(of.method == "monte_carlo"                      ? Text()
                           : coverage_kind(*r) == "student_t" || r->nu_eff ? degrees_of_freedom(r->nu_eff, words)
                                                                           : Text());
@@ -751,7 +752,7 @@ void fit(CertificateBuilder& builder, const Wording& words, const FitSummary& f,
     builder.table("fit-" + id, words.fill("fit_table", {{"name", f.name}}), columns, rows);
     const std::string y_unit = gum::unit_for_people(f.y_unit);
     Facts facts = {{words("label", "observations_of_fit"), std::to_string(f.y.size())},
-                   {words("label", "degrees_of_freedom"), fixed(f.degrees_of_freedom, 0)},
+                   {words("label", "degrees_of_freedom"), text::fixed(f.degrees_of_freedom, 0)},
                    {words("label", weighted ? "residual_factor" : "residual_standard_deviation"),
                     words.number(with_unit(f.printed.residual_standard_deviation, weighted ? "" : y_unit))},
                    {words("label", weighted ? "chi_square" : "sum_of_squares"),

@@ -2,13 +2,11 @@
 
 #include "certificate/statement_of_uncertainty.h"
 #include "reports/certificate_view.h"
+#include "text/numbers.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <optional>
 
 namespace gumcert::reports {
@@ -75,25 +73,13 @@ const char* name_of(RowKind kind) {
 }  // namespace
 
 std::string plain(double v) {
-    std::array<char, 64> buffer{};
-    char* const last = buffer.data() + buffer.size();
-    const bool ordinary = v == 0.0 || (std::abs(v) >= 1e-7 && std::abs(v) < 1e12);
-    const auto end = (ordinary ? std::to_chars(buffer.data(), last, v, std::chars_format::fixed)
-                               : std::to_chars(buffer.data(), last, v))
-                         .ptr;
-    std::string text(buffer.data(), end);
-    return !text.empty() && text.front() == '-' ? "\u2212" + text.substr(1) : text;
+    constexpr double k_least = 1e-7;
+    const std::string text = text::shortest_plain(v, k_least);
+    return text.starts_with('-') ? "\u2212" + text.substr(1) : text;
 }
 
 std::string plain(std::int64_t v) {
     return std::to_string(v);
-}
-
-std::string fixed(double v, int decimals) {
-    std::array<char, 512> buffer{};
-    const auto end =
-        std::to_chars(buffer.data(), buffer.data() + buffer.size(), v, std::chars_format::fixed, decimals).ptr;
-    return {buffer.data(), end};
 }
 
 Text degrees_of_freedom(const std::optional<double>& nu, const Wording& words) {

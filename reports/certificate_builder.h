@@ -93,8 +93,6 @@ void put(nlohmann::json& object, const std::string& key, const Text& text, const
 [[nodiscard]] std::string plain(double v);
 [[nodiscard]] std::string plain(std::int64_t v);
 
-/// A coverage factor or a redundancy, rounded for display.
-[[nodiscard]] std::string fixed(double v, int decimals);
 /// Degrees of freedom, as certificate::printed_degrees_of_freedom prints them; a word for infinitely many.
 [[nodiscard]] Text degrees_of_freedom(const std::optional<double>& nu, const Wording& words);
 

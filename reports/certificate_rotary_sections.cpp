@@ -6,9 +6,9 @@
 #include "reports/reported_results.h"
 #include "reports/result_names.h"
 #include "reports/rotary_plots.h"
+#include "text/numbers.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -52,7 +52,7 @@ std::vector<Column> coordinate_columns(const Wording& words, const Text& first) 
 
 /// A normalised residual, with U+2212 as minus sign.
 std::string fixed_signed(double v) {
-    const std::string text = fixed(std::abs(v), 2);
+    const std::string text = text::fixed(std::abs(v), 2);
     return v < 0.0 && text != "0.00" ? "\u2212" + text : text;
 }
 
@@ -78,9 +78,9 @@ bool by_monte_carlo(const TableParameter& p) {
 
 std::string printed_k(const TableParameter& p) {
     if (!by_monte_carlo(p)) {
-        return fixed(p.k, 2);
+        return text::fixed(p.k, 2);
     }
-    return p.reported->k ? fixed(*p.reported->k, 2) : "";
+    return p.reported->k ? text::fixed(*p.reported->k, 2) : "";
 }
 
 void parameter_table(CertificateBuilder& builder, const Wording& words, const std::string& id, const Text& caption,
@@ -218,7 +218,7 @@ void variance_components(CertificateBuilder& builder, const Wording& words, cons
             row.push_back(v.printed_stated);
             row.push_back(v.degrees_of_freedom ? degrees_of_freedom(v.degrees_of_freedom, words) : Text());
         }
-        row.push_back(fixed(v.redundancy, 1));
+        row.push_back(text::fixed(v.redundancy, 1));
         row.push_back(words("value", v.estimated ? "estimated" : "given"));
         if (in_depth) {
             row.push_back(words("value", v.used ? "used" : "check_only"));
@@ -473,10 +473,11 @@ void rotary_monte_carlo(CertificateBuilder& builder, const Wording& words, const
     if (!m.statement.empty()) {
         builder.paragraph(words.sentence(m.statement));
     }
-    builder.definitions({{words("label", "trials"), plain(m.trials)},
-                         {words("label", "seed"), plain(m.seed)},
-                         {words("label", "steps"), words.fill("steps", {{"mean", words.number(fixed(m.mean_steps, 2))},
-                                                                        {"most", plain(m.most_steps)}})}});
+    builder.definitions(
+        {{words("label", "trials"), plain(m.trials)},
+         {words("label", "seed"), plain(m.seed)},
+         {words("label", "steps"),
+          words.fill("steps", {{"mean", words.number(text::fixed(m.mean_steps, 2))}, {"most", plain(m.most_steps)}})}});
     const std::vector<Compared> all = all_compared(words, record);
     struct Counts {
         Text group;
@@ -625,7 +626,7 @@ void reliability(CertificateBuilder& builder, const Wording& words, const Rotary
     };
     if (least != nullptr && largest != nullptr) {
         facts.emplace_back(words("label", "least_redundancy"),
-                           words.number(fixed(least->redundancy_number, 3)) + " (" + distance(*least) + ")");
+                           words.number(text::fixed(least->redundancy_number, 3)) + " (" + distance(*least) + ")");
         facts.emplace_back(words("label", "largest_bias"), words.number(rounded(largest->minimal_detectable_bias_um)) +
                                                                " µm (" + distance(*largest) + ")");
     }
@@ -645,7 +646,7 @@ void reliability(CertificateBuilder& builder, const Wording& words, const Rotary
         };
         facts.emplace_back(
             words("label", "least_redundancy_fixture"),
-            words.number(fixed(least_fixture->redundancy_number, 3)) + " (" + coordinate(*least_fixture) + ")");
+            words.number(text::fixed(least_fixture->redundancy_number, 3)) + " (" + coordinate(*least_fixture) + ")");
         facts.emplace_back(words("label", "largest_bias_fixture"),
                            words.number(rounded(largest_fixture->minimal_detectable_bias_um)) + " µm (" +
                                coordinate(*largest_fixture) + ")");
@@ -692,8 +693,9 @@ void reliability(CertificateBuilder& builder, const Wording& words, const Rotary
             if (rows.size() == k_most_listed) {
                 break;
             }
-            rows.push_back({row.reflector, row.coordinate, rounded(row.residual_um), fixed(row.redundancy_number, 3),
-                            fixed_signed(row.test_value), detectable(row.minimal_detectable_bias_um)});
+            rows.push_back({row.reflector, row.coordinate, rounded(row.residual_um),
+                            text::fixed(row.redundancy_number, 3), fixed_signed(row.test_value),
+                            detectable(row.minimal_detectable_bias_um)});
         }
         builder.table("fixture-reliability", words("sentence", "fixture_reliability"),
                       {{words("label", "reflector"), ""},

@@ -15,6 +15,8 @@
 #include "reports/reported_results.h"
 #include "reports/svg_plot.h"
 #include "reports/wording.h"
+#include "text/numbers.h"
+#include "text/utf8.h"
 
 #include <nlohmann/json.hpp>
 
@@ -96,10 +98,10 @@ std::pair<Text, Text> uncertainty_of_set_up(const EvaluationRecord& record, cons
     for (const Result& result : record.results) {
         if (result.name == name && result.reported.method == "monte_carlo") {
             return {stated_uncertainty(result.reported.printed, result.reported, words),
-                    result.reported.k ? fixed(*result.reported.k, 2) : ""};
+                    result.reported.k ? text::fixed(*result.reported.k, 2) : ""};
         }
     }
-    return {printed.U, fixed(record.rotary->set_up.k, 2)};
+    return {printed.U, text::fixed(record.rotary->set_up.k, 2)};
 }
 
 void set_up(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
@@ -264,8 +266,8 @@ void uncertainty_statement(CertificateBuilder& builder, const Wording& words, co
         }
     }
     if (coverage.any) {
-        const std::string low = fixed(coverage.k_low, 2);
-        const std::string high = fixed(coverage.k_high, 2);
+        const std::string low = text::fixed(coverage.k_low, 2);
+        const std::string high = text::fixed(coverage.k_high, 2);
         const Text nu_low = degrees_of_freedom(coverage.nu_low, words);
         const Text nu_high = degrees_of_freedom(coverage.nu_high, words);
         const Text k = low == high
@@ -501,34 +503,17 @@ std::string printable(const std::string& text) {
         return text;  // most texts of a document are numbers
     }
     std::string out;
-    std::size_t i = 0;
-    while (i < text.size()) {
-        const auto lead = static_cast<unsigned char>(text[i]);
-        std::size_t length = 1;
-        if (lead >= 0xC2 && lead < 0xE0) {
-            length = 2;
-        } else if (lead >= 0xE0 && lead < 0xF0) {
-            length = 3;
-        } else if (lead >= 0xF0) {
-            length = 4;
-        }
-        const std::string character = text.substr(i, length);
-        if (!is_utf8(character)) {
-            out += k_replacement;
-            ++i;
-            continue;
-        }
-        i += character.size();
-        const auto from_to = [&](const char* low, const char* high) { return character >= low && character <= high; };
-        if (character == "\n" || character == "\t") {
+    for (std::size_t i = 0; i < text.size();) {
+        const text::Character character = text::decode_utf8(text, i);
+        const std::size_t bytes = std::max<std::size_t>(character.bytes, 1);
+        if (character.code == U'\n' || character.code == U'\t') {
             out += ' ';
-        } else if (lead < 0x20 || lead == 0x7F || from_to("\u0080", "\u009F") || from_to("\u200E", "\u200F") ||
-                   from_to("\u2028", "\u202E") || from_to("\u2066", "\u2069") || character == "\uFEFF" ||
-                   character == "\u061C" || character == "\uFFFE" || character == "\uFFFF") {
+        } else if (character.bytes == 0 || (text::is_hidden(character.code) && !text::is_joiner(character.code))) {
             out += k_replacement;
         } else {
-            out += character;
+            out += text.substr(i, bytes);
         }
+        i += bytes;
     }
     return out;
 }
@@ -536,7 +521,7 @@ std::string printable(const std::string& text) {
 std::string shortened(const std::string& text, std::size_t most) {
     std::size_t characters = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
-        const bool starts = (static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U;
+        const bool starts = !text::is_continuation(text[i]);
         if (starts && characters++ == most) {
             return text.substr(0, i) + "…";
         }

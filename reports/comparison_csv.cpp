@@ -1,8 +1,8 @@
 #include "reports/comparison_csv.h"
+#include "text/csv_field.h"
+#include "text/numbers.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -16,57 +16,6 @@ namespace gumcert::reports {
 
 namespace {
 
-std::string shortest(double v) {
-    std::array<char, 32> buffer{};
-    return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), v).ptr};
-}
-
-bool is_number(std::string_view text) {
-    if (text.starts_with('+')) {
-        text.remove_prefix(1);
-    }
-    double v = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), v);
-    return error == std::errc() && end == text.data() + text.size();
-}
-
-/// The signs that begin a formula; spreadsheets of East Asian languages know their wide forms, too.
-bool begins_formula(std::string_view text) {
-    static constexpr std::array<std::string_view, 8> k_signs = {"=", "+", "-", "@", "＝", "＋", "－", "＠"};
-    return std::any_of(k_signs.begin(), k_signs.end(), [&](std::string_view s) { return text.starts_with(s); });
-}
-
-/// A text that no spreadsheet takes for a formula, whatever separator it was set up for.
-std::string harmless(const std::string& text) {
-    static constexpr std::string_view k_separators = ",;\t\r\n";
-    if (text.size() <= 1 || is_number(text)) {
-        return text == "=" || text == "@" ? "'" + text : text;
-    }
-    std::string out;
-    bool at_start = true;  // of the text, or behind what may be a separator
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const bool separates = k_separators.find(text[i]) != std::string_view::npos;
-        if (at_start && (begins_formula(std::string_view(text).substr(i)) || (i == 0 && separates))) {
-            out += '\'';
-        }
-        out += text[i];
-        at_start = separates;
-    }
-    return out;
-}
-
-/// RFC 4180, 2.5 to 2.7.
-std::string field(const std::string& text) {
-    if (text.find_first_of(",;\"\t\r\n") == std::string::npos) {
-        return text;
-    }
-    std::string out = "\"";
-    for (const char c : text) {
-        out += c == '"' ? "\"\"" : std::string(1, c);
-    }
-    return out + '"';
-}
-
 using Point = ComparisonPoint;
 
 /// One column: its head and the cell of a row; "" where the row has none.
@@ -76,15 +25,15 @@ struct CsvColumn {
 };
 
 CsvColumn text(const char* head, std::string Point::*member) {
-    return {head, [member](const Point& p) { return harmless(p.*member); }};
+    return {head, [member](const Point& p) { return (p.*member); }};
 }
 
 CsvColumn number(const char* head, double Point::*member) {
-    return {head, [member](const Point& p) { return shortest(p.*member); }};
+    return {head, [member](const Point& p) { return text::shortest(p.*member); }};
 }
 
 CsvColumn number(const char* head, std::optional<double> Point::*member) {
-    return {head, [member](const Point& p) { return p.*member ? shortest(*(p.*member)) : std::string(); }};
+    return {head, [member](const Point& p) { return p.*member ? text::shortest(*(p.*member)) : std::string(); }};
 }
 
 /// What a row needs of its item.
@@ -99,19 +48,19 @@ public:
     [[nodiscard]] CsvColumn text(const char* head, std::string ComparisonItemEvaluation::*member) const {
         return {head, [this, member](const Point& p) {
                     const ComparisonItemEvaluation* item = of(p);
-                    return item == nullptr ? std::string() : harmless(item->*member);
+                    return item == nullptr ? std::string() : (item->*member);
                 }};
     }
     [[nodiscard]] CsvColumn number(const char* head, std::optional<double> ComparisonItemEvaluation::*member) const {
         return {head, [this, member](const Point& p) {
                     const ComparisonItemEvaluation* item = of(p);
-                    return item == nullptr || !(item->*member) ? std::string() : shortest(*(item->*member));
+                    return item == nullptr || !(item->*member) ? std::string() : text::shortest(*(item->*member));
                 }};
     }
     [[nodiscard]] CsvColumn unit() const {
         return {"unit", [this](const Point& p) {
                     const ComparisonItemEvaluation* item = of(p);
-                    return harmless(item == nullptr ? unit_ : item->unit);
+                    return (item == nullptr ? unit_ : item->unit);
                 }};
     }
 
@@ -199,7 +148,7 @@ std::string comparison_csv(const EvaluationRecord& record) {
         const char* separator = rows.front().empty() ? "" : ",";
         rows.front() += std::string(separator) + column.head;
         for (std::size_t i = 0; i < cells.size(); ++i) {
-            rows[i + 1] += separator + field(cells[i]);
+            rows[i + 1] += separator + text::csv_field(cells[i]);
         }
     }
     std::string out;

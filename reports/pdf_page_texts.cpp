@@ -1,6 +1,7 @@
 #include "reports/pdf_page_texts.h"
 
 #include "reports/qpdf_objects.h"
+#include "text/utf8.h"
 
 #include <cstddef>
 #include <map>
@@ -17,25 +18,6 @@ using Object = QPDFObjectHandle;
 /// Text of each code of a font (ISO 32000-1:2008, 9.10.3).
 using CodeTexts = std::map<unsigned, std::string>;
 
-void append_utf8(std::string& text, unsigned code) {
-    const auto byte = [&](unsigned v) { text += static_cast<char>(static_cast<unsigned char>(v)); };
-    if (code < 0x80U) {
-        byte(code);
-    } else if (code < 0x800U) {
-        byte(0xC0U | (code >> 6U));
-        byte(0x80U | (code & 0x3FU));
-    } else if (code < 0x10000U) {
-        byte(0xE0U | (code >> 12U));
-        byte(0x80U | ((code >> 6U) & 0x3FU));
-        byte(0x80U | (code & 0x3FU));
-    } else {
-        byte(0xF0U | (code >> 18U));
-        byte(0x80U | ((code >> 12U) & 0x3FU));
-        byte(0x80U | ((code >> 6U) & 0x3FU));
-        byte(0x80U | (code & 0x3FU));
-    }
-}
-
 std::string from_utf16(const std::string& bytes) {
     std::string text;
     const auto unit = [&](std::size_t i) {
@@ -48,7 +30,7 @@ std::string from_utf16(const std::string& bytes) {
             code = 0x10000U + ((code - 0xD800U) << 10U) + (unit(i + 2) - 0xDC00U);
             i += 2;
         }
-        append_utf8(text, code);
+        text += text::encode_utf8(code);
     }
     return text;
 }
@@ -140,7 +122,7 @@ std::string bare(const std::string& text) {
     std::string out;
     for (std::size_t i = 0; i < text.size();) {
         std::size_t length = 1;
-        while (i + length < text.size() && (static_cast<unsigned char>(text[i + length]) & 0xC0U) == 0x80U) {
+        while (i + length < text.size() && text::is_continuation(text[i + length])) {
             ++length;
         }
         const std::string character = text.substr(i, length);

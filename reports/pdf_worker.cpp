@@ -3,6 +3,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "reports/asset_files.h"
 #include "reports/certificate_view.h"
+#include "text/markup.h"
 
 #include <nlohmann/json.hpp>
 
@@ -107,20 +108,6 @@ void write_file(const fs::path& name, std::string_view bytes) {
     }
 }
 
-std::string xml_escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&') {
-            out += "&amp;";
-        } else if (c == '<') {
-            out += "&lt;";
-        } else {
-            out += c;
-        }
-    }
-    return out;
-}
-
 /// Owns a file descriptor.
 class Descriptor {
 public:
@@ -204,7 +191,7 @@ public:
         // Typst would offer the fonts of the machine; a list of folders with one empty folder keeps them away.
         make_folder(folder_.path() / "no_fonts");
         write_file(folder_.path() / "fonts.conf", "<?xml version=\"1.0\"?>\n<fontconfig><dir>" +
-                                                      xml_escaped((folder_.path() / "no_fonts").string()) +
+                                                      text::escaped_markup((folder_.path() / "no_fonts").string()) +
                                                       "</dir></fontconfig>\n");
         start();
     }

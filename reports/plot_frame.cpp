@@ -1,4 +1,5 @@
 #include "reports/plot_frame.h"
+#include "text/utf8.h"
 
 #include <algorithm>
 #include <cmath>
@@ -149,7 +150,7 @@ std::string shortened_name(const std::string& name, std::size_t most) {
     constexpr std::size_t k_end = 8;
     std::vector<std::size_t> starts;  // of the characters
     for (std::size_t i = 0; i < name.size(); ++i) {
-        if ((static_cast<unsigned char>(name[i]) & 0xC0U) != 0x80U) {
+        if (!text::is_continuation(name[i])) {
             starts.push_back(i);
         }
     }

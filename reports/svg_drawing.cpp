@@ -1,6 +1,8 @@
 #include "reports/svg_drawing.h"
 
 #include "gum/quantity/diagnostic.h"
+#include "text/markup.h"
+#include "text/utf8.h"
 
 #include <algorithm>
 #include <array>
@@ -41,8 +43,7 @@ std::string tick_text(double v, int decimals) {
 
 double text_width(const std::string& text, double size) {
     constexpr double k_mean_width = 0.53;  // of a character of a serif font, in units of its size
-    const auto characters = std::count_if(text.begin(), text.end(),
-                                          [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
+    const auto characters = std::count_if(text.begin(), text.end(), [](char c) { return !text::is_continuation(c); });
     return k_mean_width * size * static_cast<double>(characters);
 }
 
@@ -110,7 +111,7 @@ void Drawing::points(const char* element, const std::vector<std::pair<double, do
 void Drawing::text(double x, double y, const std::string& content, const char* anchor, double size, const char* more) {
     body += "<text x=\"" + drawing_number(x) + "\" y=\"" + drawing_number(y) + "\" font-size=\"" +
             drawing_number(size) + "\" text-anchor=\"" + anchor + "\" fill=\"#000000\" " + k_font + more + ">" +
-            escape_markup(content) + "</text>\n";
+            text::escaped_markup(content) + "</text>\n";
 }
 
 void Drawing::upright_text(double x, double y, const std::string& content, double size) {
@@ -162,35 +163,8 @@ std::string svg_document(const std::string& id, const std::string& title, const 
     const std::string size = drawing_number(k_drawing_width) + " " + drawing_number(height);
     return "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" viewBox=\"0 0 " + size +
            "\" role=\"img\" aria-labelledby=\"" + id + "-title " + id + "-desc\">\n<title id=\"" + id + "-title\">" +
-           escape_markup(title) + "</title>\n<desc id=\"" + id + "-desc\">" + escape_markup(description) + "</desc>\n" +
-           drawing.body + "</svg>\n";
-}
-
-std::string escape_markup(const std::string& text) {
-    std::string out;
-    out.reserve(text.size());
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            case '\'':
-                out += "&#39;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
+           text::escaped_markup(title) + "</title>\n<desc id=\"" + id + "-desc\">" + text::escaped_markup(description) +
+           "</desc>\n" + drawing.body + "</svg>\n";
 }
 
 }  // namespace gumcert::reports

@@ -132,7 +132,4 @@ struct DensityPlot {
 [[nodiscard]] std::string svg(const StackedPlot& plot);
 [[nodiscard]] std::string svg(const HistogramPlot& plot);
 
-/// The five characters that mean something to XML and HTML, escaped.
-[[nodiscard]] std::string escape_markup(const std::string& text);
-
 }  // namespace gumcert::reports

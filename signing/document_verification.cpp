@@ -4,78 +4,15 @@
 
 #include "signing/certificates.h"
 #include "signing/time_texts.h"
+#include "text/visible_text.h"
 
 namespace gumcert::signing {
 
-namespace {
-
-/// A character of UTF-8. `size` 0: the bytes are none.
-struct Character {
-    std::uint32_t code = 0;
-    std::size_t size = 0;
-};
-
-Character character_at(std::string_view text, std::size_t at) {
-    const auto byte = [&](std::size_t i) -> std::uint32_t {
-        return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0U;
-    };
-    const std::uint32_t lead = byte(0);
-    if (lead < 0x80U) {
-        return {.code = lead, .size = 1};
-    }
-    const std::size_t size = lead >= 0xF0U && lead < 0xF5U ? 4 : lead >= 0xE0U ? 3 : lead >= 0xC2U ? 2 : 0;
-    if (size == 0 || lead >= 0xF5U) {
-        return {};
-    }
-    std::uint32_t code = lead & (size == 4 ? 0x07U : size == 3 ? 0x0FU : 0x1FU);
-    for (std::size_t i = 1; i < size; ++i) {
-        if ((byte(i) & 0xC0U) != 0x80U) {
-            return {};
-        }
-        code = (code << 6U) | (byte(i) & 0x3FU);
-    }
-    const bool too_long = code < (size == 4 ? 0x10000U : size == 3 ? 0x800U : 0x80U);
-    const bool none = too_long || code > 0x10FFFFU || (code >= 0xD800U && code < 0xE000U);
-    return none ? Character{} : Character{.code = code, .size = size};
-}
-
-/// Controls, characters without width, and those that turn the direction of a line (Unicode, categories Cc, Cf, Zl,
-/// Zp).
-bool is_hidden(std::uint32_t c) {
-    return c < 0x20U || (c >= 0x7FU && c <= 0x9FU) || c == 0xADU || c == 0x61CU || (c >= 0x200BU && c <= 0x200FU) ||
-           (c >= 0x2028U && c <= 0x202EU) || (c >= 0x2060U && c <= 0x206FU) || c == 0xFEFFU ||
-           (c >= 0xFFF9U && c <= 0xFFFBU) || (c >= 0xE0000U && c <= 0xE007FU);
-}
-
-std::string hexadecimal_digits(std::uint32_t number) {
-    std::string digits;
-    for (; number != 0 || digits.size() < 2; number /= 16U) {
-        digits.insert(digits.begin(), "0123456789ABCDEF"[number % 16U]);
-    }
-    return digits;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::string shown_text(std::string_view text) {
-    constexpr int k_longest = 300;
-    std::string shown;
-    int characters = 0;
-    for (std::size_t at = 0; at < text.size(); ++characters) {
-        if (characters == k_longest) {
-            return shown + "…";
-        }
-        const Character character = character_at(text, at);
-        if (character.size == 0) {
-            shown += "\\x{" + hexadecimal_digits(static_cast<unsigned char>(text[at])) + '}';
-            ++at;
-            continue;
-        }
-        shown += is_hidden(character.code) ? "\\u{" + hexadecimal_digits(character.code) + '}'
-                                           : std::string(text.substr(at, character.size));
-        at += character.size;
-    }
-    return shown;
+    constexpr std::size_t k_longest = 300;
+    return text::visible(text, k_longest, true);
 }
 
 void show_safely(std::vector<gum::Diagnostic>& messages) {

@@ -10,6 +10,7 @@
 #include "app/record_parts.h"
 #include "gum/quantity/unit.h"
 #include "reports/comparison_sections.h"
+#include "text/lists.h"
 
 namespace gumcert::cli {
 
@@ -115,7 +116,7 @@ const char* score_symbol(const std::string& score) {
 void print_names(const char* what, const std::vector<std::string>& names) {
     constexpr std::size_t k_most_names = 30;
     if (!names.empty()) {
-        fmt::print("  {}: {}\n", what, app::listed(names, k_most_names));
+        fmt::print("  {}: {}\n", what, text::listed(names, k_most_names));
     }
 }
 
@@ -136,7 +137,7 @@ void print_item(const reports::Comparison& comparison, const reports::Comparison
                          ", p = " + coverage + ")");
     if (item.consistency) {
         fmt::print("  consistency: chi-square {} on {} of freedom, p = {}{}\n", item.consistency->printed.chi_square,
-                   app::count_of(item.consistency->degrees_of_freedom, "degree"), item.consistency->printed.p_value,
+                   text::count_of(item.consistency->degrees_of_freedom, "degree"), item.consistency->printed.p_value,
                    item.consistency->consistent ? "" : "   NOT consistent");
     }
     print_names("without a result", item.missing);

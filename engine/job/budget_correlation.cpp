@@ -14,6 +14,8 @@
 #include "engine/job/matrix_limits.h"
 #include "gum/nearest_correlation.h"
 #include "gum/rounding.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -49,7 +51,7 @@ double half_of_last_digit(const std::string& written) {
 std::string unknown_action(std::string_view name, const std::vector<std::string>& names) {
     const std::vector<std::string_view> known(names.begin(), names.end());
     const std::optional<std::string_view> nearest = nearest_word(name, known);
-    return nearest ? "did you mean " + in_quotes(*nearest) + "?" : "correct the name, or add the input";
+    return nearest ? "did you mean " + text::in_quotes(*nearest) + "?" : "correct the name, or add the input";
 }
 
 /// A matrix in the job, row by row.
@@ -103,7 +105,7 @@ bool is_covariance(const Eigen::MatrixXd& matrix, const std::vector<std::string>
         const std::string& name = inputs[static_cast<std::size_t>(i)];
         if (!(matrix(i, i) > 0.0)) {
             problems.refuse(k_number_out_of_range, where,
-                            "the variance of " + in_quotes(name) + " is " + shortest(matrix(i, i)),
+                            "the variance of " + text::in_quotes(name) + " is " + text::shortest_plain(matrix(i, i)),
                             "a variance must be greater than 0", "correct the matrix, or leave the input out of it");
             return false;
         }
@@ -111,9 +113,10 @@ bool is_covariance(const Eigen::MatrixXd& matrix, const std::vector<std::string>
             const double scale = std::sqrt(std::abs(matrix(i, i))) * std::sqrt(std::abs(matrix(j, j)));
             if (!(std::abs(matrix(i, j) - matrix(j, i)) <= k_same_number * scale)) {
                 problems.refuse(k_matrix_not_symmetric, where,
-                                "the covariance of " + in_quotes(name) + " and " +
-                                    in_quotes(inputs[static_cast<std::size_t>(j)]) + " is " + shortest(matrix(i, j)) +
-                                    " in one place and " + shortest(matrix(j, i)) + " in the other",
+                                "the covariance of " + text::in_quotes(name) + " and " +
+                                    text::in_quotes(inputs[static_cast<std::size_t>(j)]) + " is " +
+                                    text::shortest_plain(matrix(i, j)) + " in one place and " +
+                                    text::shortest_plain(matrix(j, i)) + " in the other",
                                 "a covariance matrix is symmetric", "correct the matrix");
                 return false;
             }
@@ -152,10 +155,11 @@ public:
                 const double scale = std::sqrt(stated.matrix(i, i)) * std::sqrt(stated.matrix(j, j));
                 const double r = stated.matrix(i, j) / scale;
                 // The digits of the variances count as well: r has their relative half units, half of each.
-                const double half_unit = half_of_last_digit(shortest(stated.matrix(i, j))) / scale +
-                                         0.5 * std::abs(r) *
-                                             (half_of_last_digit(shortest(stated.matrix(i, i))) / stated.matrix(i, i) +
-                                              half_of_last_digit(shortest(stated.matrix(j, j))) / stated.matrix(j, j));
+                const double half_unit =
+                    half_of_last_digit(text::shortest_plain(stated.matrix(i, j))) / scale +
+                    0.5 * std::abs(r) *
+                        (half_of_last_digit(text::shortest_plain(stated.matrix(i, i))) / stated.matrix(i, i) +
+                         half_of_last_digit(text::shortest_plain(stated.matrix(j, j))) / stated.matrix(j, j));
                 add(second->second, *first, r,
                     child_pointer(child_pointer(pointer + "/matrix", static_cast<std::size_t>(i)),
                                   static_cast<std::size_t>(j)),
@@ -188,12 +192,12 @@ private:
                 return std::any_of(fit.parameters.begin(), fit.parameters.end(),
                                    [&](const BudgetFit::Parameter& parameter) { return parameter.name == name; });
             });
-            problems_.refuse(k_unknown_quantity, document_.where(pointer),
-                             in_quotes(name) + (is_parameter ? " is a parameter of a fit" : " is none of the inputs"),
-                             is_parameter
-                                 ? "the fit gives the correlations of its parameters; with other inputs they have none"
-                                 : "correlations are those of inputs of the job",
-                             is_parameter ? "remove it" : unknown_action(name, names_));
+            problems_.refuse(
+                k_unknown_quantity, document_.where(pointer),
+                text::in_quotes(name) + (is_parameter ? " is a parameter of a fit" : " is none of the inputs"),
+                is_parameter ? "the fit gives the correlations of its parameters; with other inputs they have none"
+                             : "correlations are those of inputs of the job",
+                is_parameter ? "remove it" : unknown_action(name, names_));
         }
         return std::nullopt;
     }
@@ -203,7 +207,7 @@ private:
             return true;
         }
         problems_.refuse(k_correlation_of_constant, document_.where(pointer),
-                         in_quotes(job_.inputs[input].name) + " is a constant",
+                         text::in_quotes(job_.inputs[input].name) + " is a constant",
                          "a quantity without uncertainty has no correlation", "remove it");
         return false;
     }
@@ -224,8 +228,8 @@ private:
         const double r = pair[2].get<double>();
         if (!(r >= -1.0 && r <= 1.0)) {
             problems_.refuse(k_number_out_of_range, document_.where(pointer + "/2"),
-                             "r(" + printable(pair[0].get<std::string>()) + ", " +
-                                 printable(pair[1].get<std::string>()) + ") is " + shortest(r),
+                             "r(" + text::visible(pair[0].get<std::string>()) + ", " +
+                                 text::visible(pair[1].get<std::string>()) + ") is " + text::shortest_plain(r),
                              "a correlation coefficient must be at least -1 and at most 1", "correct it");
             return;
         }
@@ -239,7 +243,7 @@ private:
              std::optional<double> half_unit) {
         if (first == second) {
             problems_.refuse(k_correlation_with_itself, document_.where(pointer),
-                             "a correlation of " + in_quotes(job_.inputs[first].name) + " with itself",
+                             "a correlation of " + text::in_quotes(job_.inputs[first].name) + " with itself",
                              "a correlation has two inputs", "correct the names");
             return;
         }
@@ -248,16 +252,16 @@ private:
             stated_.try_emplace({pair.first, pair.second}, Statement{document_.where(pointer), pointer, half_unit});
         if (!is_new) {
             problems_.refuse(k_repeated_correlation, document_.where(pointer),
-                             "the correlation of " + in_quotes(job_.inputs[first].name) + " and " +
-                                 in_quotes(job_.inputs[second].name) + " is stated a second time, first at " +
+                             "the correlation of " + text::in_quotes(job_.inputs[first].name) + " and " +
+                                 text::in_quotes(job_.inputs[second].name) + " is stated a second time, first at " +
                                  entry->second.where,
                              "a pair has one correlation", "keep one of them");
             return;
         }
         if (!(std::abs(r) <= 1.0 + k_same_number)) {
             problems_.refuse(k_number_out_of_range, document_.where(pointer),
-                             "r(" + printable(job_.inputs[first].name) + ", " + printable(job_.inputs[second].name) +
-                                 ") is " + shortest(r),
+                             "r(" + text::visible(job_.inputs[first].name) + ", " +
+                                 text::visible(job_.inputs[second].name) + ") is " + text::shortest_plain(r),
                              "a correlation coefficient must be at least -1 and at most 1",
                              "correct the covariance or the variances");
             return;
@@ -279,8 +283,9 @@ private:
         }
         if (!(std::abs(u2 - variance) <= k_same_variance * variance)) {
             problems_.refuse(k_covariance_diagonal, document_.where(pointer),
-                             "the variance of " + in_quotes(input.name) + " is " + shortest(variance) +
-                                 " in the matrix, and u² of its statement is " + shortest(u2),
+                             "the variance of " + text::in_quotes(input.name) + " is " +
+                                 text::shortest_plain(variance) + " in the matrix, and u² of its statement is " +
+                                 text::shortest_plain(u2),
                              "they must agree within 1e-6", "state the uncertainty in one place only");
         }
     }
@@ -314,11 +319,11 @@ private:
                 objection = "has a pooled standard deviation";
             } else if (together.observations != 0 && n != together.observations) {
                 objection = "has " + std::to_string(n) + " observations, and " +
-                            in_quotes(job_.inputs[together.inputs.front()].name) + " has " +
+                            text::in_quotes(job_.inputs[together.inputs.front()].name) + " has " +
                             std::to_string(together.observations);
             }
             if (!objection.empty()) {
-                problems_.refuse(k_not_simultaneous, document_.where(at), in_quotes(input.name) + " " + objection,
+                problems_.refuse(k_not_simultaneous, document_.where(at), text::in_quotes(input.name) + " " + objection,
                                  "inputs that were observed together have equally many observations, without pooling",
                                  "correct the observations, or state the correlation as a number");
                 fits = false;
@@ -379,8 +384,8 @@ private:
         const std::string& first_name = job_.inputs[members.front()].name;
         if (members.size() > k_most_in_matrix) {
             problems_.refuse(k_too_many_quantities, job_.inputs[members.front()].where,
-                             std::to_string(members.size()) + " inputs are correlated with " + in_quotes(first_name) +
-                                 " and with each other",
+                             std::to_string(members.size()) + " inputs are correlated with " +
+                                 text::in_quotes(first_name) + " and with each other",
                              "at most " + std::to_string(k_most_in_matrix) + " inputs may be in one correlation matrix",
                              "state fewer correlations");
             return;
@@ -416,7 +421,7 @@ private:
             k_correlation_not_positive, at == stated_.end() ? document_.where("") : at->second.where,
             "the correlations of " + culprits(solver.eigenvectors().col(0), members) +
                 " cannot hold together: the smallest eigenvalue of their matrix is " +
-                shortest(solver.eigenvalues()(0)) +
+                text::shortest_plain(solver.eigenvalues()(0)) +
                 (stated < pairs ? "; " + std::to_string(stated) + " of " + std::to_string(pairs) +
                                       " pairs are stated, and the others count as 0"
                                 : ""),
@@ -467,8 +472,8 @@ private:
                        "the correlations of " + std::to_string(members.size()) +
                            " inputs hold together only within the digits that are written; the nearest matrix that "
                            "does is used, where r(" +
-                           printable(job_.inputs[moved->first].name) + ", " +
-                           printable(job_.inputs[moved->second].name) + ") differs most, by " +
+                           text::visible(job_.inputs[moved->first].name) + ", " +
+                           text::visible(job_.inputs[moved->second].name) + ") differs most, by " +
                            gum::round_significant(most, 2),
                        "a correlation matrix is positive semi-definite", "state more digits if there are some");
         return true;
@@ -493,7 +498,7 @@ private:
             text += (i == 0                   ? ""
                      : i + 1 == chosen.size() ? " and "
                                               : ", ") +
-                    in_quotes(job_.inputs[members[chosen[i]]].name);
+                    text::in_quotes(job_.inputs[members[chosen[i]]].name);
         }
         return text;
     }
@@ -547,7 +552,7 @@ std::optional<StatedCovariance> read_covariance(const JsonObject& root, const Js
         }
         const auto& name = (*names)[i].get_ref<const std::string&>();
         if (std::find(stated.inputs.begin(), stated.inputs.end(), name) != stated.inputs.end()) {
-            problems.refuse(k_repeated_correlation, document.where(at), in_quotes(name) + " occurs twice",
+            problems.refuse(k_repeated_correlation, document.where(at), text::in_quotes(name) + " occurs twice",
                             "an input has one row of the matrix", "remove one of the two");
             return std::nullopt;
         }
@@ -568,7 +573,7 @@ std::optional<StatedCovariance> read_covariance(const JsonObject& root, const Js
         const auto file = name ? files.open(*name) : std::nullopt;
         if (file) {
             list = file->problems;
-            where = printable(*name);
+            where = text::visible(*name);
             matrix = read_csv_matrix(file->bytes, stated.inputs.size(), "", *file->problems);
         }
     } else if (const json* rows = object->optional_array("matrix")) {

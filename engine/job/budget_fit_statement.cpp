@@ -14,6 +14,9 @@
 #include "engine/job/matrix_limits.h"
 #include "gum/expression/name.h"
 #include "gum/expression/syntax_tree.h"
+#include "text/lists.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -80,10 +83,12 @@ private:
             const auto unit = read_unit(parameter, "unit", problems_);
             const auto start = parameter.optional_number("start");
             const bool is_name = is_quantity_name(name, document_.where(here), problems_);
-            const auto [entry, is_new] = taken.try_emplace(name, "a parameter of the fit " + in_quotes(fit_.name));
+            const auto [entry, is_new] =
+                taken.try_emplace(name, "a parameter of the fit " + text::in_quotes(fit_.name));
             if (!is_new) {
-                problems_.refuse(k_name_of_two, document_.where(here), in_quotes(name) + " is also " + entry->second,
-                                 "a name stands for one quantity", "rename one of the two");
+                problems_.refuse(k_name_of_two, document_.where(here),
+                                 text::in_quotes(name) + " is also " + entry->second, "a name stands for one quantity",
+                                 "rename one of the two");
             }
             if (unit && is_name) {
                 BudgetFit::Parameter& read = fit_.parameters.emplace_back();
@@ -112,7 +117,7 @@ private:
             return false;
         }
         if (names.defines.empty()) {
-            object_.refuse(k_fit_name, "equation", in_quotes(equation->text),
+            object_.refuse(k_fit_name, "equation", text::in_quotes(equation->text),
                            "the left side of the equation of a fit is the quantity that was observed",
                            "write it as name = expression");
             return false;
@@ -204,8 +209,8 @@ private:
             }
             if (!values[columns_.size() + i].empty()) {
                 object->refuse(k_fit_uncertainty, uncertainties[i],
-                               in_quotes(uncertainties[i]) + " is a column as well", "an uncertainty is stated once",
-                               "remove one of the two");
+                               text::in_quotes(uncertainties[i]) + " is a column as well",
+                               "an uncertainty is stated once", "remove one of the two");
                 return false;
             }
             if (u->is_array()) {
@@ -226,7 +231,7 @@ private:
         for (const std::string& name : fit_.regressors) {
             if (!data.contains(name) && !data.contains("file")) {
                 object_.refuse(k_fit_name, "equation",
-                               in_quotes(name) + " is neither a parameter nor a column of the data",
+                               text::in_quotes(name) + " is neither a parameter nor a column of the data",
                                "every name on the right side is one of them", "add the column or the parameter");
             }
         }
@@ -254,7 +259,7 @@ private:
             if (!data.has(columns_[i])) {
                 if (i + 1 < columns_.size()) {
                     object_.refuse(k_fit_name, "equation",
-                                   in_quotes(columns_[i]) + " is neither a parameter nor a column of the data",
+                                   text::in_quotes(columns_[i]) + " is neither a parameter nor a column of the data",
                                    "every name on the right side is one of them", "add the column or the parameter");
                 } else {
                     data.require(columns_[i]);
@@ -283,8 +288,8 @@ private:
                 !contains(columns_, field.name)) {
                 const std::vector<std::string_view> known(uncertainties.begin(), uncertainties.end());
                 file->problems->refuse(k_fit_uncertainty, where_in_text(file->problems->file(), field.place),
-                                       "the column " + in_quotes(field.name) + " belongs to no column of the fit",
-                                       "uncertainties are in columns " + any_of_words(known), "correct the name");
+                                       "the column " + text::in_quotes(field.name) + " belongs to no column of the fit",
+                                       "uncertainties are in columns " + text::any_of(known), "correct the name");
                 is_known = false;
             }
         }
@@ -319,8 +324,8 @@ private:
             }
             const std::string& name = is_uncertainty ? uncertainties[i - columns_.size()] : columns_[i];
             object_.refuse(k_fit_data, "data",
-                           in_quotes(name) + " has " + std::to_string(values[i].size()) + " values, and " +
-                               in_quotes(fit_.ordinate) + " has " + std::to_string(n),
+                           text::in_quotes(name) + " has " + std::to_string(values[i].size()) + " values, and " +
+                               text::in_quotes(fit_.ordinate) + " has " + std::to_string(n),
                            "all columns have one value a point", "complete the data");
             fits = false;
         }
@@ -344,10 +349,10 @@ private:
             }
             const bool is_ordinate = i + 1 == columns_.size();
             if (!is_ordinate && q != 1) {
-                data.refuse(
-                    k_fit_uncertainty, data.has(uncertainties[i]) ? uncertainties[i] : "file",
-                    in_quotes(uncertainties[i]) + " is given, and the fit has " + std::to_string(q) + " regressors",
-                    "an uncertain regressor must be the only one", "remove the uncertainty");
+                data.refuse(k_fit_uncertainty, data.has(uncertainties[i]) ? uncertainties[i] : "file",
+                            text::in_quotes(uncertainties[i]) + " is given, and the fit has " + std::to_string(q) +
+                                " regressors",
+                            "an uncertain regressor must be the only one", "remove the uncertainty");
                 return false;
             }
             Eigen::MatrixXd& target = is_ordinate ? fit_.y_uncertainty : fit_.x_uncertainty;
@@ -357,8 +362,8 @@ private:
                 if (!(si > 1e-140 && si < 1e140)) {
                     data.refuse(u[row] > 0.0 ? k_not_representable : k_number_out_of_range,
                                 data.has(uncertainties[i]) ? uncertainties[i] : "file",
-                                in_quotes(uncertainties[i]) + " of point " + std::to_string(row + 1) + " is " +
-                                    shortest(u[row]),
+                                text::in_quotes(uncertainties[i]) + " of point " + std::to_string(row + 1) + " is " +
+                                    text::shortest_plain(u[row]),
                                 "a standard uncertainty must be greater than 0", "correct the value");
                     return false;
                 }
@@ -391,9 +396,10 @@ private:
             const bool is_ordinate = key == fit_.ordinate;
             Eigen::MatrixXd& target = is_ordinate ? fit_.y_uncertainty : fit_.x_uncertainty;
             if (target.size() > 0) {
-                object->refuse(k_fit_uncertainty, key,
-                               "a covariance of " + in_quotes(key) + " beside " + in_quotes("u_" + std::string{key}),
-                               "an uncertainty is stated once", "remove one of the two");
+                object->refuse(
+                    k_fit_uncertainty, key,
+                    "a covariance of " + text::in_quotes(key) + " beside " + text::in_quotes("u_" + std::string{key}),
+                    "an uncertainty is stated once", "remove one of the two");
                 continue;
             }
             read_covariance_of(*object, key, *value, is_ordinate ? units_.back() : units_.front(), target);
@@ -451,7 +457,7 @@ private:
                 if (!(std::abs(matrix(i, j) - matrix(j, i)) <= k_same_number * u(i) * u(j))) {
                     object.refuse(k_matrix_not_symmetric, key,
                                   "the elements (" + std::to_string(i + 1) + ", " + std::to_string(j + 1) +
-                                      ") of the covariance of " + in_quotes(key) + " differ",
+                                      ") of the covariance of " + text::in_quotes(key) + " differ",
                                   "a covariance matrix is symmetric", "correct the matrix");
                     return;
                 }
@@ -463,7 +469,7 @@ private:
                     .info() == Eigen::Success;
         if (!is_definite) {
             object.refuse(k_covariance_not_definite, key,
-                          "the covariance of " + in_quotes(key) + " is not positive definite",
+                          "the covariance of " + text::in_quotes(key) + " is not positive definite",
                           "the points of a fit are weighted by the inverse of the matrix", "correct the matrix");
             return;
         }
@@ -492,10 +498,10 @@ private:
     void check_uncertainties() {
         if (fit_.x_uncertainty.size() > 0 && fit_.y_uncertainty.size() == 0) {
             object_.refuse(k_fit_uncertainty, "data",
-                           in_quotes(fit_.regressors.front()) + " has an uncertainty, and " + in_quotes(fit_.ordinate) +
-                               " has none",
+                           text::in_quotes(fit_.regressors.front()) + " has an uncertainty, and " +
+                               text::in_quotes(fit_.ordinate) + " has none",
                            "with an uncertain regressor the uncertainty of the ordinate must be stated",
-                           "add " + in_quotes("u_" + fit_.ordinate));
+                           "add " + text::in_quotes("u_" + fit_.ordinate));
         }
     }
 
@@ -524,7 +530,7 @@ private:
             for (const std::size_t unused : system.unused_inputs()) {
                 if (unused < parameters.size()) {
                     object_.refuse(k_fit_name, "parameters",
-                                   "the parameter " + in_quotes(symbols[unused].name) + " is not in the equation",
+                                   "the parameter " + text::in_quotes(symbols[unused].name) + " is not in the equation",
                                    "every parameter is determined by the data", "remove it, or correct the equation");
                 }
             }
@@ -539,7 +545,7 @@ private:
             if (!parameter.start) {
                 problems_.refuse(
                     k_fit_start, document_.where(child_pointer(object_.pointer("parameters"), parameter.name)),
-                    "the parameter " + in_quotes(parameter.name) + " has no start value",
+                    "the parameter " + text::in_quotes(parameter.name) + " has no start value",
                     "an equation that is not linear in its parameters is fitted from start values", "add \"start\"");
             }
         }
@@ -572,7 +578,7 @@ bool is_quantity_name(const std::string& name, const std::string& where, Problem
         objection = gum::reason_against_name(name);
     }
     if (objection) {
-        problems.refuse(k_quantity_name, where, "the name " + in_quotes(name) + " " + *objection,
+        problems.refuse(k_quantity_name, where, "the name " + text::in_quotes(name) + " " + *objection,
                         "a name of a quantity begins with a letter or _ and has letters, digits, _ and ' only",
                         "choose another name, and describe the quantity in \"description\"");
         return false;
@@ -618,7 +624,7 @@ std::optional<gum::EquationText> equation_text_of(const json& value, const std::
     text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
     text.erase(text.find_last_not_of(' ') + 1);
     if (const auto objection = name_objection(text, gum::ExpressionLimits{}.bytes)) {
-        problems.refuse(k_equation_text, where, "the equation " + in_quotes(text) + " " + *objection,
+        problems.refuse(k_equation_text, where, "the equation " + text::in_quotes(text) + " " + *objection,
                         "an equation is one line of at most 65536 bytes without hidden characters",
                         "correct the equation, or split it into several");
         return std::nullopt;
@@ -645,7 +651,8 @@ std::vector<BudgetFit> read_fits(const JsonObject& root, const JsonDocument& doc
     for (const std::string& name : keys_in_order(document, pointer)) {
         const std::string here = child_pointer(pointer, name);
         if (const auto objection = name_objection(name)) {
-            problems.refuse(k_text_not_allowed, document.where(here), "the name " + in_quotes(name) + " " + *objection,
+            problems.refuse(k_text_not_allowed, document.where(here),
+                            "the name " + text::in_quotes(name) + " " + *objection,
                             "a name has 1 to 256 bytes, no spaces around it and no control or hidden characters",
                             "correct the name");
             continue;

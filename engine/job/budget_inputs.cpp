@@ -11,6 +11,9 @@
 #include "engine/job/csv_table.h"
 #include "gum/quantity/decimal_rounding.h"
 #include "gum/rounding.h"
+#include "text/lists.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -166,7 +169,7 @@ std::optional<BudgetInputs::Evaluated> BudgetInputs::evaluate(const Stated& stat
     if (keys.has("between_points")) {
         const auto word = keys.text("between_points");
         if (word && *word != "common" && *word != "independent") {
-            keys.refuse(k_unknown_choice, "between_points", in_quotes(*word), "must be common or independent",
+            keys.refuse(k_unknown_choice, "between_points", text::in_quotes(*word), "must be common or independent",
                         "choose one of them");
         }
         is_read = is_read && word && (*word == "common" || *word == "independent");
@@ -213,7 +216,7 @@ bool BudgetInputs::evaluate_components(const Stated& stated, const StatementKeys
     for (const std::string_view key : keys.present()) {
         if (key != "components" && key != "unit" && key != "description" && key != "between_points" &&
             std::find(k_shared.begin(), k_shared.end(), key) == k_shared.end()) {
-            keys.refuse(k_two_statements, key, in_quotes(key) + " is given beside \"components\"",
+            keys.refuse(k_two_statements, key, text::in_quotes(key) + " is given beside \"components\"",
                         "an input is one statement or a sum of components, each with its own statement",
                         "move it into a component");
             is_read = false;
@@ -242,7 +245,7 @@ bool BudgetInputs::evaluate_components(const Stated& stated, const StatementKeys
         const JsonObject object(document, pointer, budget_component_keys(), problems);
         const auto name = object.required_name("name");
         if (name && !names.insert(*name).second) {
-            object.refuse(k_name_of_two, "name", "a second component " + in_quotes(*name),
+            object.refuse(k_name_of_two, "name", "a second component " + text::in_quotes(*name),
                           "components of one input have different names", "rename one of the two");
             is_read = false;
         }
@@ -298,17 +301,17 @@ bool BudgetInputs::complete(Evaluated& evaluated, const Reading& reading) const 
                     const std::vector<std::string_view> known(names_.begin(), names_.end());
                     const auto nearest = nearest_word(*specification->of, known);
                     keys.refuse(k_unknown_quantity, "specification",
-                                "\"of\" is " + in_quotes(*specification->of) + ", which is none of the inputs",
+                                "\"of\" is " + text::in_quotes(*specification->of) + ", which is none of the inputs",
                                 "the specification refers to the value of an input",
-                                nearest ? "did you mean " + in_quotes(*nearest) + "?" : "correct the name");
+                                nearest ? "did you mean " + text::in_quotes(*nearest) + "?" : "correct the name");
                 }
                 is_complete = false;
                 continue;
             }
             if (!(other->unit.dimension() == input.unit.dimension())) {
                 keys.refuse(k_unit_does_not_fit, "specification",
-                            "\"of\" is " + in_quotes(other->name) + " in " + printable(other->unit.text()) + ", and " +
-                                in_quotes(input.name) + " is in " + printable(input.unit.text()),
+                            "\"of\" is " + text::in_quotes(other->name) + " in " + text::visible(other->unit.text()) +
+                                ", and " + text::in_quotes(input.name) + " is in " + text::visible(input.unit.text()),
                             "a percentage of a reading has the kind of quantity of the reading", "correct the units");
                 is_complete = false;
                 continue;
@@ -362,8 +365,8 @@ bool BudgetInputs::check_digits(const Evaluated& evaluated) {
         if (lost > gum::k_accepted_rounding * u) {
             evaluated.keys[i].refuse(
                 k_digits_lost, key,
-                "the digits of " + shortest(worst) + " are held to ±" + gum::round_significant(lost, 2) +
-                    " only, and the standard uncertainty is " + shortest(u),
+                "the digits of " + text::shortest_plain(worst) + " are held to ±" + gum::round_significant(lost, 2) +
+                    " only, and the standard uncertainty is " + text::shortest_plain(u),
                 "a number has about 16 digits; what is lost of it must be small beside its uncertainty",
                 "state it as a whole number, a constant, and the difference from it, an input; in the model, subtract "
                 "the whole numbers from each other before the differences are added");
@@ -378,10 +381,10 @@ void BudgetInputs::warn_of_similar_names() {
     for (const std::string& name : names_) {
         const auto [entry, is_new] = seen.try_emplace(small_letters(name), name);
         if (!is_new) {
-            problems_.warn(k_warn_same_but_case, document_.where(child_pointer("/inputs", name)),
-                           in_quotes(name) + " and " + in_quotes(entry->second) + " differ by capital letters only",
-                           "names are told apart by capital letters",
-                           "rename one of the two if people may confuse them");
+            problems_.warn(
+                k_warn_same_but_case, document_.where(child_pointer("/inputs", name)),
+                text::in_quotes(name) + " and " + text::in_quotes(entry->second) + " differ by capital letters only",
+                "names are told apart by capital letters", "rename one of the two if people may confuse them");
         }
     }
 }
@@ -461,7 +464,7 @@ void BudgetInputs::refuse_unstated(const Stated& stated, std::size_t points) {
     }
     std::string names;
     for (const std::string& name : stated.silent) {
-        names += (names.empty() ? "" : ", ") + in_quotes(name);
+        names += (names.empty() ? "" : ", ") + text::in_quotes(name);
     }
     const std::size_t silent = points - stated.points;
     if (silent > stated.silent.size()) {
@@ -494,21 +497,15 @@ void BudgetInputs::finish_points(BudgetJob& job) {
         for (const auto& [key, points] : stated.overridden) {
             if (points == job.points.size() && stated.keys->has(key) &&
                 (key == "value" || key == "observations" || key == "groups" || key == "samples" || key == "limits")) {
-                unused.push_back(in_quotes(stated.name + "." + std::string{key}));
+                unused.push_back(text::in_quotes(stated.name + "." + std::string{key}));
             }
         }
     }
     if (!unused.empty()) {
-        std::string names;
-        for (std::size_t n = 0; n < std::min(unused.size(), k_most_named); ++n) {
-            names += (n == 0 ? "" : ", ") + unused[n];
-        }
-        if (unused.size() > k_most_named) {
-            names += " and " + std::to_string(unused.size() - k_most_named) + " more";
-        }
-        problems_.note(k_warn_unused_value, document_.where("/inputs"),
-                       names + " of the inputs: every point of the table states another one",
-                       "an input may be left to the points: nothing needs to stand in its place", "remove them");
+        problems_.note(
+            k_warn_unused_value, document_.where("/inputs"),
+            text::listed(unused, k_most_named) + " of the inputs: every point of the table states another one",
+            "an input may be left to the points: nothing needs to stand in its place", "remove them");
     }
 }
 
@@ -525,15 +522,15 @@ std::optional<std::size_t> BudgetInputs::point_input(const std::string& name, co
                            [&](const BudgetFit::Parameter& parameter) { return parameter.name == name; });
     });
     if (is_parameter) {
-        problems.refuse(k_point_of_fit, where, in_quotes(name) + " is a parameter of a fit",
+        problems.refuse(k_point_of_fit, where, text::in_quotes(name) + " is a parameter of a fit",
                         "all points share the fits", "remove it");
         return std::nullopt;
     }
     const std::vector<std::string_view> known(names_.begin(), names_.end());
     const auto nearest = nearest_word(name, known);
-    problems.refuse(k_unknown_quantity, where, in_quotes(name) + " is none of the inputs",
+    problems.refuse(k_unknown_quantity, where, text::in_quotes(name) + " is none of the inputs",
                     "a point states inputs of the job, by NAME or NAME.key, and its own name as \"point\"",
-                    nearest ? "did you mean " + in_quotes(*nearest) + "?" : "correct the name");
+                    nearest ? "did you mean " + text::in_quotes(*nearest) + "?" : "correct the name");
     return std::nullopt;
 }
 
@@ -543,7 +540,7 @@ void BudgetInputs::name_point(BudgetPoint& point, const std::optional<std::strin
     const auto [entry, is_new] = point_names_.try_emplace(point.name, where);
     if (!is_new) {
         problems.refuse(k_repeated_point, where,
-                        "a second point " + in_quotes(point.name) + ", the first is at " + entry->second,
+                        "a second point " + text::in_quotes(point.name) + ", the first is at " + entry->second,
                         "points have different names", "rename one of the two");
     }
 }
@@ -642,9 +639,9 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
         if (index && known == keys.end()) {
             const auto nearest = nearest_word(key, keys);
             file->problems->refuse(k_unknown_key, where,
-                                   "the key " + in_quotes(key) + " of the column " + in_quotes(field.name),
-                                   "the keys of a column are " + any_of_words(keys),
-                                   nearest ? "did you mean " + in_quotes(*nearest) + "?" : "remove the column");
+                                   "the key " + text::in_quotes(key) + " of the column " + text::in_quotes(field.name),
+                                   "the keys of a column are " + text::any_of(keys),
+                                   nearest ? "did you mean " + text::in_quotes(*nearest) + "?" : "remove the column");
         }
         if (!index || known == keys.end()) {
             is_known = false;
@@ -676,7 +673,7 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
             if (cell.text.empty()) {
                 file->problems->refuse(
                     k_empty_cell, table->where(cell),
-                    "row " + std::to_string(row + 1) + " has no value in the column " + in_quotes(column.name),
+                    "row " + std::to_string(row + 1) + " has no value in the column " + text::in_quotes(column.name),
                     "a missing value is neither 0 nor that of another row",
                     "state it; leave the column out where all points take what the job states", "empty " + column.name);
                 told.insert(*column.input);
@@ -727,7 +724,7 @@ void BudgetInputs::read_point(BudgetPoint& point, const std::map<std::size_t, St
                 return std::find(set.inputs.begin(), set.inputs.end(), position) != set.inputs.end();
             });
         if (is_simultaneous) {
-            keys.refuse(k_not_simultaneous, in_quotes(stated.name) + " was observed together with other inputs",
+            keys.refuse(k_not_simultaneous, text::in_quotes(stated.name) + " was observed together with other inputs",
                         "its observations, and hence its value, are those of the job", "remove it from the point");
             continue;
         }
@@ -742,7 +739,7 @@ void BudgetInputs::read_point(BudgetPoint& point, const std::map<std::size_t, St
             });
         if (is_correlated) {
             keys.refuse(k_correlation_of_constant,
-                        in_quotes(stated.name) + " is a constant at this point, and correlated",
+                        text::in_quotes(stated.name) + " is a constant at this point, and correlated",
                         "a quantity without uncertainty has no correlation", "state its uncertainty");
             continue;
         }

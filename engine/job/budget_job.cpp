@@ -15,6 +15,7 @@
 #include "engine/job/certificate_statement.h"
 #include "engine/job/job_files.h"
 #include "engine/job/json_document.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -99,11 +100,12 @@ private:
         const auto text_of = [&](const char* key, const std::string& expected) -> std::optional<std::string> {
             const auto found = document_->value.find(key);
             if (found == document_->value.end()) {
-                problems_->refuse(k_missing_key, document_->where(""), "the key " + in_quotes(key) + " is missing",
-                                  "the key is required", "add " + in_quotes(key) + ": " + in_quotes(expected));
+                problems_->refuse(k_missing_key, document_->where(""),
+                                  "the key " + text::in_quotes(key) + " is missing", "the key is required",
+                                  "add " + text::in_quotes(key) + ": " + text::in_quotes(expected));
             } else if (!found->is_string() && !found->is_discarded()) {
                 problems_->refuse(k_wrong_type, document_->where(child_pointer("", key)), described(*found),
-                                  "must be a string", "write " + in_quotes(expected));
+                                  "must be a string", "write " + text::in_quotes(expected));
             } else if (found->is_string()) {
                 return found->get<std::string>();
             }
@@ -111,13 +113,13 @@ private:
         };
         const auto schema = text_of("schema", "gumcert/job/1");
         if (schema && *schema != "gumcert/job/1") {
-            problems_->refuse(k_wrong_schema, document_->where("/schema"), in_quotes(*schema),
+            problems_->refuse(k_wrong_schema, document_->where("/schema"), text::in_quotes(*schema),
                               "must be \"gumcert/job/1\"",
                               "check that the file is a job, and which version of the program it is for");
         }
         const auto kind = text_of("kind", "budget");
         if (kind && *kind != "budget") {
-            problems_->refuse(k_wrong_kind, document_->where("/kind"), "a job of kind " + in_quotes(*kind),
+            problems_->refuse(k_wrong_kind, document_->where("/kind"), "a job of kind " + text::in_quotes(*kind),
                               "a job of kind \"budget\" is expected here", "use the command for this kind of job");
         }
         return kind && *kind == "budget";
@@ -183,7 +185,7 @@ private:
             const std::string pointer = child_pointer(root.pointer(key), name);
             if (!object->at(name).is_object()) {
                 problems_->refuse(k_wrong_type, document_->where(pointer), described(object->at(name)),
-                                  "must be an object", "write " + in_quotes(name) + ": {\"unit\": …}");
+                                  "must be an object", "write " + text::in_quotes(name) + ": {\"unit\": …}");
                 model_is_whole_ = false;
                 continue;
             }
@@ -275,7 +277,7 @@ private:
                 if (is_accepted && unused < job_.inputs.size() &&
                     !inputs.is_read_by_specification(job_.inputs[unused].name)) {
                     problems_->warn(k_warn_unused_input, job_.inputs[unused].where,
-                                    "no result depends on the input " + in_quotes(job_.inputs[unused].name),
+                                    "no result depends on the input " + text::in_quotes(job_.inputs[unused].name),
                                     "an input that is not used has no part in any uncertainty",
                                     "remove it, or complete the model");
                 }
@@ -311,7 +313,7 @@ private:
             if (found == known.end()) {
                 if (inputs.symbols_are_whole() && problems_->refusals() == 0) {
                     problems_->refuse(k_output_unknown, output.where,
-                                      in_quotes(output.name) + " is no input and no parameter",
+                                      text::in_quotes(output.name) + " is no input and no parameter",
                                       "without a model the inputs and the parameters of fits are the results",
                                       "correct the name, or add the model");
                 }
@@ -319,8 +321,9 @@ private:
                        (!(output.unit->dimension() == found->second.dimension()) ||
                         output.unit->is_celsius_temperature() != found->second.is_celsius_temperature())) {
                 problems_->refuse(k_unit_does_not_fit, output.where,
-                                  in_quotes(output.name) + " is asked for in " + printable(output.unit->text()) +
-                                      ", and is stated in " + printable(found->second.text()),
+                                  text::in_quotes(output.name) + " is asked for in " +
+                                      text::visible(output.unit->text()) + ", and is stated in " +
+                                      text::visible(found->second.text()),
                                   "both must be units of one kind of quantity", "correct the unit");
             }
         }

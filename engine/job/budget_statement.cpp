@@ -6,6 +6,9 @@
 #include <utility>
 
 #include "engine/job/budget_statement_reader.h"
+#include "text/lists.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -98,7 +101,7 @@ std::string list_of(const std::vector<std::string_view>& keys, std::string_view 
     std::string text;
     for (std::size_t i = 0; i < keys.size(); ++i) {
         text += i == 0 ? "" : i + 1 == keys.size() ? " " + std::string{last_word} + " " : ", ";
-        text += in_quotes(keys[i]);
+        text += text::in_quotes(keys[i]);
     }
     return text;
 }
@@ -200,8 +203,8 @@ bool StatementReader::refuse_strangers(StatementRow row) const {
         belongs = false;
         std::vector<std::string_view> others(known.others.begin(), known.others.end());
         std::erase(others, std::string_view{});
-        const std::string leading = known.key.empty() ? "from \"covariance\"" : "by " + in_quotes(known.key);
-        keys_.refuse(k_two_statements, key, in_quotes(key) + " does not belong to a statement " + leading,
+        const std::string leading = known.key.empty() ? "from \"covariance\"" : "by " + text::in_quotes(known.key);
+        keys_.refuse(k_two_statements, key, text::in_quotes(key) + " does not belong to a statement " + leading,
                      others.empty() ? "it stands alone" : "it goes with " + list_of(others, "and"),
                      key == "value" ? "remove it: the statement gives the value" : "remove it");
     }
@@ -222,7 +225,7 @@ bool StatementReader::read_remarks(StatementRow row) {
     quantity_.evaluation = is_type_a ? gum::Evaluation::type_a : gum::Evaluation::type_b;
     bool type_fits = type.has_value() || !keys_.has("type");
     if (type && *type != "A" && *type != "B") {
-        keys_.refuse(k_unknown_choice, "type", in_quotes(*type), "must be A or B",
+        keys_.refuse(k_unknown_choice, "type", text::in_quotes(*type), "must be A or B",
                      "state A for a statistical evaluation of observations, B for any other");
         type_fits = false;
     } else if (type && is_type_a && *type == "B") {
@@ -297,7 +300,8 @@ bool StatementReader::is_representable(StatementRow row) const {
         return true;
     }
     keys_.refuse(k_not_representable,
-                 "the value is " + shortest(quantity_.value) + " and u is " + shortest(u) + " in coherent SI units",
+                 "the value is " + text::shortest_plain(quantity_.value) + " and u is " + text::shortest_plain(u) +
+                     " in coherent SI units",
                  "values must be finite, and uncertainties from 1e-140 to 1e140 in coherent SI units",
                  "check the numbers and the unit");
     return false;
@@ -364,7 +368,7 @@ bool StatementReader::set_standard_uncertainty(double u, double nu) {
         return word.has_value();
     }
     keys_.refuse(k_distribution_does_not_fit, "distribution",
-                 in_quotes(*word) + " beside " + in_quotes(quantity_.statement),
+                 text::in_quotes(*word) + " beside " + text::in_quotes(quantity_.statement),
                  "a standard or expanded uncertainty stands for the normal distribution, with \"nu\" for the scaled "
                  "and shifted t",
                  is_normal || is_t ? "remove \"distribution\"; \"nu\" decides"
@@ -374,13 +378,14 @@ bool StatementReader::set_standard_uncertainty(double u, double nu) {
 
 std::optional<double> StatementReader::reference_of_relative(std::string_view key) {
     if (unit_.is_celsius_temperature() || unit_.to_si(0.0) != 0.0) {
-        keys_.refuse(k_no_relative_uncertainty, key, in_quotes(key) + " of a quantity in " + printable(unit_.text()),
+        keys_.refuse(k_no_relative_uncertainty, key,
+                     text::in_quotes(key) + " of a quantity in " + text::visible(unit_.text()),
                      "a scale with an origin of its own has no relative uncertainty",
-                     "state \"u\" or \"U\" in " + printable(difference_text_));
+                     "state \"u\" or \"U\" in " + text::visible(difference_text_));
         return std::nullopt;
     }
     if (quantity_.value == 0.0) {
-        keys_.refuse(k_no_uncertainty, key, in_quotes(key) + " of the value 0",
+        keys_.refuse(k_no_uncertainty, key, text::in_quotes(key) + " of the value 0",
                      "a relative uncertainty needs a value other than 0",
                      "state \"u\" or \"U\" in the unit of the quantity");
         return std::nullopt;
@@ -493,7 +498,7 @@ bool StatementReader::limits_may_have(DistributionKind kind, double nu) const {
     if (kind != DistributionKind::uniform) {
         const bool has_d = kind == DistributionKind::curvilinear_trapezoid;
         keys_.refuse(k_two_statements, key,
-                     in_quotes(key) + " beside the distribution " + std::string(gum::distribution_name(kind)),
+                     text::in_quotes(key) + " beside the distribution " + std::string(gum::distribution_name(kind)),
                      has_d ? "\"d\" says already how well the limits are known"
                            : "how well limits are known can be taken into account for rectangular ones: they become "
                              "those of a curvilinear trapezoid",
@@ -503,7 +508,7 @@ bool StatementReader::limits_may_have(DistributionKind kind, double nu) const {
         return false;
     }
     if (nu < k_least_nu_of_limits) {
-        keys_.refuse(k_number_out_of_range, key, shortest(nu) + " degrees of freedom of a half-width",
+        keys_.refuse(k_number_out_of_range, key, text::shortest_plain(nu) + " degrees of freedom of a half-width",
                      "limits that are uncertain by more than the half-width (nu below 0.5) are no limits",
                      "state \"u\" with \"nu\" instead");
         return false;
@@ -544,7 +549,8 @@ void StatementReader::refuse_bounded_word(const std::string& word, bool is_plain
     const bool is_normal = word == "normal" || word == "gaussian" || word == "student_t" || word == "t";
     const std::optional<std::string_view> nearest = nearest_word(word, words);
     keys_.refuse(k_distribution_does_not_fit, "distribution",
-                 in_quotes(word) + " beside " + in_quotes(quantity_.statement), "must be " + any_of_words(words),
+                 text::in_quotes(word) + " beside " + text::in_quotes(quantity_.statement),
+                 "must be " + text::any_of(words),
                  is_normal  ? "a normal distribution has no limits: state \"u\", or \"U\" with \"k\" or \"p\""
                  : is_plain ? "state \"half_width\" with this distribution"
                  : nearest  ? "did you mean \"" + std::string{*nearest} + "\"?"
@@ -564,7 +570,7 @@ void StatementReader::refuse_shape_keys(DistributionKind kind) const {
         return;
     }
     const std::string_view extra = keys_.has("beta") && !needs_beta ? "beta" : "d";
-    keys_.refuse(k_two_statements, extra, in_quotes(extra) + " beside the distribution " + name,
+    keys_.refuse(k_two_statements, extra, text::in_quotes(extra) + " beside the distribution " + name,
                  extra == "beta" ? "beta belongs to the trapezoidal distribution"
                                  : "d belongs to the curvilinear_trapezoid distribution",
                  "remove it, or state the distribution");
@@ -633,13 +639,15 @@ bool specify(StatedQuantity& quantity, const StatedSpecification& specification,
     const double width_si = unit.difference_to_si(width);
     if (specification.percent_of_range > 0.0 && std::abs(reading) > specification.range) {
         keys.warn(k_warn_beyond_range, "specification",
-                  "the reading " + shortest(reading) + " is beyond the range " + shortest(specification.range),
+                  "the reading " + text::shortest_plain(reading) + " is beyond the range " +
+                      text::shortest_plain(specification.range),
                   "a specification holds within its range",
                   "state the range that was set, or the specification for this reading");
     }
     if (!(width_si > StatementReader::k_least_u && width_si < StatementReader::k_largest_u)) {
         keys.refuse(width_si == 0.0 ? k_no_uncertainty : k_not_representable, "specification",
-                    "the specification gives " + shortest(width) + " for the reading " + shortest(reading),
+                    "the specification gives " + text::shortest_plain(width) + " for the reading " +
+                        text::shortest_plain(reading),
                     "an uncertainty must be greater than 0", "add \"floor\", or check the reading");
         return false;
     }
@@ -653,11 +661,11 @@ bool specify(StatedQuantity& quantity, const StatedSpecification& specification,
     }
     if (!std::isfinite(quantity.value) ||
         !(quantity.u > StatementReader::k_least_u && quantity.u < StatementReader::k_largest_u)) {
-        keys.refuse(
-            k_not_representable, "specification",
-            "the value is " + shortest(quantity.value) + " and u is " + shortest(quantity.u) + " in coherent SI units",
-            "values must be finite, and uncertainties from 1e-140 to 1e140 in coherent SI units",
-            "check the numbers and the unit");
+        keys.refuse(k_not_representable, "specification",
+                    "the value is " + text::shortest_plain(quantity.value) + " and u is " +
+                        text::shortest_plain(quantity.u) + " in coherent SI units",
+                    "values must be finite, and uncertainties from 1e-140 to 1e140 in coherent SI units",
+                    "check the numbers and the unit");
         return false;
     }
     return true;

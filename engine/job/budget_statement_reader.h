@@ -10,6 +10,7 @@
 
 #include "engine/job/budget_statement.h"
 #include "gum/coverage.h"
+#include "text/numbers.h"
 
 namespace gumcert::engine {
 
@@ -150,9 +151,10 @@ private:
         try {
             return p ? std::optional{gum::coverage_factor(*p, nu)} : std::nullopt;
         } catch (const gum::DiagnosedError&) {
-            keys.refuse(k_not_representable, "p",
-                        "no coverage factor for p = " + shortest(*p) + " and nu = " + shortest(nu),
-                        "the factor must be representable", "check the degrees of freedom");
+            keys.refuse(
+                k_not_representable, "p",
+                "no coverage factor for p = " + text::shortest_plain(*p) + " and nu = " + text::shortest_plain(nu),
+                "the factor must be representable", "check the degrees of freedom");
             return std::nullopt;
         }
     }

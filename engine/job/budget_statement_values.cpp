@@ -7,6 +7,9 @@
 #include "engine/job/budget_statement_reader.h"
 #include "engine/job/csv_table.h"
 #include "gum/type_a.h"
+#include "text/lists.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 // Statements whose estimate comes from values: observations, groups, samples, distributions and specifications.
 
@@ -229,13 +232,14 @@ bool StatementReader::read_summary_of(GroupedReadings& groups) const {
     for (std::size_t j = 0; j < means->size(); ++j) {
         const double size = (*sizes)[j];
         if (!(size >= 2.0 && size <= 1e9 && size == std::floor(size))) {
-            inner.refuse(k_not_an_integer, "sizes", shortest(size) + " readings in group " + std::to_string(j + 1),
+            inner.refuse(k_not_an_integer, "sizes",
+                         text::shortest_plain(size) + " readings in group " + std::to_string(j + 1),
                          "a group has a whole number of readings, at least 2", "correct the array");
             return false;
         }
         if (!((*deviations)[j] >= 0.0)) {
             inner.refuse(k_number_out_of_range, "standard_deviations",
-                         shortest((*deviations)[j]) + " in group " + std::to_string(j + 1),
+                         text::shortest_plain((*deviations)[j]) + " in group " + std::to_string(j + 1),
                          "a standard deviation must be at least 0", "correct the array");
             return false;
         }
@@ -300,7 +304,7 @@ std::optional<std::vector<double>> StatementReader::read_sample_file(const json&
     if (value.is_string()) {
         name = keys_.name("samples");
         if (const auto objection = name ? JobFiles::file_name_objection(*name) : std::nullopt) {
-            keys_.refuse(k_file_name, "samples", "the file name " + in_quotes(*name), *objection,
+            keys_.refuse(k_file_name, "samples", "the file name " + text::in_quotes(*name), *objection,
                          "put the file beside the job and give its name");
             return std::nullopt;
         }
@@ -353,7 +357,7 @@ bool StatementReader::read_distribution() {
         const bool is_absent = kind == object_value.end();
         problems.refuse(is_absent ? k_missing_key : k_wrong_type,
                         document.where(is_absent ? pointer : child_pointer(pointer, "kind")),
-                        is_absent ? "the key \"kind\" is missing" : described(*kind), "must be " + any_of_words(words),
+                        is_absent ? "the key \"kind\" is missing" : described(*kind), "must be " + text::any_of(words),
                         "state the kind of the distribution");
         return false;
     }
@@ -362,8 +366,8 @@ bool StatementReader::read_distribution() {
         std::find_if(k_forms.begin(), k_forms.end(), [&](const DistributionForm& known) { return known.kind == word; });
     if (form == k_forms.end()) {
         const std::optional<std::string_view> nearest = nearest_word(word, words);
-        problems.refuse(k_unknown_choice, document.where(child_pointer(pointer, "kind")), in_quotes(word),
-                        "must be " + any_of_words(words),
+        problems.refuse(k_unknown_choice, document.where(child_pointer(pointer, "kind")), text::in_quotes(word),
+                        "must be " + text::any_of(words),
                         nearest ? "did you mean \"" + std::string{*nearest} + "\"?" : "choose one of them");
         return false;
     }
@@ -541,8 +545,8 @@ bool StatementReader::read_specification() {
                                                           "u_shaped"};
         if (std::find(k_words.begin(), k_words.end(), *word) == k_words.end()) {
             object->refuse(
-                k_distribution_does_not_fit, "distribution", in_quotes(*word) + " beside \"specification\"",
-                "must be " + any_of_words(k_words),
+                k_distribution_does_not_fit, "distribution", text::in_quotes(*word) + " beside \"specification\"",
+                "must be " + text::any_of(k_words),
                 *word == "normal" ? "state the \"k\" or the \"p\" of the specification" : "choose one of them");
         } else {
             stated.kind =

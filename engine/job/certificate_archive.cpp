@@ -9,6 +9,8 @@
 #include "gum/conformity.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
+#include "text/lists.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -24,7 +26,7 @@ constexpr std::size_t k_longest_text = 4096;  // [byte]
 bool is_line(const std::string& text, std::size_t longest, const CertificatePlace& place) {
     const std::optional<std::string> objection = name_objection(text, longest);
     if (objection) {
-        place.refuse(k_certificate_text, "the text " + in_quotes(text) + " " + *objection,
+        place.refuse(k_certificate_text, "the text " + text::in_quotes(text) + " " + *objection,
                      "a text is one line of 1 to " + std::to_string(longest) +
                          " bytes, without spaces around it and without hidden characters",
                      text.empty() ? "state it, or leave the key out"
@@ -39,7 +41,7 @@ bool is_unit(const std::string& text, const CertificatePlace& place) {
         return true;
     } catch (const gum::InputError& error) {
         const gum::Diagnostic& why = error.diagnostics().front();
-        place.refuse(k_certificate_unit, "the unit " + in_quotes(text) + ": " + why.what, why.rule, why.action);
+        place.refuse(k_certificate_unit, "the unit " + text::in_quotes(text) + ": " + why.what, why.rule, why.action);
         return false;
     }
 }
@@ -56,7 +58,7 @@ bool is_profile(const std::string& text, const CertificatePlace& place) {
         return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
     });
     if (!good) {
-        place.refuse(k_certificate_profile, "the profile " + in_quotes(text),
+        place.refuse(k_certificate_profile, "the profile " + text::in_quotes(text),
                      "a profile has a name of small letters, digits, - and _, such as \"ilac\", or is a file whose "
                      "name ends in .json",
                      "give the name of a profile in templates/profiles, or of a file beside the job");
@@ -68,7 +70,7 @@ bool is_profile(const std::string& text, const CertificatePlace& place) {
 bool keeps(bool kept, const InputCode& code, const std::string& text, const char* rule, const char* action,
            const CertificatePlace& place) {
     if (!kept) {
-        place.refuse(code, in_quotes(text), rule, action);
+        place.refuse(code, text::in_quotes(text), rule, action);
     }
     return kept;
 }
@@ -172,7 +174,7 @@ bool acceptable_word(const std::string& word, std::initializer_list<const char*>
         }
         const std::vector<std::string_view> views(quoted.begin(), quoted.end());
         const auto nearest = nearest_word(word, known);
-        place.refuse(k_certificate_word, in_quotes(word), "must be " + any_of_words(views),
+        place.refuse(k_certificate_word, text::in_quotes(word), "must be " + text::any_of(views),
                      nearest ? "perhaps \"" + std::string(*nearest) + "\" is meant" : "use one of these words");
     }
     return good;
@@ -229,8 +231,8 @@ const json* CertificateArchive::find(std::string_view key) {
 
 void CertificateArchive::require(std::string_view key) const {
     if (!object_->contains(key)) {
-        place_.refuse(k_certificate_missing_key, "the key " + in_quotes(key) + " is missing",
-                      "the entry means nothing without it", "add " + in_quotes(key) + ", or remove the entry");
+        place_.refuse(k_certificate_missing_key, "the key " + text::in_quotes(key) + " is missing",
+                      "the entry means nothing without it", "add " + text::in_quotes(key) + ", or remove the entry");
     }
 }
 
@@ -240,9 +242,9 @@ void CertificateArchive::finish() const {
             continue;
         }
         const auto nearest = nearest_word(key, keys_);
-        place_.child(key).refuse(k_certificate_unknown_key, "the key " + in_quotes(key),
+        place_.child(key).refuse(k_certificate_unknown_key, "the key " + text::in_quotes(key),
                                  "only keys that the program knows are accepted, so that no statement is lost",
-                                 nearest ? "perhaps " + in_quotes(*nearest) + " is meant"
+                                 nearest ? "perhaps " + text::in_quotes(*nearest) + " is meant"
                                          : "remove it, or look the keys up in docs/certificate_data.md");
     }
 }

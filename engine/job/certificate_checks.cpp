@@ -8,6 +8,8 @@
 #include "engine/job/certificate_archive.h"
 #include "engine/job/input_text.h"
 #include "gum/conformity.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -25,8 +27,8 @@ void demand_order(std::optional<double> low, std::optional<double> high, const s
                   const std::string& unit, const CertificatePlace& place) {
     if (low && high && *low > *high) {
         place.below("/" + low_key)
-            .refuse(k_certificate_limits, shortest(*low) + " " + unit,
-                    "must not be above the other end of " + shortest(*high) + " " + unit,
+            .refuse(k_certificate_limits, text::shortest_plain(*low) + " " + unit,
+                    "must not be above the other end of " + text::shortest_plain(*high) + " " + unit,
                     "exchange the two, or correct the sign");
     }
 }
@@ -37,7 +39,7 @@ public:
     explicit Names(std::string what) : what_(std::move(what)) {}
     void add(const std::string& name, const CertificatePlace& place) {
         if (!name.empty() && !names_.insert(name).second) {
-            place.refuse(k_certificate_repeated, what_ + " " + in_quotes(name) + " for the second time",
+            place.refuse(k_certificate_repeated, what_ + " " + text::in_quotes(name) + " for the second time",
                          what_ + " is used once", "choose another, or remove the repetition");
         }
     }
@@ -94,7 +96,7 @@ void check_entry(const certificate::ScopeEntry& entry, const CertificatePlace& p
             place.below("/results")
                 .child(i)
                 .refuse(k_certificate_any_result,
-                        in_quotes(entry.results[i]) + " covers every result, whatever is measured",
+                        text::in_quotes(entry.results[i]) + " covers every result, whatever is measured",
                         "a line of the scope is for one measurand", "name the results, such as \"EXA\" or \"E*\"");
         }
     }
@@ -137,9 +139,10 @@ void check_entry(const certificate::AgreedSpecification& specification, const Ce
         return;
     }
     if (lower && upper && *lower >= *upper) {
-        place.below("/lower").refuse(k_certificate_limits, shortest(*lower) + " " + specification.unit,
-                                     "must be below the upper limit of " + shortest(*upper) + " " + specification.unit,
-                                     "exchange the two, or correct the sign");
+        place.below("/lower").refuse(
+            k_certificate_limits, text::shortest_plain(*lower) + " " + specification.unit,
+            "must be below the upper limit of " + text::shortest_plain(*upper) + " " + specification.unit,
+            "exchange the two, or correct the sign");
         return;
     }
     check_rule(specification, place);
@@ -173,7 +176,7 @@ void check_entry(const certificate::Profile& profile, const CertificatePlace& pl
             const std::size_t close = text.find('}', open);
             const std::string name = text.substr(open, close == std::string::npos ? close : close - open + 1);
             if (name != "{k}" && name != "{coverage}") {
-                at.refuse(k_certificate_placeholder, "the placeholder " + in_quotes(name),
+                at.refuse(k_certificate_placeholder, "the placeholder " + text::in_quotes(name),
                           "the sentence on uncertainty may use {k} and {coverage}", "use one of these, or none");
                 return;
             }
@@ -190,7 +193,7 @@ void check_entry(const certificate::Profile& profile, const CertificatePlace& pl
             }
         }
         if (const std::string number = number_of_its_own(text); !number.empty()) {
-            at.refuse(k_certificate_placeholder, "the number " + in_quotes(number),
+            at.refuse(k_certificate_placeholder, "the number " + text::in_quotes(number),
                       "the sentence on uncertainty states the numbers of the result only, as {k} and {coverage}",
                       "take the number out; a document is written as \"GUM:2008\" or \"EA-4/02\"");
         }

@@ -6,6 +6,7 @@
 #include "engine/job/image_format.h"
 #include "engine/job/input_text.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -36,7 +37,7 @@ void read_symbol(JobFiles& files, certificate::Accreditation& accreditation) {
         return;
     }
     const auto refuse = [&](std::string what, std::string rule, std::string action) {
-        file->problems->refuse(k_certificate_symbol, printable(file->problems->file()), std::move(what),
+        file->problems->refuse(k_certificate_symbol, text::visible(file->problems->file()), std::move(what),
                                std::move(rule), std::move(action));
     };
     if (file->bytes.size() > k_largest_symbol) {

@@ -14,6 +14,8 @@
 #include "engine/job/job_files.h"
 #include "engine/job/json_document.h"
 #include "engine/job/statement_keys.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -77,7 +79,7 @@ enum Column : std::size_t { c_position, c_step, c_reading, c_repetition };
 /// "3", "3, repetition 2"
 std::string name_of(const ClosureSeries& series) {
     return std::to_string(series.position) +
-           (series.repetition.empty() ? "" : ", repetition " + in_quotes(series.repetition));
+           (series.repetition.empty() ? "" : ", repetition " + text::in_quotes(series.repetition));
 }
 
 class Reader {
@@ -104,7 +106,7 @@ private:
     bool is_circle_closure() {
         const auto kind = read_kind(*document_, *problems_);
         if (kind && *kind != "circle_closure") {
-            problems_->refuse(k_wrong_kind, document_->where("/kind"), "a job of kind " + in_quotes(*kind),
+            problems_->refuse(k_wrong_kind, document_->where("/kind"), "a job of kind " + text::in_quotes(*kind),
                               "a job of kind \"circle_closure\" is expected here",
                               "use the command for this kind of job");
         }
@@ -146,7 +148,7 @@ private:
             return;
         }
         if (!(unit->dimension() == gum::Dimension::angle())) {
-            root.refuse(k_unit_does_not_fit, "unit", in_quotes(unit->text()), "readings are angles",
+            root.refuse(k_unit_does_not_fit, "unit", text::in_quotes(unit->text()), "readings are angles",
                         "state a unit such as \"arcsec\" or \"urad\"");
             return;
         }
@@ -208,7 +210,7 @@ private:
             read_effect(object, pointer);
             const std::string name = job_.measurement.effects.empty() ? "" : job_.measurement.effects.back().name;
             if (!name.empty() && job_.measurement.effects.size() > names.size() && !names.insert(name).second) {
-                object.refuse(k_name_of_two, "name", in_quotes(name) + " is the name of two effects",
+                object.refuse(k_name_of_two, "name", text::in_quotes(name) + " is the name of two effects",
                               "every effect is a row of the budget and has a name of its own", "rename one of them");
             }
         }
@@ -222,7 +224,7 @@ private:
             unit = read_unit(object, "unit", *problems_);
             const gum::Dimension wanted = pattern == ClosurePattern::scale ? gum::Dimension() : gum::Dimension::angle();
             if (unit && pattern && !(unit->dimension() == wanted)) {
-                object.refuse(k_unit_does_not_fit, "unit", in_quotes(unit->text()),
+                object.refuse(k_unit_does_not_fit, "unit", text::in_quotes(unit->text()),
                               pattern == ClosurePattern::scale ? "a scale is a ratio" : "the effect is an angle",
                               "correct the unit, or \"acts_on\"");
                 unit.reset();
@@ -245,7 +247,7 @@ private:
         }
         const StatedQuantity& q = statement->quantity;
         if (q.stated_value != 0.0 && *pattern != ClosurePattern::scale && *pattern != ClosurePattern::turn) {
-            object.refuse(k_closure_value, "value", "the value is " + shortest(q.stated_value),
+            object.refuse(k_closure_value, "value", "the value is " + text::shortest_plain(q.stated_value),
                           "an effect of this kind has the value 0: what is the same at all readings goes into the "
                           "zero of the series",
                           "remove \"value\"");
@@ -253,7 +255,8 @@ private:
         }
         constexpr double k_largest_scale = 0.5;
         if (*pattern == ClosurePattern::scale && !(std::abs(q.value) < k_largest_scale && q.u < k_largest_scale)) {
-            object.refuse(k_number_out_of_range, "value", "a scale of " + shortest(q.value) + " ± " + shortest(q.u),
+            object.refuse(k_number_out_of_range, "value",
+                          "a scale of " + text::shortest_plain(q.value) + " ± " + text::shortest_plain(q.u),
                           "a correction of the scale is small beside 1", "state the correction, not the factor");
             return;
         }
@@ -320,7 +323,7 @@ private:
 
     void check_design(ProblemList& problems, const JsonObject& root) {
         const CircleClosureMeasurement& m = job_.measurement;
-        const std::string where = printable(problems.file());
+        const std::string where = text::visible(problems.file());
         const auto n = static_cast<double>(m.steps);
         if (2.0 * n * static_cast<double>(m.readings.size()) > k_most_coefficients) {
             problems.refuse(k_closure_too_large, where,

@@ -5,6 +5,9 @@
 #include "engine/job/comparison_items.h"
 #include "engine/job/comparison_keys.h"
 #include "engine/job/monte_carlo_request.h"
+#include "text/lists.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -56,13 +59,14 @@ void refuse_word_alone(const JsonObject& object, Method method) {
 
 void warn_of_unused_keys(const ComparisonReading& reading, const JsonObject& object, Method method) {
     const auto warn = [&](std::string_view key, const std::string& rule) {
-        reading.problems.warn(k_warn_unused_value, object.where(key), "the key " + in_quotes(key) + " is not used",
-                              rule, "remove it, or choose the method that it is for");
+        reading.problems.warn(k_warn_unused_value, object.where(key),
+                              "the key " + text::in_quotes(key) + " is not used", rule,
+                              "remove it, or choose the method that it is for");
     };
     for (const KeyOfMethod& entry : k_keys_of_methods) {
         if (object.has(entry.key) && entry.method != method) {
-            warn(entry.key,
-                 "the method " + in_quotes(k_methods[static_cast<std::size_t>(method)].first) + " has no use for it");
+            warn(entry.key, "the method " + text::in_quotes(k_methods[static_cast<std::size_t>(method)].first) +
+                                " has no use for it");
         }
     }
     for (const std::string_view key : {"trials", "seed"}) {
@@ -77,7 +81,7 @@ void read_given(const ComparisonReading& reading, const JsonObject& object, Assi
     request.uncertainty = read_uncertainty(reading, object);
     if (!states_uncertainty(object)) {
         reading.problems.warn(k_warn_exact_assigned_value, object.where(),
-                              "the assigned value " + shortest(request.value) + " has no uncertainty",
+                              "the assigned value " + text::shortest_plain(request.value) + " has no uncertainty",
                               "it is taken as exactly known, and E_n then judges the laboratories alone",
                               "add \"u\", or \"U\" and \"k\", unless the value is exact by definition");
     }
@@ -151,7 +155,7 @@ std::optional<AssignedValueRequest> read_assigned_value(const ComparisonReading&
         if (!assigned->has("method") && !assigned->has("value")) {
             assigned->refuse(k_assigned_value_incomplete, "", "an assigned value without \"method\" or \"value\"",
                              "the assigned value is given, or follows from the results by a method",
-                             "add \"method\": " + any_of_words(assigned_value_words()));
+                             "add \"method\": " + text::any_of(assigned_value_words()));
             return std::nullopt;
         }
         const auto method =
@@ -161,7 +165,7 @@ std::optional<AssignedValueRequest> read_assigned_value(const ComparisonReading&
     if (!value->is_string()) {
         object.refuse(k_wrong_type, "assigned_value", described(*value), "must be a word or an object",
                       value->is_number() ? "write {\"value\": " + described(*value) + ", \"U\": …, \"k\": …}"
-                                         : "choose " + any_of_words(assigned_value_words()));
+                                         : "choose " + text::any_of(assigned_value_words()));
         return std::nullopt;
     }
     const auto method = object.optional_choice("assigned_value", k_methods);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/job/comparison_participants.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -103,10 +104,10 @@ private:
 
     /// "of the item …" where the job has several.
     [[nodiscard]] std::string of_item(std::size_t item) const {
-        return job_.items[item].id.empty() ? "" : " for the item " + in_quotes(job_.items[item].id);
+        return job_.items[item].id.empty() ? "" : " for the item " + text::in_quotes(job_.items[item].id);
     }
     [[nodiscard]] std::string in_round(std::size_t round) const {
-        return job_.rounds[round].empty() ? "" : " in the round " + in_quotes(job_.rounds[round]);
+        return job_.rounds[round].empty() ? "" : " in the round " + text::in_quotes(job_.rounds[round]);
     }
     /// " (item "low", round "2")", as messages of the evaluation name places; "" where the job has one item.
     [[nodiscard]] std::string place_of(std::size_t item, std::size_t round) const {
@@ -115,8 +116,8 @@ private:
         if (id.empty() && name.empty()) {
             return "";
         }
-        return " (item" + (id.empty() ? "" : " " + in_quotes(id)) + (name.empty() ? "" : ", round " + in_quotes(name)) +
-               ")";
+        return " (item" + (id.empty() ? "" : " " + text::in_quotes(id)) +
+               (name.empty() ? "" : ", round " + text::in_quotes(name)) + ")";
     }
     [[nodiscard]] std::string where_of(std::size_t item) const {
         const std::string pointer = child_pointer("/items", item);
@@ -192,7 +193,7 @@ private:
             if (told_.insert(request.where).second) {
                 reading_.problems.refuse(
                     k_unknown_participant, request.where,
-                    "the reference " + in_quotes(request.participant) + " is none of the participants",
+                    "the reference " + text::in_quotes(request.participant) + " is none of the participants",
                     "the assigned value is the result of a participant",
                     participants_.participants().advice(request.participant, "correct the id"));
             }
@@ -207,8 +208,8 @@ private:
         for (const auto& [round, is_there] : rounds) {
             if (!is_there) {
                 refuse_item(item, round, reading_.problems, k_reference_without_result, request.where,
-                            "the reference " + in_quotes(request.participant) + " has no result with an uncertainty" +
-                                of_item(item) + in_round(round),
+                            "the reference " + text::in_quotes(request.participant) +
+                                " has no result with an uncertainty" + of_item(item) + in_round(round),
                             "the assigned value and its uncertainty are those of the reference",
                             "add the result and its uncertainty, or choose another assigned value");
             }
@@ -243,12 +244,14 @@ private:
         for (const auto& [round, results] : without) {
             std::string names;
             for (const std::size_t i : results) {
-                names += (names.empty() ? "" : ", ") + in_quotes(job_.participants[job_.results[i].participant].id);
+                names +=
+                    (names.empty() ? "" : ", ") + text::in_quotes(job_.participants[job_.results[i].participant].id);
             }
             refuse_item(
                 item, round, participants_.problems_of(results.front()), code, job_.results[results.front()].where,
                 what + " is stated by " + names + place_of(item, round) + ", and the assigned value is " +
-                    in_quotes(assigned_value_words()[static_cast<std::size_t>(job_.items[item].assigned_value.method)]),
+                    text::in_quotes(
+                        assigned_value_words()[static_cast<std::size_t>(job_.items[item].assigned_value.method)]),
                 rule, action);
         }
     }

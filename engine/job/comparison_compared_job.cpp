@@ -6,6 +6,8 @@
 
 #include "engine/job/circle_closure_job.h"
 #include "engine/job/rotary_table_job.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -46,12 +48,12 @@ void read_compared_job(const ComparisonReading& reading, const JsonObject& objec
     side.side.of_artefact = object.optional_choice("of", k_of).value_or(false);
     for (const std::string_view key : {"points", "covariance", "budget"}) {
         if (object.has(key)) {
-            object.refuse(k_stated_beside_budget, key, in_quotes(key) + " beside a job",
+            object.refuse(k_stated_beside_budget, key, text::in_quotes(key) + " beside a job",
                           "points, values and covariance are those of the job", "remove the key, or \"job\"");
         }
     }
     if (unit && !(unit->dimension() == gum::Dimension::angle())) {
-        object.refuse(k_unit_does_not_fit, "job", "a comparison in " + in_quotes(unit->text()),
+        object.refuse(k_unit_does_not_fit, "job", "a comparison in " + text::in_quotes(unit->text()),
                       "a job gives deviations of an angle", "state the \"unit\" of the comparison, such as \"arcsec\"");
     }
     const auto name = JobFiles::file_name(object, "job", true);
@@ -81,7 +83,7 @@ void read_compared_job(const ComparisonReading& reading, const JsonObject& objec
     for (std::size_t i = 0; i < angles.size(); ++i) {
         const double angle = named_angle(angles[i]);
         SidePoint point;
-        point.point.name = shortest(angle);
+        point.point.name = text::shortest_plain(angle);
         point.point.position = angle;
         point.where = object.where("job");
         side.points.push_back(std::move(point));

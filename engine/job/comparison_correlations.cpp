@@ -8,7 +8,8 @@
 #include "engine/job/comparison_keys.h"
 #include "engine/job/comparison_participants.h"
 #include "engine/job/matrix_limits.h"
-#include "engine/number_texts.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -43,7 +44,7 @@ private:
         const auto found = participants_.participants().find(*label);
         if (!found && participants_.is_whole()) {
             reading_.problems.refuse(k_unknown_participant, where(pointer),
-                                     "the participant " + in_quotes(*label) + " is none of the job",
+                                     "the participant " + text::in_quotes(*label) + " is none of the job",
                                      "correlations are those of participants of the job",
                                      participants_.participants().advice(*label, "correct the id"));
         }
@@ -71,7 +72,7 @@ private:
         }
         const double r = pair[2].get<double>();
         if (!k_correlation_coefficient.contains(r)) {
-            reading_.problems.refuse(k_number_out_of_range, where(pointer + "/2"), "r is " + shortest(r),
+            reading_.problems.refuse(k_number_out_of_range, where(pointer + "/2"), "r is " + text::shortest_plain(r),
                                      k_correlation_coefficient.rule(), k_correlation_coefficient.action());
             return;
         }
@@ -81,7 +82,7 @@ private:
         const std::string& name = reading_.job.participants[*first].id;
         if (*first == *second) {
             reading_.problems.refuse(k_comparison_pair, where(pointer),
-                                     "a correlation of " + in_quotes(name) + " with itself",
+                                     "a correlation of " + text::in_quotes(name) + " with itself",
                                      "a correlation has two participants", "correct the ids");
             return;
         }
@@ -89,8 +90,8 @@ private:
         const auto [entry, is_new] = pairs_.try_emplace({key.first, key.second}, r, pointer);
         if (!is_new) {
             reading_.problems.refuse(k_comparison_pair, where(pointer),
-                                     "the correlation of " + in_quotes(name) + " and " +
-                                         in_quotes(reading_.job.participants[*second].id) +
+                                     "the correlation of " + text::in_quotes(name) + " and " +
+                                         text::in_quotes(reading_.job.participants[*second].id) +
                                          " is stated a second time, first at " + where(entry->second.second),
                                      "a pair has one correlation", "keep one of them");
             return;
@@ -120,9 +121,9 @@ private:
                     const std::vector<std::string_view> names(known.begin(), known.end());
                     const auto nearest = nearest_word(name, names);
                     reading_.problems.refuse(
-                        k_unknown_group, at, "no participant is in the group " + in_quotes(name),
+                        k_unknown_group, at, "no participant is in the group " + text::in_quotes(name),
                         "groups are those that participants state",
-                        nearest ? "did you mean " + in_quotes(*nearest) + "?" : "correct the name, or remove it");
+                        nearest ? "did you mean " + text::in_quotes(*nearest) + "?" : "correct the name, or remove it");
                 }
             } else if (!value.is_number()) {
                 if (!value.is_discarded()) {
@@ -130,7 +131,7 @@ private:
                                              "state r inside the group; a group without is \"unknown\"");
                 }
             } else if (!k_correlation_coefficient.contains(value.get<double>())) {
-                reading_.problems.refuse(k_number_out_of_range, at, "r is " + shortest(value.get<double>()),
+                reading_.problems.refuse(k_number_out_of_range, at, "r is " + text::shortest_plain(value.get<double>()),
                                          k_correlation_coefficient.rule(), k_correlation_coefficient.action());
             } else {
                 reading_.job.group_correlation[name] = value.get<double>();
@@ -196,9 +197,9 @@ private:
             const std::string& group = reading_.job.participants[members.front()].group;
             reading_.problems.refuse(
                 k_comparison_correlations, where(child_pointer("/groups", group)),
-                "r = " + shortest(r) + " cannot hold between all " + std::to_string(members.size()) +
-                    " participants of the group " + in_quotes(group) + ": the smallest eigenvalue of their matrix is " +
-                    significant_text(smallest, 3),
+                "r = " + text::shortest_plain(r) + " cannot hold between all " + std::to_string(members.size()) +
+                    " participants of the group " + text::in_quotes(group) +
+                    ": the smallest eigenvalue of their matrix is " + text::significant(smallest, 3),
                 "n results that are all correlated alike have r of at least -1/(n - 1)", "correct r");
         }
     }
@@ -209,7 +210,7 @@ private:
             reading_.problems.refuse(
                 k_too_many_correlated, where("/correlations"),
                 std::to_string(members.size()) + " participants are correlated with " +
-                    in_quotes(participants[members.front()].id) + " and with each other",
+                    text::in_quotes(participants[members.front()].id) + " and with each other",
                 "at most " + std::to_string(k_most_in_matrix) + " participants may be in one correlation matrix",
                 "state fewer correlations");
             return;
@@ -245,7 +246,7 @@ private:
         reading_.problems.refuse(k_comparison_correlations, where(last),
                                  "the correlations of " + list_of(culprits) +
                                      " cannot hold together: the smallest eigenvalue of their matrix is " +
-                                     significant_text(negative->eigenvalue, 3),
+                                     text::significant(negative->eigenvalue, 3),
                                  "a correlation matrix is positive semi-definite",
                                  "correct the correlations of these participants");
     }
@@ -272,7 +273,7 @@ std::optional<std::size_t> item_named(const ComparisonReading& reading, const Pa
     }
     const auto found = participants.items().find(*label);
     if (!found && participants.is_whole()) {
-        reading.problems.refuse(k_unknown_item, where, "the item " + in_quotes(*label) + " is none of the job",
+        reading.problems.refuse(k_unknown_item, where, "the item " + text::in_quotes(*label) + " is none of the job",
                                 "the items are those of the job",
                                 participants.items().advice(*label, "correct the item"));
     }
@@ -303,17 +304,19 @@ std::optional<Eigen::MatrixXd> read_correlation_matrix(const ComparisonReading& 
     for (Eigen::Index i = 0; i < n; ++i) {
         const std::string& name = items[static_cast<std::size_t>(i)];
         if ((*matrix)(i, i) != 1.0) {
-            return refuse(k_correlation_matrix,
-                          "the element of " + in_quotes(name) + " with itself is " + shortest((*matrix)(i, i)),
-                          "a correlation matrix has ones on its diagonal; it is no covariance matrix");
+            return refuse(
+                k_correlation_matrix,
+                "the element of " + text::in_quotes(name) + " with itself is " + text::shortest_plain((*matrix)(i, i)),
+                "a correlation matrix has ones on its diagonal; it is no covariance matrix");
         }
         for (Eigen::Index j = 0; j < i; ++j) {
             const double r = (*matrix)(i, j);
             if (std::abs(r - (*matrix)(j, i)) > k_same_number || !k_correlation_coefficient.contains(r)) {
                 return refuse(k_correlation_matrix,
-                              "r of " + in_quotes(name) + " and " + in_quotes(items[static_cast<std::size_t>(j)]) +
-                                  " is " + shortest(r) + " in one place and " + shortest((*matrix)(j, i)) +
-                                  " in the other",
+                              "r of " + text::in_quotes(name) + " and " +
+                                  text::in_quotes(items[static_cast<std::size_t>(j)]) + " is " +
+                                  text::shortest_plain(r) + " in one place and " +
+                                  text::shortest_plain((*matrix)(j, i)) + " in the other",
                               "a correlation matrix is symmetric, with numbers from -1 to 1");
             }
             (*matrix)(j, i) = r;
@@ -327,7 +330,7 @@ std::optional<Eigen::MatrixXd> read_correlation_matrix(const ComparisonReading& 
         return refuse(k_comparison_correlations,
                       "the correlations of " + list_of(culprits) +
                           " cannot hold together: the smallest eigenvalue is " +
-                          significant_text(negative->eigenvalue, 3),
+                          text::significant(negative->eigenvalue, 3),
                       "a correlation matrix is positive semi-definite");
     }
     return matrix;
@@ -350,7 +353,7 @@ void read_vectors(const ComparisonReading& reading, const JsonObject& root, cons
         ComparisonVector vector;
         const auto name = object.required_name("name");
         if (name && !names.insert(*name).second) {
-            object.refuse(k_repeated_id, "name", "the vector " + in_quotes(*name) + " occurs twice",
+            object.refuse(k_repeated_id, "name", "the vector " + text::in_quotes(*name) + " occurs twice",
                           "a vector has a name of its own", "correct the name");
         }
         vector.name = name.value_or("");
@@ -368,7 +371,7 @@ void read_vectors(const ComparisonReading& reading, const JsonObject& root, cons
             ids.push_back(reading.job.items[*item].id);
             if (std::find(vector.items.begin(), vector.items.end(), *item) != vector.items.end()) {
                 reading.problems.refuse(k_repeated_id, reading.document.where(pointer),
-                                        "the item " + in_quotes(ids.back()) + " occurs twice in the vector",
+                                        "the item " + text::in_quotes(ids.back()) + " occurs twice in the vector",
                                         "a vector has each item once", "remove one of the two");
             }
             vector.items.push_back(*item);
@@ -416,7 +419,7 @@ void read_youden(const ComparisonReading& reading, const JsonObject& root, const
         const auto second = item_named(reading, participants, pair[1], pointer + "/1");
         if (first && second && *first == *second) {
             reading.problems.refuse(k_repeated_id, reading.document.where(pointer),
-                                    "the item " + in_quotes(reading.job.items[*first].id) + " against itself",
+                                    "the item " + text::in_quotes(reading.job.items[*first].id) + " against itself",
                                     "a Youden plot has two items", "correct the pair");
         } else if (first && second) {
             reading.job.youden.emplace_back(*first, *second);

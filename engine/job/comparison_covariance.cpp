@@ -4,7 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/number_texts.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -19,7 +20,7 @@ public:
         : points_(points),
           coverage_probability_(coverage_probability),
           problems_(problems),
-          where_(printable(problems.file())) {}
+          where_(text::visible(problems.file())) {}
 
     void read(Eigen::MatrixXd matrix, ComparisonSide& side) const {
         if (is_covariance(matrix)) {
@@ -29,7 +30,7 @@ public:
 
 private:
     [[nodiscard]] std::string name_of(Eigen::Index i) const {
-        return in_quotes(description(points_[static_cast<std::size_t>(i)].point));
+        return text::in_quotes(description(points_[static_cast<std::size_t>(i)].point));
     }
 
     [[nodiscard]] bool is_covariance(const Eigen::MatrixXd& matrix) const {
@@ -37,18 +38,19 @@ private:
             between(k_least_compared_u * k_least_compared_u, k_largest_compared * k_largest_compared, "");
         for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
             if (!range.contains(matrix(i, i))) {
-                problems_.refuse(k_number_out_of_range, where_,
-                                 "the variance of the point " + name_of(i) + " is " + shortest(matrix(i, i)),
-                                 "a variance is u², from 1e-120 to 1e120",
-                                 "correct the matrix, or choose another unit");
+                problems_.refuse(
+                    k_number_out_of_range, where_,
+                    "the variance of the point " + name_of(i) + " is " + text::shortest_plain(matrix(i, i)),
+                    "a variance is u², from 1e-120 to 1e120", "correct the matrix, or choose another unit");
                 return false;
             }
             const auto& stated = points_[static_cast<std::size_t>(i)].uncertainty;
             const double variance = stated ? stated->u * stated->u : matrix(i, i);
             if (std::abs(matrix(i, i) - variance) > k_same_variance * variance) {
                 problems_.refuse(k_comparison_covariance_diagonal, where_,
-                                 "the variance of the point " + name_of(i) + " is " + shortest(matrix(i, i)) +
-                                     ", and u² of the point is " + shortest(variance),
+                                 "the variance of the point " + name_of(i) + " is " +
+                                     text::shortest_plain(matrix(i, i)) + ", and u² of the point is " +
+                                     text::shortest_plain(variance),
                                  "they must agree within 1e-6", "state the uncertainty in one place only");
                 return false;
             }
@@ -57,8 +59,8 @@ private:
                 if (!(std::abs(matrix(i, j) - matrix(j, i)) <= k_same_number * scale)) {
                     problems_.refuse(k_comparison_covariance_asymmetric, where_,
                                      "the covariance of the points " + name_of(i) + " and " + name_of(j) + " is " +
-                                         shortest(matrix(i, j)) + " in one place and " + shortest(matrix(j, i)) +
-                                         " in the other",
+                                         text::shortest_plain(matrix(i, j)) + " in one place and " +
+                                         text::shortest_plain(matrix(j, i)) + " in the other",
                                      "a covariance matrix is symmetric", "correct the matrix");
                     return false;
                 }
@@ -81,7 +83,7 @@ private:
         problems_.refuse(k_comparison_covariance, where_,
                          "the covariances of the points " + list_of(culprits) +
                              " cannot hold together: the smallest eigenvalue of their correlation matrix is " +
-                             significant_text(negative->eigenvalue, 3),
+                             text::significant(negative->eigenvalue, 3),
                          "a covariance matrix is positive semi-definite", "correct the matrix");
         return false;
     }

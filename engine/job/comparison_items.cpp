@@ -5,6 +5,8 @@
 
 #include "engine/job/budget_fit_statement.h"
 #include "engine/job/comparison_keys.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -54,8 +56,8 @@ std::optional<SigmaPtRequest> read_sigma_object(const JsonObject& object) {
     }
     if (*repeatability > *reproducibility) {
         object.refuse(k_sigma_pt, "repeatability",
-                      "the repeatability " + shortest(*repeatability) + " is larger than the reproducibility " +
-                          shortest(*reproducibility),
+                      "the repeatability " + text::shortest_plain(*repeatability) +
+                          " is larger than the reproducibility " + text::shortest_plain(*reproducibility),
                       "reproducibility holds repeatability and what differs between laboratories",
                       "check which number is which");
         return std::nullopt;
@@ -148,8 +150,8 @@ void read_items(const ComparisonReading& reading, const json& array, const Compa
         }
         item.id = *id;
         if (!labels.add(*id).second) {
-            object.refuse(k_repeated_id, "id", "the item " + in_quotes(*id) + " occurs twice", "an item is stated once",
-                          "correct the id, or remove one of the two");
+            object.refuse(k_repeated_id, "id", "the item " + text::in_quotes(*id) + " occurs twice",
+                          "an item is stated once", "correct the id, or remove one of the two");
             return;
         }
         reading.job.items.push_back(std::move(item));

@@ -10,6 +10,7 @@
 #include "engine/job/comparison_methods.h"
 #include "engine/job/comparison_participants.h"
 #include "engine/job/comparison_reading.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -47,7 +48,7 @@ private:
             return;
         }
         if (*kind != "comparison") {
-            problems.refuse(k_wrong_kind, document.where("/kind"), "a job of kind " + in_quotes(*kind),
+            problems.refuse(k_wrong_kind, document.where("/kind"), "a job of kind " + text::in_quotes(*kind),
                             "a job of kind \"comparison\" is expected here", "use the command for this kind of job");
             return;
         }
@@ -110,7 +111,7 @@ private:
                                                              : std::span<const std::string_view>{k_methods_keys};
         for (const std::string_view key : others) {
             if (root.has(key)) {
-                root.refuse(k_comparison_form, key, "the key " + in_quotes(key) + " belongs to the other form",
+                root.refuse(k_comparison_form, key, "the key " + text::in_quotes(key) + " belongs to the other form",
                             has_methods ? "it is a key of comparisons between laboratories, with \"participants\""
                                         : "it is a key of comparisons of methods, with \"lab\" and \"reference\"",
                             "remove it");

@@ -10,6 +10,8 @@
 #include "engine/job/comparison_covariance.h"
 #include "engine/job/comparison_keys.h"
 #include "engine/job/comparison_side.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -140,9 +142,10 @@ private:
             const std::optional<double>& other = of_reference.point.position;
             if (position && other && *position != *other) {
                 reference.problems->refuse(k_points_differ, of_reference.where,
-                                           "the point " + in_quotes(description(of_reference.point)) + " is at " +
-                                               shortest(*other) + ", and on the side of the laboratory at " +
-                                               shortest(*position),
+                                           "the point " + text::in_quotes(description(of_reference.point)) + " is at " +
+                                               text::shortest_plain(*other) +
+                                               ", and on the side of the laboratory at " +
+                                               text::shortest_plain(*position),
                                            "both methods measured the same points", "correct the position");
             }
             position = position ? position : other;
@@ -158,13 +161,14 @@ private:
             const auto [entry, is_new] = seen.try_emplace(key_of_point(point.point), &point);
             if (!is_new) {
                 are = false;
-                side.problems->refuse(
-                    k_repeated_comparison_point, point.where,
-                    "the point " + in_quotes(point.point.name) +
-                        (point.point.direction.empty() ? "" : " in the direction " + in_quotes(point.point.direction)) +
-                        " occurs twice, before at " + entry->second->where,
-                    "point and direction occur together once",
-                    "remove one of the two, or tell them apart by a direction");
+                side.problems->refuse(k_repeated_comparison_point, point.where,
+                                      "the point " + text::in_quotes(point.point.name) +
+                                          (point.point.direction.empty()
+                                               ? ""
+                                               : " in the direction " + text::in_quotes(point.point.direction)) +
+                                          " occurs twice, before at " + entry->second->where,
+                                      "point and direction occur together once",
+                                      "remove one of the two, or tell them apart by a direction");
             }
         }
         return are;
@@ -181,7 +185,7 @@ private:
         const std::size_t count = std::max<std::size_t>(points.size(), 1);
         for (std::size_t i = 0; i < count; ++i) {
             SidePoint read;
-            read.where = printable(side.side.budget_file) + "#/points";
+            read.where = text::visible(side.side.budget_file) + "#/points";
             // A budget without points has one result, which is that of the only point.
             const std::string name = !points.empty()      ? points[i].name
                                      : others.size() == 1 ? name_in_budget(others.front().point)
@@ -216,7 +220,7 @@ private:
         }
         if (kept.size() < k_least_angles) {
             root_.refuse(k_compared_job, side.key,
-                         std::to_string(kept.size()) + " angles of the job " + in_quotes(side.side.job_file) +
+                         std::to_string(kept.size()) + " angles of the job " + text::in_quotes(side.side.job_file) +
                              " were measured on the other side",
                          "deviations of an angle are compared at 3 angles at least, because their mean is taken off",
                          "measure common angles; points of a table are named by the angle in degrees, \"30\"");
@@ -322,7 +326,7 @@ private:
         }
         if (!missing.empty()) {
             root_.refuse(k_comparison_budget, key,
-                         "the budget " + in_quotes(side.budget_file) + " has no point " + list_of(missing),
+                         "the budget " + text::in_quotes(side.budget_file) + " has no point " + list_of(missing),
                          "a point of the comparison is the point of the budget with its name, or with its "
                          "name, a dot and its direction",
                          "correct the names of the points");

@@ -6,6 +6,8 @@
 
 #include "engine/job/comparison_items.h"
 #include "engine/job/comparison_keys.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -88,7 +90,7 @@ void ParticipantsReader::read_rounds() {
     }
     for (std::string& round : read_texts(reading_, root_, "rounds")) {
         if (!rounds_.index.add(round).second) {
-            root_.refuse(k_repeated_id, "rounds", "the round " + in_quotes(round) + " occurs twice",
+            root_.refuse(k_repeated_id, "rounds", "the round " + text::in_quotes(round) + " occurs twice",
                          "a round is listed once", "remove one of the two");
             continue;
         }
@@ -149,7 +151,7 @@ void ParticipantsReader::read_participant(const JsonObject& object) {
         return;
     }
     if (!with_results && participants_.find(*id)) {
-        object.refuse(k_repeated_id, "id", "the participant " + in_quotes(*id) + " occurs twice",
+        object.refuse(k_repeated_id, "id", "the participant " + text::in_quotes(*id) + " occurs twice",
                       "a participant is listed once where the results stand on their own",
                       "correct the id, or remove one of the two");
         return;
@@ -205,7 +207,7 @@ std::optional<std::size_t> ParticipantsReader::participant_of(std::string_view i
     }
     if (!may_be_new) {
         place.problems->refuse(k_unknown_participant, place.text(),
-                               "the participant " + in_quotes(id) + " is none of \"participants\"",
+                               "the participant " + text::in_quotes(id) + " is none of \"participants\"",
                                "results are those of participants of the job",
                                participants_.advice(id, "correct the id, or add the participant"));
         is_whole_ = false;
@@ -229,8 +231,8 @@ void ParticipantsReader::describe(std::size_t participant, const ComparisonParti
             return;
         }
         place.problems->refuse(k_participant_differs, place.text(),
-                               "the " + std::string(key) + " of " + in_quotes(known.id) + " is " + in_quotes(other) +
-                                   ", and before it was " + in_quotes(text),
+                               "the " + std::string(key) + " of " + text::in_quotes(known.id) + " is " +
+                                   text::in_quotes(other) + ", and before it was " + text::in_quotes(text),
                                "a participant is one laboratory in all its results",
                                "state it once, or the same everywhere");
     };
@@ -238,8 +240,8 @@ void ParticipantsReader::describe(std::size_t participant, const ComparisonParti
     take(known.group, stated.group, "group", known.group.empty());
     if (stated.cmc_U && known.cmc_U && *known.cmc_U != *stated.cmc_U) {
         place.problems->refuse(k_participant_differs, place.text(),
-                               "cmc_U of " + in_quotes(known.id) + " is " + shortest(*stated.cmc_U) +
-                                   ", and before it was " + shortest(*known.cmc_U),
+                               "cmc_U of " + text::in_quotes(known.id) + " is " + text::shortest_plain(*stated.cmc_U) +
+                                   ", and before it was " + text::shortest_plain(*known.cmc_U),
                                "a participant has one cmc_U", "state it once, or the same everywhere");
     } else if (stated.cmc_U) {
         known.cmc_U = stated.cmc_U;
@@ -259,7 +261,7 @@ std::optional<std::size_t> ParticipantsReader::position_of(Labels& labels, const
         const auto found = labels.index.find(*label);
         if (!found) {
             place.problems->refuse(*labels.code, place.text(),
-                                   "the " + noun + " " + in_quotes(*label) + " is none of \"" + noun + "s\"",
+                                   "the " + noun + " " + text::in_quotes(*label) + " is none of \"" + noun + "s\"",
                                    "results are those of " + noun + "s of the job",
                                    labels.index.advice(*label, "correct the " + noun + ", or add it to the list"));
             is_whole_ = false;
@@ -271,7 +273,7 @@ std::optional<std::size_t> ParticipantsReader::position_of(Labels& labels, const
     }
     if (labels.index.size() > 1) {
         place.problems->refuse(*labels.code, place.text(), "the result does not say " + std::string(labels.which),
-                               "a job with several " + noun + "s has results with " + in_quotes(noun),
+                               "a job with several " + noun + "s has results with " + text::in_quotes(noun),
                                "add the " + noun);
     }
     is_whole_ = false;
@@ -322,10 +324,10 @@ bool ParticipantsReader::is_first(const Address& address, const Place& place) {
     const std::string& item = job.items[address.item].id;
     const std::string& round = job.rounds[address.round];
     place.problems->refuse(k_repeated_result, place.text(),
-                           "the participant " + in_quotes(job.participants[address.participant].id) +
-                               " has a second result" + (item.empty() ? "" : " for the item " + in_quotes(item)) +
-                               (round.empty() ? "" : " in the round " + in_quotes(round)) + ", the first one is at " +
-                               entry->second.text(),
+                           "the participant " + text::in_quotes(job.participants[address.participant].id) +
+                               " has a second result" + (item.empty() ? "" : " for the item " + text::in_quotes(item)) +
+                               (round.empty() ? "" : " in the round " + text::in_quotes(round)) +
+                               ", the first one is at " + entry->second.text(),
                            "a participant has one result for each item and round",
                            "remove one of the two, or tell them apart by \"item\" or \"round\"");
     return false;
@@ -346,7 +348,7 @@ void ParticipantsReader::read_table(const JsonObject& file_object, bool with_par
         read_csv_table(std::move(file->bytes), k_required_columns,
                        optional.first(optional.size() - (with_participants ? 0 : k_participant_columns)), problems);
     if (!table || !check_uncertainty_columns(*table, k_uncertainty_columns, problems) ||
-        are_too_many(table->rows(), printable(problems.file()), problems)) {
+        are_too_many(table->rows(), text::visible(problems.file()), problems)) {
         is_whole_ = false;
         return;
     }
@@ -531,7 +533,7 @@ void ParticipantsReader::read_audited(const JsonObject& object, ComparisonResult
 void ParticipantsReader::read_budget(const JsonObject& object, ComparisonResult& result) {
     for (const std::string_view key : {"value", "u", "U", "k", "nu", "sources"}) {
         if (object.has(key)) {
-            object.refuse(k_stated_beside_budget, key, in_quotes(key) + " beside a budget",
+            object.refuse(k_stated_beside_budget, key, text::in_quotes(key) + " beside a budget",
                           "value, uncertainty and sources are those of the budget", "remove the key, or the budget");
         }
     }

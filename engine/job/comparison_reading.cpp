@@ -12,6 +12,8 @@
 #include "engine/job/budget_results.h"
 #include "engine/job/comparison_keys.h"
 #include "gum/coverage.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -102,7 +104,8 @@ std::optional<ResultUncertainty> evaluate(const StatedUncertainty& stated, doubl
         return std::nullopt;
     }
     if (stated.k && *stated.k < 1.0) {
-        problems.warn(k_warn_small_coverage_factor, where("k"), "a coverage factor of " + shortest(*stated.k),
+        problems.warn(k_warn_small_coverage_factor, where("k"),
+                      "a coverage factor of " + text::shortest_plain(*stated.k),
                       "U = k u with k about 2 for a coverage probability of 95 %",
                       "check that it is the coverage factor and not the coverage probability");
     }
@@ -169,9 +172,9 @@ void refuse_other_results(const BudgetJob& budget, const gum::Unit& wanted, cons
     }
     problems.refuse(k_comparison_budget, where,
                     units.size() == 1
-                        ? "the result of the budget has the unit " + in_quotes(units.front())
+                        ? "the result of the budget has the unit " + text::in_quotes(units.front())
                         : "the budget has " + std::to_string(units.size()) + " results, in " + list_of(units),
-                    "it has one result, of a unit of the same kind as " + in_quotes(wanted.text()),
+                    "it has one result, of a unit of the same kind as " + text::in_quotes(wanted.text()),
                     "state one output in the budget, or correct the unit of the comparison");
 }
 
@@ -184,7 +187,7 @@ std::string LabelIndex::advice(std::string_view label, std::string otherwise) co
     }
     std::sort(known.begin(), known.end());  // the order of a hash table is no order for a message
     const std::optional<std::string_view> nearest = nearest_word(label, known);
-    return nearest ? "did you mean " + in_quotes(*nearest) + "?" : otherwise;
+    return nearest ? "did you mean " + text::in_quotes(*nearest) + "?" : otherwise;
 }
 
 std::optional<std::string> label_of(const json& value, const std::string& where, ProblemList& problems) {
@@ -192,7 +195,7 @@ std::optional<std::string> label_of(const json& value, const std::string& where,
         return std::nullopt;
     }
     if (value.is_number()) {
-        return shortest(value.get<double>());
+        return text::shortest_plain(value.get<double>());
     }
     if (!value.is_string()) {
         problems.refuse(k_wrong_type, where, described(value), "must be a text or a number", "correct the value");
@@ -200,7 +203,7 @@ std::optional<std::string> label_of(const json& value, const std::string& where,
     }
     const auto& text = value.get_ref<const std::string&>();
     if (const auto objection = name_objection(text)) {
-        problems.refuse(k_text_not_allowed, where, in_quotes(text) + " " + *objection,
+        problems.refuse(k_text_not_allowed, where, text::in_quotes(text) + " " + *objection,
                         "must be one line of at most 256 bytes, without spaces around it and without control or "
                         "hidden characters",
                         "correct the text");
@@ -323,7 +326,7 @@ bool is_censored(std::string_view text) {
 }
 
 void refuse_censored(std::string_view text, const std::string& where, std::string_view if_none, ProblemList& problems) {
-    problems.refuse(k_censored_result, where, "the result " + in_quotes(text) + " is a limit and no value",
+    problems.refuse(k_censored_result, where, "the result " + text::in_quotes(text) + " is a limit and no value",
                     "scores and means need the value that was measured",
                     "report what was measured, with its uncertainty, or " + std::string(if_none));
 }
@@ -352,7 +355,7 @@ std::optional<double> read_value(const CsvTable& table, std::size_t row, std::si
     }
     // What people write for "no result": NA, n/a, ND, -.
     if (!cell.text.empty() && cell.text.find_first_of("0123456789") == std::string_view::npos) {
-        problems.refuse(k_csv_not_a_number, table.where(cell), in_quotes(cell.text) + " in column value",
+        problems.refuse(k_csv_not_a_number, table.where(cell), text::in_quotes(cell.text) + " in column value",
                         "must be a number with a decimal point", "state the value, or " + std::string(if_none));
         return std::nullopt;
     }
@@ -382,7 +385,7 @@ std::vector<UncertaintySource> read_sources(const ComparisonReading& reading, co
             return;
         }
         if (std::any_of(sources.begin(), sources.end(), [&](const auto& other) { return other.source == *name; })) {
-            entry.refuse(k_repeated_source, "source", "the source " + in_quotes(*name) + " occurs twice",
+            entry.refuse(k_repeated_source, "source", "the source " + text::in_quotes(*name) + " occurs twice",
                          "a result states one part for each source", "add the parts up, with their signs");
             return;
         }
@@ -390,10 +393,11 @@ std::vector<UncertaintySource> read_sources(const ComparisonReading& reading, co
         sources.push_back({.source = *name, .input = {}, .contribution = *part});
     });
     if (u && sum > *u * (1.0 + k_same_number)) {
-        object.refuse(k_parts_exceed_uncertainty, "sources",
-                      "the parts add up to " + shortest(sum) + ", and u of the result is " + shortest(*u),
-                      "parts of an uncertainty are at most as large as the whole",
-                      "state the parts as standard uncertainties of the result, or correct its uncertainty");
+        object.refuse(
+            k_parts_exceed_uncertainty, "sources",
+            "the parts add up to " + text::shortest_plain(sum) + ", and u of the result is " + text::shortest_plain(*u),
+            "parts of an uncertainty are at most as large as the whole",
+            "state the parts as standard uncertainties of the result, or correct its uncertainty");
     }
     return sources;
 }
@@ -462,7 +466,7 @@ std::string list_of(const std::vector<std::string>& names, std::size_t most) {
     std::string text;
     const std::size_t shown = std::min(names.size(), most);
     for (std::size_t i = 0; i < shown; ++i) {
-        text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + in_quotes(names[i]);
+        text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + text::in_quotes(names[i]);
     }
     return names.size() > shown ? text + " and " + std::to_string(names.size() - shown) + " more" : text;
 }

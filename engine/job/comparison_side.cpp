@@ -5,6 +5,8 @@
 
 #include "engine/job/comparison_compared_job.h"
 #include "engine/job/comparison_keys.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -147,7 +149,7 @@ private:
         if (side_.has_budget) {
             for (const std::string_view key : {"value", "u", "U", "k", "nu", "u_common"}) {
                 if (object.has(key)) {
-                    object.refuse(k_stated_beside_budget, key, in_quotes(key) + " beside a budget",
+                    object.refuse(k_stated_beside_budget, key, text::in_quotes(key) + " beside a budget",
                                   "values and uncertainties are those of the budget", "remove the key, or the budget");
                 }
             }
@@ -166,18 +168,18 @@ private:
     void check_point(const SidePoint& read, bool states_uncertainty, ProblemList& problems) const {
         if (!states_uncertainty && !side_.covariance_name) {
             problems.refuse(k_bare_uncertainty, read.where,
-                            "the point " + in_quotes(read.point.name) + " has no uncertainty",
+                            "the point " + text::in_quotes(read.point.name) + " has no uncertainty",
                             "every point has u, or U with k, unless a covariance states it", "add the uncertainty");
         }
         if (read.u_common && side_.covariance_name) {
             problems.refuse(k_stated_beside_budget, read.where, "u_common beside a covariance",
                             "what the points share is in the covariance", "remove one of the two");
         } else if (read.u_common && read.uncertainty && *read.u_common > read.uncertainty->u * (1.0 + k_same_number)) {
-            problems.refuse(
-                k_parts_exceed_uncertainty, read.where,
-                "u_common is " + shortest(*read.u_common) + ", and u of the point is " + shortest(read.uncertainty->u),
-                "what all points share is a part of the standard uncertainty of each",
-                "state u_common as a standard uncertainty, not larger than u");
+            problems.refuse(k_parts_exceed_uncertainty, read.where,
+                            "u_common is " + text::shortest_plain(*read.u_common) + ", and u of the point is " +
+                                text::shortest_plain(read.uncertainty->u),
+                            "what all points share is a part of the standard uncertainty of each",
+                            "state u_common as a standard uncertainty, not larger than u");
         }
     }
 
@@ -196,7 +198,7 @@ private:
         const auto table =
             read_csv_table(std::move(file->bytes), k_required_side_columns, k_optional_side_columns, problems);
         if (!table || !check_uncertainty_columns(*table, k_uncertainty_columns, problems) ||
-            are_too_many_points(table->rows(), printable(problems.file()), problems) ||
+            are_too_many_points(table->rows(), text::visible(problems.file()), problems) ||
             !check_columns(*table, problems)) {
             side_.is_whole = false;
             return;

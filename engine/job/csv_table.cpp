@@ -1,4 +1,7 @@
 #include "engine/job/csv_table.h"
+#include "text/lists.h"
+#include "text/utf8.h"
+#include "text/visible_text.h"
 
 #include <algorithm>
 #include <charconv>
@@ -72,7 +75,7 @@ private:
         if (text_[offset_] == '\n') {
             ++line_;
             column_ = 1;
-        } else if ((static_cast<unsigned char>(text_[offset_]) & 0xC0U) != 0x80U) {
+        } else if (!text::is_continuation(text_[offset_])) {
             ++column_;
         }
         ++offset_;
@@ -186,7 +189,7 @@ std::string shown(std::string_view text) {
                std::string_view(" +-.,_'%()[]<>/^").find(c) != std::string_view::npos;
     };
     return text.size() <= k_longest && std::all_of(text.begin(), text.end(), fits)
-               ? in_quotes(text)
+               ? text::in_quotes(text)
                : "a text of " + std::to_string(text.size()) + " bytes";
 }
 
@@ -210,7 +213,7 @@ void refuse_ragged(const std::vector<CsvCell>& fields, std::size_t expected, std
 
 std::optional<double> parse_number(const CsvCell& cell, std::string_view column, const NumberRange& range,
                                    ProblemList& problems) {
-    const std::string of_column = column.empty() ? std::string{} : " in column " + printable(column);
+    const std::string of_column = column.empty() ? std::string{} : " in column " + text::visible(column);
     const auto refuse = [&](const InputCode& code, const std::string& rule, const std::string& action) {
         problems.refuse(code, where_is(cell, problems), shown(cell.text) + of_column, rule, action);
         return std::nullopt;
@@ -303,8 +306,8 @@ std::optional<CsvTable> read_csv_table(std::string bytes, std::span<const std::s
         }
     }
     if (fields.empty()) {
-        problems.refuse(k_empty_file, printable(problems.file()), "the file is empty", "a table has a header and rows",
-                        "check the name of the file and its content");
+        problems.refuse(k_empty_file, text::visible(problems.file()), "the file is empty",
+                        "a table has a header and rows", "check the name of the file and its content");
         return std::nullopt;
     }
     if (refuse_other_separator(fields, problems)) {
@@ -329,7 +332,7 @@ std::optional<CsvTable> read_csv_table(std::string bytes, std::span<const std::s
         std::optional<std::size_t>& position = table.positions_[static_cast<std::size_t>(known - table.names_.begin())];
         if (position) {
             problems.refuse(k_csv_repeated_column, where_is(fields[i], problems),
-                            "the column " + in_quotes(fields[i].text) + " occurs twice", "a column occurs once",
+                            "the column " + text::in_quotes(fields[i].text) + " occurs twice", "a column occurs once",
                             "remove one of the two");
             usable = false;
         }
@@ -349,7 +352,7 @@ std::optional<CsvTable> read_csv_table(std::string bytes, std::span<const std::s
         const std::optional<std::string_view> nearest = nearest_word(required[i], candidates);
         problems.refuse(
             k_csv_missing_column, where_is(fields.front(), problems),
-            "the column " + in_quotes(required[i]) + " is missing", "the required columns are " + all_required,
+            "the column " + text::in_quotes(required[i]) + " is missing", "the required columns are " + all_required,
             nearest ? "is it the column " + shown(*nearest) + "?" : "add it to the header and to every row");
         usable = false;
     }
@@ -359,7 +362,7 @@ std::optional<CsvTable> read_csv_table(std::string bytes, std::span<const std::s
     for (const CsvCell& cell : unknown) {
         const std::optional<std::string_view> nearest = nearest_word(cell.text, optional);
         problems.warn(k_warn_extra_column, where_is(cell, problems),
-                      "the column " + in_quotes(cell.text) + " is not used", "columns are known by their names",
+                      "the column " + text::in_quotes(cell.text) + " is not used", "columns are known by their names",
                       nearest ? "did you mean \"" + std::string{*nearest} + "\"?" : "remove it if it is not needed");
     }
 
@@ -385,7 +388,7 @@ std::optional<CsvTable> read_csv_table(std::string bytes, std::span<const std::s
         table.cells_.insert(table.cells_.end(), fields.begin(), fields.end());
     }
     if (row_count == 0) {
-        problems.refuse(k_csv_no_rows, printable(problems.file()), "a header and no rows",
+        problems.refuse(k_csv_no_rows, text::visible(problems.file()), "a header and no rows",
                         "a table has at least one row", "check that the file is complete");
         return std::nullopt;
     }
@@ -417,8 +420,8 @@ std::optional<std::int64_t> CsvTable::integer(std::size_t row, std::size_t colum
     if (value && (!(*value >= -k_largest && *value <= k_largest) ||
                   *value != static_cast<double>(static_cast<std::int64_t>(*value)))) {
         problems_->refuse(k_csv_not_an_integer, where(cell(row, column)),
-                          in_quotes(cell(row, column).text) + " in column " + names_[column], "must be a whole number",
-                          "write a number without fraction");
+                          text::in_quotes(cell(row, column).text) + " in column " + names_[column],
+                          "must be a whole number", "write a number without fraction");
         return std::nullopt;
     }
     return value ? std::optional{static_cast<std::int64_t>(*value)} : std::nullopt;
@@ -427,12 +430,12 @@ std::optional<std::int64_t> CsvTable::integer(std::size_t row, std::size_t colum
 std::optional<std::string_view> CsvTable::name(std::size_t row, std::size_t column) const {
     const CsvCell& field = cell(row, column);
     if (const std::optional<std::string> objection = name_objection(field.text)) {
-        problems_->refuse(field.text.empty() ? k_csv_missing_value : k_csv_name, where(field),
-                          field.text.empty()
-                              ? "an empty cell in column " + names_[column]
-                              : "the name " + in_quotes(field.text) + " in column " + names_[column] + " " + *objection,
-                          "a name has 1 to 256 bytes, no spaces around it and no control or hidden characters",
-                          "correct the name");
+        problems_->refuse(
+            field.text.empty() ? k_csv_missing_value : k_csv_name, where(field),
+            field.text.empty()
+                ? "an empty cell in column " + names_[column]
+                : "the name " + text::in_quotes(field.text) + " in column " + names_[column] + " " + *objection,
+            "a name has 1 to 256 bytes, no spaces around it and no control or hidden characters", "correct the name");
         return std::nullopt;
     }
     return field.text;
@@ -445,7 +448,7 @@ std::optional<std::size_t> CsvTable::choice(std::size_t row, std::size_t column,
     if (found == words.end()) {
         problems_->refuse(field.text.empty() ? k_csv_missing_value : k_csv_unknown_choice, where(field),
                           (field.text.empty() ? "an empty cell" : shown(field.text)) + " in column " + names_[column],
-                          "must be " + any_of_words(words), "correct the value");
+                          "must be " + text::any_of(words), "correct the value");
         return std::nullopt;
     }
     return static_cast<std::size_t>(found - words.begin());
@@ -490,7 +493,7 @@ std::optional<Eigen::MatrixXd> read_csv_matrix(const std::string& bytes, std::si
         }
     }
     if (rows != order) {
-        problems.refuse(k_csv_matrix_size, printable(problems.file()), std::to_string(rows) + " rows",
+        problems.refuse(k_csv_matrix_size, text::visible(problems.file()), std::to_string(rows) + " rows",
                         "the matrix has " + std::to_string(order) + " rows and columns, and no header",
                         "check that the file is complete and belongs to this job");
     }

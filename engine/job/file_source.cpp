@@ -6,13 +6,14 @@
 #include "engine/job/input_codes.h"
 #include "engine/job/input_text.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
 namespace {
 
 [[noreturn]] void not_readable(const std::string& name, const std::string& reason) {
-    throw gum::StorageError(gum::Diagnostic{std::string{k_file_not_readable.code}, printable(name),
+    throw gum::StorageError(gum::Diagnostic{std::string{k_file_not_readable.code}, text::visible(name),
                                             "cannot be read: " + reason, "every file of a job must be a readable file",
                                             "check the name and the rights of the file", gum::Severity::error});
 }

@@ -1,13 +1,14 @@
 #include "engine/job/input_text.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "engine/job/file_source.h"
+#include "text/numbers.h"
+#include "text/utf8.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -17,79 +18,14 @@ unsigned byte_at(std::string_view text, std::size_t i) {
     return static_cast<unsigned char>(text[i]);
 }
 
-bool is_continuation(char c) {
-    return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
-}
-
-struct CodePoint {
-    std::uint32_t value = 0;
-    std::size_t size = 0;  ///< bytes; 0 when the sequence is not UTF-8
-};
-
-// Table 3-7 of the Unicode Standard: no overlong forms, no surrogates, nothing above U+10FFFF.
-CodePoint decode(std::string_view text, std::size_t i) {
-    const unsigned lead = byte_at(text, i);
-    if (lead < 0x80U) {
-        return {lead, 1};
-    }
-    std::size_t size = 0;
-    std::uint32_t value = 0;
-    std::uint32_t lowest = 0;
-    if ((lead & 0xE0U) == 0xC0U) {
-        size = 2;
-        value = lead & 0x1FU;
-        lowest = 0x80U;
-    } else if ((lead & 0xF0U) == 0xE0U) {
-        size = 3;
-        value = lead & 0x0FU;
-        lowest = 0x800U;
-    } else if ((lead & 0xF8U) == 0xF0U) {
-        size = 4;
-        value = lead & 0x07U;
-        lowest = 0x10000U;
-    } else {
-        return {};
-    }
-    if (i + size > text.size()) {
-        return {};
-    }
-    for (std::size_t k = 1; k < size; ++k) {
-        if (!is_continuation(text[i + k])) {
-            return {};
-        }
-        value = (value << 6U) | (byte_at(text, i + k) & 0x3FU);
-    }
-    if (value < lowest || value > 0x10FFFFU || (value >= 0xD800U && value <= 0xDFFFU)) {
-        return {};
-    }
-    return {value, size};
-}
-
-std::string hexadecimal(std::uint32_t value) {
-    std::array<char, 8> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, 16).ptr;
-    std::string text(digits.data(), end);
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](char c) { return c >= 'a' ? static_cast<char>(c - 32) : c; });
-    return text.size() < 4 ? std::string(4 - text.size(), '0') + text : text;
-}
-
-// Characters that a reader of a certificate cannot see, or that change the order of what he sees (Unicode Standard
-// Annex #9, explicit formatting characters). The zero width joiners stay: some scripts need them.
-bool is_hidden(std::uint32_t c) {
-    return c < 0x20U || (c >= 0x7FU && c <= 0x9FU) || c == 0xADU || c == 0x61CU || c == 0x200BU || c == 0x200EU ||
-           c == 0x200FU || (c >= 0x2028U && c <= 0x202EU) || (c >= 0x2060U && c <= 0x206FU) || c == 0xFEFFU ||
-           (c >= 0xFFF9U && c <= 0xFFFBU) || (c >= 0xE0000U && c <= 0xE007FU);
-}
-
-bool is_space(std::uint32_t c) {
+bool is_space(char32_t c) {
     return c == 0x20U || c == 0xA0U || c == 0x3000U || (c >= 0x2000U && c <= 0x200AU) || c == 0x202FU;
 }
 
 }  // namespace
 
 std::string where_in_text(const std::string& file, TextPlace place) {
-    return printable(file) + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
+    return text::visible(file) + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
 }
 
 TextPlace PlaceFinder::at(std::size_t offset) {
@@ -102,7 +38,7 @@ TextPlace PlaceFinder::at(std::size_t offset) {
         if (text_[offset_] == '\n') {
             ++place_.line;
             place_.column = 1;
-        } else if (!is_continuation(text_[offset_])) {
+        } else if (!text::is_continuation(text_[offset_])) {
             ++place_.column;
         }
     }
@@ -113,7 +49,7 @@ std::optional<std::string_view> check_text(std::string_view bytes, ProblemList& 
     const std::string& file = problems.file();
     const std::string save_as = "save the file as UTF-8 text";
     if (bytes.size() > k_file_limit) {
-        problems.refuse(k_file_too_large, printable(file), "the file is larger than 64 MiB",
+        problems.refuse(k_file_too_large, text::visible(file), "the file is larger than 64 MiB",
                         "a file may have at most 67108864 bytes",
                         "split the data, or leave out what the job does not need");
         return std::nullopt;
@@ -143,10 +79,10 @@ std::optional<std::string_view> check_text(std::string_view bytes, ProblemList& 
                             "lines end in LF or CRLF", "save the file with Unix or Windows line ends");
             return std::nullopt;
         }
-        const std::size_t size = decode(text, i).size;
+        const std::size_t size = text::decode_utf8(text, i).bytes;
         if (size == 0) {
             problems.refuse(k_not_utf8, where_in_text(file, finder.at(i)),
-                            "byte 0x" + hexadecimal(c).substr(2) + " at byte offset " + std::to_string(i + skipped) +
+                            "byte 0x" + text::hexadecimal(c, 2) + " at byte offset " + std::to_string(i + skipped) +
                                 " is not UTF-8",
                             "only UTF-8 is read", save_as + " (it seems to be in another encoding, or is damaged)");
             return std::nullopt;
@@ -156,35 +92,6 @@ std::optional<std::string_view> check_text(std::string_view bytes, ProblemList& 
     return text;
 }
 
-std::string printable(std::string_view text) {
-    constexpr std::size_t k_longest = 80;
-    std::string out;
-    std::size_t characters = 0;
-    for (std::size_t i = 0; i < text.size(); ++characters) {
-        if (characters == k_longest) {
-            out += "…";
-            break;
-        }
-        const CodePoint point = decode(text, i);
-        if (point.size == 0) {
-            out += "\\x{" + hexadecimal(byte_at(text, i)).substr(2) + "}";
-            ++i;
-            continue;
-        }
-        if (is_hidden(point.value)) {
-            out += "\\u{" + hexadecimal(point.value) + "}";
-        } else {
-            out += text.substr(i, point.size);
-        }
-        i += point.size;
-    }
-    return out;
-}
-
-std::string in_quotes(std::string_view text) {
-    return "\"" + printable(text) + "\"";
-}
-
 std::optional<std::string> name_objection(std::string_view name, std::size_t longest) {
     if (name.empty()) {
         return "is empty";
@@ -192,20 +99,20 @@ std::optional<std::string> name_objection(std::string_view name, std::size_t lon
     if (name.size() > longest) {
         return "has " + std::to_string(name.size()) + " bytes";
     }
-    std::uint32_t last = 0;
+    char32_t last = 0;
     for (std::size_t i = 0; i < name.size();) {
-        const CodePoint point = decode(name, i);
-        if (point.size == 0) {
+        const text::Character character = text::decode_utf8(name, i);
+        if (character.bytes == 0) {
             return "is not UTF-8";
         }
-        if (is_hidden(point.value)) {
-            return "has the hidden or control character U+" + hexadecimal(point.value);
+        if (text::is_hidden(character.code) && !text::is_joiner(character.code)) {
+            return "has the hidden or control character U+" + text::hexadecimal(character.code);
         }
-        if (i == 0 && is_space(point.value)) {
+        if (i == 0 && is_space(character.code)) {
             return "begins with a space";
         }
-        last = point.value;
-        i += point.size;
+        last = character.code;
+        i += character.bytes;
     }
     if (is_space(last)) {
         return "ends with a space";
@@ -245,34 +152,12 @@ std::optional<std::string_view> nearest_word(std::string_view word, std::span<co
     return nearest;
 }
 
-std::string any_of_words(std::span<const std::string_view> words) {
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        if (i > 0) {
-            text += i + 1 == words.size() ? " or " : ", ";
-        }
-        text += words[i];
-    }
-    return text;
-}
-
-std::string shortest(double value) {
-    std::array<char, 32> digits{};
-    char* const first = digits.data();
-    char* const last = first + digits.size();
-    // 100000 rather than 1e+05: people read it.
-    const bool plain = std::abs(value) >= 1e-4 && std::abs(value) < 1e15;
-    const auto end =
-        plain ? std::to_chars(first, last, value, std::chars_format::fixed).ptr : std::to_chars(first, last, value).ptr;
-    return {first, end};
-}
-
 bool NumberRange::contains(double value) const {
     return (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
 }
 
 std::string NumberRange::with_unit(double value) const {
-    return unit.empty() ? shortest(value) : shortest(value) + " " + std::string{unit};
+    return unit.empty() ? text::shortest_plain(value) : text::shortest_plain(value) + " " + std::string{unit};
 }
 
 std::string NumberRange::rule() const {

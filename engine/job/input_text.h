@@ -40,13 +40,6 @@ private:
 /// \return the text without byte order mark; nothing when it was refused, with the problem in the list
 [[nodiscard]] std::optional<std::string_view> check_text(std::string_view bytes, ProblemList& problems);
 
-/// The text with control, bidirectional and other hidden characters written as `\u{202E}`, shortened to 80 characters,
-/// so that a message stays one honest line.
-[[nodiscard]] std::string printable(std::string_view text);
-
-/// `printable` between double quotes.
-[[nodiscard]] std::string in_quotes(std::string_view text);
-
 /// Why a name is not acceptable: empty, more than 256 bytes, spaces around it, control, bidirectional or hidden
 /// characters; nothing when it is.
 /// \param longest  [byte]
@@ -55,12 +48,6 @@ private:
 /// The known word nearest to a word by edit distance, when it is near enough to be meant.
 [[nodiscard]] std::optional<std::string_view> nearest_word(std::string_view word,
                                                            std::span<const std::string_view> known);
-
-/// "a, b or c".
-[[nodiscard]] std::string any_of_words(std::span<const std::string_view> words);
-
-/// The shortest decimal text that reads back as the same number; without an exponent from 1e-4 to 1e15.
-[[nodiscard]] std::string shortest(double value);
 
 /// The numbers that a key or a column allows.
 struct NumberRange {

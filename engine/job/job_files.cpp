@@ -1,4 +1,5 @@
 #include "engine/job/job_files.h"
+#include "text/visible_text.h"
 
 #include <algorithm>
 #include <tuple>
@@ -45,7 +46,7 @@ std::optional<std::string> JobFiles::file_name(const JsonObject& object, std::st
         return std::nullopt;
     }
     if (const auto objection = file_name_objection(*name)) {
-        object.refuse(k_file_name, key, "the file name " + in_quotes(*name), *objection,
+        object.refuse(k_file_name, key, "the file name " + text::in_quotes(*name), *objection,
                       "put the file beside the job and give its name");
         return std::nullopt;
     }

@@ -4,6 +4,8 @@
 #include <array>
 
 #include "engine/job/json_document.h"
+#include "text/lists.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -22,8 +24,8 @@ std::optional<std::string> read_kind(const JsonDocument& document, ProblemList& 
     const auto text_of = [&](const char* key, std::string_view expected) -> std::optional<std::string> {
         const auto found = document.value.find(key);
         if (found == document.value.end()) {
-            problems.refuse(k_missing_key, document.where(""), "the key " + in_quotes(key) + " is missing",
-                            "the key is required", "add " + in_quotes(key) + ": " + std::string{expected});
+            problems.refuse(k_missing_key, document.where(""), "the key " + text::in_quotes(key) + " is missing",
+                            "the key is required", "add " + text::in_quotes(key) + ": " + std::string{expected});
             return std::nullopt;
         }
         if (found->is_discarded()) {
@@ -38,13 +40,15 @@ std::optional<std::string> read_kind(const JsonDocument& document, ProblemList& 
     };
     const std::optional<std::string> schema = text_of("schema", "\"gumcert/job/1\"");
     if (schema && *schema != k_schema) {
-        problems.refuse(k_wrong_schema, document.where("/schema"), in_quotes(*schema), "must be \"gumcert/job/1\"",
+        problems.refuse(k_wrong_schema, document.where("/schema"), text::in_quotes(*schema),
+                        "must be \"gumcert/job/1\"",
                         "check that the file is a job, and which version of the program it is for");
     }
     const std::optional<std::string> kind = text_of("kind", "the kind of the job");
     if (kind && std::find(k_kinds.begin(), k_kinds.end(), *kind) == k_kinds.end()) {
         const std::optional<std::string_view> nearest = nearest_word(*kind, k_kinds);
-        problems.refuse(k_wrong_kind, document.where("/kind"), in_quotes(*kind), "must be " + any_of_words(k_kinds),
+        problems.refuse(k_wrong_kind, document.where("/kind"), text::in_quotes(*kind),
+                        "must be " + text::any_of(k_kinds),
                         nearest ? "did you mean \"" + std::string{*nearest} + "\"?" : "choose one of them");
         return std::nullopt;
     }

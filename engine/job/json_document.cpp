@@ -1,4 +1,8 @@
 #include "engine/job/json_document.h"
+#include "text/lists.h"
+#include "text/numbers.h"
+#include "text/utf8.h"
+#include "text/visible_text.h"
 
 #include <algorithm>
 #include <cassert>
@@ -13,25 +17,6 @@ using nlohmann::json;
 
 /// Unwinds the parser after a problem that makes the rest unreadable; the problem is in the list by then.
 struct Unreadable {};
-
-void append_utf8(std::string& out, std::uint32_t c) {
-    const auto put = [&](std::uint32_t byte) { out += static_cast<char>(static_cast<unsigned char>(byte)); };
-    if (c < 0x80U) {
-        put(c);
-    } else if (c < 0x800U) {
-        put(0xC0U | (c >> 6U));
-        put(0x80U | (c & 0x3FU));
-    } else if (c < 0x10000U) {
-        put(0xE0U | (c >> 12U));
-        put(0x80U | ((c >> 6U) & 0x3FU));
-        put(0x80U | (c & 0x3FU));
-    } else {
-        put(0xF0U | (c >> 18U));
-        put(0x80U | ((c >> 12U) & 0x3FU));
-        put(0x80U | ((c >> 6U) & 0x3FU));
-        put(0x80U | (c & 0x3FU));
-    }
-}
 
 void append_to_pointer(std::string& pointer, std::string_view key) {
     pointer += '/';
@@ -58,14 +43,14 @@ public:
     void document() {
         skip_blank();
         if (at_end()) {
-            problems_.refuse(k_empty_file, printable(problems_.file()), "the file is empty",
+            problems_.refuse(k_empty_file, text::visible(problems_.file()), "the file is empty",
                              "a JSON document has one value", "check the name of the file and its content");
             throw Unreadable{};
         }
         value(document_.value, 0);
         skip_blank();
         if (!at_end()) {
-            refuse_here(k_json_trailing_text, "text after the end of the document: " + in_quotes(rest()),
+            refuse_here(k_json_trailing_text, "text after the end of the document: " + text::in_quotes(rest()),
                         "a file has one JSON document", "remove the text");
             throw Unreadable{};
         }
@@ -88,7 +73,7 @@ private:
     [[noreturn]] void syntax(const std::string& expected, const std::string& action) {
         refuse_here(
             k_json_syntax,
-            (at_end() ? std::string{"the file ends"} : in_quotes(rest())) + " where " + expected + " is expected",
+            (at_end() ? std::string{"the file ends"} : text::in_quotes(rest())) + " where " + expected + " is expected",
             "the file must be JSON (RFC 8259)", action);
         throw Unreadable{};
     }
@@ -102,7 +87,7 @@ private:
                 offset_ = std::min(text_.find('\n', offset_), text_.size());
             } else if (looking_at("/*") || c == '#') {
                 refuse_here(k_json_comment,
-                            "a comment that begins with " + in_quotes(text_.substr(offset_, c == '#' ? 1 : 2)),
+                            "a comment that begins with " + text::in_quotes(text_.substr(offset_, c == '#' ? 1 : 2)),
                             "only // comments to the end of the line are allowed", "write it as a // comment");
                 throw Unreadable{};
             } else {
@@ -166,7 +151,9 @@ private:
         }
     }
 
-    [[nodiscard]] std::string quoted_pointer() const { return pointer_.empty() ? "the document" : printable(pointer_); }
+    [[nodiscard]] std::string quoted_pointer() const {
+        return pointer_.empty() ? "the document" : text::visible(pointer_);
+    }
 
     bool word(std::string_view name) {
         if (!looking_at(name)) {
@@ -215,8 +202,9 @@ private:
                 const auto first = document_.places.find(pointer_);
                 problems_.refuse(
                     k_json_duplicate_key,
-                    printable(problems_.file()) + "#" + printable(pointer_) + place_text(finder_.at(key_offset)),
-                    "the key " + in_quotes(member->first) + " occurs twice" +
+                    text::visible(problems_.file()) + "#" + text::visible(pointer_) +
+                        place_text(finder_.at(key_offset)),
+                    "the key " + text::in_quotes(member->first) + " occurs twice" +
                         (first == document_.places.end() ? std::string{}
                                                          : ", first in line " + std::to_string(first->second.line)),
                     "a key occurs once in an object", "remove one of the two");
@@ -333,7 +321,7 @@ private:
                     out += '\t';
                     break;
                 case 'u':
-                    append_utf8(out, escaped_character());
+                    out += text::encode_utf8(escaped_character());
                     break;
                 default:
                     offset_ -= 2;
@@ -413,7 +401,7 @@ private:
         const char* const last = first + token.size();
         double real = 0.0;
         if (std::from_chars(first, last, real).ec != std::errc{}) {
-            refuse_at(start, k_json_number_range, "the number " + in_quotes(token) + " at " + quoted_pointer(),
+            refuse_at(start, k_json_number_range, "the number " + text::in_quotes(token) + " at " + quoted_pointer(),
                       "a number must be within the range of double precision, about 1e-307 to 1e308 in magnitude",
                       "check the exponent");
             out = json(json::value_t::discarded);
@@ -427,7 +415,8 @@ private:
         const auto exact_end =
             std::to_chars(exact.data(), exact.data() + exact.size(), real, std::chars_format::fixed, 0).ptr;
         if (token != std::string_view(exact.data(), static_cast<std::size_t>(exact_end - exact.data()))) {
-            refuse_at(start, k_json_inexact_integer, "the integer " + in_quotes(token) + " at " + quoted_pointer(),
+            refuse_at(start, k_json_inexact_integer,
+                      "the integer " + text::in_quotes(token) + " at " + quoted_pointer(),
                       "an integer must have an exact value in double precision (up to 9007199254740992 every one has)",
                       "write it with a decimal point if rounding is meant, or as a string if it is a name");
             out = json(json::value_t::discarded);
@@ -459,7 +448,7 @@ private:
 }  // namespace
 
 std::string JsonDocument::where(const std::string& pointer) const {
-    std::string shown = printable(file) + "#" + printable(pointer);
+    std::string shown = text::visible(file) + "#" + text::visible(pointer);
     if (const auto place = places.find(pointer); place != places.end()) {
         shown +=
             " (line " + std::to_string(place->second.line) + ", column " + std::to_string(place->second.column) + ")";
@@ -526,7 +515,7 @@ std::string described(const nlohmann::json& value) {
         case json::value_t::boolean:
             return value.get<bool>() ? "true" : "false";
         case json::value_t::string:
-            return in_quotes(value.get_ref<const std::string&>());
+            return text::in_quotes(value.get_ref<const std::string&>());
         case json::value_t::discarded:
             return "not a number";
         case json::value_t::object:
@@ -538,7 +527,7 @@ std::string described(const nlohmann::json& value) {
         case json::value_t::number_unsigned:
             return std::to_string(value.get<std::uint64_t>());
         default:
-            return shortest(value.get<double>());
+            return text::shortest_plain(value.get<double>());
     }
 }
 
@@ -559,8 +548,8 @@ JsonObject::JsonObject(const JsonDocument& document, std::string pointer, std::s
         std::copy_if(keys_.begin(), keys_.end(), std::back_inserter(absent),
                      [&](std::string_view known) { return !object_->contains(known); });
         const std::optional<std::string_view> nearest = nearest_word(key, absent);
-        problems_->refuse(k_unknown_key, where(key), "the key " + in_quotes(key) + " is not known here",
-                          "the keys here are " + any_of_words(keys_),
+        problems_->refuse(k_unknown_key, where(key), "the key " + text::in_quotes(key) + " is not known here",
+                          "the keys here are " + text::any_of(keys_),
                           nearest ? "did you mean \"" + std::string{*nearest} + "\"?" : "remove it");
     }
 }
@@ -597,7 +586,7 @@ bool JsonObject::require(std::string_view key) const {
     if (has(key)) {
         return true;
     }
-    problems_->refuse(k_missing_key, where(), "the key " + in_quotes(key) + " is missing", "the key is required",
+    problems_->refuse(k_missing_key, where(), "the key " + text::in_quotes(key) + " is missing", "the key is required",
                       "add it");
     return false;
 }
@@ -706,7 +695,7 @@ std::optional<std::string> JsonObject::optional_name(std::string_view key, std::
     std::optional<std::string> text = optional_string(key);
     if (text) {
         if (const auto objection = name_objection(*text, longest)) {
-            refuse(k_text_not_allowed, key, in_quotes(*text) + " " + *objection,
+            refuse(k_text_not_allowed, key, text::in_quotes(*text) + " " + *objection,
                    "must be one line of at most " + std::to_string(longest) +
                        " bytes, without spaces around it and without control or hidden characters",
                    "correct the text");
@@ -773,7 +762,7 @@ std::optional<std::size_t> JsonObject::choice_index(std::string_view key,
     const auto found = std::find(words.begin(), words.end(), *text);
     if (found == words.end()) {
         const std::optional<std::string_view> nearest = nearest_word(*text, words);
-        refuse(k_unknown_choice, key, in_quotes(*text), "must be " + any_of_words(words),
+        refuse(k_unknown_choice, key, text::in_quotes(*text), "must be " + text::any_of(words),
                nearest ? "did you mean \"" + std::string{*nearest} + "\"?" : "choose one of them");
         return std::nullopt;
     }

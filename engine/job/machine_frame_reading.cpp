@@ -10,6 +10,7 @@
 #include "engine/job/input_codes.h"
 #include "engine/job/input_text.h"
 #include "gum/quantity/units.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -77,12 +78,12 @@ std::optional<MachineFrame> read_machine_points(MachineFrameRequest request, Job
             const auto index = static_cast<std::size_t>(found - names.begin());
             if (found == names.end()) {
                 file.problems->refuse(k_bad_machine_frame, table->where(table->cell(row, 0)),
-                                      "the " + noun + " " + in_quotes(*name) + " is not in the measurement",
+                                      "the " + noun + " " + text::in_quotes(*name) + " is not in the measurement",
                                       "the frame of the machine is found from points that were measured",
                                       "check the name, or remove the row");
             } else if (std::find(frame.points.begin(), frame.points.end(), index) != frame.points.end()) {
                 file.problems->refuse(k_repeated_name, table->where(table->cell(row, 0)),
-                                      "the " + noun + " " + in_quotes(*name) + " has another row",
+                                      "the " + noun + " " + text::in_quotes(*name) + " has another row",
                                       "each " + noun + " has one row", "remove one of the rows");
             }
             frame.points.push_back(index);

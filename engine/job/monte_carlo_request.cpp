@@ -5,6 +5,7 @@
 
 #include "engine/job/json_document.h"
 #include "engine/job/problem_list.h"
+#include "text/numbers.h"
 
 namespace gumcert::engine {
 
@@ -18,14 +19,15 @@ void check_trials(const JsonObject& object, double count, double p, ProblemList&
     // Nobody meant a fraction of a trial: 10⁴/(1 − 0.99) is a million, whatever the rounding of 1 − 0.99.
     constexpr double k_rounding = 1.0 - 1e-9;
     if (count < least * k_rounding) {
-        object.refuse(k_too_few_trials, "trials", shortest(count) + " trials",
-                      "a coverage interval for p = " + shortest(p) +
-                          " needs at least 100/(1 - p) = " + shortest(std::ceil(least * k_rounding)) + " trials",
-                      "state at least 10000/(1 - p) = " + shortest(std::ceil(recommended * k_rounding)) + " trials");
+        object.refuse(
+            k_too_few_trials, "trials", text::shortest_plain(count) + " trials",
+            "a coverage interval for p = " + text::shortest_plain(p) +
+                " needs at least 100/(1 - p) = " + text::shortest_plain(std::ceil(least * k_rounding)) + " trials",
+            "state at least 10000/(1 - p) = " + text::shortest_plain(std::ceil(recommended * k_rounding)) + " trials");
     } else if (count < recommended * k_rounding) {
-        problems.warn(k_warn_few_trials, object.where("trials"), shortest(count) + " trials",
-                      "at p = " + shortest(p) + ", at least 10000/(1 - p) = " +
-                          shortest(std::ceil(recommended * k_rounding)) + " trials are recommended",
+        problems.warn(k_warn_few_trials, object.where("trials"), text::shortest_plain(count) + " trials",
+                      "at p = " + text::shortest_plain(p) + ", at least 10000/(1 - p) = " +
+                          text::shortest_plain(std::ceil(recommended * k_rounding)) + " trials are recommended",
                       "state more trials");
     }
 }
@@ -70,9 +72,10 @@ std::optional<MonteCarloRequest> read_monte_carlo(const JsonObject& root, double
             // One block of the adaptive procedure is the least that there is.
             const double least = std::max(1e4, 100.0 / (1.0 - p));
             if (static_cast<double>(*most) < least) {
-                adaptive->refuse(k_too_few_trials, "max_trials", shortest(static_cast<double>(*most)) + " trials",
-                                 "the adaptive procedure takes at least " + shortest(std::ceil(least)) +
-                                     " trials at p = " + shortest(p),
+                adaptive->refuse(k_too_few_trials, "max_trials",
+                                 text::shortest_plain(static_cast<double>(*most)) + " trials",
+                                 "the adaptive procedure takes at least " + text::shortest_plain(std::ceil(least)) +
+                                     " trials at p = " + text::shortest_plain(p),
                                  "state a larger number, such as 1000000000");
             }
         }

@@ -10,6 +10,8 @@
 #include "engine/job/input_text.h"
 #include "engine/job/problem_list.h"
 #include "gum/quantity/unit.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -55,7 +57,7 @@ void check_output(const BudgetJob& budget, ProblemList& problems) {
     for (const auto& [name, unit] : outputs) {
         found += (found.empty() ? "" : ", ") + name + " [" + unit.text() + "]";
     }
-    problems.refuse(k_reference_budget_output, printable(problems.file()) + "#/outputs",
+    problems.refuse(k_reference_budget_output, text::visible(problems.file()) + "#/outputs",
                     (outputs.size() == 1 ? "the result is " : "the results are ") + found,
                     "the budget of a reference value has one output, a length",
                     "state one output with a unit of length, such as um");
@@ -66,14 +68,14 @@ void check_reading(const BudgetJob& budget, ProblemList& problems) {
     const auto reading = std::find_if(budget.inputs.begin(), budget.inputs.end(),
                                       [](const BudgetInput& input) { return input.name == k_reading; });
     if (reading == budget.inputs.end()) {
-        problems.refuse(k_reference_budget_reading, printable(problems.file()) + "#/inputs",
+        problems.refuse(k_reference_budget_reading, text::visible(problems.file()) + "#/inputs",
                         "no input is named \"reading\"", rule,
                         R"(add "reading": {"value": 0, "unit": "um", "constant": true} and use it in the model)");
         return;
     }
     if (reading->unit.dimension() != gum::Unit::parse("m").dimension()) {
         problems.refuse(k_reference_budget_reading, reading->where,
-                        "the unit of \"reading\" is " + in_quotes(reading->unit.text()),
+                        "the unit of \"reading\" is " + text::in_quotes(reading->unit.text()),
                         "readings of the reference method are displacements", "state a unit of length, such as um");
         return;
     }
@@ -82,8 +84,8 @@ void check_reading(const BudgetJob& budget, ProblemList& problems) {
         problems.refuse(k_reference_budget_reading, reading->where, "\"reading\" is a sum of components", rule,
                         "keep the value in \"reading\", and make inputs of their own of the components");
     } else if (std::find(k_replaceable.begin(), k_replaceable.end(), statement) == k_replaceable.end()) {
-        problems.refuse(k_reference_budget_reading, reading->where, "\"reading\" is stated by " + in_quotes(statement),
-                        rule,
+        problems.refuse(k_reference_budget_reading, reading->where,
+                        "\"reading\" is stated by " + text::in_quotes(statement), rule,
                         "state its value with \"u\", or with \"constant\": true, and make an input of its own of what "
                         "was observed");
     }
@@ -97,9 +99,9 @@ std::string points_of(const BudgetJob& budget, std::span<const ReferencePoint> p
                                       [](const BudgetInput& input) { return input.name == k_reading; });
     nlohmann::json table = nlohmann::json::array();
     for (const ReferencePoint& point : points) {
-        table.push_back(
-            {{"point", std::string(1, k_directions[point.direction]) + " " + shortest(angles_deg[point.angle]) + "°"},
-             {k_reading, reading->unit.from_si(point.mean)}});
+        table.push_back({{"point", std::string(1, k_directions[point.direction]) + " " +
+                                       text::shortest_plain(angles_deg[point.angle]) + "°"},
+                         {k_reading, reading->unit.from_si(point.mean)}});
     }
     return "\"points\": " + table.dump() + ",";
 }
@@ -127,7 +129,7 @@ BudgetJob read_reference_budget(const FileSource& source, const std::string& fil
     BudgetJob budget = read_budget_job(source, file);
     ProblemList problems(file);
     if (!budget.points.empty()) {
-        problems.refuse(k_reference_budget_points, printable(file) + "#/points",
+        problems.refuse(k_reference_budget_points, text::visible(file) + "#/points",
                         std::to_string(budget.points.size()) + " points",
                         "the points of the budget of a reference value are those of the readings", "remove \"points\"");
     }

@@ -6,6 +6,8 @@
 
 #include "certificate/stated_text.h"
 #include "engine/job/rotary_table_limits.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -24,7 +26,8 @@ std::optional<std::pair<std::size_t, std::size_t>> read_lines(const JsonObject& 
     }
     const bool whole = std::ranges::all_of(*lines, [](double line) { return line == std::floor(line); });
     if (!whole || lines->front() > lines->back()) {
-        object.refuse(k_bad_exclusion, "lines", "lines " + shortest(lines->front()) + " to " + shortest(lines->back()),
+        object.refuse(k_bad_exclusion, "lines",
+                      "lines " + text::shortest_plain(lines->front()) + " to " + text::shortest_plain(lines->back()),
                       "lines are two whole numbers, the first and the last line", "correct the numbers");
         return std::nullopt;
     }
@@ -57,7 +60,7 @@ std::optional<Exclusion> read_exclusion(const JsonObject& object) {
         return std::nullopt;
     }
     if (!certificate::is_stated(*reason)) {
-        object.refuse(k_bad_exclusion, "reason", "the reason " + in_quotes(*reason) + " says nothing",
+        object.refuse(k_bad_exclusion, "reason", "the reason " + text::in_quotes(*reason) + " says nothing",
                       "what is left out is left out for a reason, which the documents print", "state the reason");
     }
     exclusion.reason = *reason;

@@ -23,6 +23,8 @@
 #include "engine/job/rotary_table_limits.h"
 #include "engine/job/rotary_table_study.h"
 #include "gum/quantity/units.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 
@@ -259,7 +261,7 @@ private:
             return;
         }
         if (*kind != "rotary_table") {
-            problems.refuse(k_wrong_kind, document->where("/kind"), "a job of kind " + in_quotes(*kind),
+            problems.refuse(k_wrong_kind, document->where("/kind"), "a job of kind " + text::in_quotes(*kind),
                             "a job of kind \"rotary_table\" is expected here", "use the command for this kind of job");
             return;
         }
@@ -432,11 +434,12 @@ private:
         const bool proportional_is_zero =
             !object.has("u_proportional_um_per_m") || (proportional && *proportional == 0.0);
         if (constant && *constant < k_least_u && proportional_is_zero) {
-            object.refuse(k_no_length_uncertainty, "u_constant_um",
-                          "u_constant_um is " + shortest(*constant) + " µm, and u_proportional_um_per_m is 0 µm/m",
-                          "the standard uncertainty of a length must be greater than 0, and at least " +
-                              shortest(k_least_u) + " µm where it does not grow with the distance",
-                          "state the standard uncertainty of a length");
+            object.refuse(
+                k_no_length_uncertainty, "u_constant_um",
+                "u_constant_um is " + text::shortest_plain(*constant) + " µm, and u_proportional_um_per_m is 0 µm/m",
+                "the standard uncertainty of a length must be greater than 0, and at least " +
+                    text::shortest_plain(k_least_u) + " µm where it does not grow with the distance",
+                "state the standard uncertainty of a length");
         }
         uncertainty.u_constant = constant.value_or(0.0) * k_micrometre;
         uncertainty.u_proportional = proportional.value_or(0.0) * k_micrometre;
@@ -460,8 +463,8 @@ private:
         }
         if (uncertainty.scale_model != ScaleModel::prior && scale) {
             problems_->warn(k_warn_unused_value, object.where("scale_u"),
-                            "scale_u " + shortest(*scale) + " is not used", "it belongs to scale_model \"prior\"",
-                            "remove it, or choose \"prior\"");
+                            "scale_u " + text::shortest_plain(*scale) + " is not used",
+                            "it belongs to scale_model \"prior\"", "remove it, or choose \"prior\"");
         }
     }
 
@@ -478,10 +481,11 @@ private:
             any = any || value.value_or(0.0) > 0.0;
             all_read = all_read && (value || !object.has(key)) && (value || !is_given);
             if (repeatability.mode == RepeatabilityMode::none && value) {
-                problems_->warn(k_warn_unused_value, object.where(key),
-                                std::string{key} + " " + shortest(*value) + " " + std::string{unit} + " is not used",
-                                "with mode \"none\" the table has no uncertainty of repeatability",
-                                "remove it, or choose mode \"given\"");
+                problems_->warn(
+                    k_warn_unused_value, object.where(key),
+                    std::string{key} + " " + text::shortest_plain(*value) + " " + std::string{unit} + " is not used",
+                    "with mode \"none\" the table has no uncertainty of repeatability",
+                    "remove it, or choose mode \"given\"");
             }
             return value.value_or(0.0) * factor;
         };
@@ -527,7 +531,7 @@ private:
         }
         for (const std::string_view key : {"covariance", "budget"}) {
             if (fixture.has(key)) {
-                sources.emplace_back(key, in_quotes(key));
+                sources.emplace_back(key, text::in_quotes(key));
             }
         }
         if (job_.measurement.fixture_shape == InputShape::uniform) {
@@ -603,10 +607,10 @@ private:
             return;
         }
         if (coordinates.cwiseAbs().maxCoeff() < 1.0) {
-            file.problems->refuse(
-                k_coordinates_in_metres, table.where(table.cell(0, x)),
-                "no coordinate reaches 1 mm; the largest is " + shortest(coordinates.cwiseAbs().maxCoeff()) + " mm",
-                "coordinates are in millimetres", "multiply by 1000 if the values are metres");
+            file.problems->refuse(k_coordinates_in_metres, table.where(table.cell(0, x)),
+                                  "no coordinate reaches 1 mm; the largest is " +
+                                      text::shortest_plain(coordinates.cwiseAbs().maxCoeff()) + " mm",
+                                  "coordinates are in millimetres", "multiply by 1000 if the values are metres");
         }
         job_.measurement.reflectors = reflectors_.names();
         job_.measurement.fixture = coordinates * k_millimetre;
@@ -629,7 +633,7 @@ private:
                                      const std::string& what, std::size_t first_line, ProblemList& problems) {
         const CsvCell& cell = table.cell(row, column);
         problems.refuse(k_repeated_name, table.where(cell),
-                        "the " + what + " " + in_quotes(cell.text) + " has a second row, the first is line " +
+                        "the " + what + " " + text::in_quotes(cell.text) + " has a second row, the first is line " +
                             std::to_string(first_line),
                         "every " + what + " has one row", "remove or rename one of the two");
     }
@@ -652,7 +656,7 @@ private:
         for (Eigen::Index i = 0; i < matrix->rows(); ++i) {
             if (!((*matrix)(i, i) > 0.0)) {
                 file.problems->refuse(k_covariance_not_positive, where_in_row(name, i),
-                                      element(i, i) + " is " + shortest((*matrix)(i, i)) + " µm²",
+                                      element(i, i) + " is " + text::shortest_plain((*matrix)(i, i)) + " µm²",
                                       "a variance must be greater than 0", "correct the matrix");
             }
             for (Eigen::Index j = 0; j < i; ++j) {
@@ -661,10 +665,10 @@ private:
                 // A few last digits may differ in a matrix that another program computed.
                 const double scale = std::sqrt(std::abs((*matrix)(i, i)) * std::abs((*matrix)(j, j)));
                 if (!(std::abs(a - b) <= 1e-9 * std::max({scale, std::abs(a), std::abs(b)}))) {
-                    file.problems->refuse(
-                        k_covariance_not_symmetric, where_in_row(name, i),
-                        element(i, j) + " is " + shortest(a) + " µm², " + element(j, i) + " is " + shortest(b) + " µm²",
-                        "a covariance matrix is symmetric", "correct the matrix");
+                    file.problems->refuse(k_covariance_not_symmetric, where_in_row(name, i),
+                                          element(i, j) + " is " + text::shortest_plain(a) + " µm², " + element(j, i) +
+                                              " is " + text::shortest_plain(b) + " µm²",
+                                          "a covariance matrix is symmetric", "correct the matrix");
                 }
             }
         }
@@ -677,10 +681,11 @@ private:
         const double largest = solver.eigenvalues().maxCoeff();
         const double rounding = 10.0 * static_cast<double>(order) * std::numeric_limits<double>::epsilon() * largest;
         if (solver.info() != Eigen::Success || !std::isfinite(largest) || !(smallest >= -rounding)) {
-            file.problems->refuse(
-                k_covariance_not_positive, printable(name),
-                "the smallest eigenvalue is " + shortest(smallest) + " µm², the largest " + shortest(largest) + " µm²",
-                "a covariance matrix is positive semi-definite", "correct the matrix, and give it with all its digits");
+            file.problems->refuse(k_covariance_not_positive, text::visible(name),
+                                  "the smallest eigenvalue is " + text::shortest_plain(smallest) +
+                                      " µm², the largest " + text::shortest_plain(largest) + " µm²",
+                                  "a covariance matrix is positive semi-definite",
+                                  "correct the matrix, and give it with all its digits");
             return;
         }
         const Eigen::MatrixXd si = symmetric * (k_micrometre * k_micrometre);
@@ -689,9 +694,9 @@ private:
             const double ratio = std::sqrt(si(i, i) / from_columns(i));
             if (std::abs(ratio - 1.0) > 0.01) {
                 file.problems->warn(k_warn_covariance_differs, where_in_row(name, i),
-                                    "u from the covariance is " + shortest(std::sqrt(symmetric(i, i))) +
+                                    "u from the covariance is " + text::shortest_plain(std::sqrt(symmetric(i, i))) +
                                         " µm, from the column of the fixture file " +
-                                        shortest(std::sqrt(from_columns(i)) / k_micrometre) + " µm",
+                                        text::shortest_plain(std::sqrt(from_columns(i)) / k_micrometre) + " µm",
                                     "the covariance is used", "correct whichever is wrong");
             }
         }
@@ -699,7 +704,7 @@ private:
     }
 
     static std::string where_in_row(const std::string& file, Eigen::Index row) {
-        return printable(file) + " (row " + std::to_string(row + 1) + ")";
+        return text::visible(file) + " (row " + std::to_string(row + 1) + ")";
     }
 
     /// The budget job with all its files; its problems are told with the others.
@@ -724,7 +729,7 @@ private:
     }
 
     void check_points(const BudgetJob& budget, ProblemList& problems) const {
-        const std::string where = printable(problems.file()) + "#/points";
+        const std::string where = text::visible(problems.file()) + "#/points";
         std::vector<std::string> expected;
         for (const std::string& reflector : reflectors_.names()) {
             for (std::size_t k = 0; k < 3; ++k) {
@@ -747,14 +752,15 @@ private:
         std::sort(sorted_stated.begin(), sorted_stated.end());
         for (const std::string& name : expected) {
             if (!std::binary_search(sorted_stated.begin(), sorted_stated.end(), name)) {
-                problems.refuse(k_fixture_budget_points, where, "the coordinate " + in_quotes(name) + " has no point",
-                                rule, "add the point, or correct its name");
+                problems.refuse(k_fixture_budget_points, where,
+                                "the coordinate " + text::in_quotes(name) + " has no point", rule,
+                                "add the point, or correct its name");
             }
         }
         for (const std::string& name : stated) {
             if (!std::binary_search(sorted_expected.begin(), sorted_expected.end(), name)) {
                 problems.refuse(k_fixture_budget_points, where,
-                                "the point " + in_quotes(name) + " is no coordinate of the fixture file", rule,
+                                "the point " + text::in_quotes(name) + " is no coordinate of the fixture file", rule,
                                 "remove the point, or correct its name");
             }
         }
@@ -910,18 +916,19 @@ private:
                 continue;
             }
             const std::optional<std::string_view> nearest = nearest_word(name, known);
-            problems.refuse(
-                k_unknown_reflector, where(*first[i], c_reflector),
-                "the reflector " + in_quotes(name) + " (" + plural(count[i], "row") + ") is not in the fixture file",
-                "every reflector has coordinates in the fixture file",
-                nearest ? "is it " + in_quotes(*nearest) + "? Else add it to the fixture file"
-                        : "add it to the fixture file, or remove its rows");
+            problems.refuse(k_unknown_reflector, where(*first[i], c_reflector),
+                            "the reflector " + text::in_quotes(name) + " (" + plural(count[i], "row") +
+                                ") is not in the fixture file",
+                            "every reflector has coordinates in the fixture file",
+                            nearest ? "is it " + text::in_quotes(*nearest) + "? Else add it to the fixture file"
+                                    : "add it to the fixture file, or remove its rows");
         }
         for (std::size_t i = 0; i < fixture_names.size(); ++i) {
             if (!lengths_reflectors_.find(fixture_names[i])) {
-                problems.warn(k_warn_unused_reflector, printable(problems.file()),
-                              "the reflector " + in_quotes(fixture_names[i]) + " of the fixture file has no distance",
-                              "reflectors are measured", "check that no rows are missing");
+                problems.warn(
+                    k_warn_unused_reflector, text::visible(problems.file()),
+                    "the reflector " + text::in_quotes(fixture_names[i]) + " of the fixture file has no distance",
+                    "reflectors are measured", "check that no rows are missing");
             }
         }
     }
@@ -941,11 +948,12 @@ private:
                 continue;
             }
             told[row.pass] = true;
-            const std::string pass = "the pass " + in_quotes(passes_.names()[row.pass]);
+            const std::string pass = "the pass " + text::in_quotes(passes_.names()[row.pass]);
             if (!same_station) {
                 problems.refuse(k_pass_of_two_stations, where(row, c_pass),
-                                pass + " has station " + in_quotes(stations_.names()[row.station]) + " here and " +
-                                    in_quotes(stations_.names()[other->station]) + " in " + line_of(*other),
+                                pass + " has station " + text::in_quotes(stations_.names()[row.station]) +
+                                    " here and " + text::in_quotes(stations_.names()[other->station]) + " in " +
+                                    line_of(*other),
                                 "a pass belongs to one station", "give every pass a name of its own");
             } else {
                 problems.refuse(k_pass_of_two_directions, where(row, c_pass),
@@ -966,9 +974,9 @@ private:
             } else if (other->station != row.station && !told[row.dead_path]) {
                 told[row.dead_path] = true;
                 problems.refuse(k_dead_path_of_two_stations, where(row, c_dead_path),
-                                "the dead path " + in_quotes(dead_paths_.names()[row.dead_path]) + " has station " +
-                                    in_quotes(stations_.names()[row.station]) + " here and " +
-                                    in_quotes(stations_.names()[other->station]) + " in " + line_of(*other),
+                                "the dead path " + text::in_quotes(dead_paths_.names()[row.dead_path]) +
+                                    " has station " + text::in_quotes(stations_.names()[row.station]) + " here and " +
+                                    text::in_quotes(stations_.names()[other->station]) + " in " + line_of(*other),
                                 "a dead path belongs to one station", "give every station dead paths of its own");
             }
         }
@@ -997,10 +1005,11 @@ private:
                   [](const auto& a, const auto& b) { return a.first->table_row < b.first->table_row; });
         for (const auto& [row, earlier] : repeated) {
             problems.refuse(k_repeated_length, where(*row, c_station),
-                            "the distance of station " + in_quotes(stations_.names()[row->station]) + ", reflector " +
-                                in_quotes(lengths_reflectors_.names()[row->reflector]) + ", pass " +
-                                in_quotes(passes_.names()[row->pass]) + ", " + shortest(row->angle_deg) +
-                                "° occurs a second time, the first is " + line_of(*earlier),
+                            "the distance of station " + text::in_quotes(stations_.names()[row->station]) +
+                                ", reflector " + text::in_quotes(lengths_reflectors_.names()[row->reflector]) +
+                                ", pass " + text::in_quotes(passes_.names()[row->pass]) + ", " +
+                                text::shortest_plain(row->angle_deg) + "° occurs a second time, the first is " +
+                                line_of(*earlier),
                             "station, reflector, pass and angle occur together once",
                             "remove one of the two, or give the repetition a pass of its own");
         }
@@ -1018,17 +1027,18 @@ private:
         }
         for (std::size_t i = 0; i < at_angle.size(); ++i) {
             if (at_angle[i] < k_least_at_angle) {
-                problems.refuse(k_too_few_at_angle, where(*first_at_angle[i], c_angle),
-                                plural(at_angle[i], "distance") + " at the angle " + shortest(angles_deg_[i]) + "°",
-                                "a pose has six unknowns: every angle needs at least 6 distances",
-                                "add distances, or remove the angle");
+                problems.refuse(
+                    k_too_few_at_angle, where(*first_at_angle[i], c_angle),
+                    plural(at_angle[i], "distance") + " at the angle " + text::shortest_plain(angles_deg_[i]) + "°",
+                    "a pose has six unknowns: every angle needs at least 6 distances",
+                    "add distances, or remove the angle");
             }
         }
         for (std::size_t i = 0; i < of_station.size(); ++i) {
             if (of_station[i] < k_least_of_station) {
                 problems.refuse(
                     k_too_few_of_station, where_station_appears(i),
-                    plural(of_station[i], "distance") + " of the station " + in_quotes(stations_.names()[i]),
+                    plural(of_station[i], "distance") + " of the station " + text::in_quotes(stations_.names()[i]),
                     "a station has four unknowns (x, y, z and a dead path): it needs at least 4 distances",
                     "add distances, or remove the station");
             }
@@ -1045,11 +1055,12 @@ private:
             return std::abs(a.length_mm) < std::abs(b.length_mm);
         });
         if (std::abs(longest->length_mm) < 10.0) {
-            problems.refuse(k_lengths_in_metres, where(*longest, c_length),
-                            "no length reaches 10 mm; the longest is " + shortest(longest->length_mm) + " mm",
-                            "lengths are in millimetres", "multiply by 1000 if the values are metres");
+            problems.refuse(
+                k_lengths_in_metres, where(*longest, c_length),
+                "no length reaches 10 mm; the longest is " + text::shortest_plain(longest->length_mm) + " mm",
+                "lengths are in millimetres", "multiply by 1000 if the values are metres");
         }
-        check_angles(root, where(rows.front(), c_angle), printable(problems.file()), problems);
+        check_angles(root, where(rows.front(), c_angle), text::visible(problems.file()), problems);
     }
 
     /// \param where_angles  place of the first angle
@@ -1058,8 +1069,8 @@ private:
                       ProblemList& problems) const {
         if (look_like_radians(angles_deg_)) {
             problems.refuse(k_angles_in_radians, where_angles,
-                            plural(angles_deg_.size(), "angle") + " from " + shortest(angles_deg_.front()) + " to " +
-                                shortest(angles_deg_.back()) +
+                            plural(angles_deg_.size(), "angle") + " from " + text::shortest_plain(angles_deg_.front()) +
+                                " to " + text::shortest_plain(angles_deg_.back()) +
                                 " are multiples of half a degree when they are taken as radians",
                             "angles are in degrees", "convert the angles to degrees");
             return;
@@ -1068,24 +1079,26 @@ private:
         if (span < 180.0) {
             problems.warn(
                 k_warn_angle_span, where_all,
-                "the angles span " + shortest(span) + "°, from " + shortest(angles_deg_.front()) + "° to " +
-                    shortest(angles_deg_.back()) + "°",
+                "the angles span " + text::shortest_plain(span) + "°, from " +
+                    text::shortest_plain(angles_deg_.front()) + "° to " + text::shortest_plain(angles_deg_.back()) +
+                    "°",
                 "below half a turn, set-up errors and the first harmonics of the error motions are poorly separated",
                 "measure over a full turn if the table allows it");
         }
-        warn_of_same_positions(angles_deg_, printable(problems.file()), problems);
+        warn_of_same_positions(angles_deg_, text::visible(problems.file()), problems);
         if (home_angle_deg_ && !angle_index(*home_angle_deg_)) {
             const bool measured = job_.has_lengths;
             root.refuse(k_home_not_measured, "home_angle_deg",
                         home_angle(root) + (measured ? " has no distance" : " is not planned"),
                         std::string("the home angle is one of the ") + (measured ? "measured" : "planned") + " angles",
                         std::string("state a home_angle_deg that ") + (measured ? "was measured" : "is planned") +
-                            ", from " + shortest(angles_deg_.front()) + "° to " + shortest(angles_deg_.back()) + "°");
+                            ", from " + text::shortest_plain(angles_deg_.front()) + "° to " +
+                            text::shortest_plain(angles_deg_.back()) + "°");
         }
     }
 
     [[nodiscard]] std::string home_angle(const JsonObject& root) const {
-        return "the home angle " + shortest(*home_angle_deg_) + "°" +
+        return "the home angle " + text::shortest_plain(*home_angle_deg_) + "°" +
                (root.has("home_angle_deg") ? "" : " (the default)");
     }
 
@@ -1146,8 +1159,9 @@ private:
             const double distances = static_cast<double>(stations_.size() * reflectors_.size()) *
                                      static_cast<double>(angles) * static_cast<double>(senses);
             if (distances > k_most_distances) {
-                root.refuse(k_layout_too_large, key, shortest(distances) + " distances",
-                            "a layout has at most " + shortest(k_most_distances) + " distances", "state fewer angles");
+                root.refuse(k_layout_too_large, key, text::shortest_plain(distances) + " distances",
+                            "a layout has at most " + text::shortest_plain(k_most_distances) + " distances",
+                            "state fewer angles");
             }
         };
         if (job_.plan) {
@@ -1229,7 +1243,8 @@ private:
             refuse("station " + measurement.stations[static_cast<std::size_t>(at - of_station.begin())] +
                    " was measured in one sense of approach only");
         } else if (const auto angle = std::ranges::find_if(of_angle, one_sense); angle != of_angle.end()) {
-            refuse("the angle " + shortest(measurement.angles_deg[static_cast<std::size_t>(angle - of_angle.begin())]) +
+            refuse("the angle " +
+                   text::shortest_plain(measurement.angles_deg[static_cast<std::size_t>(angle - of_angle.begin())]) +
                    "° was measured in one sense of approach only");
         }
     }
@@ -1276,7 +1291,7 @@ private:
                 station = stations_.find(*name);
                 if (is_new && !station && (lengths_table_ || stations_table_)) {
                     problems.warn(k_warn_unused_station, table.where(table.cell(row, 0)),
-                                  "the station " + in_quotes(*name) +
+                                  "the station " + text::in_quotes(*name) +
                                       (job_.has_lengths ? " has no distance" : " is not in the stations file"),
                                   job_.has_lengths ? "stations appear in the lengths file"
                                                    : "the stations of a layout are those of the stations file",
@@ -1359,8 +1374,8 @@ private:
         for (std::size_t i = 0; all_rows_read && i < found.size(); ++i) {
             if (!found[i]) {
                 file.problems->refuse(k_unknown_station, where_station_appears(i),
-                                      "the station " + in_quotes(stations_.names()[i]) + " has no row in " +
-                                          printable(file.problems->file()),
+                                      "the station " + text::in_quotes(stations_.names()[i]) + " has no row in " +
+                                          text::visible(file.problems->file()),
                                       "every station has a row in the environment file",
                                       "add the row, or correct the name of the station");
             }
@@ -1390,7 +1405,7 @@ private:
                 index = angle_index(*angle);
                 if (!index && lengths_are_whole_) {
                     file.problems->refuse(k_reading_at_unknown_angle, table->where(table->cell(row, c_at)),
-                                          "the angle " + shortest(*angle) + "° " +
+                                          "the angle " + text::shortest_plain(*angle) + "° " +
                                               (job_.has_lengths ? "has no distance" : "is not planned"),
                                           "the reference method is compared at the measured angles",
                                           "correct the angle, or remove the row");
@@ -1492,7 +1507,7 @@ private:
             const bool is_read = std::any_of(method.readings.begin(), method.readings.end(),
                                              [&](const ReferenceReading& reading) { return reading.direction == d; });
             if (method.published_mean_abs_En[d] && readings_are_whole && !is_read) {
-                means->refuse(k_published_direction, key, "the readings have no direction " + in_quotes(key),
+                means->refuse(k_published_direction, key, "the readings have no direction " + text::in_quotes(key),
                               "a published mean |En| stands beside that of the same direction",
                               "remove it, or correct the direction");
             }

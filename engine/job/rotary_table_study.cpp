@@ -1,5 +1,7 @@
 #include "engine/job/rotary_table_study.h"
 #include "engine/job/rotary_table_limits.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
 
 #include <algorithm>
 #include <array>
@@ -71,7 +73,7 @@ void read_counts(const JsonObject& object, std::vector<std::size_t>& counts) {
     const auto numbers = object.required_numbers("angle_counts", array->size(), range);
     for (const double number : numbers.value_or(std::vector<double>{})) {
         if (number != std::floor(number)) {
-            object.refuse(k_not_an_integer, "angle_counts", shortest(number), "must be whole numbers",
+            object.refuse(k_not_an_integer, "angle_counts", text::shortest_plain(number), "must be whole numbers",
                           "write numbers without fraction");
             return;
         }
@@ -97,8 +99,8 @@ void read_angles(const JsonObject& plan, std::vector<double>& angles) {
         }
         const double last = *first + *step * static_cast<double>(*count - 1);
         if (last > k_angle.high) {
-            steps->refuse(k_number_out_of_range, "count", "the last angle is " + shortest(last) + "°", k_angle.rule(),
-                          "state fewer angles");
+            steps->refuse(k_number_out_of_range, "count", "the last angle is " + text::shortest_plain(last) + "°",
+                          k_angle.rule(), "state fewer angles");
             return;
         }
         for (std::int64_t i = 0; i < *count; ++i) {
@@ -113,7 +115,7 @@ void read_angles(const JsonObject& plan, std::vector<double>& angles) {
     }
     if (value->empty() || static_cast<double>(value->size()) > k_most_angles) {
         plan.refuse(k_wrong_size, "angles_deg", "an array of " + std::to_string(value->size()) + " elements",
-                    "must have 1 to " + shortest(k_most_angles) + " angles", "correct the array");
+                    "must have 1 to " + text::shortest_plain(k_most_angles) + " angles", "correct the array");
         return;
     }
     auto numbers = plan.required_numbers("angles_deg", value->size(), k_angle);
@@ -123,7 +125,8 @@ void read_angles(const JsonObject& plan, std::vector<double>& angles) {
     std::sort(numbers->begin(), numbers->end());
     for (std::size_t i = 1; i < numbers->size(); ++i) {
         if ((*numbers)[i] - (*numbers)[i - 1] <= k_same_angle_deg) {
-            plan.refuse(k_repeated_angle, "angles_deg", "the angle " + shortest((*numbers)[i]) + "° occurs twice",
+            plan.refuse(k_repeated_angle, "angles_deg",
+                        "the angle " + text::shortest_plain((*numbers)[i]) + "° occurs twice",
                         "every angle is stated once", "remove one of the two");
             return;
         }
@@ -142,9 +145,10 @@ void read_region(const JsonObject& plan, PlanRequest& request) {
     for (std::size_t k = 0; k < k_axes.size(); ++k) {
         const auto limits = region->required_numbers(k_axes[k], 2, k_station_coordinate);
         if (limits && (*limits)[0] > (*limits)[1]) {
-            region->refuse(k_limits_reversed, k_axes[k],
-                           "from " + shortest((*limits)[0]) + " mm to " + shortest((*limits)[1]) + " mm",
-                           "the lower limit stands first", "exchange the two");
+            region->refuse(
+                k_limits_reversed, k_axes[k],
+                "from " + text::shortest_plain((*limits)[0]) + " mm to " + text::shortest_plain((*limits)[1]) + " mm",
+                "the lower limit stands first", "exchange the two");
         }
         is_whole = is_whole && limits && (*limits)[0] <= (*limits)[1];
         for (std::size_t c = 0; is_whole && c < 2; ++c) {
@@ -166,11 +170,11 @@ void read_region(const JsonObject& plan, PlanRequest& request) {
         candidates *= std::floor((corners[1](k) - corners[0](k)) / request.station_step + 1e-9) + 1.0;
     }
     if (candidates > k_most_candidates) {
-        region->refuse(
-            k_layout_too_large, "step_mm",
-            shortest(candidates) + " positions in steps of " + shortest(request.station_step / k_millimetre) + " mm",
-            "at most " + shortest(k_most_candidates) + " positions are tried",
-            "state a larger step or a smaller region");
+        region->refuse(k_layout_too_large, "step_mm",
+                       text::shortest_plain(candidates) + " positions in steps of " +
+                           text::shortest_plain(request.station_step / k_millimetre) + " mm",
+                       "at most " + text::shortest_plain(k_most_candidates) + " positions are tried",
+                       "state a larger step or a smaller region");
         return;
     }
     request.station_region = corners;
@@ -183,9 +187,10 @@ std::optional<std::array<double, 2>> read_extent(const JsonObject& solid, std::s
         return std::nullopt;
     }
     if (!((*limits)[0] < (*limits)[1])) {
-        solid.refuse(k_limits_reversed, key,
-                     "from " + shortest((*limits)[0]) + " mm to " + shortest((*limits)[1]) + " mm",
-                     "an obstacle has an extent, and its lower limit stands first", "correct the two");
+        solid.refuse(
+            k_limits_reversed, key,
+            "from " + text::shortest_plain((*limits)[0]) + " mm to " + text::shortest_plain((*limits)[1]) + " mm",
+            "an obstacle has an extent, and its lower limit stands first", "correct the two");
         return std::nullopt;
     }
     return std::array<double, 2>{(*limits)[0] * k_millimetre, (*limits)[1] * k_millimetre};
@@ -319,10 +324,10 @@ void check_facing(const PlanRequest& plan, const std::vector<std::string>& refle
     std::vector<std::string_view> seen;
     for (const SightStatement::Facing& facing : plan.sight.facing) {
         if (std::find(reflectors.begin(), reflectors.end(), facing.reflector) == reflectors.end()) {
-            problems.refuse(k_unknown_reflector, facing.where, "the reflector " + in_quotes(facing.reflector),
+            problems.refuse(k_unknown_reflector, facing.where, "the reflector " + text::in_quotes(facing.reflector),
                             "is not in the coordinates file", "correct the name");
         } else if (std::find(seen.begin(), seen.end(), facing.reflector) != seen.end()) {
-            problems.refuse(k_repeated_name, facing.where, "the reflector " + in_quotes(facing.reflector),
+            problems.refuse(k_repeated_name, facing.where, "the reflector " + text::in_quotes(facing.reflector),
                             "looks in one direction", "remove one of the two");
         }
         seen.emplace_back(facing.reflector);
@@ -336,8 +341,8 @@ void warn_of_same_positions(const std::vector<double>& angles_deg, const std::st
             const auto found = std::lower_bound(angles_deg.begin(), angles_deg.end(), below - k_same_angle_deg);
             if (found != angles_deg.end() && std::abs(*found - below) <= k_same_angle_deg) {
                 problems.warn(k_warn_same_position, where,
-                              "the angles " + shortest(*found) + "° and " + shortest(angles_deg[i]) +
-                                  "° are one position of the table",
+                              "the angles " + text::shortest_plain(*found) + "° and " +
+                                  text::shortest_plain(angles_deg[i]) + "° are one position of the table",
                               "each has error motions of its own, and means over the angles count the position twice",
                               "leave one of them out unless the turn is to be compared with itself");
                 return;
@@ -384,7 +389,7 @@ std::optional<SimulationRequest> read_simulation(const JsonObject& root, Problem
         request.outlier_size = length(stated, request.outlier_size);
         if (stated && request.outliers == 0) {
             problems.warn(k_warn_unused_value, outliers->where("size_um"),
-                          "size_um " + shortest(*stated) + " µm is not used", "no outliers are asked for",
+                          "size_um " + text::shortest_plain(*stated) + " µm is not used", "no outliers are asked for",
                           "remove it, or state their count");
         }
     }
@@ -410,7 +415,7 @@ std::optional<PlanRequest> read_plan(const JsonDocument& document, const JsonObj
         request.least_distance = *distance * k_millimetre;
         if (!object->has("station_region")) {
             problems.warn(k_warn_unused_value, object->where("least_distance_mm"),
-                          "least_distance_mm " + shortest(*distance) + " mm is not used",
+                          "least_distance_mm " + text::shortest_plain(*distance) + " mm is not used",
                           "it belongs to station_region: without one, stations are not moved",
                           "remove it, or state a region");
         }

@@ -1,4 +1,5 @@
 #include "engine/job/statement_keys.h"
+#include "text/visible_text.h"
 
 #include <algorithm>
 #include <limits>
@@ -193,7 +194,7 @@ std::optional<std::string> StatementKeys::text(std::string_view key) const {
 std::optional<std::string> StatementKeys::name(std::string_view key) const {
     std::optional<std::string> found = text(key);
     if (const auto objection = found ? name_objection(*found) : std::nullopt) {
-        refuse(k_text_not_allowed, key, in_quotes(*found) + " " + *objection,
+        refuse(k_text_not_allowed, key, text::in_quotes(*found) + " " + *objection,
                "must be one line of at most 256 bytes, without spaces around it and without control or hidden "
                "characters",
                "correct the text");

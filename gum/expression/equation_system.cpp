@@ -11,6 +11,7 @@
 #include "gum/expression/syntax_tree.h"
 #include "gum/expression/tape.h"
 #include "gum/quantity/decimal_rounding.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 
@@ -304,7 +305,7 @@ std::string EquationSystem::Compiled::step_text(const Workspace& workspace, std:
     const TapeStep& operation = tape.steps()[step];
     const SyntaxTree& tree = trees[origin.equation];
     const auto value = [&](std::int32_t slot) {
-        return expression_number_text(workspace.tape.value[static_cast<std::size_t>(slot)]);
+        return text::shortest(workspace.tape.value[static_cast<std::size_t>(slot)]);
     };
     std::string text = "\"" + tree.excerpt(tree.nodes[origin.node]) + "\" of " + value(operation.a);
     if (is_binary(operation.operation)) {
@@ -380,8 +381,7 @@ Diagnostic EquationSystem::Compiled::why_no_solution(const Workspace& workspace,
     const std::string where = place(trees[implicit.front()].where, 1);
     std::string values;
     for (std::size_t i = 0; i < unknowns(); ++i) {
-        values +=
-            (values.empty() ? "" : ", ") + unknown_names[i] + " = " + expression_number_text(workspace.unknowns[i]);
+        values += (values.empty() ? "" : ", ") + unknown_names[i] + " = " + text::shortest(workspace.unknowns[i]);
     }
     values += " (coherent SI units)";
     if (outcome == Search::singular) {

@@ -1,4 +1,6 @@
 #include "gum/expression/name.h"
+#include "text/utf8.h"
+#include "text/visible_text.h"
 
 #include <algorithm>
 #include <array>
@@ -39,10 +41,6 @@ constexpr std::array k_combining{
     Range{0x300, 0x36F},   Range{0x483, 0x489},   Range{0x591, 0x5BD},   Range{0x64B, 0x65F},   Range{0x93A, 0x94D},
     Range{0xE31, 0xE3A},   Range{0xE47, 0xE4E},   Range{0x1AB0, 0x1AFF}, Range{0x1DC0, 0x1DFF}, Range{0x20D0, 0x20FF},
     Range{0x3099, 0x309A}, Range{0xFE00, 0xFE0F}, Range{0xFE20, 0xFE2F}};
-constexpr std::array k_control{Range{0x0, 0x1F},      Range{0x7F, 0x9F},     Range{0xAD, 0xAD},
-                               Range{0x34F, 0x34F},   Range{0x61C, 0x61C},   Range{0x180E, 0x180E},
-                               Range{0x200B, 0x200F}, Range{0x2028, 0x202E}, Range{0x2060, 0x206F},
-                               Range{0xFEFF, 0xFEFF}, Range{0xFFF9, 0xFFFB}, Range{0xE0000, 0xE0FFF}};
 constexpr std::array k_subscripts{Range{0x2080, 0x2089}, Range{0x2090, 0x209C}};
 
 /// Letters of other scripts that print like an ASCII letter. ν, ρ, α and their like are told apart by every metrologist
@@ -98,7 +96,7 @@ char32_t canonical(char32_t code) {
 std::vector<char32_t> characters(std::string_view text) {
     std::vector<char32_t> codes;
     for (std::size_t i = 0; i < text.size();) {
-        const Character character = decode_utf8(text, i);
+        const text::Character character = text::decode_utf8(text, i);
         codes.push_back(character.bytes == 0 ? char32_t{0xFFFD} : character.code);
         i += std::max<std::size_t>(character.bytes, 1);
     }
@@ -107,44 +105,6 @@ std::vector<char32_t> characters(std::string_view text) {
 
 }  // namespace
 
-Character decode_utf8(std::string_view text, std::size_t offset) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[offset + i]); };
-    const unsigned char first = byte(0);
-    if (first < 0x80) {
-        return {.code = first, .bytes = 1};
-    }
-    const std::size_t bytes = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-    if (first < 0xC2 || first > 0xF4 || offset + bytes > text.size()) {
-        return {};
-    }
-    char32_t code = first & (0x7FU >> bytes);
-    for (std::size_t i = 1; i < bytes; ++i) {
-        if ((byte(i) & 0xC0U) != 0x80U) {
-            return {};
-        }
-        code = (code << 6U) | (byte(i) & 0x3FU);
-    }
-    const bool overlong = (bytes == 3 && code < 0x800) || (bytes == 4 && code < 0x10000);
-    if (overlong || code > 0x10FFFF || (0xD800 <= code && code <= 0xDFFF)) {
-        return {};
-    }
-    return {.code = code, .bytes = bytes};
-}
-
-std::string encode_utf8(char32_t code) {
-    const auto tail = [code](unsigned shift) { return static_cast<char>(0x80U | ((code >> shift) & 0x3FU)); };
-    if (code < 0x80) {
-        return {static_cast<char>(code)};
-    }
-    if (code < 0x800) {
-        return {static_cast<char>(0xC0U | (code >> 6U)), tail(0)};
-    }
-    if (code < 0x10000) {
-        return {static_cast<char>(0xE0U | (code >> 12U)), tail(6), tail(0)};
-    }
-    return {static_cast<char>(0xF0U | (code >> 18U)), tail(12), tail(6), tail(0)};
-}
-
 CharacterClass character_class(char32_t code) {
     if (code == U'_' || script(code) != Script::none) {
         return CharacterClass::name_start;
@@ -152,7 +112,7 @@ CharacterClass character_class(char32_t code) {
     if ((U'0' <= code && code <= U'9') || code == U'\'' || is_in(k_subscripts, code)) {
         return CharacterClass::name_part;
     }
-    if (is_in(k_control, code)) {
+    if (text::is_hidden(code)) {
         return CharacterClass::control;
     }
     return is_in(k_combining, code) ? CharacterClass::combining_mark : CharacterClass::other;
@@ -161,10 +121,10 @@ CharacterClass character_class(char32_t code) {
 std::string canonical_name(std::string_view name) {
     std::string text;
     for (std::size_t i = 0; i < name.size();) {
-        const Character character = decode_utf8(name, i);
+        const text::Character character = text::decode_utf8(name, i);
         const std::size_t bytes = std::max<std::size_t>(character.bytes, 1);
         const char32_t code = canonical(character.code);
-        text += code == character.code ? std::string(name.substr(i, bytes)) : encode_utf8(code);
+        text += code == character.code ? std::string(name.substr(i, bytes)) : text::encode_utf8(code);
         i += bytes;
     }
     return text;
@@ -174,7 +134,7 @@ std::string look_alike_skeleton(std::string_view name) {
     std::string text;
     for (const char32_t code : characters(name)) {
         const std::optional<char> ascii = look_alike(canonical(code));
-        text += ascii ? std::string(1, *ascii) : encode_utf8(canonical(code));
+        text += ascii ? std::string(1, *ascii) : text::encode_utf8(canonical(code));
     }
     return text;
 }
@@ -190,7 +150,7 @@ std::optional<std::string> reason_against_name(std::string_view name) {
     std::optional<char32_t> look_alike_of_ascii;
     std::array<bool, 5> seen{};
     for (std::size_t i = 0; i < name.size();) {
-        const Character character = decode_utf8(name, i);
+        const text::Character character = text::decode_utf8(name, i);
         if (character.bytes == 0) {
             return "is not valid UTF-8";
         }
@@ -200,7 +160,7 @@ std::optional<std::string> reason_against_name(std::string_view name) {
                 break;
             case CharacterClass::name_part:
                 if (i == 0) {
-                    return "begins with \"" + encode_utf8(code) + "\"";
+                    return "begins with \"" + text::encode_utf8(code) + "\"";
                 }
                 break;
             case CharacterClass::combining_mark:
@@ -208,7 +168,7 @@ std::optional<std::string> reason_against_name(std::string_view name) {
             case CharacterClass::control:
                 return "has the invisible character " + code_point_text(code);
             case CharacterClass::other:
-                return code == U' ' ? "has a space" : "has the character \"" + encode_utf8(code) + "\"";
+                return code == U' ' ? "has a space" : "has the character \"" + text::encode_utf8(code) + "\"";
         }
         seen[static_cast<std::size_t>(script(canonical(code)))] = true;
         ascii_letter = ascii_letter || (U'A' <= code && code <= U'Z') || (U'a' <= code && code <= U'z');
@@ -229,15 +189,7 @@ std::optional<std::string> reason_against_name(std::string_view name) {
 }
 
 std::string code_point_text(char32_t code) {
-    constexpr std::string_view digits = "0123456789ABCDEF";
-    std::string text;
-    for (unsigned shift = code > 0xFFFF ? 20 : 12;; shift -= 4) {
-        text += digits[(code >> shift) & 0xFU];
-        if (shift == 0) {
-            break;
-        }
-    }
-    return "U+" + text;
+    return "U+" + text::hexadecimal(code);
 }
 
 std::optional<std::string> nearest_name(std::string_view name, std::span<const std::string> candidates) {

@@ -9,18 +9,6 @@
 
 namespace gumcert::gum {
 
-/// One character of UTF-8 text.
-struct Character {
-    char32_t code = 0;
-    std::size_t bytes = 0;  ///< 0: the bytes are not valid UTF-8
-};
-
-/// The character that begins at `offset` < text.size(). Overlong forms, surrogates and codes above U+10FFFF are not
-/// valid.
-[[nodiscard]] Character decode_utf8(std::string_view text, std::size_t offset);
-
-[[nodiscard]] std::string encode_utf8(char32_t code);
-
 enum class CharacterClass : std::uint8_t {
     name_start,      ///< letters, and _
     name_part,       ///< digits, subscript digits and ': inside a name only

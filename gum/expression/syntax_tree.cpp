@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "gum/expression/name.h"
+#include "text/numbers.h"
+#include "text/utf8.h"
 
 namespace gumcert::gum {
 
@@ -192,7 +194,7 @@ public:
 private:
     void advance(std::size_t bytes) {
         for (std::size_t i = 0; i < bytes; ++i) {
-            column_ += (static_cast<unsigned char>(text_[position_ + i]) & 0xC0U) != 0x80U ? 1U : 0U;
+            column_ += !text::is_continuation(text_[position_ + i]) ? 1U : 0U;
         }
         position_ += bytes;
     }
@@ -273,16 +275,15 @@ private:
                           "Write the number that is meant, or 0.");
             value = 1.0;
         } else if (!is_kept_exactly(text, value)) {
-            problems_.add(
-                "GC-MODEL-0008", column_, "\"" + std::string(text.substr(0, 40)) + "\"",
-                "this whole number has too many digits to be kept: it would become " + expression_number_text(value),
-                "Write it with a decimal point when its last digits do not matter.");
+            problems_.add("GC-MODEL-0008", column_, "\"" + std::string(text.substr(0, 40)) + "\"",
+                          "this whole number has too many digits to be kept: it would become " + text::shortest(value),
+                          "Write it with a decimal point when its last digits do not matter.");
         }
         push(TokenKind::number, end - begin, value);
     }
 
     bool word_or_stranger() {
-        const Character first = decode_utf8(text_, position_);
+        const text::Character first = text::decode_utf8(text_, position_);
         if (first.bytes == 0) {
             problems_.add("GC-MODEL-0007", column_, "byte " + std::to_string(position_) + " is not valid UTF-8",
                           "equations are UTF-8 text", "Save the file as UTF-8.");
@@ -305,7 +306,8 @@ private:
             default: {
                 const auto* stranger = std::find_if(k_strangers.begin(), k_strangers.end(),
                                                     [&](const Stranger& one) { return one.code == first.code; });
-                const std::string shown = "\"" + encode_utf8(first.code) + "\" (" + code_point_text(first.code) + ")";
+                const std::string shown =
+                    "\"" + text::encode_utf8(first.code) + "\" (" + code_point_text(first.code) + ")";
                 if (stranger != k_strangers.end()) {
                     problems_.add("GC-MODEL-0011", column_, shown, "the character is not part of the equation language",
                                   std::string(stranger->action));
@@ -321,7 +323,7 @@ private:
         }
         whole_ = false;
         while (position_ < text_.size()) {  // once is enough for a row of the same
-            const Character next = decode_utf8(text_, position_);
+            const text::Character next = text::decode_utf8(text_, position_);
             if (next.bytes == 0 || next.code != first.code) {
                 break;
             }
@@ -333,7 +335,7 @@ private:
     bool word() {
         std::size_t end = position_;
         while (end < text_.size()) {
-            const Character next = decode_utf8(text_, end);
+            const text::Character next = text::decode_utf8(text_, end);
             if (next.bytes == 0) {
                 break;
             }
@@ -736,11 +738,6 @@ std::string place(const std::string& where, std::uint32_t column) {
     return (where.empty() ? std::string("equation") : where) + ", column " + std::to_string(column);
 }
 
-std::string expression_number_text(double value) {
-    std::array<char, 32> text{};
-    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
-
 std::string_view function_name(Operation operation) {
     const auto* found = std::find_if(k_functions.begin(), k_functions.end(),
                                      [operation](const Function& function) { return function.operation == operation; });
@@ -758,9 +755,7 @@ std::string SyntaxTree::excerpt(const SyntaxNode& node) const {
     if (whole.size() <= k_whole) {
         return std::string(whole);
     }
-    const auto starts_character = [&](std::size_t i) {
-        return (static_cast<unsigned char>(whole[i]) & 0xC0U) != 0x80U;
-    };
+    const auto starts_character = [&](std::size_t i) { return !text::is_continuation(whole[i]); };
     std::size_t head = k_part;
     while (!starts_character(head)) {
         --head;
@@ -813,7 +808,7 @@ std::string print_equation(const SyntaxTree& tree) {
     for (const SyntaxNode& node : tree.nodes) {
         const Operation operation = node.operation;
         if (operation == Operation::number) {
-            stack.push_back({expression_number_text(node.value), operation});
+            stack.push_back({text::shortest(node.value), operation});
         } else if (operation == Operation::pi) {
             stack.push_back({"pi", operation});
         } else if (operation == Operation::quantity) {

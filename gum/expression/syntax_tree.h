@@ -61,7 +61,4 @@ using IsQuantity = std::function<bool(std::string_view)>;
 /// True for functions and pi, which cannot be names of quantities.
 [[nodiscard]] bool is_reserved_name(std::string_view name);
 
-/// Shortest text that reads back as the same double.
-[[nodiscard]] std::string expression_number_text(double value);
-
 }  // namespace gumcert::gum

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gum/quantity/unit_exponent.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 
@@ -340,7 +341,7 @@ const char* scale_of(const QuantityKind& kind) {
 }
 
 std::string weight_text(const QuantityKind& kind) {
-    return expression_number_text(kind.celsius) + " times a " + scale_of(kind) + " temperature";
+    return text::shortest(kind.celsius) + " times a " + scale_of(kind) + " temperature";
 }
 
 /// What to do about a sum of Celsius temperatures that is none.
@@ -351,7 +352,7 @@ std::string cure_of_weight(const QuantityKind& kind) {
                " temperature t, which gives a difference in K; or celsius(T) for the thermodynamic temperature T that "
                "one is subtracted from.";
     }
-    return "Divide by " + expression_number_text(kind.celsius) + " where a mean of " + scale +
+    return "Divide by " + text::shortest(kind.celsius) + " where a mean of " + scale +
            " temperatures is meant, subtract " + scale +
            " temperatures until a difference is left where one is meant, or write kelvin(t) for each " + scale +
            " temperature t and state the result in K.";

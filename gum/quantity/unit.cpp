@@ -1,7 +1,6 @@
 #include "gum/quantity/unit.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -11,6 +10,7 @@
 #include "gum/quantity/unit_exponent.h"
 #include "gum/quantity/unit_expression.h"
 #include "gum/quantity/unit_table.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 
@@ -24,12 +24,6 @@ constexpr std::size_t k_radian = 7;
 constexpr double k_exponent_rounding = 1e-9;  // of fractional exponents, which come from roots
 constexpr std::size_t k_longest_unit = 256;
 constexpr double k_fahrenheit_zero = -160.0 / 9.0;  // 0 °F, [°C]
-
-std::string number_text(double value) {
-    std::array<char, 32> buffer{};
-    const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-    return error == std::errc{} ? std::string(buffer.data(), end) : std::string();
-}
 
 /// The unevaluated sum of two numbers, about 106 bits (T. J. Dekker, Numer. Math. 18 (1971) 224-242).
 struct Pair {
@@ -308,7 +302,7 @@ std::string Dimension::text() const {
         }
         text += (text.empty() ? "" : " ") + std::string(k_symbols[i]);
         if (const std::optional<UnitExponent> fraction = unit_exponent(exponent); !fraction) {
-            text += "^" + number_text(exponent);
+            text += "^" + text::shortest(exponent);
         } else if (*fraction != UnitExponent{}) {
             text += (fraction->denominator == 1 ? "" : "^") + exponent_text(*fraction);
         }
@@ -466,7 +460,7 @@ std::optional<std::string> unit_in_d_si(std::string_view text) {
             if (d != 1 && d != 2 && d != 4 && d != 5 && d != 8) {
                 return std::nullopt;
             }
-            result += "\\tothe{" + number_text(static_cast<double>(factor.exponent.numerator) / d) + "}";
+            result += "\\tothe{" + text::shortest(static_cast<double>(factor.exponent.numerator) / d) + "}";
         }
     }
     return result;

@@ -13,6 +13,7 @@
 
 #include "gum/quantity/diagnostic.h"
 #include "reports/certificate_view.h"
+#include "text/markup.h"
 
 namespace gumcert::reports {
 
@@ -223,27 +224,6 @@ std::string writable(std::string_view text) {
     return out;
 }
 
-void append_escaped(std::string& out, std::string_view text) {
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += c;
-        }
-    }
-}
-
 }  // namespace
 
 const XmlElement* XmlElement::child(std::string_view child_name) const {
@@ -348,7 +328,7 @@ void XmlWriter::start_tag(const std::string& name, const Attributes& attributes)
     for (const auto& [key, value] : attributes) {
         if (!value.empty()) {
             out_ += " " + key + "=\"";
-            append_escaped(out_, printable(value));
+            out_ += text::escaped_markup(printable(value));
             out_ += "\"";
         }
     }
@@ -370,7 +350,7 @@ void XmlWriter::close() {
 
 void XmlWriter::element(const std::string& name, const std::string& text, const Attributes& attributes) {
     start_tag(name, attributes);
-    append_escaped(out_, writable(text));
+    out_ += text::escaped_markup(writable(text));
     out_ += "</" + name + ">\n";
 }
 

@@ -1,6 +1,7 @@
 #include "reports/record/canonical_json.h"
 
 #include "gum/quantity/diagnostic.h"
+#include "text/utf8.h"
 
 #include <nlohmann/json.hpp>
 
@@ -107,7 +108,7 @@ private:
 
     void string(std::string_view s, const Step* at) {
         static constexpr char k_hex[] = "0123456789abcdef";
-        if (!is_utf8(s)) {
+        if (!text::is_utf8(s)) {
             refuse("GC-RECORD-0002", at, "text that is not valid UTF-8", "texts of a record are UTF-8");
         }
         text += '"';
@@ -199,47 +200,6 @@ private:
 };
 
 }  // namespace
-
-bool is_utf8(std::string_view text) {
-    std::size_t i = 0;
-    const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
-    while (i < text.size()) {
-        const unsigned lead = byte(i);
-        std::size_t more = 0;
-        unsigned low = 0x80;  // bounds of the second byte: they exclude overlong forms, surrogates, > U+10FFFF
-        unsigned high = 0xBF;
-        if (lead < 0x80) {
-            ++i;
-            continue;
-        }
-        if (lead >= 0xC2 && lead <= 0xDF) {
-            more = 1;
-        } else if (lead >= 0xE0 && lead <= 0xEF) {
-            more = 2;
-            low = lead == 0xE0 ? 0xA0 : low;
-            high = lead == 0xED ? 0x9F : high;
-        } else if (lead >= 0xF0 && lead <= 0xF4) {
-            more = 3;
-            low = lead == 0xF0 ? 0x90 : low;
-            high = lead == 0xF4 ? 0x8F : high;
-        } else {
-            return false;
-        }
-        if (more >= text.size() - i) {
-            return false;
-        }
-        if (byte(i + 1) < low || byte(i + 1) > high) {
-            return false;
-        }
-        for (std::size_t k = 2; k <= more; ++k) {
-            if ((byte(i + k) & 0xC0U) != 0x80U) {
-                return false;
-            }
-        }
-        i += more + 1;
-    }
-    return true;
-}
 
 std::string pointer_token(std::string_view key) {
     std::string token;

@@ -1,7 +1,6 @@
 #include "reports/record/comparison_check.h"
+#include "text/numbers.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <set>
@@ -17,11 +16,6 @@ constexpr const char* k_a_participant = "must be one of the participants";
 
 std::string in_quotes(const std::string& text) {
     return '"' + text + '"';
-}
-
-std::string shortest_text(double v) {
-    std::array<char, 32> text{};
-    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), v).ptr};
 }
 
 /// The place of an element of a list; its text is made only for a breach, for a record has a million elements.
@@ -59,7 +53,7 @@ public:
 private:
     void correlation(const std::string& at, double r) const {
         if (!(std::abs(r) <= 1.0 + 1e-9)) {
-            report_(at, shortest_text(r), "a correlation coefficient lies between -1 and 1");
+            report_(at, text::shortest(r), "a correlation coefficient lies between -1 and 1");
         }
     }
     void participant(const Element& element, std::string_view key, const std::string& id) const {

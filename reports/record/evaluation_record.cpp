@@ -7,6 +7,7 @@
 #include "reports/record/comparison_check.h"
 #include "reports/record/comparison_fields.h"
 #include "reports/record/reported_result.h"
+#include "text/utf8.h"
 
 #include <nlohmann/json.hpp>
 
@@ -2407,7 +2408,7 @@ std::string with_digest(json record) {
 InputFile input_file(const std::string& name, const std::string& bytes, bool with_content) {
     InputFile file{.name = name, .sha256 = encoding::sha256(bytes)};
     if (with_content) {
-        const bool text = is_utf8(bytes) && bytes.find('\0') == std::string::npos;
+        const bool text = text::is_utf8(bytes) && bytes.find('\0') == std::string::npos;
         file.content = text ? bytes : encoding::base64(bytes);
         file.encoding = text ? "utf-8" : "base64";
     }

@@ -2,8 +2,8 @@
 
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/unit.h"
+#include "text/numbers.h"
 
-#include <charconv>
 #include <cmath>
 
 namespace gumcert::reports {
@@ -12,12 +12,6 @@ namespace {
 
 double half_width_of(const std::array<double, 2>& interval) {
     return 0.5 * (interval[1] - interval[0]);
-}
-
-std::string all_digits(double value) {
-    std::array<char, 32> text{};
-    const double shown = value == 0.0 ? 0.0 : value;  // no negative zero
-    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), shown).ptr};
 }
 
 }  // namespace
@@ -86,7 +80,7 @@ void print_reported(ReportedResult& result, const std::string& unit, const Repor
         return;
     }
     result.printed.value = result.u && *result.u > 0.0 ? gum::round_to_uncertainty(result.value, *result.u, 2).value
-                                                       : all_digits(result.value);
+                                                       : text::shortest(result.value);
     result.printed.U = result.U ? "0" : "";
 }
 

@@ -27,6 +27,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 namespace {
@@ -210,7 +211,7 @@ Equations pick_equations(bool may_be_implicit) {
         RC_LOG() << text.text << '\n';
     }
     for (const double x : result.x) {
-        RC_LOG() << "x = " << expression_number_text(x) << '\n';
+        RC_LOG() << "x = " << text::shortest(x) << '\n';
     }
     return result;
 }
@@ -651,8 +652,8 @@ TEST(MonteCarloAndLawOfPropagation, AgreeForLinearModelsWithNormalInputs) {
         for (int i = 0; i < inputs; ++i) {
             symbols.push_back({.name = "x" + std::to_string(i), .unit = {}, .constant = {}});
             for (std::string& sum : sums) {
-                sum += " + " + expression_number_text(std::abs(number(-3.0, 3.0))) + "*" +
-                       (whole(0, 2) == 0 ? "" : "-") + symbols.back().name;
+                sum += " + " + text::shortest(std::abs(number(-3.0, 3.0))) + "*" + (whole(0, 2) == 0 ? "" : "-") +
+                       symbols.back().name;
             }
         }
         std::vector<InputGroup> groups;
@@ -732,8 +733,8 @@ TEST(MonteCarloAndLawOfPropagation, AgreeForQuadraticModelsToSecondOrder) {
             symbols.push_back({.name = "x" + std::to_string(i), .unit = {}, .constant = {}});
             x[i] = pick_number(-1.0, 1.0);
             for (int j = 0; j <= i; ++j) {
-                sum += " + " + expression_number_text(pick_number(0.1, 2.0)) + "*x" + std::to_string(i) + "*x" +
-                       std::to_string(j);
+                sum +=
+                    " + " + text::shortest(pick_number(0.1, 2.0)) + "*x" + std::to_string(i) + "*x" + std::to_string(j);
             }
         }
         const std::vector<EquationText> texts{{"y = " + sum, "y"}};

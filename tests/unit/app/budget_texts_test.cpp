@@ -1,4 +1,5 @@
 #include "app/budget_texts.h"
+#include "text/numbers.h"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +10,12 @@ namespace {
 
 TEST(BudgetTexts, StatedNumbersComeBackWithoutTracesOfConversion) {
     for (const double value : {5.007, 0.3, 123456.789, 1e-7, 20.1, -0.05}) {
-        EXPECT_EQ(as_stated(value / 1000.0 * 1000.0), all_digits(value));
-        EXPECT_EQ(as_stated(-value * 1e-6 / 1e-6), all_digits(-value));
+        EXPECT_EQ(as_stated(value / 1000.0 * 1000.0), text::shortest(value));
+        EXPECT_EQ(as_stated(-value * 1e-6 / 1e-6), text::shortest(-value));
     }
     EXPECT_EQ(as_stated(0.1 * 3.0), "0.3");
     EXPECT_EQ(as_stated(1.0 / 3.0), "0.3333333333333333");
-    EXPECT_EQ(all_digits(-0.0), "0");
+    EXPECT_EQ(text::shortest(-0.0), "0");
 }
 
 TEST(BudgetTexts, EstimatesEndWithTheirUncertainty) {

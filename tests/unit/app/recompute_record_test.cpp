@@ -9,6 +9,7 @@
 #include <set>
 
 #include "encoding/sha2.h"
+#include "text/utf8.h"
 
 namespace gumcert::app {
 namespace {
@@ -108,7 +109,7 @@ json another(const json& value, std::mt19937& random) {
         return text;
     }
     std::size_t first = 1;  // bytes of the first character
-    while (first < text.size() && (static_cast<unsigned char>(text[first]) & 0xC0U) == 0x80U) {
+    while (first < text.size() && text::is_continuation(text[first])) {
         ++first;
     }
     return way == 1 && !text.empty() ? json(text.substr(first)) : json(text + "x");

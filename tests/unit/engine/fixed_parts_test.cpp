@@ -38,10 +38,10 @@ void all_at_once(std::size_t tasks, const std::function<void(std::size_t)>& task
     }
 }
 
-using Range = std::pair<std::size_t, std::size_t>;
+using Part = std::pair<std::size_t, std::size_t>;
 
-std::vector<Range> ranges(const FixedParts& parts, const Workers& workers) {
-    std::vector<Range> result(parts.parts());
+std::vector<Part> ranges(const FixedParts& parts, const Workers& workers) {
+    std::vector<Part> result(parts.parts());
     parts.run(workers, [&](std::size_t part, std::size_t begin, std::size_t end) { result[part] = {begin, end}; });
     return result;
 }
@@ -49,7 +49,7 @@ std::vector<Range> ranges(const FixedParts& parts, const Workers& workers) {
 TEST(FixedParts, AreTheSameForAnyNumberOfThreads) {
     for (const std::size_t count : {0U, 1U, 7U, 8U, 9U, 64U, 65U}) {
         const FixedParts parts(count, 8);
-        const std::vector<Range> alone = ranges(parts, nullptr);
+        const std::vector<Part> alone = ranges(parts, nullptr);
         EXPECT_EQ(alone, ranges(parts, all_at_once));
         std::size_t next = 0;
         for (const auto& [begin, end] : alone) {

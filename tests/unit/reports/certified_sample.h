@@ -6,6 +6,7 @@
 
 #include "gum/quantity/unit.h"
 #include "reports/certificate_builder.h"
+#include "text/numbers.h"
 
 #include <cstddef>
 #include <optional>
@@ -121,7 +122,7 @@ inline reports::EvaluationRecord certified_budget_record() {
         column.printed_unit = r.printed.unit;
         column.values.push_back(certified_value(r.value, r.u, r.k.value_or(2.0), r.nu_eff, r.printed, "L1"));
         column.values.back().coverage = r.coverage;
-        column.values.back().printed_k = reports::fixed(r.k.value_or(2.0), 2);
+        column.values.back().printed_k = text::fixed(r.k.value_or(2.0), 2);
         table.columns.push_back(std::move(column));
     }
     c.tables = {table};

@@ -224,7 +224,7 @@ TEST_F(ComparisonPlots, EveryTextIsEscaped) {
     c.items[0].unit = "<u>";
     for (const std::string& svg : laboratory_plots(c)) {
         expect_sound(svg);
-        EXPECT_THAT(svg, HasSubstr("&lt;b&gt;&quot;A&amp;B&#39;"));
+        EXPECT_THAT(svg, HasSubstr("&lt;b&gt;&quot;A&amp;B'"));
         EXPECT_THAT(svg, Not(HasSubstr("<b>")));
         EXPECT_THAT(svg, Not(HasSubstr("<u>")));
     }
@@ -237,7 +237,7 @@ TEST_F(ComparisonPlots, EveryTextIsEscaped) {
     m.summary[0].direction = name;
     for (const std::string& svg : method_plots(m)) {
         expect_sound(svg);
-        EXPECT_THAT(svg, HasSubstr("&lt;b&gt;&quot;A&amp;B&#39;"));
+        EXPECT_THAT(svg, HasSubstr("&lt;b&gt;&quot;A&amp;B'"));
         EXPECT_THAT(svg, Not(HasSubstr("<b>")));
     }
 }

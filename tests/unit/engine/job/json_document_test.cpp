@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/job/file_source.h"
+#include "text/visible_text.h"
 
 namespace gumcert::engine {
 namespace {
@@ -311,10 +312,10 @@ TEST(InputCodes, AreUniqueAndWellFormed) {
 }
 
 TEST(InputText, ShowsHiddenCharactersAndShortensTexts) {
-    EXPECT_EQ(printable("a\tb\n"), "a\\u{0009}b\\u{000A}");
-    EXPECT_EQ(printable("\xE2\x80\xAE"), "\\u{202E}");
-    EXPECT_EQ(printable("\xFF"), "\\x{FF}");
-    EXPECT_EQ(printable(std::string(100, 'x')), std::string(80, 'x') + "…");
+    EXPECT_EQ(text::visible("a\tb\n"), "a\\u{0009}b\\u{000A}");
+    EXPECT_EQ(text::visible("\xE2\x80\xAE"), "\\u{202E}");
+    EXPECT_EQ(text::visible("\xFF"), "\\x{FF}");
+    EXPECT_EQ(text::visible(std::string(100, 'x')), std::string(80, 'x') + "…");
     EXPECT_FALSE(name_objection("Größe 1 – 溫度"));
     EXPECT_TRUE(name_objection(""));
     EXPECT_TRUE(name_objection(" a"));

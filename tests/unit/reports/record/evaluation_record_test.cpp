@@ -6,6 +6,7 @@
 #include "tests/support/record_refusal.h"
 #include "tests/support/sample_budget_record.h"
 #include "tests/support/sample_record.h"
+#include "text/utf8.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -527,10 +528,10 @@ TEST(CanonicalJson, RefusesNestingThatTheReaderWouldRefuse) {
 }
 
 TEST(Utf8, KnowsTheForbiddenForms) {
-    EXPECT_TRUE(is_utf8("µ″−校😀"));
+    EXPECT_TRUE(text::is_utf8("µ″−校😀"));
     for (const char* bad : {"\x80", "\xC0\xAF", "\xE0\x80\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xF8\x88\x80\x80",
                             "\xE2\x82", "\xC3("}) {
-        EXPECT_FALSE(is_utf8(bad));
+        EXPECT_FALSE(text::is_utf8(bad));
     }
 }
 

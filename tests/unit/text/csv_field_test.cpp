@@ -1,0 +1,32 @@
+#include "text/csv_field.h"
+
+#include <gtest/gtest.h>
+
+namespace gumcert::text {
+namespace {
+
+TEST(CsvField, IsQuotedWhereItMustBe) {
+    EXPECT_EQ(csv_field(""), "");
+    EXPECT_EQ(csv_field("L_s"), "L_s");
+    EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
+    EXPECT_EQ(csv_field("5\" gauge"), "\"5\"\" gauge\"");
+    EXPECT_EQ(csv_field("a\nb"), "\"a\nb\"");
+}
+
+TEST(CsvField, NoSpreadsheetTakesItForAFormula) {
+    EXPECT_EQ(csv_field("=1+1"), "'=1+1");
+    EXPECT_EQ(csv_field("@SUM(A1)"), "'@SUM(A1)");
+    EXPECT_EQ(csv_field("＝1"), "'＝1");
+    EXPECT_EQ(csv_field("x;=1"), "\"x;'=1\"") << "where the semicolon separates";
+    EXPECT_EQ(csv_field("="), "'=");
+}
+
+TEST(CsvField, NumbersStayNumbers) {
+    for (const char* number : {"-0.5", "+3", "1e-05", "-1"}) {
+        EXPECT_EQ(csv_field(number), number);
+    }
+    EXPECT_EQ(csv_field("-a"), "'-a");
+}
+
+}  // namespace
+}  // namespace gumcert::text
