@@ -28,3 +28,10 @@ install(FILES LICENSE NOTICE DESTINATION ${gumcert_share_dir})
 # The PDF step runs in Node with a pinned module. Without the module (scripts/setup brings it) everything but PDF works.
 install(FILES package.json package-lock.json DESTINATION ${gumcert_share_dir})
 install(DIRECTORY node_modules DESTINATION ${gumcert_share_dir} OPTIONAL)
+
+install(DIRECTORY ${GUMCERT_MANUAL_DIR}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
+foreach(completion IN ITEMS gumcert:bash-completion/completions _gumcert:zsh/vendor-completions
+                            gumcert.fish:fish/vendor_completions.d)
+    string(REGEX MATCH "([^:]+):(.+)" _ ${completion})
+    install(FILES ${GUMCERT_MANUAL_DIR}/completion/${CMAKE_MATCH_1} DESTINATION ${CMAKE_INSTALL_DATADIR}/${CMAKE_MATCH_2})
+endforeach()
