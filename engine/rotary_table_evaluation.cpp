@@ -146,8 +146,19 @@ constexpr double k_robust_scale = 10.0;
 constexpr double k_gross_misfit = 30.0;
 // Gauss-Newton steps within which an adjustment without gross errors comes to its end; sound ones need three.
 constexpr int k_refinements_without_gross_errors = 8;
+// Times that gross errors are looked for, each without those that were found before.
+constexpr int k_most_gross_searches = 5;
 // Deviation from the others of a visit that no repeatability makes, and that the linear search would not survive.
 constexpr double k_gross_deviation = 200.0 * gum::k_micrometre;
+
+/// Of the two middle values of an even number the one nearer to zero: where half of a visit is wrong, the other half is
+/// where the other visits put it.
+double nearer_median(std::vector<double> values) {
+    std::ranges::sort(values);
+    const double upper = values[values.size() / 2];
+    const double lower = values[(values.size() - 1) / 2];
+    return std::abs(lower) < std::abs(upper) ? lower : upper;
+}
 
 /// Distances that deviate from the median of their visit by far more than those of the other visits do, at the place
 /// where most visits agree, the largest first. The adjustment is left there.
@@ -166,8 +177,7 @@ std::vector<std::size_t> find_gross_deviations(JointAdjustment& adjustment, cons
         if (residual.size() < 3) {
             continue;
         }
-        std::vector<double> of_visit(residual.begin(), residual.end());
-        const double middle = upper_median(of_visit);
+        const double middle = nearer_median({residual.begin(), residual.end()});
         for (Eigen::Index i = 0; i < residual.size(); ++i) {
             const double size = std::abs(residual[i] - middle);
             sizes.push_back(size);
@@ -629,12 +639,19 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
         first_steps.max_refinements = std::min(k_refinements_without_gross_errors, rough.max_refinements);
     }
     SolveSummary summary = first.adjustment().solve(first_steps);
-    const double misfit = std::sqrt(summary.chi_square / static_cast<double>(measurement.lengths.size()));
-    if (may_leave_out && (!summary.converged || misfit > k_gross_misfit)) {
-        JointAdjustment robust(measurement, active, RigidMotion{}, start, stochastic);
-        for (const std::size_t i : find_gross_deviations(robust, rough)) {
-            set_aside(i);
+    const auto is_grossly_wrong = [&] {
+        const double misfit = std::sqrt(summary.chi_square / static_cast<double>(measurement.lengths.size()));
+        return !summary.converged || misfit > k_gross_misfit;
+    };
+    // What is largest hides what is smaller: the search goes on while it finds something.
+    for (int search = 0; search < k_most_gross_searches && may_leave_out && is_grossly_wrong(); ++search) {
+        JointAdjustment robust(measurement, active, RigidMotion{}, search == 0 ? start : first.present_values(),
+                               stochastic);
+        const std::vector<std::size_t> deviating = find_gross_deviations(robust, rough);
+        if (search > 0 && deviating.empty()) {
+            break;
         }
+        std::ranges::for_each(deviating, set_aside);
         first = JointAdjustment(measurement, active, RigidMotion{}, robust.present_values(), stochastic);
         first.adjustment().set_workers(options.workers);
         first.copy_parameters_from(robust);

@@ -867,7 +867,7 @@ private:
     [[nodiscard]] std::optional<LabelHypothesis> cause_of(std::size_t station, double misfit) const {
         const std::vector<bool> active = of_station(station, std::nullopt);
         std::optional<LabelHypothesis> best;
-        double least = k_share_with_right_labels * misfit;
+        double least = std::min(k_share_with_right_labels * misfit, k_wrong_labels);
         for (const LabelHypothesis& hypothesis : hypotheses_) {
             const RotaryTableMeasurement other = relabelled(measurement_, station, hypothesis);
             const double reached = StartSearch(other, active).fit_of(station).upright_misfit();

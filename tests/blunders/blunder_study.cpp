@@ -1,7 +1,7 @@
 // Plants every blunder of the catalogue on campaigns with consecutive seeds and prints, as Markdown, how many were
 // told; and what is silent although it is larger than what the best test of its level finds nearly always.
 //
-//   blunder_study [campaigns] [angles]
+//   blunder_study [campaigns] [angles] [kind]
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/complement.hpp>
@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -131,7 +132,8 @@ void note_silent(Tally& tally, Blunder blunder, const synthetic::Planted& plante
     }
 }
 
-void count(Tally& tally, Blunder blunder, const RotaryTableMeasurement& measurement) {
+/// \return the message of a refusal
+std::string count(Tally& tally, Blunder blunder, const RotaryTableMeasurement& measurement) {
     try {
         const RotaryTableSolution solution = evaluate_jointly(measurement, options());
         const bool warns = std::ranges::any_of(
@@ -144,6 +146,7 @@ void count(Tally& tally, Blunder blunder, const RotaryTableMeasurement& measurem
                         solution.groups->tests.front().suspicious && solution.groups->tests.front().kind == *kind)
                 ? 1
                 : 0;
+        return "";
     } catch (const gumcert::gum::NoResultError& error) {
         ++tally.refused;
         const std::string message = error.what();
@@ -151,6 +154,7 @@ void count(Tally& tally, Blunder blunder, const RotaryTableMeasurement& measurem
                            message.find("turns the other way") != std::string::npos ||
                            message.find("the beam was interrupted") != std::string::npos;
         tally.named += cause ? 1 : 0;
+        return message;
     }
 }
 
@@ -178,15 +182,22 @@ void print_detectable(const std::vector<std::pair<const char*, Tally>>& tallies)
 int main(int argc, char** argv) {
     const int campaigns = argc > 1 ? std::atoi(argv[1]) : 1000;
     const int angles = argc > 2 ? std::atoi(argv[2]) : 24;
+    const std::string_view only = argc > 3 ? argv[3] : "";
     std::printf("| blunder | campaigns | told | of these with the true cause first | refused | silent |\n");
     std::printf("|---|---|---|---|---|---|\n");
     std::vector<std::pair<const char*, Tally>> tallies;
     for (const auto& [blunder, name] : synthetic::k_blunders) {
+        if (!only.empty() && only != name) {
+            continue;
+        }
         Tally tally;
         for (int seed = 1; seed <= campaigns; ++seed) {
             const synthetic::Planted planted = synthetic::plant(blunder, static_cast<std::uint64_t>(seed), angles);
             const int silent = tally.silent;
-            count(tally, blunder, planted.measurement);
+            const std::string refusal = count(tally, blunder, planted.measurement);
+            if (!refusal.empty() || tally.silent > silent) {
+                std::fprintf(stderr, "%s, seed %d: %s\n", name, seed, refusal.empty() ? "silent" : refusal.c_str());
+            }
             note_silent(tally, blunder, planted, angles, seed, tally.silent > silent);
         }
         std::printf("| %s | %d | %d | %d | %d | %d |\n", name, campaigns, tally.warned + tally.refused, tally.named,
