@@ -5,19 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "gum/quantity/diagnostic.h"
+#include "tests/support/reference_case.h"
 #include "tests/unit/gum/printed.h"
 
 namespace gumcert::gum {
 namespace {
 
+using gumcert::test::expected_number;
+using gumcert::test::reference_case;
 using nlohmann::json;
 using test::agrees;
 using test::code_of;
@@ -25,11 +26,6 @@ using test::message_of;
 using test::prints_as;
 
 using Groups = std::vector<std::vector<double>>;
-
-json reference(const std::string& id) {
-    std::ifstream file(std::filesystem::path(GUMCERT_SHARED_DIR) / "reference" / (id + ".json"));
-    return file ? json::parse(file) : json();
-}
 
 /// Correct digits, not more than the 15 that are certified.
 double correct_digits(double value, double certified) {
@@ -44,7 +40,7 @@ double certified_digits(const OneWayAnalysis& analysis, const json& expected) {
         const std::string kind = one["kind"];
         const bool between = one["quantity"] == "between";
         const VarianceLine& line = between ? analysis.between : analysis.within;
-        const double value = one["value"];
+        const double value = expected_number(one);
         if (kind == "sum_of_squares") {
             least = std::min(least, correct_digits(line.sum_of_squares, value));
         } else if (kind == "mean_square") {
@@ -72,10 +68,7 @@ TEST(AnalysisOfVariance, CertifiedSets) {
     const std::vector<std::pair<std::string, double>> sets{
         {"strd-anova-sirstv", 12.5}, {"strd-anova-smls01", 14.0}, {"strd-anova-smls04", 9.0}};
     for (const auto& [id, digits] : sets) {
-        const json set = reference(id);
-        if (set.is_null()) {
-            GTEST_SKIP() << "no shared reference data";
-        }
+        const json set = reference_case(id);
         const auto groups = set["data"]["groups"].get<Groups>();
         const OneWayAnalysis analysis = one_way_analysis(groups);
         const double found = certified_digits(analysis, set["expected"]);
@@ -117,10 +110,7 @@ TEST(AnalysisOfVariance, ManyCommonDigits) {
 }
 
 TEST(AnalysisOfVariance, FourGroupsOfTen) {
-    const json set = reference("anova-ncsli-4x10");
-    if (set.is_null()) {
-        GTEST_SKIP() << "no shared reference data";
-    }
+    const json set = reference_case("anova-ncsli-4x10");
     const OneWayAnalysis analysis = one_way_analysis(set["data"]["groups"].get<Groups>(), 0.05);
     // The source had more digits of the observations than it prints: F and its p-value differ in their last digit.
     EXPECT_NEAR(analysis.ratio.f, 0.0850416, 1e-7);
@@ -139,10 +129,7 @@ TEST(AnalysisOfVariance, FourGroupsOfTen) {
 
 // JCGM 100:2008, H.5, table H.9: ten days of five observations of a Zener voltage standard.
 TEST(AnalysisOfVariance, ZenerOfTheGum) {
-    const json set = reference("gum-h5-anova");
-    if (set.is_null()) {
-        GTEST_SKIP() << "no shared reference data";
-    }
+    const json set = reference_case("gum-h5-anova");
     std::vector<ObservationGroup> days;
     for (std::size_t j = 0; j < 10; ++j) {
         days.push_back({.observations = 5,
@@ -174,10 +161,7 @@ TEST(AnalysisOfVariance, ZenerOfTheGum) {
 }
 
 TEST(AnalysisOfVariance, TenGroupsOfFive) {
-    const json set = reference("gum5-ex12-anova");
-    if (set.is_null()) {
-        GTEST_SKIP() << "no shared reference data";
-    }
+    const json set = reference_case("gum5-ex12-anova");
     const OneWayAnalysis analysis = one_way_analysis(set["data"]["groups"].get<Groups>());
     EXPECT_TRUE(prints_as(analysis.between.sum_of_squares, "2.92e-6"));
     EXPECT_TRUE(prints_as(analysis.within.sum_of_squares, "1.96e-5"));
