@@ -724,27 +724,48 @@ private:
         moved_.resize(measurement.stations.size(), false);
         index_spreads_.resize(measurement.stations.size(),
                               std::vector<IndexSpread>(2 * static_cast<std::size_t>(most) + 1));
-        std::vector<std::optional<Candidate>> best_of(measurement.stations.size());
+        std::vector<IndexMisfit> worst_of(measurement.stations.size());
+        // What the stations share is only read here: limits are found afterwards, by one thread.
         FixedParts(measurement.stations.size(), 1)
             .run(adjustment_.adjustment().workers(), [&](std::size_t j, std::size_t, std::size_t) {
                 for (int steps = -most; steps <= most && !moved_[j]; ++steps) {
                     // Half a turn backwards is half a turn forwards.
                     if (steps != 0 && 2 * steps != -static_cast<int>(angles)) {
-                        test_index(j, steps, steps * step, most, poses, best_of[j]);
+                        keep_worse(worst_of[j], index_misfit(j, steps, steps * step, most, poses));
                     }
                 }
             });
         std::optional<Candidate> best;
-        for (std::optional<Candidate>& of_station : best_of) {
-            if (of_station) {
-                take(best, std::move(*of_station));
+        for (std::size_t j = 0; j < worst_of.size(); ++j) {
+            IndexMisfit& worst = worst_of[j];
+            if (worst.steps == 0) {
+                continue;
             }
+            GroupTest test = judged(GroupKind::angle_index, worst.chi_square, 1,
+                                    2 * static_cast<std::size_t>(most) * measurement.stations.size());
+            test.station = j;
+            test.estimate = worst.steps;
+            take(best, {test, [this, effect = std::move(worst.effect), j] {
+                            visits_.take_away(effect, 1);
+                            moved_[j] = true;
+                        }});
         }
         return best;
     }
 
-    void test_index(std::size_t station, int steps, double angle, int most, const MatrixXd& poses,
-                    std::optional<Candidate>& best) {
+    /// What the distances of a station say of its angles being some steps off.
+    struct IndexMisfit {
+        int steps = 0;  ///< 0: nothing controls it
+        double chi_square = 0.0;
+        Visits::Effect effect;
+    };
+    static void keep_worse(IndexMisfit& worst, IndexMisfit other) {
+        if (other.steps != 0 && (worst.steps == 0 || other.chi_square > worst.chi_square)) {
+            worst = std::move(other);
+        }
+    }
+
+    IndexMisfit index_misfit(std::size_t station, int steps, double angle, int most, const MatrixXd& poses) {
         const RotaryTableMeasurement& measurement = adjustment_.measurement();
         const std::size_t angles = measurement.angles.size();
         const Eigen::Matrix3d turn =
@@ -773,17 +794,10 @@ private:
         }
         spread.left_out = visits_.left_out_count();
         if (!(spread.value > k_controlled * spread.weight)) {
-            return;
+            return {};
         }
         const double deviate = visits_.weighted(effect) / std::sqrt(spread.value) / std::max(used_scale_, pose_scale_);
-        GroupTest test = judged(GroupKind::angle_index, deviate * deviate, 1,
-                                2 * static_cast<std::size_t>(most) * measurement.stations.size());
-        test.station = station;
-        test.estimate = steps;
-        take(best, {test, [this, effect, station] {
-                        visits_.take_away(effect, 1);
-                        moved_[station] = true;
-                    }});
+        return {steps, deviate * deviate, std::move(effect)};
     }
 
     /// Whether the angles divide a full turn evenly.

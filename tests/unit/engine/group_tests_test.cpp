@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/complement.hpp>
 #include <cmath>
+#include <thread>
+#include <vector>
 
 #include "engine/rotary_table_evaluation.h"
 #include "tests/support/planted_blunders.h"
@@ -252,6 +255,32 @@ TEST(GroupTests, TellAStationWithOtherAngles) {
     EXPECT_TRUE(groups.tests.front().suspicious) << told(groups);
     EXPECT_EQ(groups.tests.front().kind, GroupKind::angle_index) << told(groups);
     EXPECT_EQ(groups.tests.front().station, 4U) << told(groups);
+}
+
+/// Limits are kept by the one who asked first: a thread that found another's limit half made would print 0 for it.
+TEST(GroupTests, AskForProbabilitiesFromOneThread) {
+    const std::thread::id here = std::this_thread::get_id();
+    std::atomic<int> asked = 0;
+    std::atomic<int> asked_elsewhere = 0;
+    EvaluationOptions options;
+    options.chi_square_upper_tail = [&](double value, double degrees_of_freedom) {
+        ++(std::this_thread::get_id() == here ? asked : asked_elsewhere);
+        return upper_tail(value, degrees_of_freedom);
+    };
+    options.workers = [](std::size_t tasks, const std::function<void(std::size_t)>& task) {
+        std::vector<std::thread> threads;
+        for (std::size_t k = 0; k < tasks; ++k) {
+            threads.emplace_back(task, k);
+        }
+        for (std::thread& thread : threads) {
+            thread.join();
+        }
+    };
+    const RotaryTableMeasurement measurement = campaign(35).measurement;
+    const GroupTests by_threads = evaluate_jointly(measurement, options).groups.value();
+    EXPECT_GT(asked, 0);
+    EXPECT_EQ(asked_elsewhere, 0);
+    EXPECT_EQ(told(by_threads), told(tests_of(measurement)));
 }
 
 }  // namespace
