@@ -592,7 +592,7 @@ InputDraws::InputDraws(const std::vector<InputGroup>& groups, std::uint64_t seed
         report_problems(group, problems);
     }
     const auto report_streams = [&](std::string what, std::string rule) {
-        problems.push_back(Diagnostic{.code = "GC-GUM-0123",
+        problems.push_back(Diagnostic{.code = "GC-GUM-0127",
                                       .where = "monte carlo streams",
                                       .what = std::move(what),
                                       .rule = std::move(rule),

@@ -88,8 +88,8 @@ private:
 class InputDraws {
 public:
     /// \param streams  one number a group; empty: the index of the group
-    /// \throws InputError  every problem of the groups: GC-GUM-0122 (marginals), GC-GUM-0123 (streams, dependence), and
-    ///                     those that `propagate` finds in covariances
+    /// \throws InputError  every problem of the groups: GC-GUM-0122 (marginals), GC-GUM-0123 (dependence), GC-GUM-0127
+    ///                     (streams), and those that `propagate` finds in covariances
     /// \param workers  to share out the making of tables, a millisecond each; none: not shared out
     InputDraws(const std::vector<InputGroup>& groups, std::uint64_t seed, std::span<const std::uint64_t> streams,
                WorkerThreads* workers = nullptr);

@@ -59,7 +59,7 @@ void check_values(const LaboratoryResults& results, Problems& problems) {
         const double u = results.u(i);
         if (std::abs(results.x(i)) > k_largest_magnitude || u > k_largest_magnitude ||
             (u > 0.0 && u < 1.0 / k_largest_magnitude)) {
-            problems.add("GC-GUM-0135", name_of(i),
+            problems.add("GC-GUM-0142", name_of(i),
                          "value " + text::shortest(results.x(i)) + ", standard uncertainty " + text::shortest(u),
                          "magnitudes from 1e-150 to 1e+150 can be squared", "State the results in another unit.");
         }
@@ -78,7 +78,7 @@ void check_elements(const LaboratoryResults& results, Problems& problems) {
     for (Index j = 0; j < V.cols(); ++j) {
         const double variance = results.u(j) * results.u(j);
         if (std::abs(V(j, j) - variance) > k_diagonal_tolerance * variance) {
-            problems.add("GC-GUM-0135", "covariance of the results",
+            problems.add("GC-GUM-0143", "covariance of the results",
                          "variance of " + name_of(j) + " is " + text::shortest(V(j, j)) +
                              " for a standard uncertainty " + text::shortest(results.u(j)),
                          "the diagonal holds the squares of the standard uncertainties", "Correct one of the two.");
@@ -230,7 +230,7 @@ void require_results(const LaboratoryResults& results, std::size_t fewest) {
     const double largest = std::max(results.x.maxCoeff() - results.x.minCoeff(), results.u.maxCoeff());
     if (largest / results.u.minCoeff() > k_largest_magnitude) {
         refuse(
-            "GC-GUM-0135", "results",
+            "GC-GUM-0142", "results",
             "range " + text::shortest(largest) + " with a standard uncertainty " + text::shortest(results.u.minCoeff()),
             "magnitudes up to 1e+150 times the smallest uncertainty can be squared", "Correct the uncertainty.");
     }

@@ -273,7 +273,7 @@ void require_replicates(const ReplicatedResults& results) {
     constexpr double k_most = 1e100;
     if (!(largest / results.s.minCoeff() <= k_most)) {
         refuse(
-            "GC-GUM-0135", "replicated results",
+            "GC-GUM-0142", "replicated results",
             "range " + text::shortest(largest) + " with a standard deviation " + text::shortest(results.s.minCoeff()),
             "magnitudes up to 1e+100 times the smallest standard deviation can be handled",
             "Correct the standard deviation.");

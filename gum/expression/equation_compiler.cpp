@@ -114,7 +114,7 @@ private:
         for (std::size_t i = 0; i < unknowns_.size(); ++i) {
             declare(unknowns_[i].name, {Symbol::Kind::unknown, i}, "unknown " + unknowns_[i].name);
             if (!std::isfinite(unknowns_[i].start)) {
-                refuse("GC-MODEL-0029", "unknown " + unknowns_[i].name, "the start value is not finite",
+                refuse("GC-MODEL-0045", "unknown " + unknowns_[i].name, "the start value is not finite",
                        "the search begins at a number", "Give a start value near the solution.");
             }
         }
@@ -411,7 +411,7 @@ private:
                 const std::string where = asked.where.empty() ? "output " + asked.name : asked.where;
                 const std::string canonical = canonical_name(asked.name);
                 if (!seen.emplace(canonical, true).second) {
-                    refuse("GC-MODEL-0029", where, "the output \"" + asked.name + "\" is there twice",
+                    refuse("GC-MODEL-0044", where, "the output \"" + asked.name + "\" is there twice",
                            "an output is asked for once", "Remove one of the two.");
                     continue;
                 }

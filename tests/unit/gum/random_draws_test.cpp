@@ -269,8 +269,8 @@ TEST(RandomDraws, StreamsDecideWhatInputsShare) {
     EXPECT_EQ(a.col(1), b.col(0));
     EXPECT_NE(a.col(0), b.col(1));
     const std::vector<std::uint64_t> twice{5, 5};
-    EXPECT_EQ(code_of<InputError>([&] { InputDraws(two, 1, twice); }), "GC-GUM-0123");
-    EXPECT_EQ(code_of<InputError>([&] { InputDraws(two, 1, std::vector<std::uint64_t>{1}); }), "GC-GUM-0123");
+    EXPECT_EQ(code_of<InputError>([&] { InputDraws(two, 1, twice); }), "GC-GUM-0127");
+    EXPECT_EQ(code_of<InputError>([&] { InputDraws(two, 1, std::vector<std::uint64_t>{1}); }), "GC-GUM-0127");
 }
 
 TEST(RandomDraws, RefusesGroupsThatCannotBeDrawn) {

@@ -193,6 +193,9 @@ TEST(RandomEffects, VangelRukhinRefusesWhatHasNoStandardDeviation) {
     wrong = good;
     wrong.observations.pop_back();
     EXPECT_EQ(code_of<InputError>([&] { (void)vangel_rukhin(wrong); }), "GC-GUM-0135");
+    wrong = good;
+    wrong.x(0) = 1e150;
+    EXPECT_EQ(code_of<InputError>([&] { (void)vangel_rukhin(wrong); }), "GC-GUM-0142");
     EXPECT_EQ(
         code_of<InputError>([] { (void)vangel_rukhin({.x = vector({1.0}), .s = vector({0.1}), .observations = {3}}); }),
         "GC-GUM-0131");

@@ -275,11 +275,11 @@ TEST(ReferenceValue, RefusesWhatIsNoResult) {
     EXPECT_EQ(code_of<InputError>([] {
                   (void)weighted_mean(laboratory_results({1.0, 2.0}, {0.1, 1e-300}));
               }),
-              "GC-GUM-0135");
+              "GC-GUM-0142");
     EXPECT_EQ(code_of<InputError>([] {
                   (void)weighted_mean(laboratory_results({1.0, 1e140}, {0.1, 1e-100}));
               }),
-              "GC-GUM-0135");
+              "GC-GUM-0142");
     EXPECT_EQ(code_of<InputError>([] {
                   (void)consistency_test(laboratory_results({1.0, 2.0}, {0.1, 0.1}), 1.0);
               }),
@@ -303,7 +303,7 @@ TEST(ReferenceValue, RefusesACovarianceThatIsNone) {
                 HasSubstr("element of result 1 and result 2 is 0.15625, a correlation of 1.25"));
     wrong = with_correlation(labs, 0, 1, 0.0);
     wrong.covariance(2, 2) = 0.02;
-    EXPECT_EQ(code_of<InputError>([&] { require_results(wrong); }), "GC-GUM-0135");
+    EXPECT_EQ(code_of<InputError>([&] { require_results(wrong); }), "GC-GUM-0143");
     wrong.covariance.resize(2, 2);
     EXPECT_EQ(code_of<InputError>([&] { require_results(wrong); }), "GC-GUM-0135");
     wrong = with_correlation(labs, 0, 1, std::nan(""));

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -111,6 +112,11 @@ TEST(Implicit, WhatCannotBeSolvedIsSaid) {
     EXPECT_EQ(code({"0 = ln(z) - a"}, {unknown("z", -1)}, 1.0), "0060");
     EXPECT_EQ(code({"0 = z + abs(a - z) - 1"}, {unknown("z", 1)}, 1.0), "0063");  // a kink at the solution
     EXPECT_EQ(code({"0 = exp(z) - a"}, {unknown("z", 1)}, -1.0).substr(0, 3), "006");
+}
+
+TEST(Implicit, AStartValueIsANumber) {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(codes(problems_of({"0 = z - a"}, numbers({"a"}), {unknown("z", none)})), "0045 unknown z");
 }
 
 TEST(Implicit, TrialsStartFromTheGivenSolution) {

@@ -27,7 +27,7 @@ TEST(Structure, OutputsAreThoseThatNobodyUsesOrThoseAskedFor) {
     EXPECT_EQ(asked.evaluate(vector({1.0, 2.0})), vector({6.0, 3.0}));
     EXPECT_EQ(codes(problems_of(texts, numbers({"a", "b"}), {},
                                 {output("rr", "1"), output("a", "1"), output("q", "1"), output("q", "1")})),
-              "0028 output rr; 0028 output a; 0029 output q");
+              "0028 output rr; 0028 output a; 0044 output q");
 }
 
 TEST(Structure, CyclesArePrinted) {
