@@ -49,7 +49,6 @@ public:
     /// \param text  UTF-8, at most 256 bytes
     /// \throws InputError    GC-UNIT-0001 not a unit, -0002 a logarithmic unit, -0003 a point in time, -0004 an origin
     ///                       of a scale other than of temperature
-    /// \throws StorageError  GC-UNIT-0010 the unit database of UDUNITS-2 cannot be read
     [[nodiscard]] static Unit parse(std::string_view text);
     /// The coherent SI unit of a dimension.
     /// \param celsius  degC instead of K, where the dimension is a temperature
