@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
 #include "engine/job/file_source.h"
+#include "text/edit_distance.h"
 #include "text/numbers.h"
 #include "text/utf8.h"
 #include "text/visible_text.h"
@@ -127,22 +127,7 @@ std::optional<std::string_view> nearest_word(std::string_view word, std::span<co
     std::optional<std::string_view> nearest;
     std::size_t least = 0;
     for (const std::string_view candidate : known) {
-        // Levenshtein's distance with one row; capitals count as their small letters, so that "Axis" is near "axis".
-        const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-        std::vector<std::size_t> row(candidate.size() + 1);
-        for (std::size_t j = 0; j <= candidate.size(); ++j) {
-            row[j] = j;
-        }
-        for (std::size_t i = 1; i <= word.size(); ++i) {
-            std::size_t diagonal = row[0];
-            row[0] = i;
-            for (std::size_t j = 1; j <= candidate.size(); ++j) {
-                const std::size_t substituted = diagonal + (small(word[i - 1]) == small(candidate[j - 1]) ? 0 : 1);
-                diagonal = row[j];
-                row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-            }
-        }
-        const std::size_t distance = row.back();
+        const std::size_t distance = text::edit_distance(word, candidate);
         // Two letters in five may differ: a unit that was left out ("u_constant") must still find its key.
         if (5 * distance <= 2 * std::max(word.size(), candidate.size()) && (!nearest || distance < least)) {
             nearest = candidate;
