@@ -724,7 +724,8 @@ SolveSummary Adjustment::refine(const SolverOptions& options, NormalEquations& n
 }
 
 SolveSummary Adjustment::solve(const SolverOptions& options) {
-    FLAGS_minloglevel = google::GLOG_FATAL;  // a library does not print: its failures are in the summary
+    // A library does not print: its failures are in the summary. Once, as campaigns are solved in several threads.
+    [[maybe_unused]] static const bool is_quiet = (FLAGS_minloglevel = google::GLOG_FATAL, true);
     ceres::Problem::Options problem_options;
     problem_options.cost_function_ownership = ceres::TAKE_OWNERSHIP;
     ceres::Problem problem(problem_options);

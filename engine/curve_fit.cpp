@@ -483,7 +483,8 @@ private:
 
 /// One search by Ceres, x exact. The state is moved to where it ended, converged or not.
 int search(const Problem& problem, State& state, ceres::TrustRegionStrategyType strategy, double radius) {
-    FLAGS_minloglevel = google::GLOG_FATAL;  // a library does not print: its failures are in the outcome
+    // A library does not print: its failures are in the outcome. Once, as fits may run in several threads.
+    [[maybe_unused]] static const bool is_quiet = (FLAGS_minloglevel = google::GLOG_FATAL, true);
     const Linearised at = problem.linearise(state);
     const Real length = std::sqrt(at.sum);
     const Real divisor = length > 0.0L ? length : 1.0L;
