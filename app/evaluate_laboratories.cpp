@@ -137,7 +137,7 @@ reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, cons
     const std::vector<engine::ComparisonResult> results = results_with_budgets(job, progress, refused_items);
     std::vector<LaboratoryData> data = laboratory_data(job, results);
     if (data.empty()) {
-        throw gum::InputError(gum::Diagnostic{.code = "GC-COMPARE-0100",
+        throw gum::InputError(gum::Diagnostic{.code = "GC-COMPARE-0112",
                                               .where = "comparison",
                                               .what = "no result",
                                               .rule = "results of at least two laboratories are compared",

@@ -240,7 +240,7 @@ void add_identity(const reports::ImportedCertificate& c, const std::string& file
                            "a certificate has a number of its own", k_ask, Severity::warning));
     }
     if (c.quantities.empty()) {
-        out.push_back(told("GC-DCC-0046", file, "no results", "a certificate has results", k_ask, Severity::error));
+        out.push_back(told("GC-DCC-0049", file, "no results", "a certificate has results", k_ask, Severity::error));
     }
 }
 

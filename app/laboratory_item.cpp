@@ -353,7 +353,7 @@ std::string deciding_score(const LaboratoryData& data, const ComparisonItemEvalu
 void require_score(const LaboratoryData& data, const ComparisonItemEvaluation& evaluation) {
     if (!evaluation.u && evaluation.score.empty()) {
         throw gum::InputError(gum::Diagnostic{
-            .code = "GC-COMPARE-0126",
+            .code = "GC-COMPARE-0109",
             .where = data.where,
             .what = "more than half of the results are equal: no uncertainty of the assigned value can be stated",
             .rule = "a score needs it, or sigma_pt, or delta_E",

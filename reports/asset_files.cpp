@@ -50,7 +50,7 @@ nlohmann::json wording_of(const std::string& language, const RenderAssets& asset
     });
     const std::filesystem::path file = assets.templates / "wording" / (language + ".json");
     if (!plain || !std::filesystem::is_regular_file(file)) {
-        throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0002",
+        throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0006",
                                                 .where = "language",
                                                 .what = '"' + language + '"',
                                                 .rule = "a document is printed in a language of templates/wording",
@@ -61,7 +61,7 @@ nlohmann::json wording_of(const std::string& language, const RenderAssets& asset
 
 nlohmann::json wording_of(const std::vector<std::string>& languages, const RenderAssets& assets) {
     if (languages.size() > 2) {
-        throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0002",
+        throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0006",
                                                 .where = "language",
                                                 .what = std::to_string(languages.size()) + " languages",
                                                 .rule = "at most two languages stand side by side on a document",

@@ -226,7 +226,7 @@ public:
         const std::string status = answer.is_object() ? answer.value("status", std::string()) : std::string();
         if (status == "template") {
             throw gum::NoResultError(gum::Diagnostic{
-                .code = "GC-REPORT-0011",
+                .code = "GC-REPORT-0012",
                 .where = "PDF",
                 .what = messages(answer),
                 .rule = "the template templates/pdf/certificate.typ is set by Typst with the texts of the record",

@@ -700,7 +700,7 @@ TEST(EvaluateLaboratories, EqualResultsThatNothingCanScoreAreRefused) {
         }
         job.items[0].assigned_value.method = method;
         const gum::Diagnostic refused = refusal(job);
-        EXPECT_EQ(refused.code, "GC-COMPARE-0126");
+        EXPECT_EQ(refused.code, "GC-COMPARE-0109");
         EXPECT_EQ(refused.where, "item \"block\"");
         EXPECT_THAT(refused.what, HasSubstr("are equal"));
     }

@@ -193,6 +193,16 @@ TEST(ForeignCertificate, PartsThatEveryCertificateHas) {
     }
 }
 
+TEST(ForeignCertificate, WithoutResultsIsNoCertificate) {
+    std::string text = certificate(expanded("0.020", "2.0"));
+    const std::size_t from = text.find("<dcc:quantity>");
+    const std::string end = "</dcc:quantity>";
+    text.erase(from, text.rfind(end) + end.size() - from);
+    const std::vector<gum::Diagnostic> found = check_certificate(text, "a.xml", trust());
+    EXPECT_THAT(errors_and_warnings(found), Contains("GC-DCC-0049"));
+    EXPECT_THAT(errors_and_warnings(found), testing::Not(Contains("GC-DCC-0046")));
+}
+
 // One planted defect of every kind: the check tells it by its code, the import that there is one.
 TEST(ForeignCertificate, DefectsOfSchemaAndStatementsAreTold) {
     const std::string good = certificate(expanded("0.020", "2.0"));

@@ -297,7 +297,7 @@ TEST(Languages, WhatIsMissingIsNamed) {
         static_cast<void>(render_text(test::sample_record(), in_languages({"en", "fr"})));
         FAIL() << "no message";
     } catch (const gum::StorageError& e) {
-        EXPECT_EQ(e.diagnostics().front().code, "GC-REPORT-0002");
+        EXPECT_EQ(e.diagnostics().front().code, "GC-REPORT-0006");
         EXPECT_THAT(e.what(), HasSubstr("\"fr\""));
     }
     EXPECT_THROW(static_cast<void>(render_text(test::sample_record(), in_languages({"en", "de", "es"}))),

@@ -223,7 +223,7 @@ TEST_F(PdfWorkerTest, AFaultOfTheTemplateIsToldWithItsPlace) {
             static_cast<void>(worker.set(view("x"), ""));
             ADD_FAILURE() << "accepted: " << text;
         } catch (const gum::NoResultError& e) {
-            EXPECT_EQ(e.diagnostics().front().code, "GC-REPORT-0011");
+            EXPECT_EQ(e.diagnostics().front().code, "GC-REPORT-0012");
             EXPECT_THAT(e.what(), HasSubstr(said));
             EXPECT_THAT(e.what(), HasSubstr("correct the template"));
             EXPECT_THAT(e.what(), testing::Not(HasSubstr("fonts")));
