@@ -6,6 +6,7 @@
 Works on small trees in a temporary folder; the scanners, the layer table and the CMake functions are the real ones.
 """
 
+import json
 import pathlib
 import shutil
 import subprocess
@@ -225,6 +226,144 @@ class Tree(PlantedTree):
                 self.plant(path, text)
                 self.expect(self.scan(), 1, f"{path}:2: ", reason)
                 (self.root / path).unlink()
+
+
+class Codes(PlantedTree):
+    """A tree of one message, and of one code in a table."""
+
+    SOURCE = ('#include <string>\n// GC-TREE-0001\n'
+              'void fail(std::string code, std::string what, std::string rule) {\n'
+              '    throw InputError({code, "", what, rule, ""});\n}\n'
+              'void f() {\n    fail("GC-TREE-0001", "it is " "wrong", "it is right");\n}\n')
+    TABLE = ('inline constexpr InputCode k_one{"GC-TREE-0002", "a key"};\n'
+             'inline constexpr std::array k_all_codes{k_one};\n'
+             'void g(List& list) {\n    list.refuse(k_one, "here", "bad", "good", "mend");\n}\n')
+
+    def setUp(self):
+        super().setUp()
+        self.plant("gum/a.cpp", self.SOURCE)
+        self.plant("engine/job/b.cpp", self.TABLE)
+        self.plant("docs/findings.md", "| id | clause | severity | what |\n|---|---|---|---|\n| A01 | 7.1 | major | x |\n")
+        texts = {"cause": "A cause.", "remedy": "A remedy."}
+        self.register = {
+            "language": "en",
+            "outcomes": {"refused": {"severity": "error", "text": "Refused."},
+                         "warning": {"severity": "warning", "text": "Warned."}},
+            "finding": "A finding.",
+            "families": {"GC-TREE": {"title": "Tree", "text": "Of the tree."}},
+            "codes": {"GC-TREE-0001": {"outcome": ["refused"], "meaning": "It is wrong.", **texts},
+                      "GC-TREE-0002": {"outcome": ["refused"], "meaning": "A key.", **texts},
+                      "GC-TREE-0009": {"retired": "It was something else."}}}
+        self.write()
+        self.expect(self.scan("--write"), 0, "3 codes, 0 breaches")
+        self.register = json.loads((self.root / "templates/messages.json").read_text(encoding="utf-8"))
+
+    def write(self):
+        self.plant("templates/messages.json", json.dumps(self.register))
+
+    def scan(self, *arguments):
+        return self.run_program(sys.executable, "-B", ROOT / "tests/lint/check_codes.py", self.root, *arguments)
+
+    def refused(self, *texts):
+        self.expect(self.scan(), 1, *texts)
+
+    def refused_entry(self, code, changes, *texts):
+        self.register["codes"][code].update(changes)
+        self.write()
+        self.refused(*texts)
+
+    def test_clean_tree_passes(self):
+        self.expect(self.scan(), 0, "3 codes, 0 breaches")
+        self.assertEqual(self.register["codes"]["GC-TREE-0001"]["rules"], ["it is right"])
+        self.assertIn("### GC-TREE-0001", (self.root / "docs/messages.md").read_text(encoding="utf-8"))
+
+    def test_code_that_is_not_in_the_register(self):
+        self.plant("gum/c.cpp", '\nvoid h() { fail("GC-TREE-0003", "a", "b"); }\n')
+        self.refused("gum/c.cpp:2: GC-TREE-0003 is not in templates/messages.json")
+
+    def test_code_inside_a_longer_text(self):
+        self.plant("gum/c.cpp", 'const char* k = "{\\"code\\":\\"GC-TREE-0003\\"}";\n')
+        self.refused("gum/c.cpp:1: GC-TREE-0003 is not in templates/messages.json")
+
+    def test_code_of_a_table_that_is_not_in_the_register(self):
+        self.plant("engine/job/c.h", 'inline constexpr InputCode k_two{"GC-TREE-0003", "another key"};\n')
+        self.refused("k_two: GC-TREE-0003 is not in templates/messages.json", "no source uses the constant")
+
+    def test_retired_code_that_is_made_again(self):
+        self.plant("gum/c.cpp", 'void h() { fail("GC-TREE-0009", "a", "b"); }\n')
+        self.refused("gum/c.cpp:1: GC-TREE-0009 is retired and never given again")
+
+    def test_code_that_no_source_makes(self):
+        self.register["codes"]["GC-TREE-0004"] = dict(self.register["codes"]["GC-TREE-0002"], meaning="Nothing.")
+        self.write()
+        self.refused("codes/GC-TREE-0004: no source makes it")
+
+    def test_code_that_is_only_asked_for(self):
+        self.plant("gum/a.cpp", 'bool f(D d) { return d.code == "GC-TREE-0001"; }\n')
+        self.refused("codes/GC-TREE-0001: no source makes it")
+
+    def test_code_with_a_second_rule(self):
+        self.plant("gum/c.cpp", 'void h() {\n    fail("GC-TREE-0001", "b", "it is " "left");\n}\n')
+        self.refused("gum/c.cpp:2: GC-TREE-0001 states “it is left”", "a code has one meaning")
+        # --write takes no decision: a person lists the second rule, or gives a code of its own.
+        self.expect(self.scan("--write"), 1, "GC-TREE-0001 states “it is left”")
+        self.refused_entry("GC-TREE-0001", {"rules": ["it is right", "it is left"]}, "docs/messages.md: not what")
+        self.expect(self.scan("--write"), 0, "0 breaches")
+
+    def test_rule_by_every_way_that_sources_have(self):
+        for text in ['Diagnostic d{"GC-TREE-0001", "a", "b", "it is left", "c"};',
+                     'Diagnostic d{.code = "GC-TREE-0001", .rule = std::string("it is ") + "left", .action = "c"};',
+                     'void h() { const std::string rule = "it is left"; fail("GC-TREE-0001", "b", rule); }',
+                     'const char* k_rule = "it is left"; void h() { fail("GC-TREE-0001", "b", k_rule); }',
+                     'void m(S rule) { fail("GC-TREE-0001", "b", rule); } void h() { m("it is left"); }',
+                     'void h(bool c) { fail("GC-TREE-0001", "b", c ? "it is right" : "it is left"); }']:
+            with self.subTest(text=text):
+                self.plant("gum/a.cpp", self.SOURCE + text + "\n")
+                self.refused("GC-TREE-0001 states “it is left”")
+
+    def test_rule_that_no_source_states(self):
+        self.refused_entry("GC-TREE-0001", {"rules": ["it is right", "it is up"]}, "no source states “it is up”")
+
+    def test_code_of_a_table_that_is_written_again(self):
+        self.plant("gum/c.cpp", 'void h() {\n    fail("GC-TREE-0002", "a", "b");\n}\n')
+        self.refused("gum/c.cpp:2: GC-TREE-0002 is written a second time; use the constant k_one")
+
+    def test_two_constants_of_one_code(self):
+        self.plant("engine/job/c.h", 'inline constexpr InputCode k_two{"GC-TREE-0002", "a key"};\n')
+        self.refused("k_one and k_two: two constants of GC-TREE-0002")
+
+    def test_severity_that_the_source_does_not_have(self):
+        self.plant("gum/c.cpp", 'Diagnostic d{"GC-TREE-0001", "a", "b", "it is right", "c", Severity::warning};\n')
+        self.refused("gum/c.cpp:1: GC-TREE-0001 is of severity warning")
+
+    def test_failure_that_the_source_does_not_have(self):
+        self.plant("gum/c.cpp", 'void h() { throw NoResultError(Diagnostic{"GC-TREE-0001", "", "b", "it is right", ""}); }\n')
+        self.refused("gum/c.cpp:1: GC-TREE-0001 ends as no_result")
+
+    def test_finding_that_the_source_does_not_make(self):
+        self.refused_entry("GC-TREE-0001", {"finding": {"id": "A01", "severity": "minor"}}, "docs/findings.md says “major”")
+        self.plant("gum/c.cpp", 'Table t{{"GC-TREE-0001", "A02", "7.1"}};\n')
+        self.refused("the sources make it the finding A02")
+
+    def test_comment_and_document_that_name_no_code(self):
+        self.plant("gum/c.cpp", "// throws GC-TREE-0005\n")
+        self.plant("docs/a.md", "\nsee GC-TREE-0006\n")
+        self.refused("gum/c.cpp:1: names GC-TREE-0005", "docs/a.md:2: names GC-TREE-0006")
+
+    def test_texts_that_say_nothing(self):
+        for key, text in [("meaning", ""), ("cause", "no capital letter."), ("remedy", "No full stop"),
+                          ("meaning", "L" * 130 + "."), ("outcome", ["lost"])]:
+            with self.subTest(key=key, text=text):
+                before = dict(self.register["codes"]["GC-TREE-0001"])
+                self.refused_entry("GC-TREE-0001", {key: text}, "codes/GC-TREE-0001/" + key)
+                self.register["codes"]["GC-TREE-0001"] = before
+
+    def test_two_codes_of_one_meaning(self):
+        self.refused_entry("GC-TREE-0001", {"meaning": "A key."}, "codes/GC-TREE-0002/meaning: the same as that of GC-TREE-0001")
+
+    def test_document_that_was_edited(self):
+        self.plant("docs/messages.md", "# Messages\n")
+        self.refused("docs/messages.md: not what templates/messages.json gives")
 
 
 if __name__ == "__main__":
