@@ -27,7 +27,7 @@ constexpr const char* k_footer =
     "4 no result can be computed; 5 a file or disk trouble; 70 a defect in the program. Nothing is written when the\n"
     "exit code is 2, 3 or 4. An output is a new file or takes the place of a regular one, never of an input of the\n"
     "command. Units: um, nm/K, J/(kg K), V/Hz^(1/2), degC; docs/budget_job.md. Messages go to\n"
-    "stderr: where — what is wrong — the rule — what to do [code].";
+    "stderr: where — what is wrong — the rule — what to do [code]; gumcert explain CODE says more.";
 
 constexpr const char* k_trust_help = "Certificates that are trusted, for signatures: a PEM file, or a folder of them";
 constexpr const char* k_record_help =
@@ -228,6 +228,23 @@ void add_plan(CLI::App& program, Arguments& a) {
         "positions inside the region that the job allows. docs/planning.md");
 }
 
+void add_explain(CLI::App& program, Arguments& a) {
+    CLI::App& command = *program.add_subcommand("explain", "What the code of a message means, and what to do about it");
+    command.add_option("CODE", a.codes,
+                       "Codes, as in brackets at the end of messages, or their families, such as GC-RANK");
+    add_share(command, a.share);
+    command.footer(
+        "Example: gumcert explain GC-OUTLIER-0001     one code\n"
+        "         gumcert explain GC-OUTLIER          the codes of a family\n"
+        "         gumcert explain                     all families\n"
+        "A message says where, what is wrong, the rule and what to do. Its code stays the same from version to "
+        "version;\n"
+        "here stands what it means, what usually causes it, what to do where the message is not enough, and whether a\n"
+        "certificate can be issued all the same. Small letters, brackets and a missing GC- are understood. Texts are "
+        "in\n"
+        "English only. A finding such as R07-e is no code: docs/findings.md. All codes: docs/messages.md");
+}
+
 }  // namespace
 
 std::unique_ptr<CLI::App> command_line(Arguments& a, std::string (*version)()) {
@@ -244,6 +261,7 @@ std::unique_ptr<CLI::App> command_line(Arguments& a, std::string (*version)()) {
     add_verify(*program, a);
     add_simulate(*program, a);
     add_plan(*program, a);
+    add_explain(*program, a);
     add_common(*program, a.common);
     for (CLI::App* command : program->get_subcommands({})) {
         add_common(*command, a.common);

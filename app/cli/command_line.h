@@ -20,7 +20,7 @@ namespace gumcert::cli {
 struct Arguments {
     std::string command;  ///< "run", "evaluate", …; "" = none
     CommonOptions common;
-    std::vector<std::string> jobs, records, files, revocation_lists;
+    std::vector<std::string> jobs, records, files, revocation_lists, codes;
     std::string job, file, output, format, share, trust_store;
     DocumentOptions documents;
     std::optional<std::size_t> runs;

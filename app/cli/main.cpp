@@ -11,6 +11,7 @@
 
 #include "app/cli/certificate_commands.h"
 #include "app/cli/command_line.h"
+#include "app/cli/explain_command.h"
 #include "app/cli/issue_commands.h"
 #include "app/cli/share_folder.h"
 #include "app/cli/study_commands.h"
@@ -79,6 +80,9 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
     }
     if (a.command == "plan") {
         return plan(a.job, a.output, a.share, a.common);
+    }
+    if (a.command == "explain") {
+        return explain(a.codes, a.share);
     }
     throw std::logic_error("a command that nothing does: " + a.command);
 }

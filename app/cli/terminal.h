@@ -45,6 +45,10 @@ void report_diagnostics(const reports::EvaluationRecord& record, const CommonOpt
 /// The findings of the gates before issue, one line each; informations only where they are wanted.
 void report_findings(const reports::EvaluationRecord& record, const CommonOptions& common);
 
+/// What is wrong with the command line: GC-USAGE-0001.
+[[nodiscard]] gum::Diagnostic usage_problem(const std::string& where, const std::string& what, const std::string& rule,
+                                            const std::string& action);
+
 /// \throws gum::UsageError  GC-USAGE-0001
 [[noreturn]] void refuse_usage(const std::string& where, const std::string& what, const std::string& rule,
                                const std::string& action);
