@@ -13,6 +13,7 @@
 #include "gum/quantity/decimal_rounding.h"
 #include "gum/quantity/special_values.h"
 #include "gum/rounding.h"
+#include "text/numbers.h"
 
 namespace gumcert::app {
 
@@ -40,12 +41,7 @@ std::string shown(double degrees_of_freedom) {
     if (std::isinf(degrees_of_freedom)) {
         return "infinite";
     }
-    std::string text = std::to_string(degrees_of_freedom);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') {
-        text.pop_back();
-    }
-    return text;
+    return text::without_trailing_zeros(text::fixed(degrees_of_freedom, 6));
 }
 
 /// Sets of inputs that correlations, or readings taken together, tie to each other, each ascending, in the order of
@@ -87,11 +83,15 @@ gum::Evaluation evaluation_of(const BudgetInput& input) {
     return all_a ? gum::Evaluation::type_a : gum::Evaluation::type_b;
 }
 
+std::string coherent_unit(const gum::Unit& unit) {
+    return gum::Unit::coherent(unit.dimension()).text();
+}
+
 InputGroup single_group(const std::string& name, const BudgetInput& input, const StatedQuantity& quantity) {
     InputGroup group;
     group.name = name;
     group.source = quantity.source;
-    group.unit = gum::Unit::coherent(input.unit.dimension()).text();
+    group.unit = coherent_unit(input.unit);
     group.evaluation = quantity.evaluation;
     group.distribution = std::string(gum::distribution_name(quantity.distribution.kind));
     group.value = Eigen::VectorXd::Constant(1, quantity.value);
@@ -132,7 +132,6 @@ std::vector<Member> members_of(const BudgetJob& job, const std::vector<std::size
 /// Values, marginals and quantities of a group, and a covariance without correlations.
 void begin_group(const std::vector<Member>& members, InputGroup& group, BudgetInputs& result) {
     const auto n = static_cast<Eigen::Index>(members.size());
-    group.unit = "mixed units";
     group.evaluation = gum::Evaluation::type_a;
     group.value.resize(n);
     group.covariance = Eigen::MatrixXd::Zero(n, n);
@@ -148,6 +147,7 @@ void begin_group(const std::vector<Member>& members, InputGroup& group, BudgetIn
         group.value(i) = quantity.value;
         group.covariance(i, i) = quantity.u * quantity.u;
         group.marginals.push_back(quantity.distribution);
+        group.quantities.push_back({member.name(), coherent_unit(member.stated->unit)});
         result.quantities.push_back({member.input, member.component});
     }
 }
@@ -476,15 +476,14 @@ BudgetModel::BudgetModel(std::optional<gum::EquationSystem> system, const std::v
     }
     if (system_) {
         for (std::size_t i = 0; i < system_->output_count(); ++i) {
-            outputs_.push_back(
-                {system_->output_name(i), gum::Unit::coherent(system_->output_unit(i).dimension()).text()});
+            outputs_.push_back({system_->output_name(i), coherent_unit(system_->output_unit(i))});
         }
         if (system_->unknown_count() > 0) {
             start_ = system_->solve(this->symbols(gum::input_estimates(*this)));
         }
     } else {
         for (const BudgetSymbol& symbol : symbols) {
-            outputs_.push_back({symbol.name, gum::Unit::coherent(symbol.unit.dimension()).text()});
+            outputs_.push_back({symbol.name, coherent_unit(symbol.unit)});
         }
     }
 }
@@ -640,7 +639,6 @@ BudgetInputs budget_inputs(const BudgetJob& job, const std::vector<engine::Curve
         InputGroup group;
         group.name = job.fits[f].name;
         group.source = job.fits[f].name;
-        group.unit = "mixed units";
         group.evaluation = fit.covariance_scaled ? gum::Evaluation::type_a : gum::Evaluation::type_b;
         group.value = fit.parameters;
         group.covariance = fit.covariance;
@@ -648,6 +646,8 @@ BudgetInputs budget_inputs(const BudgetJob& job, const std::vector<engine::Curve
         for (Eigen::Index i = 0; i < fit.parameters.size(); ++i) {
             group.marginals.push_back(
                 Distribution::student_t(fit.parameters(i), std::sqrt(fit.covariance(i, i)), group.degrees_of_freedom));
+            const engine::BudgetFit::Parameter& parameter = job.fits[f].parameters[static_cast<std::size_t>(i)];
+            group.quantities.push_back({parameter.name, coherent_unit(parameter.unit)});
             result.quantities.push_back({symbol++, BudgetQuantity::k_whole});
         }
         group.dependence = fit.covariance_scaled ? Dependence::student_t : Dependence::normal;

@@ -317,10 +317,10 @@ public:
         Eigen::Index column = 0;
         for (const InputGroup& group : model_.inputs()) {
             for (Eigen::Index i = 0; i < group.size() && column < 20; ++i, ++column) {
+                const InputQuantity quantity = group.quantity(i);
                 inputs += inputs.empty() ? "" : ", ";
-                inputs += group.name + (group.size() > 1 ? "[" + std::to_string(i + 1) + "]" : "") + " = " +
-                          text::shortest(x(0, column)) +
-                          (group.unit.empty() || group.unit == "1" ? "" : " " + group.unit);
+                inputs += quantity.name + " = " + text::shortest(x(0, column)) +
+                          (quantity.unit.empty() || quantity.unit == "1" ? "" : " " + quantity.unit);
             }
         }
         if (column < draws_.size()) {

@@ -2,6 +2,13 @@
 
 namespace gumcert::gum {
 
+InputQuantity InputGroup::quantity(Eigen::Index i) const {
+    if (!quantities.empty()) {
+        return quantities[static_cast<std::size_t>(i)];
+    }
+    return {size() > 1 ? name + "[" + std::to_string(i + 1) + "]" : name, unit};
+}
+
 std::vector<Eigen::MatrixXd> MeasurementModel::hessians(const Eigen::VectorXd& /*x*/) const {
     return {};
 }

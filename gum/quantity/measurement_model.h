@@ -23,6 +23,12 @@ enum class Dependence {
     joint_samples,     ///< one row of `InputGroup::samples` a trial, each with the same probability
 };
 
+/// An input quantity as messages name it.
+struct InputQuantity {
+    std::string name;
+    std::string unit;  ///< coherent SI unit, e.g. "m"
+};
+
 /// Input quantities that share one source of uncertainty and one covariance block.
 ///
 /// Quantities of different groups are uncorrelated; inside a group the covariance says everything. A budget has one row
@@ -30,7 +36,7 @@ enum class Dependence {
 struct InputGroup {
     std::string name;    ///< what the budget row is called, e.g. "table repeatability, linear"
     std::string source;  ///< the source that it belongs to, e.g. "table repeatability"
-    std::string unit;    ///< coherent SI unit of the values, e.g. "m"; "mixed" is not allowed
+    std::string unit;    ///< coherent SI unit of the values, e.g. "m"; empty where `quantities` has one of each
     Evaluation evaluation = Evaluation::type_b;
     std::string distribution = "normal";
     Eigen::VectorXd value;       ///< n estimates, [unit]
@@ -52,8 +58,12 @@ struct InputGroup {
     /// quantity is drawn at this point alone, given those that are shared; k_shared for these. Empty: none.
     static constexpr std::uint64_t k_shared = ~std::uint64_t{0};
     std::vector<std::uint64_t> own_streams = {};
+    /// Each by its own name and unit; empty: numbered, and all in the unit of the group.
+    std::vector<InputQuantity> quantities = {};
 
     [[nodiscard]] Eigen::Index size() const { return value.size(); }
+    /// \param i  from 0, below size()
+    [[nodiscard]] InputQuantity quantity(Eigen::Index i) const;
     [[nodiscard]] bool is_diagonal() const { return covariance.cols() == 1 && value.size() != 1; }
 };
 

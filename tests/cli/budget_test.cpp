@@ -446,6 +446,11 @@ TEST_F(Budget, ModelsWithoutAValue) {
     // In some trials only: counted, and one of them is shown with its inputs.
     expect_refused(4, "GC-GUM-0120", "monte carlo, trial ", {" such trials among the first 4096", "a = -0."},
                    budget("\"y = ln(a)\"", R"("a": {"value": 1, "u": 0.4})", R"(, "monte_carlo": {"trials": 100000})"));
+    // Correlated inputs are drawn as one group: each is shown by its own name, in its own unit.
+    expect_refused(
+        4, "GC-GUM-0120", "monte carlo, trial ", {"a = -0.", ", b = 0.0", " m ("},
+        budget("\"y = ln(a)*b\"", R"("a": {"value": 1, "u": 0.4}, "b": {"value": 5, "u": 0.1, "unit": "mm"})",
+               R"(, "correlations": [["a", "b", 0.5]], "monte_carlo": {"trials": 100000})"));
 }
 
 TEST_F(Budget, TrialsBeyondAllBounds) {

@@ -35,5 +35,20 @@ TEST(InputGroup, KnowsHowItsCovarianceIsStored) {
     EXPECT_FALSE(model.inputs()[1].is_diagonal()) << "1×1: the matrix and its diagonal are the same";
 }
 
+TEST(InputGroup, NamesEachQuantityWithItsOwnUnit) {
+    InputGroup group;
+    group.name = "offset";
+    group.unit = "m";
+    group.value = Eigen::VectorXd::Zero(1);
+    EXPECT_EQ(group.quantity(0).name, "offset");
+    group.value = Eigen::VectorXd::Zero(2);
+    EXPECT_EQ(group.quantity(1).name, "offset[2]");
+    EXPECT_EQ(group.quantity(1).unit, "m");
+    group.unit.clear();
+    group.quantities = {{"offset", "m"}, {"slope", "m/K"}};
+    EXPECT_EQ(group.quantity(1).name, "slope");
+    EXPECT_EQ(group.quantity(1).unit, "m/K");
+}
+
 }  // namespace
 }  // namespace gumcert::gum
