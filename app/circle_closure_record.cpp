@@ -159,8 +159,7 @@ reports::ClosureTestRow test_row(const std::string& name, const engine::ClosureT
 }
 
 double p_value_of(const engine::ClosureTest& test) {
-    return std::isinf(test.nu_reference) ? gum::chi_square_upper_tail(test.nu * test.statistic, test.nu)
-                                         : gum::f_upper_tail(test.statistic, test.nu, test.nu_reference);
+    return gum::f_upper_tail(test.statistic, test.nu, test.nu_reference);
 }
 
 /// The largest residual, as the square of a t with one degree of freedom less than the residuals have, and its

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "gum/argument_check.h"
+#include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "text/numbers.h"
 
@@ -311,11 +312,15 @@ NestedAnalysis nested_analysis(std::span<const std::vector<std::vector<double>>>
 }
 
 double f_upper_tail(double f, double numerator_degrees_of_freedom, double denominator_degrees_of_freedom) {
-    require_f_degrees(numerator_degrees_of_freedom, denominator_degrees_of_freedom);
+    const bool is_known = denominator_degrees_of_freedom == std::numeric_limits<double>::infinity();
+    require_f_degrees(numerator_degrees_of_freedom, is_known ? 1.0 : denominator_degrees_of_freedom);
     if (f == std::numeric_limits<double>::infinity()) {
         return 0.0;
     }
     require_not_negative(f, "F");
+    if (is_known) {
+        return chi_square_upper_tail(numerator_degrees_of_freedom * f, numerator_degrees_of_freedom);
+    }
     return boost::math::cdf(
         boost::math::complement(FDistribution(numerator_degrees_of_freedom, denominator_degrees_of_freedom), f));
 }

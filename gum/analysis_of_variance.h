@@ -120,7 +120,8 @@ struct NestedAnalysis {
 
 /// P(F ≥ f) of Snedecor's F distribution.
 /// \param f  ≥ 0; infinity gives 0
-/// \param numerator_degrees_of_freedom, denominator_degrees_of_freedom  > 0, finite
+/// \param numerator_degrees_of_freedom    > 0, finite
+/// \param denominator_degrees_of_freedom  > 0; infinity, as of a known variance, leaves chi-square over its degrees
 /// \throws InputError  for an argument out of range
 [[nodiscard]] double f_upper_tail(double f, double numerator_degrees_of_freedom, double denominator_degrees_of_freedom);
 

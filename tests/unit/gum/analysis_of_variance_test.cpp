@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/support/reference_case.h"
 #include "tests/unit/gum/printed.h"
@@ -253,6 +254,12 @@ TEST(AnalysisOfVariance, SnedecorsF) {
     EXPECT_TRUE(agrees(f_upper_tail(1e12, 2, 2), 1e-12, 1e-11));
     EXPECT_EQ(f_upper_tail(0.0, 3, 4), 1.0);
     EXPECT_EQ(f_upper_tail(std::numeric_limits<double>::infinity(), 3, 4), 0.0);
+    // A known variance: chi-square over its degrees of freedom, towards which many degrees lead.
+    constexpr double k_known = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(f_upper_tail(2.5, 4, k_known), chi_square_upper_tail(10.0, 4));
+    EXPECT_TRUE(agrees(f_upper_tail(2.5, 4, 1e9), f_upper_tail(2.5, 4, k_known), 1e-7));
+    EXPECT_EQ(f_upper_tail(k_known, 4, k_known), 0.0);
+    EXPECT_EQ(code_of<InputError>([] { (void)f_upper_tail(-1.0, 3, k_known); }), "GC-GUM-0002");
     EXPECT_EQ(code_of<InputError>([] { (void)f_upper_tail(-1.0, 3, 4); }), "GC-GUM-0002");
     EXPECT_EQ(code_of<InputError>([] { (void)f_upper_tail(1.0, 0, 4); }), "GC-GUM-0003");
     EXPECT_EQ(code_of<InputError>([] { (void)f_critical_value(1.0, 3, 4); }), "GC-GUM-0004");
