@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "gum/rounding.h"
+#include "text/numbers.h"
 
 namespace gumcert::app::plan {
 
@@ -19,14 +20,7 @@ std::string U_text(double U, const DocumentUnit& unit) {
 }
 
 std::string plain(double value) {
-    std::string text = gum::round_significant(value, 9);
-    if (text.find('.') != std::string::npos && text.find('E') == std::string::npos) {
-        text.erase(text.find_last_not_of('0') + 1);
-        if (text.back() == '.') {
-            text.pop_back();
-        }
-    }
-    return text;
+    return text::without_trailing_zeros(gum::round_significant(value, 9));
 }
 
 std::string ratio_text(double ratio) {

@@ -60,12 +60,7 @@ std::string squared(const std::string& people) {
 
 /// "95.45 %"
 std::string percent_text(double probability) {
-    std::string text = text::fixed(100.0 * probability, 6);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') {
-        text.pop_back();
-    }
-    return text + " %";
+    return text::without_trailing_zeros(text::fixed(100.0 * probability, 6)) + " %";
 }
 
 /// "a, b and 3 more"

@@ -2,11 +2,10 @@
 
 #include "gum/quantity/diagnostic.h"
 #include "text/markup.h"
+#include "text/numbers.h"
 #include "text/utf8.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 
@@ -19,24 +18,12 @@ constexpr const char* k_font = "font-family=\"'Libertinus Serif', 'DejaVu Serif'
 }  // namespace
 
 std::string drawing_number(double v) {
-    std::array<char, 64> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), v, std::chars_format::fixed, 2).ptr;
-    std::string text(buffer.data(), end);
-    while (text.back() == '0') {
-        text.pop_back();
-    }
-    if (text.back() == '.') {
-        text.pop_back();
-    }
+    const std::string text = text::without_trailing_zeros(text::fixed(v, 2));
     return text == "-0" ? "0" : text;
 }
 
 std::string tick_text(double v, int decimals) {
-    std::array<char, 64> buffer{};
-    const auto end =
-        std::to_chars(buffer.data(), buffer.data() + buffer.size(), std::abs(v), std::chars_format::fixed, decimals)
-            .ptr;
-    const std::string text(buffer.data(), end);
+    const std::string text = text::fixed(std::abs(v), decimals);
     const bool zero = text.find_first_not_of("0.") == std::string::npos;
     return v < 0.0 && !zero ? "\u2212" + text : text;
 }

@@ -1,8 +1,6 @@
 #include "reports/dcc/dcc_writer.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -11,6 +9,7 @@
 #include "gum/quantity/unit.h"
 #include "reports/dcc/d_si_unit.h"
 #include "reports/record/certified_tables.h"
+#include "text/numbers.h"
 
 namespace gumcert::reports {
 
@@ -61,14 +60,6 @@ bool is_number(std::string_view text) {
 std::string with_ascii_minus(const std::string& printed) {
     constexpr std::string_view k_minus = "\u2212";
     return printed.starts_with(k_minus) ? "-" + printed.substr(k_minus.size()) : printed;
-}
-
-template <typename... Format>
-std::string written(double value, Format... format) {
-    constexpr std::size_t k_longest = 400;  // the smallest double without exponent
-    std::array<char, k_longest> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value == 0.0 ? 0.0 : value, format...).ptr;
-    return {text.data(), end};
 }
 
 std::string one_line(const std::string& text) {
@@ -182,7 +173,7 @@ std::string date_or_nothing(const std::string& text) {
 }
 
 std::string d_si_number(double value) {
-    return std::isfinite(value) ? written(value) : std::string(k_not_a_number);
+    return std::isfinite(value) ? text::shortest(value) : std::string(k_not_a_number);
 }
 
 std::string d_si_number(const std::string& printed) {
@@ -209,7 +200,7 @@ std::string d_si_coverage_factor(const std::string& printed) {
 }
 
 std::string d_si_probability(double value) {
-    return value >= 0.0 && value <= 1.0 ? written(value, std::chars_format::fixed) : std::string(k_not_a_number);
+    return value >= 0.0 && value <= 1.0 ? text::shortest_plain(value, 0.0) : std::string(k_not_a_number);
 }
 
 namespace {
