@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/evaluate_job.h"
+#include "app/progress.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::app {

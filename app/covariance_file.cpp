@@ -1,5 +1,6 @@
 #include "app/covariance_file.h"
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <utility>
@@ -19,6 +20,12 @@ constexpr std::array<std::pair<std::string_view, CovarianceForm>, 5> k_words{{{"
                                                                               {"npy", CovarianceForm::npy},
                                                                               {"parts", CovarianceForm::parts}}};
 
+/// The lower element for both, so that the file is symmetric to the last bit, as a reader may check.
+double element_in_unit(const engine::AnglewiseCovariance& covariance, const Eigen::VectorXd& per_unit, Eigen::Index i,
+                       Eigen::Index j) {
+    return covariance(std::max(i, j), std::min(i, j)) * (per_unit[i] * per_unit[j]);
+}
+
 std::string as_csv(const engine::AnglewiseCovariance& covariance, const std::vector<std::string>& names,
                    const Eigen::VectorXd& per_unit) {
     std::string text;
@@ -28,9 +35,7 @@ std::string as_csv(const engine::AnglewiseCovariance& covariance, const std::vec
     text += '\n';
     for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
         for (Eigen::Index j = 0; j < covariance.rows(); ++j) {
-            // The lower element for both, so that the file is symmetric to the last bit, as a reader may check.
-            const double element = i >= j ? covariance(i, j) : covariance(j, i);
-            text += (j == 0 ? "" : ",") + text::shortest(element * (per_unit[i] * per_unit[j]));
+            text += (j == 0 ? "" : ",") + text::shortest(element_in_unit(covariance, per_unit, i, j));
         }
         text += '\n';
     }
@@ -44,8 +49,7 @@ std::string as_npy(const engine::AnglewiseCovariance& covariance, const Eigen::V
     std::vector<double> row(rows);
     for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
         for (Eigen::Index j = 0; j < covariance.rows(); ++j) {
-            const double element = i >= j ? covariance(i, j) : covariance(j, i);
-            row[static_cast<std::size_t>(j)] = element * (per_unit[i] * per_unit[j]);
+            row[static_cast<std::size_t>(j)] = element_in_unit(covariance, per_unit, i, j);
         }
         encoding::append_npy(file, row);
     }

@@ -8,6 +8,7 @@
 
 #include "app/budget_coverage.h"
 #include "app/fit_scatter.h"
+#include "app/progress.h"
 #include "app/record_parts.h"
 #include "app/reported_result.h"
 #include "app/zero_uncertainty.h"
@@ -17,7 +18,6 @@ namespace gumcert::app {
 namespace {
 
 using engine::BudgetFit;
-using Progress = std::function<void(const std::string&)>;
 using engine::BudgetJob;
 using gum::Diagnostic;
 
@@ -151,12 +151,7 @@ bool changes(const BudgetPointResult& point, Eigen::Index output, double change,
 /// Monte Carlo of one point for each coverage probability that its outputs ask for.
 void run_monte_carlo(const BudgetJob& job, const engine::MonteCarloRequest& asked, unsigned threads,
                      const Progress& progress, BudgetPointResult& point) {
-    gum::MonteCarloOptions options = monte_carlo_options(asked, threads);
-    if (progress && job.points.empty()) {
-        options.progress = [&progress](double done) {
-            progress("Monte Carlo, " + std::to_string(static_cast<int>(100.0 * done)) + " %");
-        };
-    }
+    gum::MonteCarloOptions options = monte_carlo_options(asked, threads, job.points.empty() ? progress : Progress());
     if (!job.monte_carlo && options.adaptive) {
         options.adaptive->tolerance_divisor = k_automatic_divisor;
     }
@@ -372,8 +367,7 @@ BudgetPointResult evaluate_point(const BudgetJob& job, const std::optional<gum::
 
 }  // namespace
 
-BudgetResult evaluate_budget(const BudgetJob& job, unsigned threads,
-                             const std::function<void(const std::string&)>& progress) {
+BudgetResult evaluate_budget(const BudgetJob& job, unsigned threads, const Progress& progress) {
     BudgetResult result;
     result.symbols = budget_symbols(job);
     for (const BudgetFit& fit : job.fits) {

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/budget_model.h"
+#include "app/progress.h"
 #include "engine/curve_fit.h"
 #include "engine/job/budget_job.h"
 #include "gum/convolution.h"
@@ -71,6 +71,6 @@ struct BudgetResult {
 /// \param threads  of Monte Carlo; 0: as many as the machine has
 /// \throws InputError, NoResultError
 [[nodiscard]] BudgetResult evaluate_budget(const engine::BudgetJob& job, unsigned threads,
-                                           const std::function<void(const std::string&)>& progress = {});
+                                           const Progress& progress = {});
 
 }  // namespace gumcert::app

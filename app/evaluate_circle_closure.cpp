@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/budget_coverage.h"
+#include "app/progress.h"
 #include "app/record_parts.h"
 #include "gum/convolution.h"
 
@@ -13,8 +14,6 @@ namespace {
 
 using engine::CircleClosureJob;
 using engine::CircleClosureModel;
-using Progress = std::function<void(const std::string&)>;
-
 ClosureCoverage coverage_of(const CircleClosureModel& model, const gum::Propagation& propagation, Eigen::Index output) {
     const double nu = propagation.effective_degrees_of_freedom(output);
     ClosureCoverage all{.k = propagation.coverage_factor(output),
@@ -37,15 +36,10 @@ ClosureCoverage coverage_of(const CircleClosureModel& model, const gum::Propagat
 CircleClosureMonteCarlo run_monte_carlo(const CircleClosureJob& job, const CircleClosureResult& result,
                                         unsigned threads, const Progress& progress) {
     const CircleClosureModel trials(job.measurement, result.solution, CircleClosureModel::Inputs::deviations);
-    gum::MonteCarloOptions options = monte_carlo_options(*job.monte_carlo, threads);
+    gum::MonteCarloOptions options = monte_carlo_options(*job.monte_carlo, threads, progress);
     options.coverage_probability = job.coverage_probability;
     options.regions = false;
     options.histogram = false;
-    if (progress) {
-        options.progress = [&progress](double done) {
-            progress("Monte Carlo, " + std::to_string(static_cast<int>(100.0 * done)) + " %");
-        };
-    }
     CircleClosureMonteCarlo monte_carlo{.result = gum::run_monte_carlo(trials, options), .validations = {}};
     const ToUnit to_unit{.value = [&](double value) { return job.unit.from_si(value); },
                          .difference = [&](double value) { return job.unit.difference_from_si(value); }};

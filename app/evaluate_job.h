@@ -1,11 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "app/covariance_file.h"
+#include "app/progress.h"
 #include "engine/job/file_source.h"
 #include "reports/record/evaluation_record.h"
 
@@ -50,9 +50,6 @@ void require_comparison_job(const std::filesystem::path& job_file);
 /// \throws gum::InputError  with all that the reader refuses
 [[nodiscard]] std::vector<gum::Diagnostic> warnings_of_job(const std::string& kind, const engine::FileSource& source,
                                                            const std::string& job_file);
-
-/// Called now and then with a sentence on what is being done.
-using Progress = std::function<void(const std::string&)>;
 
 /// Reads a job with all its files, evaluates it and makes its record. Writes nothing.
 ///

@@ -8,6 +8,7 @@
 #include "app/laboratory_notes.h"
 #include "app/laboratory_scores.h"
 #include "app/laboratory_summary.h"
+#include "app/progress.h"
 #include "app/shared_sources.h"
 #include "gum/comparison.h"
 #include "gum/quantity/diagnostic.h"
@@ -15,8 +16,6 @@
 namespace gumcert::app {
 
 namespace {
-
-using Progress = std::function<void(const std::string&)>;
 
 constexpr std::size_t k_items_between_messages = 50;
 

@@ -1,6 +1,5 @@
 #include "app/evaluate_rotary_table.h"
 
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "app/document_units.h"
+#include "app/progress.h"
 #include "app/record_parts.h"
 #include "app/table_parameter_record.h"
 #include "engine/contact_point_model.h"
@@ -25,8 +25,6 @@ namespace gumcert::app {
 namespace {
 
 using engine::RotaryTableJob;
-using Progress = std::function<void(const std::string&)>;
-
 constexpr double k_detection_power = 0.8;  // of the minimal detectable bias, as Baarda chose it
 
 /// Value, standard and expanded uncertainty that the law of propagation states for an output of Monte Carlo.
@@ -47,15 +45,10 @@ RotaryTableMonteCarlo run_monte_carlo(const RotaryTableJob& job, const RotaryTab
     const auto joint = std::dynamic_pointer_cast<const engine::RotaryTableModel>(result.solution.model);
     const engine::RotaryTableTrials trials(
         *joint, {.fixture = result.fixture.model, .derived = result.parameter_model->parameters()});
-    gum::MonteCarloOptions options = monte_carlo_options(asked, threads);
+    gum::MonteCarloOptions options = monte_carlo_options(asked, threads, progress);
     options.coverage_probability = job.coverage_probability;
     options.regions = false;
     options.histogram = false;
-    if (progress) {
-        options.progress = [&progress](double done) {
-            progress("Monte Carlo, " + std::to_string(static_cast<int>(100.0 * done)) + " %");
-        };
-    }
     const std::vector<std::string>& names = result.parameter_model->parameters()->short_names();
     const PositioningScope scope = positioning_scope(*result.parameter_model);
     const auto reported = static_cast<std::size_t>(result.reported.budget.value.size());
@@ -120,10 +113,7 @@ engine::EvaluationOptions single_test_options(const engine::RotaryTableMeasureme
 engine::EvaluationOptions evaluation_options(const engine::RotaryTableMeasurement& measurement) {
     engine::EvaluationOptions options = single_test_options(measurement);
     options.chi_square_upper_tail = gum::chi_square_upper_tail;
-    options.fisher_upper_tail = [](double f, double numerator, double denominator) {
-        return std::isinf(denominator) ? gum::chi_square_upper_tail(numerator * f, numerator)
-                                       : gum::f_upper_tail(f, numerator, denominator);
-    };
+    options.fisher_upper_tail = gum::f_upper_tail;
     return options;
 }
 

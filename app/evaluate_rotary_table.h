@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "app/fixture_budget.h"
 #include "app/location_errors.h"
+#include "app/progress.h"
 #include "engine/anglewise_covariance.h"
 #include "engine/job/rotary_table_job.h"
 #include "engine/rotary_table_evaluation.h"
@@ -61,6 +61,6 @@ struct RotaryTableResult {
 /// \param threads  of Monte Carlo; 0: as many as the machine has
 /// \throws InputError, NoResultError
 [[nodiscard]] RotaryTableResult evaluate_rotary_table(engine::RotaryTableJob& job, unsigned threads,
-                                                      const std::function<void(const std::string&)>& progress = {});
+                                                      const Progress& progress = {});
 
 }  // namespace gumcert::app

@@ -5,6 +5,7 @@
 
 #include "app/laboratory_covariance.h"
 #include "app/method_side.h"
+#include "app/progress.h"
 #include "app/record_parts.h"
 #include "gum/argument_check.h"
 #include "gum/quantity/diagnostic.h"
@@ -24,7 +25,7 @@ void take_over(const engine::ComparisonJob& job, engine::ComparisonResult& resul
     result.sources.insert(result.sources.end(), sources.begin(), sources.end());
 }
 
-void tell(const std::function<void(const std::string&)>& progress, const std::string& text) {
+void tell(const Progress& progress, const std::string& text) {
     if (progress) {
         progress(text);
     }
@@ -90,8 +91,7 @@ Eigen::VectorXd LaboratoryData::values(const std::vector<std::size_t>& positions
     return x(positions);
 }
 
-std::vector<engine::ComparisonResult> results_with_budgets(const engine::ComparisonJob& job,
-                                                           const std::function<void(const std::string&)>& progress,
+std::vector<engine::ComparisonResult> results_with_budgets(const engine::ComparisonJob& job, const Progress& progress,
                                                            engine::RefusedItems& refused) {
     std::vector<engine::ComparisonResult> results = job.results;
     for (engine::ComparisonResult& result : results) {

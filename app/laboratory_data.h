@@ -2,12 +2,12 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "app/progress.h"
 #include "engine/job/comparison_job.h"
 #include "gum/reference_value.h"
 #include "reports/record/comparison_evaluation.h"
@@ -41,9 +41,9 @@ struct LaboratoryData {
 /// the sources of it.
 /// \param refused  receives the items with a budget that gives no result
 /// \throws InputError, NoResultError  those of side_of_budget(), where the job has no other item
-[[nodiscard]] std::vector<engine::ComparisonResult> results_with_budgets(
-    const engine::ComparisonJob& job, const std::function<void(const std::string&)>& progress,
-    engine::RefusedItems& refused);
+[[nodiscard]] std::vector<engine::ComparisonResult> results_with_budgets(const engine::ComparisonJob& job,
+                                                                         const Progress& progress,
+                                                                         engine::RefusedItems& refused);
 
 /// The results item by item and round by round; rounds in which nobody measured an item are left out.
 [[nodiscard]] std::vector<LaboratoryData> laboratory_data(const engine::ComparisonJob& job,

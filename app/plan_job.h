@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "app/evaluate_job.h"
+#include "app/progress.h"
 #include "reports/study_document.h"
 
 namespace gumcert::app {

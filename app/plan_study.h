@@ -13,6 +13,7 @@
 #include "app/document_units.h"
 #include "app/evaluate_job.h"
 #include "app/plan_parameters.h"
+#include "app/progress.h"
 #include "engine/job/rotary_table_job.h"
 #include "engine/measurement_plan.h"
 #include "engine/station_proposal.h"

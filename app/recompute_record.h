@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/evaluate_job.h"
+#include "app/progress.h"
 #include "gum/quantity/diagnostic.h"
 #include "reports/record/evaluation_record.h"
 

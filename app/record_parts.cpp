@@ -57,13 +57,19 @@ void at_place(const std::string& where, const std::function<void()>& work) {
     }
 }
 
-gum::MonteCarloOptions monte_carlo_options(const engine::MonteCarloRequest& asked, unsigned threads) {
+gum::MonteCarloOptions monte_carlo_options(const engine::MonteCarloRequest& asked, unsigned threads,
+                                           const Progress& progress) {
     // The numerical error has to be small against the tolerance where the law of propagation is validated
     // (JCGM 101:2008, 8.2).
     constexpr double k_validation_divisor = 5.0;
     gum::MonteCarloOptions options;
     options.seed = asked.seed;
     options.threads = threads;
+    if (progress) {
+        options.progress = [progress](double done) {
+            progress("Monte Carlo, " + std::to_string(static_cast<int>(100.0 * done)) + " %");
+        };
+    }
     if (asked.trials) {
         options.trials = *asked.trials;
     } else {

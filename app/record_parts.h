@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/progress.h"
 #include "engine/job/monte_carlo_request.h"
 #include "gum/monte_carlo.h"
 #include "gum/quantity/diagnostic.h"
@@ -50,8 +51,9 @@ struct TrialsDone {
     bool stabilised = true;
 };
 
-/// Trials, seed and threads as a job asks for them; nothing else is set.
-[[nodiscard]] gum::MonteCarloOptions monte_carlo_options(const engine::MonteCarloRequest& asked, unsigned threads);
+/// Trials, seed and threads as a job asks for them, and who is told how far they are; nothing else is set.
+[[nodiscard]] gum::MonteCarloOptions monte_carlo_options(const engine::MonteCarloRequest& asked, unsigned threads,
+                                                         const Progress& progress);
 /// The same for the options of a record; null without Monte Carlo.
 [[nodiscard]] nlohmann::json monte_carlo_json(const std::optional<engine::MonteCarloRequest>& asked);
 

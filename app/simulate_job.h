@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/evaluate_job.h"
+#include "app/progress.h"
 #include "engine/job/rotary_table_job.h"
 #include "reports/study_document.h"
 

@@ -8,6 +8,7 @@
 
 #include "app/difference_tally.h"
 #include "app/evaluate_job.h"
+#include "app/progress.h"
 #include "engine/datum.h"
 #include "engine/job/rotary_table_job.h"
 #include "gum/quantity/diagnostic.h"
