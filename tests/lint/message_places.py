@@ -14,6 +14,8 @@ CODE = re.compile(r"GC-[A-Z]+-\d{4}")
 CLASSES = {"UsageError": "usage", "InputError": "refused", "NoResultError": "no_result", "StorageError": "storage"}
 THROWN = re.compile(rf"\b({'|'.join(CLASSES)})\b")
 SEVERITY = re.compile(r"(?<!Finding)Severity::(note|warning|error)\b")
+# Functions that are told of what is wrong with its place, text and rule; who made them gives all the same code.
+CALLBACKS = {"RecordBreach": "GC-RECORD-0017"}
 FINDING = re.compile(r'"([A-Z]\d\d(?:-[0-9a-z]+)?)"')
 
 # Comments, strings, characters, numbers (1'000) and words, so that a quote inside one of them is no other one.
@@ -160,6 +162,19 @@ class Tree:
             for found in re.finditer(r"\bk_\w+", source.masked):
                 if found[0] in self.constants:
                     self.read_use(source, found.start(), found[0])
+
+        for source in self.sources:
+            for kind, code in CALLBACKS.items():
+                for name in set(re.findall(rf"\bconst {kind}& (\w+)", source.text)):
+                    self.read_calls(source, name, code)
+
+    def read_calls(self, source, name, code):
+        """`report(place, what, rule)`."""
+        for found in re.finditer(rf"\b{name}\((?!\))", source.masked):
+            arguments = split(source.inside(found.end() - 1), ",")
+            if len(arguments) == 3 and unwrapped(arguments[2]) != "rule":  # else it hands over what another one says
+                self.places[code].append(Place(source.name, source.line(found.start()),
+                                               self.rules(source, found.start(), arguments[2], "", ""), None, None))
 
     def read_literal(self, source, at, code, is_whole):
         before = source.text[max(0, at - 200):at]

@@ -1,0 +1,348 @@
+#include "reports/record/record_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reports/record/canonical_json.h"
+#include "reports/record/record_rules.h"
+#include "reports/record/reported_result.h"
+
+namespace gumcert::reports {
+
+namespace {
+
+/// The parameters of ISO 230-2 that a record may hold.
+constexpr std::array<const char*, 12> k_positioning_names = {"M",      "E", "E_up",   "E_down", "R",    "R_up",
+                                                             "R_down", "B", "B_mean", "A",      "A_up", "A_down"};
+
+/// What must hold in a Monte Carlo evaluation of one quantity.
+void check_monte_carlo(const MonteCarloSummary& m, const std::string& at, const RecordBreach& report) {
+    for (const auto& [name, ends] : {std::pair("symmetric", m.symmetric), std::pair("shortest", m.shortest)}) {
+        if (ends[0] > ends[1]) {
+            report(at + "/" + name, record_number(ends[0]) + " to " + record_number(ends[1]),
+                   "the lower end of an interval is not above the upper end");
+        }
+    }
+    std::int64_t left = m.trials;
+    for (const std::int64_t count : m.histogram) {
+        left = count > left ? -1 : left - count;
+        if (left < 0) {
+            report(at + "/histogram/counts", "more than the trials",
+                   "the cells hold at most all " + std::to_string(m.trials) + " trials");
+            break;
+        }
+    }
+    if (!m.histogram.empty() && !(m.histogram_low < m.histogram_high)) {
+        report(at + "/histogram/high", record_number(m.histogram_high), "must be above the low end");
+    }
+}
+
+/// What must hold between the parts of a circle closure.
+void check_closure(const CircleClosure& c, const RecordBreach& report) {
+    const auto length = [&](const std::string& at, std::size_t found, std::int64_t expected, const char* rule) {
+        if (std::cmp_not_equal(found, expected)) {
+            report(at, std::to_string(found) + " items", "must be " + std::to_string(expected) + ", " + rule);
+        }
+    };
+    length("/step_angles_deg", c.step_angles_deg.size(), c.steps, "one a step");
+    length("/side_angles_deg", c.side_angles_deg.size(), c.steps, "one a side");
+    length("/residuals", c.residuals.size(), c.readings, "one a reading");
+    for (std::size_t i = 0; i < c.residuals.size(); ++i) {
+        if (c.residuals[i].step > c.steps || c.residuals[i].side >= c.steps || c.residuals[i].position >= c.steps) {
+            report("/residuals/" + std::to_string(i), "a step, side or position beyond the circle",
+                   "they are numbered from 0; the closing reading is at the step after the last one");
+        }
+    }
+}
+
+/// What must hold between the parts of a rotary table.
+void check_rotary(const RotaryTable& r, const RecordBreach& report) {
+    static constexpr std::array<const char*, 6> k_stem = {"EX", "EY", "EZ", "EA", "EB", "EC"};
+    for (std::size_t i = 0; i < k_stem.size(); ++i) {
+        if (const std::string expected = k_stem[i] + r.axis; r.error_names[i] != expected) {
+            report(
+                "/error_names/" + std::to_string(i), '"' + r.error_names[i] + '"',
+                "the error motions of axis " + r.axis + " are named and ordered as in ISO 230-7: \"" + expected + '"');
+        }
+    }
+    const auto length = [&](const std::string& at, std::size_t found, std::size_t expected, const char* rule) {
+        if (found != expected) {
+            report(at, std::to_string(found) + " items", "must be " + std::to_string(expected) + ", " + rule);
+        }
+    };
+    if (std::set<std::string>(r.budget_sources.begin(), r.budget_sources.end()).size() != r.budget_sources.size()) {
+        report("/budget_sources", "a source is named twice", "every source has a name of its own");
+    }
+    for (std::size_t i = 0; i < r.budget.size(); ++i) {
+        length("/budget/" + std::to_string(i) + "/shares", r.budget[i].shares.size(), r.budget_sources.size(),
+               "one share a source");
+    }
+    for (std::size_t i = 0; i < r.budget_summary.size(); ++i) {
+        const std::string at = "/budget_summary/" + std::to_string(i);
+        length(at + "/shares", r.budget_summary[i].shares.size(), r.budget_sources.size(), "one share a source");
+        length(at + "/printed/shares", r.budget_summary[i].printed_shares.size(), r.budget_sources.size(),
+               "one share a source");
+    }
+    for (std::size_t i = 0; i < r.stations.size(); ++i) {
+        const std::string at = "/stations/" + std::to_string(i) + "/printed/";
+        length(at + "position", r.stations[i].printed_position.size(), 3, "one a coordinate");
+        length(at + "U", r.stations[i].printed_U.size(), 3, "one a coordinate");
+    }
+    for (std::size_t i = 0; i < r.reflectors.size(); ++i) {
+        const std::string at = "/reflectors/" + std::to_string(i) + "/printed/";
+        length(at + "position", r.reflectors[i].printed_position.size(), 3, "one a coordinate");
+        length(at + "U", r.reflectors[i].printed_U.size(), 3, "one a coordinate");
+        length(at + "correction", r.reflectors[i].printed_correction.size(), 3, "one a coordinate");
+        // Records of earlier releases do not hold what the CMM stated.
+        for (const auto& [name, texts] :
+             {std::pair("cmm", &r.reflectors[i].printed_cmm), std::pair("U_cmm", &r.reflectors[i].printed_U_cmm)}) {
+            length(at + name, texts->size(), texts->empty() ? 0 : 3, "one a coordinate, or none");
+        }
+    }
+    const auto symmetric = [&](const std::string& at, const std::array<std::array<double, 3>, 3>& m) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t j = 0; j < 3; ++j) {
+                const double most = std::sqrt(std::abs(m[i][i]) * std::abs(m[j][j]));
+                if (m[i][i] < 0.0 || !(std::abs(m[i][j] - m[j][i]) <= 1e-9 * most) ||
+                    !(std::abs(m[i][j]) <= most * (1.0 + 1e-9))) {
+                    report(at + "/" + std::to_string(i) + "/" + std::to_string(j), record_number(m[i][j]),
+                           "a covariance matrix is symmetric, and no covariance exceeds what its variances allow");
+                    return;
+                }
+            }
+        }
+    };
+    for (std::size_t i = 0; i < r.stations.size(); ++i) {
+        symmetric("/stations/" + std::to_string(i) + "/covariance_mm2", r.stations[i].covariance_mm2);
+    }
+    for (std::size_t i = 0; i < r.reflectors.size(); ++i) {
+        symmetric("/reflectors/" + std::to_string(i) + "/covariance_mm2", r.reflectors[i].covariance_mm2);
+    }
+    if (const GlobalTest& test = r.adjustment.global_test; test.lower > test.upper) {
+        report("/adjustment/global_test/lower", record_number(test.lower), "must not be above the upper limit");
+    }
+    const auto trials = [&](const std::string& at, const std::optional<MonteCarloSummary>& m) {
+        if (m) {
+            check_monte_carlo(*m, at + "/monte_carlo", report);
+        }
+    };
+    for (std::size_t i = 0; i < r.errors.size(); ++i) {
+        for (std::size_t m = 0; m < r.errors[i].errors.size(); ++m) {
+            trials("/errors/" + std::to_string(i) + "/" + r.error_names[m], r.errors[i].errors[m].monte_carlo);
+        }
+    }
+    for (std::size_t i = 0; i < r.ranges.size(); ++i) {
+        trials("/ranges/" + std::to_string(i), r.ranges[i].monte_carlo);
+    }
+    for (std::size_t i = 0; i < r.reversal.size(); ++i) {
+        trials("/reversal/" + std::to_string(i), r.reversal[i].value.monte_carlo);
+    }
+    const auto parameters = [&](const std::string& at, const std::vector<TableParameter>& all) {
+        std::set<std::string> names;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const std::string one = at + "/" + std::to_string(i);
+            trials(one, all[i].monte_carlo);
+            if (!names.insert(all[i].name).second) {
+                report(one + "/name", '"' + all[i].name + '"', "a parameter is listed once");
+            }
+        }
+    };
+    parameters("/axis_line", r.axis_line);
+    parameters("/location_errors", r.location_errors);
+    if (r.iso230_2) {
+        const std::vector<TableParameter>& all = r.iso230_2->parameters;
+        parameters("/iso230_2/parameters", all);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            if (std::find(k_positioning_names.begin(), k_positioning_names.end(), all[i].name) ==
+                k_positioning_names.end()) {
+                report("/iso230_2/parameters/" + std::to_string(i) + "/name", '"' + all[i].name + '"',
+                       "must be a parameter of ISO 230-2: M, E, R, B, A …");
+            }
+        }
+    }
+    if (r.monte_carlo && r.monte_carlo->validated > r.monte_carlo->compared) {
+        report("/monte_carlo/validated", std::to_string(r.monte_carlo->validated),
+               "not more than the " + std::to_string(r.monte_carlo->compared) + " that were compared");
+    }
+}
+
+/// What must hold between the results of a record and what is said of them together.
+void check_results(const EvaluationRecord& r, const RecordBreach& report) {
+    const auto length = [&](const std::string& at, std::size_t found, std::size_t expected, const char* rule) {
+        if (found != expected) {
+            report(at, std::to_string(found) + " items", "must be " + std::to_string(expected) + ", " + rule);
+        }
+        return found == expected;
+    };
+    const auto square = [&](const std::string& at, const auto& matrix, std::size_t size, const char* rule) {
+        bool sound = length(at, matrix.size(), size, rule);
+        for (std::size_t i = 0; i < matrix.size(); ++i) {
+            sound = length(at + "/" + std::to_string(i), matrix[i].size(), size, rule) && sound;
+        }
+        return sound;
+    };
+    const auto symmetric = [&](const std::string& at, const std::vector<std::vector<double>>& matrix) {
+        for (std::size_t i = 0; i < matrix.size(); ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                const double noise = 1e-9 * std::sqrt(std::abs(matrix[i][i]) * std::abs(matrix[j][j]));
+                if (!(std::abs(matrix[i][j] - matrix[j][i]) <= noise)) {
+                    report(at + "/" + std::to_string(i) + "/" + std::to_string(j), record_number(matrix[i][j]),
+                           "a covariance or correlation matrix is symmetric; the other half says " +
+                               record_number(matrix[j][i]));
+                    return;
+                }
+            }
+        }
+    };
+    std::set<std::string> names;
+    for (const Result& result : r.results) {
+        const std::string at = "/results/" + pointer_token(result.name);
+        names.insert(result.name);
+        if (result.U.has_value() != (result.coverage != "none") || (result.k && !result.U)) {
+            report(at + "/U", result.U ? "stated" : "not stated",
+                   "an expanded uncertainty is stated unless `coverage` is \"none\", and k only beside it; `coverage` "
+                   "is \"" +
+                       result.coverage + '"');
+        }
+        if (result.monte_carlo) {
+            check_monte_carlo(*result.monte_carlo, at + "/monte_carlo", report);
+        }
+        if (const auto& interval = result.reported.interval; interval && (*interval)[0] > (*interval)[1]) {
+            report(at + "/reported/interval", record_number((*interval)[0]) + " to " + record_number((*interval)[1]),
+                   "the lower end of an interval is not above the upper end");
+        }
+        if (result.reported.method == "monte_carlo" && !result.monte_carlo) {
+            report(at + "/reported/method", "\"monte_carlo\"", "a result of Monte Carlo needs its trials beside it");
+        }
+    }
+    if (r.covariance) {
+        const ResultCovariance& c = *r.covariance;
+        const std::string at = "/covariance";
+        for (std::size_t i = 0; i < c.names.size(); ++i) {
+            if (!names.contains(c.names[i])) {
+                report(at + "/names/" + std::to_string(i), '"' + c.names[i] + '"', "must be the name of a result");
+            }
+        }
+        length(at + "/units", c.units.size(), c.names.size(), "one a name");
+        const std::size_t size = c.file.empty() ? c.names.size() : 0;
+        const char* rule = c.file.empty() ? "one a name" : "because the matrix is in a file";
+        if (square(at + "/matrix", c.matrix, size, rule)) {
+            symmetric(at + "/matrix", c.matrix);
+        }
+        if (square(at + "/correlation", c.correlation, size, rule)) {
+            symmetric(at + "/correlation", c.correlation);
+        }
+        square(at + "/printed/correlation", c.printed_correlation, size, rule);
+    }
+    for (std::size_t i = 0; i < r.fits.size(); ++i) {
+        const FitSummary& f = r.fits[i];
+        const std::string at = "/fits/" + std::to_string(i);
+        if (square(at + "/covariance", f.covariance, f.parameters.size(), "one a parameter")) {
+            symmetric(at + "/covariance", f.covariance);
+        }
+        if (square(at + "/correlation", f.correlation, f.parameters.size(), "one a parameter")) {
+            symmetric(at + "/correlation", f.correlation);
+        }
+        if (!f.x_name.empty() || !f.x.empty()) {
+            length(at + "/data/x", f.x.size(), f.y.size(), "one a value of y");
+        }
+        length(at + "/data/fitted", f.fitted.size(), f.y.size(), "one a value of y");
+        length(at + "/data/residual", f.residual.size(), f.y.size(), "one a value of y");
+        const auto length_if_any = [&](const std::string& key, std::size_t found) {
+            if (found != 0) {
+                length(at + key, found, f.y.size(), "one a value of y");
+            }
+        };
+        length_if_any("/data/u_x", f.u_x.size());
+        length_if_any("/data/u_y", f.u_y.size());
+        length_if_any("/printed/x", f.printed.x.size());
+        length_if_any("/printed/y", f.printed.y.size());
+        length_if_any("/printed/u_x", f.printed.u_x.size());
+        length_if_any("/printed/u_y", f.printed.u_y.size());
+        length_if_any("/printed/residual", f.printed.residual.size());
+        for (std::size_t q = 0; q < f.regressors.size(); ++q) {
+            length_if_any("/data/regressors/" + std::to_string(q) + "/values", f.regressors[q].values.size());
+            length_if_any("/data/regressors/" + std::to_string(q) + "/printed", f.regressors[q].printed.size());
+        }
+    }
+}
+
+/// What must hold between the parts of a certificate, so that a document can be made of it.
+void check_certificate(const certificate::Certificate& c, const RecordBreach& report) {
+    const auto length = [&](const std::string& at, std::size_t found, std::size_t expected, const char* rule) {
+        if (found != expected) {
+            report(at, std::to_string(found) + " items", "must be " + std::to_string(expected) + ", " + rule);
+        }
+    };
+    for (std::size_t t = 0; t < c.tables.size(); ++t) {
+        const certificate::CertifiedTable& table = c.tables[t];
+        const std::string at = "/certificate/tables/" + std::to_string(t);
+        if (table.argument) {
+            length(at + "/argument/values", table.argument->values.size(), table.argument->printed.size(),
+                   "one a printed value");
+        }
+        const std::size_t rows = table.argument ? table.argument->printed.size() : 1;
+        for (std::size_t i = 0; i < table.columns.size(); ++i) {
+            const std::string column = at + "/columns/" + std::to_string(i) + "/values";
+            length(column, table.columns[i].values.size(), rows, table.argument ? "one a row" : "one without argument");
+            for (std::size_t row = 0; row < table.columns[i].values.size(); ++row) {
+                const auto& interval = table.columns[i].values[row].interval;
+                if (interval && interval->first > interval->second) {
+                    report(column + "/" + std::to_string(row) + "/interval",
+                           record_number(interval->first) + " to " + record_number(interval->second),
+                           "the lower end of an interval is not above the upper end");
+                }
+            }
+        }
+    }
+    if (c.data.languages.empty()) {
+        report("/certificate/data/languages", "no language", "a certificate is in one language at least");
+    }
+    for (std::size_t i = 0; i < c.data.languages.size(); ++i) {
+        if (std::find(certificate::k_languages.begin(), certificate::k_languages.end(), c.data.languages[i]) ==
+            certificate::k_languages.end()) {
+            report("/certificate/data/languages/" + std::to_string(i), '"' + c.data.languages[i] + '"',
+                   "must be one of \"en\" \"de\" \"zh-Hant\" \"es\"");
+        }
+    }
+}
+
+/// Pointers of a part as those of the record.
+RecordBreach inside(const std::string& part, const RecordBreach& report) {
+    return [part, &report](const std::string& at, std::string what, std::string rule) {
+        report(part + at, std::move(what), std::move(rule));
+    };
+}
+
+}  // namespace
+
+void check_record(const EvaluationRecord& record, const RecordBreach& report) {
+    if (record.rotary) {
+        check_rotary(*record.rotary, inside("/rotary", report));
+    }
+    if (record.circle_closure) {
+        check_closure(*record.circle_closure, inside("/circle_closure", report));
+    }
+    if (record.comparison) {
+        check_comparison(*record.comparison, inside("/comparison", report));
+    }
+    if (record.kind == "comparison" && (!record.comparison || record.comparison->form == "rotary_table")) {
+        report(record.comparison ? "/comparison/form" : "/comparison",
+               record.comparison ? "\"rotary_table\"" : "missing",
+               "a record of kind comparison holds a comparison of the form \"laboratories\" or \"methods\"");
+    }
+    check_results(record, report);
+    if (record.certificate) {
+        check_certificate(*record.certificate, report);
+    }
+}
+
+}  // namespace gumcert::reports

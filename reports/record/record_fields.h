@@ -1,0 +1,1034 @@
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+#include "certificate/certificate_fields.h"
+#include "reports/record/comparison_fields.h"
+#include "reports/record/evaluation_record.h"
+
+namespace gumcert::reports {
+
+using certificate::NumberRule;
+
+// Each struct of the record is described once, by a function `describe(archive, value)`; the writer and the reader both
+// walk that description. So the two cannot disagree on a key. Those of a certificate are in
+// certificate/certificate_fields.h, those of a comparison in reports/record/comparison_fields.h.
+
+template <class Archive, certificate::Described<Printed> Struct>
+void describe(Archive& a, Struct& r) {
+    a("value", r.value);
+    a("U", r.U);
+    a("unit", r.unit);
+}
+
+template <class Archive, certificate::Described<BudgetRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("input", r.input);
+    a("value", r.value);
+    a("unit", r.unit);
+    a("u", r.u, NumberRule::not_negative);
+    a("nu", r.nu, NumberRule::positive);
+    a("type", r.type, {"A", "B"});
+    a("distribution", r.distribution);
+    a("sensitivity", r.sensitivity);
+    a("contribution", r.contribution, NumberRule::not_negative);
+    a("share", r.share, NumberRule::not_negative);
+    a("source", r.source);
+    a.added("components", r.components);
+    a.added("role", r.role, {"", "fit", "fit_data", "fit_parameter", "scatter"});
+    a.group("printed", [&](auto& b) {
+        b.added("value", r.printed.value);
+        b("u", r.printed.u);
+        b.added("nu", r.printed.nu);
+        b.added("sensitivity", r.printed.sensitivity);
+        b("contribution", r.printed.contribution);
+        b("share", r.printed.share);
+    });
+}
+
+template <class Archive, certificate::Described<CorrelationRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("variance", r.variance);
+    a("share", r.share);
+    a.group("printed", [&](auto& b) {
+        b("contribution", r.printed.contribution);
+        b("share", r.printed.share);
+    });
+}
+
+template <class Archive, certificate::Described<SecondOrder> Struct>
+void describe(Archive& a, Struct& r) {
+    a("first_order_u", r.first_order_u, NumberRule::not_negative);
+    a("u", r.u, NumberRule::not_negative);
+    a("shift", r.shift);
+    a.group("printed", [&](auto& b) {
+        b("first_order_u", r.printed.first_order_u);
+        b("u", r.printed.u);
+        b("shift", r.printed.shift);
+    });
+}
+
+template <class Archive, certificate::Described<GufValidation> Struct>
+void describe(Archive& a, Struct& r) {
+    a("delta", r.delta, NumberRule::not_negative);
+    a("d_low", r.d_low, NumberRule::not_negative);
+    a("d_high", r.d_high, NumberRule::not_negative);
+    a("validated", r.validated);
+    a("precise_enough", r.precise_enough);
+    a("interval", r.interval, {"symmetric", "shortest"});
+    a("digits", r.digits, NumberRule::positive);
+    a.group("printed", [&](auto& b) {
+        b("delta", r.printed.delta);
+        b("d_low", r.printed.d_low);
+        b("d_high", r.printed.d_high);
+    });
+}
+
+template <class Archive, certificate::Described<MonteCarloSummary> Struct>
+void describe(Archive& a, Struct& r) {
+    a("trials", r.trials, NumberRule::positive);
+    a("seed", r.seed);
+    a("mean", r.mean);
+    a("u", r.u, NumberRule::not_negative);
+    a("symmetric", r.symmetric);
+    a("shortest", r.shortest);
+    a.group("numerical_error", [&](auto& b) {
+        b("mean", r.numerical_error.mean, NumberRule::not_negative);
+        b("u", r.numerical_error.u, NumberRule::not_negative);
+        b("symmetric", r.numerical_error.symmetric, NumberRule::not_negative);
+        b("shortest", r.numerical_error.shortest, NumberRule::not_negative);
+    });
+    a("adaptive", r.adaptive);
+    a("stabilised", r.stabilised);
+    a("validation", r.validation);
+    a.group("histogram", [&](auto& b) {
+        b("low", r.histogram_low);
+        b("high", r.histogram_high);
+        b("counts", r.histogram, NumberRule::not_negative);
+    });
+    a.group("printed", [&](auto& b) {
+        b("trials", r.printed.trials);
+        b("mean", r.printed.mean);
+        b("u", r.printed.u);
+        b("symmetric", r.printed.symmetric);
+        b("shortest", r.printed.shortest);
+    });
+}
+
+inline constexpr std::initializer_list<const char*> k_reasons = {
+    "", "asked", "second_order", "vanishing", "no_derivative", "not_linear", "asymmetric", "contradicted"};
+
+template <class Archive, certificate::Described<ReportedResult> Struct>
+void describe(Archive& a, Struct& r) {
+    a("method", r.method, {"law_of_propagation", "monte_carlo"});
+    a("value", r.value);
+    a("u", r.u, NumberRule::not_negative);
+    a("interval", r.interval);
+    a("coverage_probability", r.coverage_probability, NumberRule::probability);
+    a("U", r.U, NumberRule::not_negative);
+    a("k", r.k, NumberRule::positive);
+    a("because", r.because, k_reasons);
+    a("against", r.against, k_reasons);
+    a.group("printed", [&](auto& b) {
+        b("value", r.printed.value);
+        b("U", r.printed.U);
+        b("unit", r.printed.unit);
+        b("u", r.printed_u);
+        b("low", r.printed_low);
+        b("high", r.printed_high);
+    });
+}
+
+template <class Archive, certificate::Described<Result> Struct>
+void describe(Archive& a, Struct& r) {
+    a("description", r.description);
+    a.added("description_by_language", r.description_by_language);
+    a("value", r.value);
+    a("unit", r.unit);
+    a("u", r.u, NumberRule::not_negative);
+    a("nu_eff", r.nu_eff, NumberRule::positive);
+    a("k", r.k, NumberRule::positive);
+    a.added("k_numerical_error", r.k_numerical_error, NumberRule::not_negative);
+    a("coverage_probability", r.coverage_probability, NumberRule::probability);
+    a("U", r.U, NumberRule::not_negative);
+    a("distribution", r.distribution);
+    a.added("coverage", r.coverage, {"student_t", "normal", "convolution", "monte_carlo", "none"});
+    a.added("coverage_note", r.coverage_note);
+    a("printed", r.printed);
+    a.added("reported", r.reported);
+    a("budget", r.budget);
+    a.added("correlation", r.correlation);
+    a.added("quantity", r.quantity);
+    a.added("point", r.point);
+    a.added("second_order", r.second_order);
+    a.added("monte_carlo", r.monte_carlo);
+}
+
+template <class Archive, certificate::Described<ModelSummary> Struct>
+void describe(Archive& a, Struct& r) {
+    a("equations", r.equations);
+    a("unknowns", r.unknowns);
+}
+
+template <class Archive, certificate::Described<ResultCovariance> Struct>
+void describe(Archive& a, Struct& r) {
+    a("names", r.names);
+    a("units", r.units);
+    a("matrix", r.matrix);
+    a("correlation", r.correlation);
+    a("file", r.file);
+    a.added("method", r.method);
+    a.group("printed", [&](auto& b) { b("correlation", r.printed_correlation); });
+}
+
+template <class Archive, certificate::Described<CoverageRegion::SmallestRegion> Struct>
+void describe(Archive& a, Struct& r) {
+    a("volume", r.volume, NumberRule::not_negative);
+    a("probability", r.probability, NumberRule::probability);
+    a("cells", r.cells, NumberRule::positive);
+    a("cells_per_axis", r.cells_per_axis, NumberRule::positive);
+}
+
+template <class Archive, certificate::Described<CoverageRegion::Validation> Struct>
+void describe(Archive& a, Struct& r) {
+    a("delta", r.delta, NumberRule::not_negative);
+    a("d_value", r.d_value, NumberRule::not_negative);
+    a("d_u", r.d_u, NumberRule::not_negative);
+    a("delta_eigenvalue", r.delta_eigenvalue, NumberRule::not_negative);
+    a("d_eigenvalue", r.d_eigenvalue, NumberRule::not_negative);
+    a("delta_k_p", r.delta_k_p, NumberRule::not_negative);
+    a("d_k_p", r.d_k_p, NumberRule::not_negative);
+    a("validated", r.validated);
+}
+
+template <class Archive, certificate::Described<CoverageRegion> Struct>
+void describe(Archive& a, Struct& r) {
+    a("coverage_probability", r.coverage_probability, NumberRule::probability);
+    a("from", r.from, {"law of propagation", "Monte Carlo"});
+    a("nu", r.degrees_of_freedom, NumberRule::positive);
+    a.group("ellipsoid", [&](auto& b) {
+        b("k_p", r.k_p, NumberRule::positive);
+        b("printed_k_p", r.printed.k_p);
+    });
+    a.group("parallelepiped", [&](auto& b) {
+        b("k_q", r.k_q, NumberRule::positive);
+        b("printed_k_q", r.printed.k_q);
+    });
+    a("smallest_region", r.smallest_region);
+    a("validation", r.validation);
+}
+
+template <class Archive, certificate::Described<FitSummary::Parameter> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("unit", r.unit);
+    a("value", r.value);
+    a("u", r.u, NumberRule::not_negative);
+    a.added("scaled_u", r.scaled_u, NumberRule::not_negative);
+    a.group("printed", [&](auto& b) {
+        b("value", r.printed.value);
+        b("u", r.printed.u);
+        b("unit", r.printed.unit);
+        b.added("scaled_u", r.printed.scaled_u);
+    });
+}
+
+template <class Archive, certificate::Described<FitSummary::Regressor> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("unit", r.unit);
+    a("values", r.values);
+    a("printed", r.printed);
+}
+
+template <class Archive, certificate::Described<FitSummary> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("equation", r.equation);
+    a("method", r.method, {"ordinary", "weighted", "generalised", "errors in both variables"});
+    a("parameters", r.parameters);
+    a("covariance", r.covariance);
+    a("correlation", r.correlation);
+    a("degrees_of_freedom", r.degrees_of_freedom, NumberRule::not_negative);
+    a("sum_of_squares", r.sum_of_squares, NumberRule::not_negative);
+    a("residual_standard_deviation", r.residual_standard_deviation, NumberRule::not_negative);
+    a("r_squared", r.r_squared);
+    a("condition_number", r.condition_number, NumberRule::not_negative);
+    a("p_value", r.p_value, NumberRule::probability);
+    a.added("consistency", r.consistency, {"", "consistent", "refuted", "overstated"});
+    a("iterations", r.iterations, NumberRule::not_negative);
+    a("covariance_scaled", r.covariance_scaled);
+    a.group("data", [&](auto& b) {
+        b("x_name", r.x_name);
+        b("x_unit", r.x_unit);
+        b("y_name", r.y_name);
+        b("y_unit", r.y_unit);
+        b("x", r.x);
+        b("y", r.y);
+        b("fitted", r.fitted);
+        b("residual", r.residual);
+        b.added("u_x", r.u_x);
+        b.added("u_y", r.u_y);
+        b.added("regressors", r.regressors);
+    });
+    a.group("printed", [&](auto& b) {
+        b("residual_standard_deviation", r.printed.residual_standard_deviation);
+        b("sum_of_squares", r.printed.sum_of_squares);
+        b("p_value", r.printed.p_value);
+        b("r_squared", r.printed.r_squared);
+        b.added("x", r.printed.x);
+        b.added("y", r.printed.y);
+        b.added("u_x", r.printed.u_x);
+        b.added("u_y", r.printed.u_y);
+        b.added("residual", r.printed.residual);
+    });
+}
+
+template <class Archive, certificate::Described<OutlyingReading> Struct>
+void describe(Archive& a, Struct& r) {
+    a("input", r.input);
+    a("component", r.component);
+    a("point", r.point);
+    a("unit", r.unit);
+    a("of", r.of, {"observations", "group", "group_means"});
+    a("group", r.group, NumberRule::not_negative);
+    a("position", r.position, NumberRule::positive);
+    a("n", r.n, NumberRule::positive);
+    a("value", r.value);
+    a("G", r.G, NumberRule::not_negative);
+    a("p_value", r.p_value, NumberRule::probability);
+    a.group("printed", [&](auto& b) {
+        b("value", r.printed.value);
+        b("G", r.printed.G);
+        b("p_value", r.printed.p_value);
+    });
+}
+
+template <class Archive, certificate::Described<ReadingsSummary> Struct>
+void describe(Archive& a, Struct& r) {
+    a("input", r.input);
+    a("component", r.component);
+    a("unit", r.unit);
+    a.added("point", r.point);
+    a.added("observations", r.observations);
+    a("n", r.n, NumberRule::positive);
+    a("mean", r.mean);
+    a("standard_deviation", r.standard_deviation, NumberRule::not_negative);
+    a("standard_deviation_of_mean", r.standard_deviation_of_mean, NumberRule::not_negative);
+    a("pooled_standard_deviation", r.pooled_standard_deviation, NumberRule::not_negative);
+    a.added("pooled_degrees_of_freedom", r.pooled_degrees_of_freedom, NumberRule::positive);
+    a.added("pooled_F", r.pooled_F, NumberRule::not_negative);
+    a("autocorrelation", r.autocorrelation);
+    a("autocorrelation_limit", r.autocorrelation_limit, NumberRule::not_negative);
+    a("dependent", r.dependent);
+    a.group("printed", [&](auto& b) {
+        b("mean", r.printed.mean);
+        b("standard_deviation", r.printed.standard_deviation);
+        b("standard_deviation_of_mean", r.printed.standard_deviation_of_mean);
+        b("r1", r.printed.r1);
+        b("limit", r.printed.limit);
+    });
+}
+
+template <class Archive, certificate::Described<VarianceAnalysis> Struct>
+void describe(Archive& a, Struct& r) {
+    a("input", r.input);
+    a("component", r.component);
+    a("unit", r.unit);
+    a.added("point", r.point);
+    a("groups", r.groups, NumberRule::positive);
+    a("readings", r.readings, NumberRule::positive);
+    a("mean", r.mean);
+    a("sum_of_squares_between", r.sum_of_squares_between, NumberRule::not_negative);
+    a("sum_of_squares_within", r.sum_of_squares_within, NumberRule::not_negative);
+    a("degrees_of_freedom_between", r.degrees_of_freedom_between, NumberRule::positive);
+    a("degrees_of_freedom_within", r.degrees_of_freedom_within, NumberRule::positive);
+    a("mean_square_between", r.mean_square_between, NumberRule::not_negative);
+    a("mean_square_within", r.mean_square_within, NumberRule::not_negative);
+    a("F", r.F, NumberRule::not_negative);
+    a("p_value", r.p_value, NumberRule::probability);
+    a("F_critical", r.F_critical, NumberRule::not_negative);
+    a("r_squared", r.r_squared);
+    a("standard_deviation_within", r.standard_deviation_within, NumberRule::not_negative);
+    a("standard_deviation_of_group_means", r.standard_deviation_of_group_means, NumberRule::not_negative);
+    a("standard_deviation_between", r.standard_deviation_between, NumberRule::not_negative);
+    a("u_with_between_effect", r.u_with_between_effect, NumberRule::not_negative);
+    a("u_without_between_effect", r.u_without_between_effect, NumberRule::not_negative);
+    a("conclusion", r.conclusion, {"significant", "not significant"});
+    a.group("printed", [&](auto& b) {
+        b("mean", r.printed.mean);
+        b("F", r.printed.F);
+        b("F_critical", r.printed.F_critical);
+        b("p_value", r.printed.p_value);
+        b("within", r.printed.within);
+        b("between", r.printed.between);
+        b("group_means", r.printed.group_means);
+        b("mean_square", r.printed.mean_square);
+    });
+}
+
+template <class Archive, certificate::Described<ErrorValue> Struct>
+void describe(Archive& a, Struct& r) {
+    a("value", r.value);
+    a("u", r.u, NumberRule::not_negative);
+    a("U", r.U, NumberRule::not_negative);
+    a("k", r.k, NumberRule::positive);
+    a("nu_eff", r.nu_eff, NumberRule::positive);
+    a("printed", r.printed);
+    a.added("monte_carlo", r.monte_carlo);
+    a.added("reported", r.reported);
+}
+
+template <class Archive, certificate::Described<SetUp> Struct>
+void describe(Archive& a, Struct& r) {
+    a("O_um", r.O_um);
+    a("S_arcsec", r.S_arcsec);
+    a("u_O_um", r.u_O_um, NumberRule::not_negative);
+    a("u_S_arcsec", r.u_S_arcsec, NumberRule::not_negative);
+    a("U_O_um", r.U_O_um, NumberRule::not_negative);
+    a("U_S_arcsec", r.U_S_arcsec, NumberRule::not_negative);
+    a("k", r.k, NumberRule::positive);
+    a.group("printed", [&](auto& b) {
+        b("O", r.printed_O);
+        b("S", r.printed_S);
+    });
+}
+
+template <class Archive, certificate::Described<Reversal> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    describe(a, r.value);
+}
+
+template <class Archive, certificate::Described<Station> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("position_mm", r.position_mm);
+    a("u_mm", r.u_mm, NumberRule::not_negative);
+    a("scale_deviation", r.scale_deviation);
+    a("u_scale", r.u_scale, NumberRule::not_negative);
+    a.group("printed", [&](auto& b) {
+        b("position", r.printed_position);
+        b("U", r.printed_U);
+        b("scale", r.printed_scale);
+    });
+    a.added("covariance_mm2", r.covariance_mm2);
+}
+
+template <class Archive, certificate::Described<DeadPath> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("value_mm", r.value_mm);
+    a("u_mm", r.u_mm, NumberRule::not_negative);
+    a("printed", r.printed);
+}
+
+template <class Archive, certificate::Described<Reflector> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("position_mm", r.position_mm);
+    a("u_mm", r.u_mm, NumberRule::not_negative);
+    a("correction_um", r.correction_um);
+    a.group("printed", [&](auto& b) {
+        b("position", r.printed_position);
+        b("U", r.printed_U);
+        b("correction", r.printed_correction);
+        b.added("cmm", r.printed_cmm);
+        b.added("U_cmm", r.printed_U_cmm);
+    });
+    a.added("home_position_mm", r.home_position_mm);
+    a.added("covariance_mm2", r.covariance_mm2);
+    a.added("cmm_mm", r.cmm_mm);
+    a.added("u_cmm_mm", r.u_cmm_mm, NumberRule::not_negative);
+}
+
+template <class Archive, certificate::Described<BudgetSummaryRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("quantity", r.quantity);
+    a("rms_u", r.rms_u, NumberRule::not_negative);
+    a("unit", r.unit);
+    a("shares", r.shares, NumberRule::any);
+    a.group("printed", [&](auto& b) {
+        b("rms_u", r.printed_rms_u);
+        b("shares", r.printed_shares);
+    });
+}
+
+template <class Archive, certificate::Described<GlobalTest> Struct>
+void describe(Archive& a, Struct& r) {
+    a("probability", r.probability, NumberRule::probability);
+    a("lower", r.lower, NumberRule::not_negative);
+    a("upper", r.upper, NumberRule::not_negative);
+    a("accepted", r.accepted);
+    a("meaning", r.meaning);
+    a.group("printed", [&](auto& b) {
+        b("lower", r.printed_lower);
+        b("upper", r.printed_upper);
+    });
+}
+
+template <class Archive, certificate::Described<AdjustmentSummary> Struct>
+void describe(Archive& a, Struct& r) {
+    a("method", r.method, {"joint", "sequential"});
+    a("observations", r.observations);
+    a("parameters", r.parameters);
+    a("degrees_of_freedom", r.degrees_of_freedom);
+    a("iterations", r.iterations);
+    a("chi_square", r.chi_square, NumberRule::not_negative);
+    a("p_value", r.p_value, NumberRule::probability);
+    a("condition_number", r.condition_number, NumberRule::not_negative);
+    a.group("variance_factor", [&](auto& b) {
+        b("a_priori", r.variance_factor.a_priori, NumberRule::not_negative);
+        b("a_posteriori", r.variance_factor.a_posteriori, NumberRule::not_negative);
+        b("used", r.variance_factor.used, {"a_priori", "a_posteriori"});
+        b.added("reason", r.variance_factor.reason);
+    });
+    a.added("global_test", r.global_test);
+    a.group("printed", [&](auto& b) {
+        b("chi_square", r.printed.chi_square);
+        b("p_value", r.printed.p_value);
+        b("variance_factor", r.printed.variance_factor);
+        b("condition_number", r.printed.condition_number);
+    });
+}
+
+template <class Archive, certificate::Described<VarianceComponent> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("value", r.value, NumberRule::not_negative);
+    a("u", r.u, NumberRule::not_negative);
+    a("unit", r.unit);
+    a("redundancy", r.redundancy);
+    a("estimated", r.estimated);
+    a("printed", r.printed);
+    a.added("stated", r.stated, NumberRule::not_negative);
+    a.added("degrees_of_freedom", r.degrees_of_freedom, NumberRule::not_negative);
+    a.added("used", r.used);
+    a.added("printed_stated", r.printed_stated);
+}
+
+template <class Archive, certificate::Described<ReliabilityRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("station", r.station);
+    a("reflector", r.reflector);
+    a("pass", r.pass);
+    a("angle_deg", r.angle_deg);
+    a("residual_um", r.residual_um);
+    a("redundancy_number", r.redundancy_number);
+    a("test_value", r.test_value);
+    a("minimal_detectable_bias_um", r.minimal_detectable_bias_um);
+    a("flagged", r.flagged);
+    a("removed", r.removed);
+    a.added("printed_length", r.printed_length);
+}
+
+template <class Archive, certificate::Described<FlaggedDistance> Struct>
+void describe(Archive& a, Struct& r) {
+    a("station", r.station);
+    a("reflector", r.reflector);
+    a("pass", r.pass);
+    a("angle", r.angle);
+    a("residual_um", r.residual_um);
+    a("test_value", r.test_value);
+    a("removed", r.removed);
+    a.added("estimated_error_um", r.estimated_error_um);
+    a.added("found_with", r.found_with);
+    a.added("reason", r.reason);
+}
+
+template <class Archive, certificate::Described<FixtureReliabilityRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("reflector", r.reflector);
+    a("coordinate", r.coordinate, {"x", "y", "z"});
+    a("residual_um", r.residual_um);
+    a("redundancy_number", r.redundancy_number);
+    a("test_value", r.test_value);
+    a("minimal_detectable_bias_um", r.minimal_detectable_bias_um);
+}
+
+template <class Archive, certificate::Described<ExternalReliability> Struct>
+void describe(Archive& a, Struct& r) {
+    a("quantity", r.quantity);
+    a("angle_deg", r.angle_deg);
+    a("influence", r.influence);
+    a("unit", r.unit);
+    a("ratio_to_U", r.ratio_to_U);
+    a("station", r.station);
+    a("reflector", r.reflector);
+    a("pass", r.pass);
+    a("at_angle_deg", r.at_angle_deg);
+    a("minimal_detectable_bias_um", r.minimal_detectable_bias_um);
+}
+
+template <class Archive, certificate::Described<TableParameter> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("description", r.description);
+    a("unit", r.unit, {"um", "arcsec"});
+    a("value", r.value);
+    a("u", r.u, NumberRule::not_negative);
+    a("U", r.U, NumberRule::not_negative);
+    a("k", r.k, NumberRule::positive);
+    a("nu_eff", r.nu_eff, NumberRule::positive);
+    a("printed", r.printed);
+    a("monte_carlo", r.monte_carlo);
+    a.added("reported", r.reported);
+}
+
+template <class Archive, certificate::Described<PositioningTarget> Struct>
+void describe(Archive& a, Struct& r) {
+    a("angle_deg", r.angle_deg);
+    a("mean_up", r.mean_up);
+    a("mean_down", r.mean_down);
+    a("s_up", r.s_up, NumberRule::not_negative);
+    a("s_down", r.s_down, NumberRule::not_negative);
+    a("reversal", r.reversal);
+    a.group("printed", [&](auto& b) {
+        b("angle", r.printed_angle);
+        b("mean_up", r.printed_mean_up);
+        b("mean_down", r.printed_mean_down);
+        b("s_up", r.printed_s_up);
+        b("s_down", r.printed_s_down);
+        b("reversal", r.printed_reversal);
+    });
+    a.added("runs_up", r.runs_up);
+    a.added("runs_down", r.runs_down);
+}
+
+template <class Archive, certificate::Described<PositioningAccuracy> Struct>
+void describe(Archive& a, Struct& r) {
+    std::string unit = "arcsec";
+    a("unit", unit, {"arcsec"});
+    a("runs_up", r.runs_up, NumberRule::not_negative);
+    a("runs_down", r.runs_down, NumberRule::not_negative);
+    a("parameters", r.parameters);
+    a.by_name(r.parameters);
+    a("targets", r.targets);
+    a("u_deviation", r.u_deviation, NumberRule::not_negative);
+    a("remarks", r.remarks);
+    a.group("printed", [&](auto& b) { b("u_deviation", r.printed_u_deviation); });
+}
+
+template <class Archive, certificate::Described<RotaryMonteCarlo> Struct>
+void describe(Archive& a, Struct& r) {
+    a("trials", r.trials, NumberRule::positive);
+    a("seed", r.seed);
+    a("most_steps", r.most_steps, NumberRule::not_negative);
+    a("mean_steps", r.mean_steps, NumberRule::not_negative);
+    a("compared", r.compared, NumberRule::not_negative);
+    a("validated", r.validated, NumberRule::not_negative);
+    a("not_validated", r.not_validated);
+    a("statement", r.statement);
+}
+
+template <class Archive, certificate::Described<FixtureBudget> Struct>
+void describe(Archive& a, Struct& r) {
+    a("method", r.method, {"stated", "budget", "source_paper"});
+    a("file", r.file);
+    a("largest", r.largest);
+    a("largest_coordinate", r.largest_coordinate);
+    a("remarks", r.remarks);
+}
+
+template <class Archive, certificate::Described<RangeRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("value", r.value, NumberRule::not_negative);
+    a("U", r.U, NumberRule::not_negative);
+    a("printed", r.printed);
+    a.added("u", r.u, NumberRule::not_negative);
+    a.added("k", r.k, NumberRule::positive);
+    a.added("nu_eff", r.nu_eff, NumberRule::positive);
+    a.added("monte_carlo", r.monte_carlo);
+    a.added("reported", r.reported);
+}
+
+template <class Archive, certificate::Described<GroupTestRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("kind", r.kind);
+    a("tests", r.tests, NumberRule::positive);
+    a("test_value", r.test_value, NumberRule::not_negative);
+    a("degrees_of_freedom", r.degrees_of_freedom, NumberRule::positive);
+    a("critical_value", r.critical_value, NumberRule::not_negative);
+    a("p_value", r.p_value, NumberRule::probability);
+    a("station", r.station);
+    a("reflector", r.reflector);
+    a("pass", r.pass);
+    a("angle_deg", r.angle_deg);
+    a("estimate", r.estimate);
+    a("unit", r.unit, {"um", "ppm", "1"});
+    a("minimal_detectable", r.minimal_detectable, NumberRule::not_negative);
+    a("suspicious", r.suspicious);
+    a.group("printed", [&](auto& b) {
+        b("test_value", r.printed.test_value);
+        b("critical_value", r.printed.critical_value);
+        b("p_value", r.printed.p_value);
+        b("angle", r.printed.angle);
+        b("estimate", r.printed.estimate);
+        b("minimal_detectable", r.printed.minimal_detectable);
+    });
+}
+
+template <class Archive, certificate::Described<GroupTestSummary> Struct>
+void describe(Archive& a, Struct& r) {
+    a("alpha", r.alpha, NumberRule::probability);
+    a("scale", r.scale, NumberRule::not_negative);
+    a("kinds", r.kinds);
+    a.group("printed", [&](auto& b) { b("scale", r.printed_scale); });
+}
+
+template <class Archive, certificate::Described<ReversalTestRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("test_value", r.test_value, NumberRule::not_negative);
+    a("degrees_of_freedom", r.degrees_of_freedom, NumberRule::positive);
+    a("residual_degrees_of_freedom", r.residual_degrees_of_freedom, NumberRule::positive);
+    a("p_value", r.p_value, NumberRule::probability);
+    a("spread", r.spread, NumberRule::not_negative);
+    a("unit", r.unit, {"um", "arcsec"});
+    a("depends_on_angle", r.depends_on_angle);
+    a.group("printed", [&](auto& b) {
+        b("test_value", r.printed.test_value);
+        b("p_value", r.printed.p_value);
+        b("spread", r.printed.spread);
+    });
+}
+
+template <class Archive, certificate::Described<ReversalModel> Struct>
+void describe(Archive& a, Struct& r) {
+    a("model", r.model, {"constant", "by_angle"});
+    a("alpha", r.alpha, NumberRule::probability);
+    a("tests", r.tests);
+}
+
+template <class Archive, certificate::Described<VisitRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("station", r.station);
+    a("pass", r.pass);
+    a("direction", r.direction, {"+", "-"});
+    a("angle_deg", r.angle_deg);
+    a("deviation_um", r.deviation_um);
+    a("limit_um", r.limit_um, NumberRule::not_negative);
+    a("axial_arcsec", r.axial_arcsec);
+}
+
+template <class Archive, certificate::Described<SensePoint> Struct>
+void describe(Archive& a, Struct& r) {
+    a("angle_deg", r.angle_deg);
+    a("value", r.value);
+    a("u", r.u);
+    a("U", r.U);
+}
+
+template <class Archive, certificate::Described<SenseCurve> Struct>
+void describe(Archive& a, Struct& r) {
+    a("direction", r.direction, {"+", "-"});
+    a("points", r.points);
+}
+
+template <class Archive, certificate::Described<HarmonicOrder> Struct>
+void describe(Archive& a, Struct& r) {
+    a("order", r.order, NumberRule::positive);
+    a("amplitude", r.amplitude, NumberRule::not_negative);
+    a("u", r.u, NumberRule::not_negative);
+    a("U", r.U, NumberRule::not_negative);
+    a("phase_deg", r.phase_deg);
+    a.group("printed", [&](auto& b) {
+        b("amplitude", r.printed.amplitude);
+        b("U", r.printed.U);
+        b("phase", r.printed.phase);
+    });
+}
+
+template <class Archive, certificate::Described<HarmonicRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("unit", r.unit, {"um", "arcsec"});
+    a("orders", r.orders);
+    a("rms_rest", r.rms_rest, NumberRule::not_negative);
+    a.group("printed", [&](auto& b) { b("rest", r.printed_rest); });
+}
+
+template <class Archive, certificate::Described<ExcludedDistances> Struct>
+void describe(Archive& a, Struct& r) {
+    a("station", r.station);
+    a("reflector", r.reflector);
+    a("pass", r.pass);
+    a("direction", r.direction, {"", "+", "-"});
+    a("angle", r.angle);
+    a("lines", r.lines);
+    a("count", r.count, NumberRule::not_negative);
+    a("reason", r.reason);
+}
+
+template <class Archive, certificate::Described<StationEnvironment> Struct>
+void describe(Archive& a, Struct& r) {
+    a("station", r.station);
+    a("fixture_degC", r.fixture_degC);
+    a("u_fixture_K", r.u_fixture_K, NumberRule::not_negative);
+    a("air_degC", r.air_degC);
+    a("pressure_hPa", r.pressure_hPa);
+    a("humidity_percent", r.humidity_percent);
+    a("expansion_um", r.expansion_um);
+    a.group("printed", [&](auto& b) {
+        b("fixture", r.printed.fixture);
+        b("u_fixture", r.printed.u_fixture);
+        b("air", r.printed.air);
+        b("pressure", r.printed.pressure);
+        b("humidity", r.printed.humidity);
+        b("expansion", r.printed.expansion);
+    });
+}
+
+template <class Archive, certificate::Described<Environment> Struct>
+void describe(Archive& a, Struct& r) {
+    a("reference_degC", r.reference_degC);
+    a("expansion_per_K", r.expansion_per_K);
+    a("u_expansion_per_K", r.u_expansion_per_K, NumberRule::not_negative);
+    a("largest_distance_mm", r.largest_distance_mm, NumberRule::not_negative);
+    a("largest_share", r.largest_share);
+    a("stations", r.stations);
+    a.group("printed", [&](auto& b) {
+        b("reference", r.printed.reference);
+        b("expansion", r.printed.expansion);
+        b("u_expansion", r.printed.u_expansion);
+        b("largest_distance", r.printed.largest_distance);
+        b("largest_share", r.printed.largest_share);
+        b("lowest", r.printed.lowest);
+        b("highest", r.printed.highest);
+        b("least_expansion", r.printed.least_expansion);
+        b("most_expansion", r.printed.most_expansion);
+    });
+}
+
+template <class Archive, certificate::Described<InputFile> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("sha256", r.sha256);
+    a.added("content", r.content);
+    a.added("encoding", r.encoding, {"utf-8", "base64", "none"});
+}
+
+template <class Archive, certificate::Described<Software> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("version", r.version);
+    a("commit", r.commit);
+}
+
+template <class Archive, certificate::Described<gum::Diagnostic> Struct>
+void describe(Archive& a, Struct& r) {
+    a("code", r.code);
+    a("where", r.where);
+    a("what", r.what);
+    a("rule", r.rule);
+    a("action", r.action);
+    a.severity("severity", r.severity);
+}
+
+template <class Archive, certificate::Described<IdentifiedSentence::Argument> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("value", r.value);
+}
+
+template <class Archive, certificate::Described<IdentifiedSentence> Struct>
+void describe(Archive& a, Struct& r) {
+    a("id", r.id);
+    a("arguments", r.arguments);
+    a("text", r.text);
+}
+
+template <class Archive, certificate::Described<InputQuantity> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("description", r.description);
+    a("unit", r.unit);
+}
+
+template <class Archive, certificate::Described<MachinePoint> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("residual_um", r.residual_um);
+    a("u_um", r.u_um, NumberRule::positive);
+}
+
+template <class Archive, certificate::Described<MachineFrame> Struct>
+void describe(Archive& a, Struct& r) {
+    a("by", r.by);
+    a("source", r.source);
+    a("nominal_point_mm", r.nominal_point_mm);
+    a("points", r.points);
+    a("chi_square", r.chi_square, NumberRule::not_negative);
+    a("degrees_of_freedom", r.degrees_of_freedom, NumberRule::not_negative);
+    a("p_value", r.p_value, NumberRule::probability);
+    a.group("printed", [&](auto& b) {
+        b("p", r.printed_p);
+        b("residual", r.printed_residual);
+    });
+}
+
+template <class Archive, certificate::Described<RotaryTable> Struct>
+void describe(Archive& a, Struct& r) {
+    a("axis", r.axis, {"A", "B", "C"});
+    a("datum", r.datum, {"axis_average_line", "home"});
+    a("method", r.method, {"joint", "sequential"});
+    a("home_angle_deg", r.home_angle_deg);
+    a("error_names", r.error_names);
+    a("error_units", r.error_units);
+    a("set_up", r.set_up);
+    a("axis_in_fixture", r.axis_in_fixture);
+    a.errors("errors", r.errors, r);
+    a("reversal", r.reversal);
+    a("ranges", r.ranges);
+    a.group("covariance", [&](auto& b) {
+        b("file", r.covariance_file);
+        b("order", r.covariance_order);
+        b("unit", r.covariance_unit);
+    });
+    a("stations", r.stations);
+    a("dead_paths", r.dead_paths);
+    a("reflectors", r.reflectors);
+    a("budget_sources", r.budget_sources);
+    a.quantity_budgets("budget", r.budget, r.budget_sources);
+    a("budget_summary", r.budget_summary);
+    a("adjustment", r.adjustment);
+    a("variance_components", r.variance_components);
+    a("reliability", r.reliability);
+    a("flagged", r.flagged);
+    a.group("outlier_test", [&](auto& b) {
+        b("critical_value", r.outlier_critical_value, NumberRule::not_negative);
+        b("alpha", r.outlier_alpha, NumberRule::probability);
+        b("printed_critical_value", r.printed_critical_value);
+    });
+    a.added("fixture_reliability", r.fixture_reliability);
+    a.added("external_reliability", r.external_reliability);
+    a.added("axis_line", r.axis_line);
+    a.added("location_errors", r.location_errors);
+    a.added("machine_frame", r.machine_frame);
+    a.added("iso230_2", r.iso230_2);
+    a.added("monte_carlo", r.monte_carlo);
+    a.added("fixture_budget", r.fixture_budget);
+    a.added("group_tests", r.group_tests);
+    a.added("reversal_model", r.reversal_model);
+    a.added("visits", r.visits);
+    a.added("sense_curves", r.sense_curves);
+    a.added("harmonics", r.harmonics);
+    a.added("environment", r.environment);
+    a.added("exclusions", r.exclusions);
+}
+
+template <class Archive, certificate::Described<ClosureSeriesRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("position", r.position, NumberRule::not_negative);
+    a("repetition", r.repetition);
+    a("readings", r.readings, NumberRule::positive);
+    a("zero", r.zero);
+    a("drift", r.drift);
+    a("residual_rms", r.residual_rms, NumberRule::not_negative);
+    a("misclosure", r.misclosure);
+    a.group("printed", [&](auto& b) {
+        b("zero", r.printed.zero);
+        b("drift", r.printed.drift);
+        b("residual_rms", r.printed.residual_rms);
+        b("misclosure", r.printed.misclosure);
+    });
+}
+
+template <class Archive, certificate::Described<ClosureResidualRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("position", r.position, NumberRule::not_negative);
+    a("step", r.step, NumberRule::not_negative);
+    a("side", r.side, NumberRule::not_negative);
+    a("repetition", r.repetition);
+    a("reading", r.reading);
+    a("residual", r.residual);
+    a("redundancy", r.redundancy, NumberRule::probability);
+    a.group("printed", [&](auto& b) {
+        b("reading", r.printed.reading);
+        b("residual", r.printed.residual);
+    });
+}
+
+template <class Archive, certificate::Described<ClosureTestRow> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name, {"stated", "repetition", "reading", "misclosure"});
+    a("statistic", r.statistic, NumberRule::not_negative);
+    a("nu", r.nu, NumberRule::positive);
+    a("nu_reference", r.nu_reference, NumberRule::positive);
+    a("p_value", r.p_value, NumberRule::probability);
+    a("accepted", r.accepted);
+    a.group("printed", [&](auto& b) {
+        b("statistic", r.printed.statistic);
+        b("nu", r.printed.nu);
+        b("nu_reference", r.printed.nu_reference);
+        b("p_value", r.printed.p_value);
+    });
+}
+
+template <class Archive, certificate::Described<CircleClosure> Struct>
+void describe(Archive& a, Struct& r) {
+    a("table", r.table);
+    a("artefact", r.artefact);
+    a("artefact_description", r.artefact_description);
+    a("unit", r.unit);
+    a("numbering", r.numbering, {"with", "against"});
+    a("sense", r.sense, {"positive", "negative"});
+    a("drift", r.drift, {"none", "linear"});
+    a("steps", r.steps, NumberRule::positive);
+    a("positions", r.positions, NumberRule::positive);
+    a("step_angles_deg", r.step_angles_deg);
+    a("side_angles_deg", r.side_angles_deg);
+    a("full", r.full);
+    a("readings", r.readings, NumberRule::positive);
+    a("unknowns", r.unknowns, NumberRule::positive);
+    a("degrees_of_freedom", r.degrees_of_freedom, NumberRule::not_negative);
+    a("residual_standard_deviation", r.residual_standard_deviation, NumberRule::not_negative);
+    a("u_reading", r.u_reading, NumberRule::not_negative);
+    a("nu_reading", r.nu_reading, NumberRule::positive);
+    a("u_reading_from", r.u_reading_from, {"residuals", "stated"});
+    a("condition_number", r.condition_number, NumberRule::positive);
+    a("tests", r.tests);
+    a("series", r.series);
+    a("residuals", r.residuals);
+    a.group("printed", [&](auto& b) {
+        b("residual_standard_deviation", r.printed.residual_standard_deviation);
+        b("u_reading", r.printed.u_reading);
+        b("unit", r.printed.unit);
+    });
+}
+
+template <class Archive, certificate::Described<EvaluationRecord> Struct>
+void describe(Archive& a, Struct& r) {
+    a.constant("schema", EvaluationRecord::k_schema);
+    a("kind", r.kind, {"budget", "rotary_table", "circle_closure", "comparison"});
+    a("title", r.title);
+    a("software", r.software);
+    a("coverage_probability", r.coverage_probability, NumberRule::probability);
+    a.group("printed", [&](auto& b) { b("coverage_probability", r.printed_coverage); });
+    a.group("job", [&](auto& b) {
+        b.document("document", r.job_json);
+        b("files", r.job_files);
+    });
+    a.document("options", r.options_json);
+    a.results("results", r.results);
+    a.added("inputs", r.inputs);
+    a.added("model", r.model);
+    a.added("covariance", r.covariance);
+    a.added("region", r.region);
+    a.added("fits", r.fits);
+    a.added("readings", r.readings);
+    a.added("variance_analyses", r.variance_analyses);
+    a.added("outliers", r.outliers);
+    a("rotary", r.rotary);
+    a.added("circle_closure", r.circle_closure);
+    a("comparison", r.comparison);
+    a.added("certificate", r.certificate);
+    a("diagnostics", r.diagnostics);
+    a.added("statements", r.statements);
+    a.digest("digest", r.digest);
+    a.null("audit");  // the record of this version holds no audit
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,560 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "encoding/sha2.h"
+#include "gum/quantity/diagnostic.h"
+#include "reports/record/canonical_json.h"
+#include "reports/record/record_check.h"
+#include "reports/record/record_fields.h"
+#include "reports/record/record_problems.h"
+#include "reports/record/record_rules.h"
+#include "reports/record/record_text.h"
+#include "reports/record/reported_result.h"
+
+namespace gumcert::reports {
+
+namespace {
+
+using nlohmann::json;
+using Range = certificate::NumberRule;
+
+class Reader {
+public:
+    Reader(const json& object, std::string pointer, RecordProblems& problems)
+        : object_(object), pointer_(std::move(pointer)), problems_(problems) {}
+
+    template <class Type>
+    void operator()(const char* key, Type& v, Range range = Range::any) {
+        if (const json* item = find(key)) {
+            from_json(*item, v, {pointer_, key}, range);
+        }
+    }
+
+    void operator()(const char* key, std::string& v, std::initializer_list<const char*> allowed) {
+        const json* item = find(key);
+        if (item == nullptr) {
+            return;
+        }
+        from_json(*item, v, {pointer_, key}, Range::any);
+        if (item->is_string() && std::find(allowed.begin(), allowed.end(), v) == allowed.end()) {
+            unknown_word(pointer_ + "/" + key, v, allowed);
+        }
+    }
+
+    void operator()(const char* key, std::vector<std::string>& v, std::initializer_list<const char*> allowed) {
+        (*this)(key, v);
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            if (std::find(allowed.begin(), allowed.end(), v[i]) == allowed.end()) {
+                unknown_word(pointer_ + "/" + key + "/" + std::to_string(i), v[i], allowed);
+            }
+        }
+    }
+
+    template <class Type>
+    void operator()(const char* key, Type& v, certificate::TextForm) {
+        (*this)(key, v);
+    }
+
+    template <class Type, class... Rule>
+    void needed(const char* key, Type& v, const Rule&... rule) {
+        (*this)(key, v, rule...);
+    }
+    void needed(const char* key, std::string& v, std::initializer_list<const char*> allowed) {
+        (*this)(key, v, allowed);
+    }
+    template <class Type>
+    void filled(const char* key, Type& v) {
+        (*this)(key, v);
+    }
+
+    template <class Enumerator>
+    void named(const char* key, Enumerator& v, std::initializer_list<const char*> words) {
+        std::string name;
+        (*this)(key, name, words);
+        const auto found = std::find(words.begin(), words.end(), name);
+        if (found != words.end()) {
+            v = static_cast<Enumerator>(found - words.begin());
+        }
+    }
+
+    /// A key that a later release added to the schema: where it is missing, the value stays as it is.
+    template <class Type>
+    void added(const char* key, Type& v, Range range = Range::any) {
+        if (const json* item = find_if_there(key)) {
+            from_json(*item, v, {pointer_, key}, range);
+        }
+    }
+    void added(const char* key, std::string& v, std::initializer_list<const char*> allowed) {
+        if (object_.contains(key)) {
+            (*this)(key, v, allowed);
+        }
+    }
+
+    template <class Describe>
+    void group(const char* key, const Describe& describe_group) {
+        if (const json* item = find(key)) {
+            const std::string at = pointer_ + "/" + key;
+            if (!item->is_object()) {
+                wrong_type(*item, at, "an object");
+                return;
+            }
+            Reader inner(*item, at, problems_);
+            describe_group(inner);
+            inner.finish();
+        }
+    }
+
+    void constant(const char* key, const char*) { static_cast<void>(find(key)); }  // the caller has looked at it
+
+    void null(const char* key) {
+        if (const json* item = find(key); item != nullptr && !item->is_null()) {
+            wrong_type(*item, pointer_ + "/" + key, "null in records of this version");
+        }
+    }
+
+    /// Records of earlier releases state none.
+    void digest(const char* key, std::string& value) {
+        const json* item = find_if_there(key);
+        if (item == nullptr) {
+            return;
+        }
+        const std::string at = pointer_ + "/" + key;
+        if (!item->is_object()) {
+            wrong_type(*item, at, "an object");
+            return;
+        }
+        std::string algorithm;
+        Reader inner(*item, at, problems_);
+        inner("algorithm", algorithm, {k_digest_algorithm});
+        inner("value", value);
+        inner.finish();
+        if (value.empty()) {
+            problems_.add("GC-RECORD-0016", at + "/value", "\"\"", "must be 64 hexadecimal digits", k_restore);
+        }
+    }
+
+    void severity(const char* key, gum::Severity& v) {
+        std::string name;
+        (*this)(key, name, {k_severities[0], k_severities[1], k_severities[2]});
+        for (std::size_t i = 0; i < k_severities.size(); ++i) {
+            if (name == k_severities[i]) {
+                v = static_cast<gum::Severity>(i);
+            }
+        }
+    }
+
+    void document(const char* key, std::string& text) {
+        if (const json* item = find(key)) {
+            text = canonical_json(*item);
+        }
+    }
+
+    void results(const char* key, std::vector<Result>& v) {
+        const json* all = find_object(key);
+        if (all == nullptr) {
+            return;
+        }
+        std::map<std::int64_t, Result> in_order;
+        for (const auto& [name, item] : all->items()) {
+            const std::string at = pointer_ + "/" + key + "/" + pointer_token(name);
+            if (!item.is_object()) {
+                wrong_type(item, at, "an object");
+                continue;
+            }
+            Result result;
+            result.name = name;
+            std::int64_t order = -1;
+            Reader inner(item, at, problems_);
+            describe(inner, result);
+            inner("order", order);
+            inner.finish();
+            result.reported = reported_result(result);
+            if (order < 0 || static_cast<std::uint64_t>(order) >= all->size() || in_order.contains(order)) {
+                problems_.add("GC-RECORD-0016", at + "/order", std::to_string(order),
+                              "the orders of all results are 0, 1, 2 …, each once", k_restore);
+                continue;
+            }
+            in_order.emplace(order, std::move(result));
+        }
+        for (auto& [order, result] : in_order) {
+            v.push_back(std::move(result));
+        }
+    }
+
+    /// Records of earlier releases hold no order of the directions: then they come by name, "all" last.
+    void summary(const char* key, std::vector<ComparisonSummary>& v) {
+        const json* all = find_object(key);
+        if (all == nullptr) {
+            return;
+        }
+        std::map<std::int64_t, ComparisonSummary> in_order;
+        const auto size = static_cast<std::int64_t>(all->size());
+        const bool ordered =
+            std::any_of(all->begin(), all->end(), [](const json& i) { return i.is_object() && i.contains("order"); });
+        std::int64_t next = 0;
+        for (const auto& [direction, item] : all->items()) {
+            const std::string at = pointer_ + "/" + key + "/" + pointer_token(direction);
+            if (!item.is_object()) {
+                wrong_type(item, at, "an object");
+                continue;
+            }
+            ComparisonSummary s;
+            s.direction = direction;
+            std::int64_t order = direction == "all" ? size - 1 : next++;
+            Reader inner(item, at, problems_);
+            describe(inner, s);
+            if (ordered) {
+                order = -1;
+                inner("order", order);
+            }
+            inner.finish();
+            if (order < 0 || order >= size || in_order.contains(order)) {
+                problems_.add("GC-RECORD-0016", at + "/order", std::to_string(order),
+                              "the orders of all directions are 0, 1, 2 …, each once", k_restore);
+                continue;
+            }
+            in_order.emplace(order, std::move(s));
+        }
+        for (auto& [order, s] : in_order) {
+            v.push_back(std::move(s));
+        }
+    }
+
+    void errors(const char* key, std::vector<ErrorsAtAngle>& v, const RotaryTable& rotary) {
+        const json* all = find_array(key);
+        if (all == nullptr) {
+            return;
+        }
+        for (std::size_t i = 0; i < all->size(); ++i) {
+            const std::string at = pointer_ + "/" + key + "/" + std::to_string(i);
+            if (!(*all)[i].is_object()) {
+                wrong_type((*all)[i], at, "an object");
+                continue;
+            }
+            ErrorsAtAngle row;
+            Reader inner((*all)[i], at, problems_);
+            inner("angle_deg", row.angle_deg);
+            inner("printed_angle", row.printed_angle);
+            for (std::size_t m = 0; m < row.errors.size(); ++m) {
+                inner(rotary.error_names[m].c_str(), row.errors[m]);
+            }
+            inner.finish();
+            v.push_back(std::move(row));
+        }
+    }
+
+    void quantity_budgets(const char* key, std::vector<QuantityBudget>& v, const std::vector<std::string>& sources) {
+        const json* all = find_array(key);
+        if (all == nullptr) {
+            return;
+        }
+        for (std::size_t i = 0; i < all->size(); ++i) {
+            const std::string at = pointer_ + "/" + key + "/" + std::to_string(i);
+            if (!(*all)[i].is_object()) {
+                wrong_type((*all)[i], at, "an object");
+                continue;
+            }
+            QuantityBudget row;
+            Reader inner((*all)[i], at, problems_);
+            inner("quantity", row.quantity);
+            inner("angle_deg", row.angle_deg);
+            inner("u", row.u, Range::not_negative);
+            inner("unit", row.unit);
+            inner.group("shares", [&](auto& shares) {
+                for (const std::string& source : sources) {
+                    double share = 0.0;
+                    shares(source.c_str(), share);
+                    row.shares.push_back(share);
+                }
+            });
+            inner.finish();
+            v.push_back(std::move(row));
+        }
+    }
+
+    /// What is said twice has to be the same twice.
+    void by_name(const std::vector<TableParameter>& v) {
+        const json* U = find_object("U");
+        const auto same = [&](const json* in, const std::string& at, const std::string& name, double expected) {
+            const auto found = in == nullptr ? json::const_iterator() : in->find(name);
+            const bool stated = in != nullptr && found != in->end();
+            if (in != nullptr && (!stated || !found->is_number() || found->get<double>() != expected)) {
+                problems_.add("GC-RECORD-0016", at + "/" + pointer_token(name), stated ? found->dump() : "missing",
+                              "must be " + record_number(expected) + ", as the parameter of that name says", k_restore);
+            }
+        };
+        std::set<std::string> names;
+        for (const TableParameter& p : v) {
+            names.insert(p.name);
+            static_cast<void>(find_if_there(p.name));
+            same(&object_, pointer_, p.name, p.value);
+            same(U, pointer_ + "/U", p.name, p.U);
+        }
+        if (U == nullptr) {
+            return;
+        }
+        for (const auto& [name, item] : U->items()) {
+            if (!names.contains(name)) {
+                problems_.add("GC-RECORD-0014", pointer_ + "/U/" + pointer_token(name), "unknown key",
+                              "U holds the parameters of the list and no others", k_restore);
+            }
+        }
+    }
+
+    /// To be called when every known key was asked for: what is left in the object is unknown.
+    void finish() {
+        std::sort(known_.begin(), known_.end(), std::less<>());
+        known_.erase(std::unique(known_.begin(), known_.end()), known_.end());
+        if (known_.size() == object_.size()) {
+            return;
+        }
+        for (const auto& [key, item] : object_.items()) {
+            if (!std::binary_search(known_.begin(), known_.end(), &key, std::less<>())) {
+                problems_.add("GC-RECORD-0014", pointer_ + "/" + pointer_token(key), "unknown key",
+                              "a record holds the keys of schema gumcert/record/1 and no others", k_restore);
+            }
+        }
+    }
+
+private:
+    const json& object_;
+    std::string pointer_;
+    RecordProblems& problems_;
+    std::vector<const std::string*> known_;  ///< the keys of the object that were asked for
+
+    const json* find_if_there(std::string_view key) {
+        const auto found = object_.find(key);
+        if (found == object_.end()) {
+            return nullptr;
+        }
+        known_.push_back(&found.key());
+        return &*found;
+    }
+
+    const json* find(std::string_view key) {
+        const json* item = find_if_there(key);
+        if (item == nullptr) {
+            problems_.add("GC-RECORD-0013", pointer_ + "/" + pointer_token(key), "missing",
+                          "every key of schema gumcert/record/1 is present", k_restore);
+        }
+        return item;
+    }
+
+    const json* find_object(const char* key) {
+        const json* item = find(key);
+        if (item != nullptr && !item->is_object()) {
+            wrong_type(*item, pointer_ + "/" + key, "an object");
+            return nullptr;
+        }
+        return item;
+    }
+
+    const json* find_array(const char* key) {
+        const json* item = find(key);
+        if (item != nullptr && !item->is_array()) {
+            wrong_type(*item, pointer_ + "/" + key, "an array");
+            return nullptr;
+        }
+        return item;
+    }
+
+    void wrong_type(const json& item, const std::string& at, const std::string& expected) {
+        problems_.add("GC-RECORD-0015", at, item.type_name(), "must be " + expected, k_restore);
+    }
+
+    void unknown_word(const std::string& at, const std::string& word, std::initializer_list<const char*> allowed) {
+        std::string rule = "must be one of";
+        for (const char* name : allowed) {
+            rule += std::string(" \"") + name + '"';
+        }
+        problems_.add("GC-RECORD-0016", at, '"' + word + '"', rule, k_restore);
+    }
+
+    void localised(const json& item, certificate::LocalisedText& v, const std::string& at) {
+        if (item.is_string()) {
+            v.plain = item.get<std::string>();
+            return;
+        }
+        if (!item.is_object()) {
+            wrong_type(item, at, "a text, or an object with one text a language");
+            return;
+        }
+        Reader inner(item, at, problems_);
+        for (const std::string_view language : certificate::k_languages) {
+            if (const std::string key(language); item.contains(key)) {
+                std::string text;
+                inner(key.c_str(), text);
+                v.by_language.emplace_back(key, std::move(text));
+            }
+        }
+        inner.finish();
+        if (item.empty()) {
+            problems_.add("GC-RECORD-0016", at, "no language", "a text is stated in one language at least", k_restore);
+        }
+    }
+
+    void number(const json& item, double& v, const Place& at, Range range) {
+        if (!item.is_number()) {
+            wrong_type(item, at.pointer(), "a number");
+            return;
+        }
+        v = item.get<double>();
+        // Whole numbers above 2^53 that a double cannot hold would lose digits in silence.
+        constexpr double k_two_to_53 = 9007199254740992.0;
+        if (!item.is_number_float() && std::abs(v) > k_two_to_53) {
+            problems_.add("GC-RECORD-0016", at.pointer(), item.dump(), "must be a number that a double holds exactly",
+                          k_restore);
+        } else if (!is_allowed(v, range)) {
+            problems_.add("GC-RECORD-0016", at.pointer(), record_number(v), text_of_rule(range), k_restore);
+        }
+    }
+
+    template <class Type>
+    void from_json(const json& item, Type& v, const Place& at, Range range) {
+        if constexpr (std::same_as<Type, double>) {
+            number(item, v, at, range);
+        } else if constexpr (std::same_as<Type, bool>) {
+            if (item.is_boolean()) {
+                v = item.get<bool>();
+            } else {
+                wrong_type(item, at.pointer(), "true or false");
+            }
+        } else if constexpr (std::same_as<Type, std::string>) {
+            if (item.is_string()) {
+                v = item.get<std::string>();
+                if (v.find('\0') != std::string::npos) {
+                    problems_.add("GC-RECORD-0016", at.pointer(), "a text with NUL (U+0000)",
+                                  "a text that is printed has no NUL", k_restore);
+                }
+            } else {
+                wrong_type(item, at.pointer(), "a text");
+            }
+        } else if constexpr (std::same_as<Type, std::int64_t>) {
+            if (item.is_number_integer() && item <= std::numeric_limits<std::int64_t>::max()) {
+                v = item.get<std::int64_t>();
+                if (!is_allowed(static_cast<double>(v), range)) {
+                    problems_.add("GC-RECORD-0016", at.pointer(), std::to_string(v), text_of_rule(range), k_restore);
+                }
+            } else {
+                wrong_type(item, at.pointer(), "a whole number");
+            }
+        } else if constexpr (std::same_as<Type, int>) {
+            std::int64_t whole = 0;
+            from_json(item, whole, at, range);
+            v = static_cast<int>(
+                std::clamp<std::int64_t>(whole, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
+        } else if constexpr (std::same_as<Type, certificate::LocalisedText>) {
+            localised(item, v, at.pointer());
+        } else if constexpr (std::same_as<Type, std::pair<double, double>>) {
+            std::array<double, 2> ends{};
+            from_json(item, ends, at, range);
+            v = {ends[0], ends[1]};
+        } else if constexpr (requires { v.has_value(); }) {
+            if (item.is_null()) {
+                v.reset();
+            } else {
+                // Not emplace(): for Clang a nested struct with initialisers is not constructible there.
+                v = typename Type::value_type{};
+                from_json(item, *v, at, range);
+            }
+        } else if constexpr (requires { v.size(); }) {
+            list(item, v, at, range);
+        } else {
+            if (!item.is_object()) {
+                wrong_type(item, at.pointer(), "an object");
+                return;
+            }
+            Reader inner(item, at.pointer(), problems_);
+            describe(inner, v);
+            inner.finish();
+        }
+    }
+
+    template <class List>
+    void list(const json& item, List& v, const Place& at, Range range) {
+        if (!item.is_array()) {
+            wrong_type(item, at.pointer(), "an array");
+            return;
+        }
+        if constexpr (requires { v.resize(item.size()); }) {
+            v.resize(item.size());
+        } else if (item.size() != v.size()) {
+            problems_.add("GC-RECORD-0017", at.pointer(), std::to_string(item.size()) + " items",
+                          "must be " + std::to_string(v.size()), k_restore);
+            return;
+        }
+        const std::string inside = at.pointer();
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            from_json(item[i], v[i], {inside, std::to_string(i)}, range);
+        }
+    }
+};
+
+}  // namespace
+
+EvaluationRecord record_from_json(const std::string& text, const std::string& where) {
+    RecordProblems problems(where);
+    if (text.size() > k_max_record_bytes) {
+        problems.add("GC-RECORD-0010", "", std::to_string(text.size()) + " bytes",
+                     "a record has at most " + std::to_string(k_max_record_bytes) + " bytes", k_restore);
+        problems.throw_if_any();
+    }
+    json root = json_of_text(text, problems);
+    problems.throw_if_any();
+
+    if (!root.is_object()) {
+        problems.add("GC-RECORD-0015", "", root.type_name(), "must be an object", k_restore);
+        problems.throw_if_any();
+    }
+    const auto schema = root.find("schema");
+    if (schema == root.end() || *schema != EvaluationRecord::k_schema) {
+        problems.add("GC-RECORD-0020", "/schema",
+                     schema == root.end()  ? "missing"
+                     : schema->is_string() ? '"' + schema->get<std::string>() + '"'
+                                           : schema->type_name(),
+                     std::string("must be \"") + EvaluationRecord::k_schema + '"',
+                     "use a release of the program that knows this schema");
+        problems.throw_if_any();
+    }
+
+    EvaluationRecord record;
+    Reader reader(root, "", problems);
+    describe(reader, record);
+    reader.finish();
+    problems.throw_if_any();
+    if (record.rotary && !record.rotary->machine_frame && record.rotary->axis_line.empty()) {
+        // Records without a frame of the machine gave the axis in the frame of the fixture the names of location
+        // errors.
+        record.rotary->axis_line = std::move(record.rotary->location_errors);
+        record.rotary->location_errors.clear();
+    }
+    check_record(record, [&](const std::string& at, std::string what, std::string rule) {
+        problems.add("GC-RECORD-0017", at, std::move(what), std::move(rule), k_restore);
+    });
+    problems.throw_if_any();
+    if (!record.digest.empty()) {
+        root.erase(k_digest_key);
+        if (const std::string own = encoding::sha256(canonical_json(root)); own != record.digest) {
+            problems.add("GC-RECORD-0021", std::string("/") + k_digest_key,
+                         "SHA-256 of the record is " + own + ", and it states " + record.digest,
+                         "a record states the digest of its own contents: this one was changed after it was written",
+                         "take the record as the program wrote it, or evaluate its job again");
+            problems.throw_if_any();
+        }
+    }
+    return record;
+}
+}  // namespace gumcert::reports

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "certificate/certificate_fields.h"
+#include "reports/record/canonical_json.h"
+
+namespace gumcert::reports {
+
+// What the writer, the reader and the checks of a record share.
+
+inline constexpr std::array<const char*, 3> k_severities = {"note", "warning", "error"};
+inline constexpr const char* k_digest_key = "digest";
+inline constexpr const char* k_digest_algorithm = "SHA-256";
+
+/// Where a value stands. Its JSON pointer is made where it is needed: a record has a million values, and few problems.
+struct Place {
+    const std::string& parent;  ///< JSON pointer of the object or array around it
+    std::string_view key;
+
+    [[nodiscard]] std::string pointer() const { return parent + "/" + pointer_token(key); }
+};
+
+/// "must be greater than 0", for a number that breaks the rule.
+[[nodiscard]] const char* text_of_rule(certificate::NumberRule rule);
+[[nodiscard]] bool is_allowed(double value, certificate::NumberRule rule);
+
+/// A number as a record has it, and "NaN" or "infinity", which a record cannot have.
+[[nodiscard]] std::string record_number(double value);
+
+}  // namespace gumcert::reports
