@@ -234,41 +234,19 @@ public:
     }
 
     void errors(const char* key, std::vector<ErrorsAtAngle>& v, const RotaryTable& rotary) {
-        const json* all = find_array(key);
-        if (all == nullptr) {
-            return;
-        }
-        for (std::size_t i = 0; i < all->size(); ++i) {
-            const std::string at = pointer_ + "/" + key + "/" + std::to_string(i);
-            if (!(*all)[i].is_object()) {
-                wrong_type((*all)[i], at, "an object");
-                continue;
-            }
-            ErrorsAtAngle row;
-            Reader inner((*all)[i], at, problems_);
+        for_each_row(key, [&](Reader& inner) {
+            ErrorsAtAngle& row = v.emplace_back();
             inner("angle_deg", row.angle_deg);
             inner("printed_angle", row.printed_angle);
             for (std::size_t m = 0; m < row.errors.size(); ++m) {
                 inner(rotary.error_names[m].c_str(), row.errors[m]);
             }
-            inner.finish();
-            v.push_back(std::move(row));
-        }
+        });
     }
 
     void quantity_budgets(const char* key, std::vector<QuantityBudget>& v, const std::vector<std::string>& sources) {
-        const json* all = find_array(key);
-        if (all == nullptr) {
-            return;
-        }
-        for (std::size_t i = 0; i < all->size(); ++i) {
-            const std::string at = pointer_ + "/" + key + "/" + std::to_string(i);
-            if (!(*all)[i].is_object()) {
-                wrong_type((*all)[i], at, "an object");
-                continue;
-            }
-            QuantityBudget row;
-            Reader inner((*all)[i], at, problems_);
+        for_each_row(key, [&](Reader& inner) {
+            QuantityBudget& row = v.emplace_back();
             inner("quantity", row.quantity);
             inner("angle_deg", row.angle_deg);
             inner("u", row.u, Range::not_negative);
@@ -280,9 +258,7 @@ public:
                     row.shares.push_back(share);
                 }
             });
-            inner.finish();
-            v.push_back(std::move(row));
-        }
+        });
     }
 
     /// What is said twice has to be the same twice.
@@ -334,6 +310,26 @@ private:
     std::string pointer_;
     RecordProblems& problems_;
     std::vector<const std::string*> known_;  ///< the keys of the object that were asked for
+
+    /// Calls read(reader of the object) for each object of an array; whatever else stands there is told and left out.
+    template <class Read>
+    void for_each_row(const char* key, const Read& read) {
+        const json* all = find_array(key);
+        if (all == nullptr) {
+            return;
+        }
+        const std::string inside = pointer_ + "/" + key + "/";
+        for (std::size_t i = 0; i < all->size(); ++i) {
+            const std::string at = inside + std::to_string(i);
+            if (!(*all)[i].is_object()) {
+                wrong_type((*all)[i], at, "an object");
+                continue;
+            }
+            Reader inner((*all)[i], at, problems_);
+            read(inner);
+            inner.finish();
+        }
+    }
 
     const json* find_if_there(std::string_view key) {
         const auto found = object_.find(key);
