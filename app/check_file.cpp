@@ -26,7 +26,7 @@ FileCheck check_job(const engine::FileSource& files, const std::string& name) {
 }
 
 FileCheck check_record(const std::string& text, const std::string& name, unsigned threads, const fs::path& templates,
-                       const Progress& progress) {
+                       const gum::Progress& progress) {
     FileCheck check{.kind = "record", .findings = {}};
     try {
         reports::EvaluationRecord record = reports::record_from_json(text, name);
@@ -42,7 +42,7 @@ FileCheck check_record(const std::string& text, const std::string& name, unsigne
 
 }  // namespace
 
-FileCheck check_file(const fs::path& file, unsigned threads, const fs::path& templates, const Progress& progress) {
+FileCheck check_file(const fs::path& file, unsigned threads, const fs::path& templates, const gum::Progress& progress) {
     const std::string text = read_file(file);
     const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
     const bool is_json = first != std::string::npos && (text[first] == '{' || text[first] == '/');

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "app/evaluate_job.h"
-#include "app/progress.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/progress.h"
 
 namespace gumcert::app {
 
@@ -22,6 +22,6 @@ struct FileCheck {
 /// \throws gum::StorageError  if a file cannot be read
 /// \throws gum::InputError    GC-CHECK-0001 if it is neither
 [[nodiscard]] FileCheck check_file(const std::filesystem::path& file, unsigned threads,
-                                   const std::filesystem::path& templates, const Progress& progress = {});
+                                   const std::filesystem::path& templates, const gum::Progress& progress = {});
 
 }  // namespace gumcert::app

@@ -8,10 +8,10 @@
 
 #include "app/budget_coverage.h"
 #include "app/fit_scatter.h"
-#include "app/progress.h"
 #include "app/record_parts.h"
 #include "app/reported_result.h"
 #include "app/zero_uncertainty.h"
+#include "gum/quantity/progress.h"
 
 namespace gumcert::app {
 
@@ -150,8 +150,9 @@ bool changes(const BudgetPointResult& point, Eigen::Index output, double change,
 
 /// Monte Carlo of one point for each coverage probability that its outputs ask for.
 void run_monte_carlo(const BudgetJob& job, const engine::MonteCarloRequest& asked, unsigned threads,
-                     const Progress& progress, BudgetPointResult& point) {
-    gum::MonteCarloOptions options = monte_carlo_options(asked, threads, job.points.empty() ? progress : Progress());
+                     const gum::Progress& progress, BudgetPointResult& point) {
+    gum::MonteCarloOptions options =
+        monte_carlo_options(asked, threads, job.points.empty() ? progress : gum::Progress());
     if (!job.monte_carlo && options.adaptive) {
         options.adaptive->tolerance_divisor = k_automatic_divisor;
     }
@@ -178,7 +179,7 @@ void run_monte_carlo(const BudgetJob& job, const engine::MonteCarloRequest& aske
 
 /// Monte Carlo that nobody asked for: what it cannot do is told with the reason for which it was run.
 void run_monte_carlo_unasked(const BudgetJob& job, const std::vector<std::string>& evidence, const std::string& where,
-                             unsigned threads, const Progress& progress, BudgetPointResult& point,
+                             unsigned threads, const gum::Progress& progress, BudgetPointResult& point,
                              BudgetResult& result) {
     result.automatic_monte_carlo = automatic_monte_carlo();
     try {
@@ -293,7 +294,7 @@ bool trials_do_not_vary(const BudgetPointResult& point, Eigen::Index index) {
 
 /// Which result of each output is reported, with the Monte Carlo that this takes.
 void report(const BudgetJob& job, const std::optional<gum::EquationSystem>& system, const std::string& where,
-            unsigned threads, const Progress& progress, BudgetPointResult& point, BudgetResult& result) {
+            unsigned threads, const gum::Progress& progress, BudgetPointResult& point, BudgetResult& result) {
     const std::vector<std::string> evidence = evidence_against_law(point, !system || is_linear(*system));
     std::vector<engine::CoverageChoice> choices;
     bool needed = false;
@@ -333,7 +334,7 @@ void report(const BudgetJob& job, const std::optional<gum::EquationSystem>& syst
 }
 
 BudgetPointResult evaluate_point(const BudgetJob& job, const std::optional<gum::EquationSystem>& system,
-                                 std::optional<std::size_t> at, unsigned threads, const Progress& progress,
+                                 std::optional<std::size_t> at, unsigned threads, const gum::Progress& progress,
                                  BudgetResult& result) {
     BudgetInputs inputs = budget_inputs(job, result.fits, at);
     if (!at || *at == 0) {
@@ -367,7 +368,7 @@ BudgetPointResult evaluate_point(const BudgetJob& job, const std::optional<gum::
 
 }  // namespace
 
-BudgetResult evaluate_budget(const BudgetJob& job, unsigned threads, const Progress& progress) {
+BudgetResult evaluate_budget(const BudgetJob& job, unsigned threads, const gum::Progress& progress) {
     BudgetResult result;
     result.symbols = budget_symbols(job);
     for (const BudgetFit& fit : job.fits) {

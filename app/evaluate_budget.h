@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "app/budget_model.h"
-#include "app/progress.h"
 #include "engine/curve_fit.h"
 #include "engine/job/budget_job.h"
 #include "gum/convolution.h"
 #include "gum/joint_validation.h"
 #include "gum/monte_carlo.h"
 #include "gum/propagation.h"
+#include "gum/quantity/progress.h"
 
 namespace gumcert::app {
 
@@ -71,6 +71,6 @@ struct BudgetResult {
 /// \param threads  of Monte Carlo; 0: as many as the machine has
 /// \throws InputError, NoResultError
 [[nodiscard]] BudgetResult evaluate_budget(const engine::BudgetJob& job, unsigned threads,
-                                           const Progress& progress = {});
+                                           const gum::Progress& progress = {});
 
 }  // namespace gumcert::app

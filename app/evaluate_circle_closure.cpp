@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "app/budget_coverage.h"
-#include "app/progress.h"
 #include "app/record_parts.h"
 #include "gum/convolution.h"
+#include "gum/quantity/progress.h"
 
 namespace gumcert::app {
 
@@ -34,7 +34,7 @@ ClosureCoverage coverage_of(const CircleClosureModel& model, const gum::Propagat
 }
 
 CircleClosureMonteCarlo run_monte_carlo(const CircleClosureJob& job, const CircleClosureResult& result,
-                                        unsigned threads, const Progress& progress) {
+                                        unsigned threads, const gum::Progress& progress) {
     const CircleClosureModel trials(job.measurement, result.solution, CircleClosureModel::Inputs::deviations);
     gum::MonteCarloOptions options = monte_carlo_options(*job.monte_carlo, threads, progress);
     options.coverage_probability = job.coverage_probability;
@@ -54,7 +54,8 @@ CircleClosureMonteCarlo run_monte_carlo(const CircleClosureJob& job, const Circl
 
 }  // namespace
 
-CircleClosureResult evaluate_circle_closure(const CircleClosureJob& job, unsigned threads, const Progress& progress) {
+CircleClosureResult evaluate_circle_closure(const CircleClosureJob& job, unsigned threads,
+                                            const gum::Progress& progress) {
     CircleClosureResult result;
     result.solution =
         std::make_shared<const engine::CircleClosureSolution>(engine::solve_circle_closure(job.measurement));

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "app/progress.h"
 #include "engine/circle_closure.h"
 #include "engine/job/circle_closure_job.h"
 #include "gum/monte_carlo.h"
 #include "gum/propagation.h"
+#include "gum/quantity/progress.h"
 
 namespace gumcert::app {
 
@@ -41,6 +41,6 @@ struct CircleClosureResult {
 /// \param threads  of Monte Carlo; 0: as many as the machine has
 /// \throws NoResultError  of solve_circle_closure() and gum::run_monte_carlo()
 [[nodiscard]] CircleClosureResult evaluate_circle_closure(const engine::CircleClosureJob& job, unsigned threads,
-                                                          const Progress& progress = {});
+                                                          const gum::Progress& progress = {});
 
 }  // namespace gumcert::app

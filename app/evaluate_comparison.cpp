@@ -6,9 +6,9 @@
 #include "app/laboratory_covariance.h"
 #include "app/laboratory_estimates.h"
 #include "app/laboratory_notes.h"
-#include "app/progress.h"
 #include "app/record_parts.h"
 #include "gum/proficiency_scheme.h"
+#include "gum/quantity/progress.h"
 
 namespace gumcert::app {
 
@@ -49,7 +49,8 @@ std::vector<gum::Diagnostic> notes_on(const engine::ComparisonJob& job, const re
 }  // namespace
 
 reports::EvaluationRecord evaluate_comparison(const engine::ComparisonJob& job,
-                                              const std::vector<reports::InputFile>& files, const Progress& progress) {
+                                              const std::vector<reports::InputFile>& files,
+                                              const gum::Progress& progress) {
     std::vector<gum::Diagnostic> found;
     reports::Comparison comparison =
         job.methods ? evaluate_methods(job, &found) : evaluate_laboratories(job, progress, &found);

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "app/progress.h"
 #include "engine/job/comparison_job.h"
+#include "gum/quantity/progress.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -13,7 +13,7 @@ namespace gumcert::app {
 /// \throws InputError, NoResultError
 [[nodiscard]] reports::EvaluationRecord evaluate_comparison(const engine::ComparisonJob& job,
                                                             const std::vector<reports::InputFile>& files,
-                                                            const Progress& progress);
+                                                            const gum::Progress& progress);
 
 /// `Comparison` of a job with `lab` and `reference`: reads their budgets, covariances and shared sources, and calls
 /// compare_methods().
@@ -24,7 +24,7 @@ namespace gumcert::app {
 /// `Comparison` of a job with participants. Items for which nothing can be computed are listed in it.
 /// \param notes  as above
 /// \throws InputError, NoResultError  where no item has a result
-[[nodiscard]] reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, const Progress& progress,
+[[nodiscard]] reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, const gum::Progress& progress,
                                                         std::vector<gum::Diagnostic>* notes = nullptr);
 
 }  // namespace gumcert::app

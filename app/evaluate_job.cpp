@@ -56,7 +56,7 @@ struct Task {
     const CovarianceOutput& covariance;
     unsigned threads = 0;
     const std::filesystem::path& templates;
-    const Progress& progress;
+    const gum::Progress& progress;
 };
 
 /// The name of the covariance file of a job with these files, where one is written.
@@ -207,14 +207,14 @@ std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_
 }
 
 Evaluation evaluate_job(const std::filesystem::path& job_file, const CovarianceOutput& covariance, unsigned threads,
-                        const std::filesystem::path& templates, const Progress& progress) {
+                        const std::filesystem::path& templates, const gum::Progress& progress) {
     return evaluate_job(engine::DiskFileSource(job_file.parent_path()), job_file.filename().string(), covariance,
                         threads, templates, progress);
 }
 
 Evaluation evaluate_job(const engine::FileSource& source, const std::string& job_file,
                         const CovarianceOutput& covariance, unsigned threads, const std::filesystem::path& templates,
-                        const Progress& progress) {
+                        const gum::Progress& progress) {
     const engine::ReadOnceSource files(source);
     const Task task{.files = files,
                     .job_file = job_file,

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "app/covariance_file.h"
-#include "app/progress.h"
 #include "engine/job/file_source.h"
+#include "gum/quantity/progress.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -59,11 +59,11 @@ void require_comparison_job(const std::filesystem::path& job_file);
 /// \throws gum::NoResultError, gum::StorageError
 [[nodiscard]] Evaluation evaluate_job(const std::filesystem::path& job_file, const CovarianceOutput& covariance,
                                       unsigned threads, const std::filesystem::path& templates,
-                                      const Progress& progress = {});
+                                      const gum::Progress& progress = {});
 /// The same of a job in any source of files, under its name there. Every file is read once, so that the digests in the
 /// record are those of the bytes that were evaluated.
 [[nodiscard]] Evaluation evaluate_job(const engine::FileSource& source, const std::string& job_file,
                                       const CovarianceOutput& covariance, unsigned threads,
-                                      const std::filesystem::path& templates, const Progress& progress = {});
+                                      const std::filesystem::path& templates, const gum::Progress& progress = {});
 
 }  // namespace gumcert::app

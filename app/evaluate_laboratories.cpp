@@ -8,10 +8,10 @@
 #include "app/laboratory_notes.h"
 #include "app/laboratory_scores.h"
 #include "app/laboratory_summary.h"
-#include "app/progress.h"
 #include "app/shared_sources.h"
 #include "gum/comparison.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/progress.h"
 
 namespace gumcert::app {
 
@@ -122,7 +122,7 @@ void tell_problems(const std::vector<gum::Diagnostic>& problems, const reports::
 
 }  // namespace
 
-reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, const Progress& progress,
+reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, const gum::Progress& progress,
                                           std::vector<gum::Diagnostic>* notes) {
     reports::Comparison comparison;
     comparison.names_released = job.names_released;

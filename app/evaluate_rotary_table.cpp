@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "app/document_units.h"
-#include "app/progress.h"
 #include "app/record_parts.h"
 #include "app/table_parameter_record.h"
 #include "engine/contact_point_model.h"
@@ -18,6 +17,7 @@
 #include "gum/analysis_of_variance.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/progress.h"
 #include "gum/worker_threads.h"
 
 namespace gumcert::app {
@@ -40,7 +40,7 @@ Stated stated(const RotaryTableResult& result, Eigen::Index output) {
 }
 
 RotaryTableMonteCarlo run_monte_carlo(const RotaryTableJob& job, const RotaryTableResult& result, unsigned threads,
-                                      const Progress& progress) {
+                                      const gum::Progress& progress) {
     const engine::MonteCarloRequest& asked = *job.monte_carlo;
     const auto joint = std::dynamic_pointer_cast<const engine::RotaryTableModel>(result.solution.model);
     const engine::RotaryTableTrials trials(
@@ -117,7 +117,7 @@ engine::EvaluationOptions evaluation_options(const engine::RotaryTableMeasuremen
     return options;
 }
 
-RotaryTableResult evaluate_rotary_table(RotaryTableJob& job, unsigned threads, const Progress& progress) {
+RotaryTableResult evaluate_rotary_table(RotaryTableJob& job, unsigned threads, const gum::Progress& progress) {
     const engine::RotaryTableMeasurement& measurement = job.measurement;
     const bool joint = measurement.method == engine::AdjustmentMethod::joint;
     if (job.monte_carlo && !joint) {

@@ -10,13 +10,13 @@
 
 #include "app/fixture_budget.h"
 #include "app/location_errors.h"
-#include "app/progress.h"
 #include "engine/anglewise_covariance.h"
 #include "engine/job/rotary_table_job.h"
 #include "engine/rotary_table_evaluation.h"
 #include "engine/table_parameters.h"
 #include "gum/monte_carlo.h"
 #include "gum/propagation.h"
+#include "gum/quantity/progress.h"
 
 namespace gumcert::app {
 
@@ -61,6 +61,6 @@ struct RotaryTableResult {
 /// \param threads  of Monte Carlo; 0: as many as the machine has
 /// \throws InputError, NoResultError
 [[nodiscard]] RotaryTableResult evaluate_rotary_table(engine::RotaryTableJob& job, unsigned threads,
-                                                      const Progress& progress = {});
+                                                      const gum::Progress& progress = {});
 
 }  // namespace gumcert::app

@@ -5,10 +5,10 @@
 
 #include "app/laboratory_covariance.h"
 #include "app/method_side.h"
-#include "app/progress.h"
 #include "app/record_parts.h"
 #include "gum/argument_check.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/progress.h"
 
 namespace gumcert::app {
 
@@ -25,7 +25,7 @@ void take_over(const engine::ComparisonJob& job, engine::ComparisonResult& resul
     result.sources.insert(result.sources.end(), sources.begin(), sources.end());
 }
 
-void tell(const Progress& progress, const std::string& text) {
+void tell(const gum::Progress& progress, const std::string& text) {
     if (progress) {
         progress(text);
     }
@@ -91,7 +91,8 @@ Eigen::VectorXd LaboratoryData::values(const std::vector<std::size_t>& positions
     return x(positions);
 }
 
-std::vector<engine::ComparisonResult> results_with_budgets(const engine::ComparisonJob& job, const Progress& progress,
+std::vector<engine::ComparisonResult> results_with_budgets(const engine::ComparisonJob& job,
+                                                           const gum::Progress& progress,
                                                            engine::RefusedItems& refused) {
     std::vector<engine::ComparisonResult> results = job.results;
     for (engine::ComparisonResult& result : results) {

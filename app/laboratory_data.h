@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "app/progress.h"
 #include "engine/job/comparison_job.h"
+#include "gum/quantity/progress.h"
 #include "gum/reference_value.h"
 #include "reports/record/comparison_evaluation.h"
 
@@ -42,7 +42,7 @@ struct LaboratoryData {
 /// \param refused  receives the items with a budget that gives no result
 /// \throws InputError, NoResultError  those of side_of_budget(), where the job has no other item
 [[nodiscard]] std::vector<engine::ComparisonResult> results_with_budgets(const engine::ComparisonJob& job,
-                                                                         const Progress& progress,
+                                                                         const gum::Progress& progress,
                                                                          engine::RefusedItems& refused);
 
 /// The results item by item and round by round; rounds in which nobody measured an item are left out.

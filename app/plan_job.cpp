@@ -10,7 +10,7 @@
 
 namespace gumcert::app {
 
-reports::StudyDocument plan_job(const std::filesystem::path& job, unsigned threads, const Progress& progress) {
+reports::StudyDocument plan_job(const std::filesystem::path& job, unsigned threads, const gum::Progress& progress) {
     const auto report = [&](const char* text) {
         if (progress) {
             progress(text);

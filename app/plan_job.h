@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "app/evaluate_job.h"
-#include "app/progress.h"
+#include "gum/quantity/progress.h"
 #include "reports/study_document.h"
 
 namespace gumcert::app {
@@ -18,6 +18,6 @@ namespace gumcert::app {
 /// \param threads  0: as many as the machine has. Results do not depend on it
 /// \throws gum::InputError, gum::NoResultError, gum::StorageError
 [[nodiscard]] reports::StudyDocument plan_job(const std::filesystem::path& job, unsigned threads,
-                                              const Progress& progress = {});
+                                              const gum::Progress& progress = {});
 
 }  // namespace gumcert::app

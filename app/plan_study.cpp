@@ -204,7 +204,7 @@ std::vector<Target> targets_of(const Setting& setting, const Expected& expected)
     return targets;
 }
 
-Setting setting_of(const std::filesystem::path& job_file, const Progress& progress) {
+Setting setting_of(const std::filesystem::path& job_file, const gum::Progress& progress) {
     Setting setting;
     setting.job = engine::read_rotary_table_job(job_file, engine::JobUse::plan);
     (void)apply_fixture_budget(setting.job);
@@ -391,7 +391,7 @@ std::vector<std::string> broken_targets(const Setting& setting, const Expected& 
 }  // namespace
 
 std::optional<Proposal> propose(Setting& setting, const Expected& now, gum::WorkerThreads& workers,
-                                const Progress& progress) {
+                                const gum::Progress& progress) {
     if (!setting.request.station_region) {
         return std::nullopt;
     }

@@ -13,11 +13,11 @@
 #include "app/document_units.h"
 #include "app/evaluate_job.h"
 #include "app/plan_parameters.h"
-#include "app/progress.h"
 #include "engine/job/rotary_table_job.h"
 #include "engine/measurement_plan.h"
 #include "engine/station_proposal.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/progress.h"
 #include "gum/worker_threads.h"
 
 /// What `gumcert plan` computes. Documents and data files are made from it by plan_document.h and plan_data.h.
@@ -50,7 +50,7 @@ struct Motion {
 
 /// Reads the job and completes the layout: planned angles, positions of the stations, predicted lengths.
 /// \throws gum::InputError, gum::NoResultError, gum::StorageError
-[[nodiscard]] Setting setting_of(const std::filesystem::path& job_file, const Progress& progress);
+[[nodiscard]] Setting setting_of(const std::filesystem::path& job_file, const gum::Progress& progress);
 
 struct Expected {
     engine::ExpectedUncertainty uncertainty;
@@ -128,6 +128,6 @@ struct Proposal {
 /// \throws gum::InputError  GC-PLAN-0002 when no position of the region is allowed
 /// \param now  of the planned layout
 [[nodiscard]] std::optional<Proposal> propose(Setting& setting, const Expected& now, gum::WorkerThreads& workers,
-                                              const Progress& progress);
+                                              const gum::Progress& progress);
 
 }  // namespace gumcert::app::plan

@@ -245,7 +245,7 @@ std::optional<gum::Diagnostic> not_recomputable(const EvaluationRecord& record, 
 }
 
 EvaluationRecord evaluated_again(const EvaluationRecord& record, const std::string& where, unsigned threads,
-                                 const std::filesystem::path& templates, const Progress& progress) {
+                                 const std::filesystem::path& templates, const gum::Progress& progress) {
     const engine::MemoryFileSource files(files_of(record, where));
     std::string reason;
     try {
@@ -260,7 +260,7 @@ EvaluationRecord evaluated_again(const EvaluationRecord& record, const std::stri
 }
 
 std::optional<gum::Diagnostic> recompute_record(EvaluationRecord& record, const std::string& where, unsigned threads,
-                                                const std::filesystem::path& templates, const Progress& progress) {
+                                                const std::filesystem::path& templates, const gum::Progress& progress) {
     if (std::optional<gum::Diagnostic> why = not_recomputable(record, where)) {
         return why;
     }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/evaluate_job.h"
-#include "app/progress.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/progress.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -35,7 +35,7 @@ inline constexpr std::size_t k_most_disagreements = 20;
 [[nodiscard]] reports::EvaluationRecord evaluated_again(const reports::EvaluationRecord& record,
                                                         const std::string& where, unsigned threads,
                                                         const std::filesystem::path& templates,
-                                                        const Progress& progress = {});
+                                                        const gum::Progress& progress = {});
 
 /// Believes nothing that a record says: evaluates its job again and compares.
 /// \param record  becomes the one that its job gives: what is printed from it was computed here
@@ -44,6 +44,6 @@ inline constexpr std::size_t k_most_disagreements = 20;
 [[nodiscard]] std::optional<gum::Diagnostic> recompute_record(reports::EvaluationRecord& record,
                                                               const std::string& where, unsigned threads,
                                                               const std::filesystem::path& templates,
-                                                              const Progress& progress = {});
+                                                              const gum::Progress& progress = {});
 
 }  // namespace gumcert::app

@@ -58,7 +58,7 @@ void at_place(const std::string& where, const std::function<void()>& work) {
 }
 
 gum::MonteCarloOptions monte_carlo_options(const engine::MonteCarloRequest& asked, unsigned threads,
-                                           const Progress& progress) {
+                                           const gum::Progress& progress) {
     // The numerical error has to be small against the tolerance where the law of propagation is validated
     // (JCGM 101:2008, 8.2).
     constexpr double k_validation_divisor = 5.0;

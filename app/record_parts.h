@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "app/progress.h"
 #include "engine/job/monte_carlo_request.h"
 #include "gum/monte_carlo.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/measurement_model.h"
+#include "gum/quantity/progress.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -53,7 +53,7 @@ struct TrialsDone {
 
 /// Trials, seed and threads as a job asks for them, and who is told how far they are; nothing else is set.
 [[nodiscard]] gum::MonteCarloOptions monte_carlo_options(const engine::MonteCarloRequest& asked, unsigned threads,
-                                                         const Progress& progress);
+                                                         const gum::Progress& progress);
 /// The same for the options of a record; null without Monte Carlo.
 [[nodiscard]] nlohmann::json monte_carlo_json(const std::optional<engine::MonteCarloRequest>& asked);
 

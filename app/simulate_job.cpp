@@ -29,7 +29,7 @@ bool all_stations_known(const RotaryTableMeasurement& measurement) {
 }
 
 Basis basis_of(const engine::RotaryTableJob& job, std::optional<std::size_t> runs, std::optional<std::uint64_t> seed,
-               const Progress& progress) {
+               const gum::Progress& progress) {
     Basis basis;
     basis.layout = job.measurement;
     basis.layout.reversal = engine::ReversalModel::constant;  // as it is simulated
@@ -105,14 +105,15 @@ void require_a_result(const std::vector<AngleStudy>& studies) {
 }  // namespace
 
 reports::StudyDocument simulate_job(const std::filesystem::path& job, std::optional<std::size_t> runs,
-                                    std::optional<std::uint64_t> seed, unsigned threads, const Progress& progress) {
+                                    std::optional<std::uint64_t> seed, unsigned threads,
+                                    const gum::Progress& progress) {
     const engine::RotaryTableJob read = engine::read_rotary_table_job(job, engine::JobUse::simulate);
     return simulate_job(read, job.filename().string(), runs, seed, threads, progress);
 }
 
 reports::StudyDocument simulate_job(const engine::RotaryTableJob& stated, const std::string& job_name,
                                     std::optional<std::size_t> runs, std::optional<std::uint64_t> seed,
-                                    unsigned threads, const Progress& progress) {
+                                    unsigned threads, const gum::Progress& progress) {
     engine::RotaryTableJob job = stated;
     (void)apply_fixture_budget(job);
     const Basis basis = basis_of(job, runs, seed, progress);

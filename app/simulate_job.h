@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "app/evaluate_job.h"
-#include "app/progress.h"
 #include "engine/job/rotary_table_job.h"
+#include "gum/quantity/progress.h"
 #include "reports/study_document.h"
 
 namespace gumcert::app {
@@ -22,12 +22,12 @@ namespace gumcert::app {
 /// \throws gum::InputError, gum::NoResultError, gum::StorageError
 [[nodiscard]] reports::StudyDocument simulate_job(const std::filesystem::path& job, std::optional<std::size_t> runs,
                                                   std::optional<std::uint64_t> seed, unsigned threads,
-                                                  const Progress& progress = {});
+                                                  const gum::Progress& progress = {});
 
 /// The same for a job that is read already.
 /// \param job_name  for the document
 [[nodiscard]] reports::StudyDocument simulate_job(const engine::RotaryTableJob& job, const std::string& job_name,
                                                   std::optional<std::size_t> runs, std::optional<std::uint64_t> seed,
-                                                  unsigned threads, const Progress& progress = {});
+                                                  unsigned threads, const gum::Progress& progress = {});
 
 }  // namespace gumcert::app

@@ -277,7 +277,7 @@ std::size_t adjusted_campaigns(std::size_t angles, std::size_t runs) {
 
 AngleStudy study_layout(const RotaryTableMeasurement& layout, const engine::SimulationRequest& request,
                         const engine::TableRepeatability& table, double coverage_probability, std::uint64_t stream,
-                        gum::WorkerThreads& workers, const Progress& progress) {
+                        gum::WorkerThreads& workers, const gum::Progress& progress) {
     const CampaignDraws draws(layout, request, table, request.seed, stream);
     AngleStudy study;
     study.angles = layout.angles.size();

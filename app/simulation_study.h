@@ -8,10 +8,10 @@
 
 #include "app/difference_tally.h"
 #include "app/evaluate_job.h"
-#include "app/progress.h"
 #include "engine/datum.h"
 #include "engine/job/rotary_table_job.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/progress.h"
 #include "gum/worker_threads.h"
 
 namespace gumcert::app {
@@ -66,6 +66,6 @@ constexpr std::size_t k_most_adjusted_angles = 720;
 [[nodiscard]] AngleStudy study_layout(const engine::RotaryTableMeasurement& layout,
                                       const engine::SimulationRequest& request, const engine::TableRepeatability& table,
                                       double coverage_probability, std::uint64_t stream, gum::WorkerThreads& workers,
-                                      const Progress& progress = {});
+                                      const gum::Progress& progress = {});
 
 }  // namespace gumcert::app
