@@ -2,12 +2,7 @@
 // is refused, and the comparison with the other method.
 #include "tests/cli/job_files.h"
 #include "tests/cli/program.h"
-
-#define VALIJSON_USE_EXCEPTIONS 1
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
+#include "tests/support/json_schema.h"
 
 namespace gumcert::cli {
 namespace {
@@ -40,15 +35,11 @@ TEST_F(CircleClosureProgram, WritesAllDocuments) {
     }
     const json record = json::parse(bytes_of(folder() / "out" / "record.json"));
     EXPECT_EQ(record["kind"], "circle_closure");
-    const json schema_document = json::parse(bytes_of(fs::path(GUMCERT_SOURCE_DIR) / "schemas/record-1.schema.json"));
-    valijson::Schema schema;
-    valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-        .populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_document), schema);
-    valijson::Validator validator;
-    EXPECT_TRUE(validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(record), nullptr));
+    const test::JsonSchema schema("record-1.schema.json");
+    EXPECT_EQ(schema.refusals(record), "");
     json broken = record;
     broken["circle_closure"]["numbering"] = "sideways";
-    EXPECT_FALSE(validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(broken), nullptr));
+    EXPECT_FALSE(schema.accepts(broken));
     EXPECT_EQ(record["results"].size(), 26U);
     EXPECT_EQ(record["circle_closure"]["drift"], "linear");
     const std::string html = bytes_of(folder() / "out" / "certificate.html");

@@ -2,13 +2,10 @@
 #include <charconv>
 #include <cmath>
 #include <set>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
 #include "tests/cli/job_files.h"
 #include "tests/cli/program.h"
+#include "tests/support/json_schema.h"
 
 namespace gumcert::cli {
 namespace {
@@ -66,21 +63,7 @@ TEST_F(Record, RunWritesTheDocumentsAndNothingElse) {
 }
 
 TEST_F(Record, ValidatesAgainstTheSchema) {
-    const json schema_document = json::parse(bytes_of(fs::path(GUMCERT_SOURCE_DIR) / "schemas/record-1.schema.json"));
-    valijson::Schema schema;
-    valijson::SchemaParser parser(valijson::SchemaParser::kDraft7);
-    parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_document), schema);
-    valijson::Validator validator;
-    valijson::ValidationResults results;
-    const bool valid = validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(record_), &results);
-    std::string said;
-    for (valijson::ValidationResults::Error error; results.popError(error);) {
-        for (const std::string& part : error.context) {
-            said += part;
-        }
-        said += ": " + error.description + "\n";
-    }
-    EXPECT_TRUE(valid) << said;
+    EXPECT_EQ(test::JsonSchema("record-1.schema.json").refusals(record_), "");
 }
 
 TEST_F(Record, IsCanonicalJson) {

@@ -11,15 +11,12 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 #include <vector>
 
 #include "engine/job/job_kind.h"
 #include "engine/job/json_document.h"
 #include "tests/support/file_content.h"
+#include "tests/support/json_schema.h"
 
 namespace gumcert::test {
 
@@ -29,32 +26,17 @@ protected:
     /// \param definition  the one of the schema that the pointers below start from
     explicit JobSchema(std::string definition) : definition_(std::move(definition)) {}
 
-    void SetUp() override {
-        document_ = engine::parse_json_document(
-                        file_content(std::filesystem::path(GUMCERT_SOURCE_DIR) / "schemas/job-1.schema.json"),
-                        "job-1.schema.json")
-                        .value;
-        valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-            .populateSchema(valijson::adapters::NlohmannJsonAdapter(document_), schema_);
-    }
-    [[nodiscard]] bool accepts(const nlohmann::json& job) const {
-        valijson::Validator validator;
-        return validator.validate(schema_, valijson::adapters::NlohmannJsonAdapter(job), nullptr);
-    }
+    [[nodiscard]] bool accepts(const nlohmann::json& job) const { return schema_.accepts(job); }
     /// A job in a file.
     [[nodiscard]] bool accepts(const std::filesystem::path& job) const {
         return accepts(engine::parse_json_document(file_content(job), job.filename().string()).value);
     }
 
     /// A node with its reference followed.
-    [[nodiscard]] const nlohmann::json& followed(const nlohmann::json& node) const {
-        return node.contains("$ref")
-                   ? document_.at(nlohmann::json::json_pointer(node.at("$ref").get<std::string>().substr(1)))
-                   : node;
-    }
+    [[nodiscard]] const nlohmann::json& followed(const nlohmann::json& node) const { return schema_.followed(node); }
     /// The schema of an object of the job; `*` stands for any name or position.
     [[nodiscard]] const nlohmann::json& schema_of(std::string_view pointer) const {
-        const nlohmann::json* node = &document_.at("definitions").at(definition_);
+        const nlohmann::json* node = &schema_.document().at("definitions").at(definition_);
         for (std::string_view rest = pointer; !rest.empty();) {
             rest.remove_prefix(1);
             const std::size_t end = std::min(rest.find('/'), rest.size());
@@ -107,8 +89,7 @@ private:
     }
 
     std::string definition_;
-    nlohmann::json document_;
-    valijson::Schema schema_;
+    JsonSchema schema_{"job-1.schema.json"};
 };
 
 }  // namespace gumcert::test

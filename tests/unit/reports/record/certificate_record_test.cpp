@@ -1,13 +1,7 @@
-#define VALIJSON_USE_EXCEPTIONS 1
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
-#include <fstream>
 #include <functional>
 #include <set>
 #include <string>
@@ -16,6 +10,7 @@
 
 #include "reports/record/evaluation_record.h"
 #include "tests/support/certificate_keys.h"
+#include "tests/support/json_schema.h"
 #include "tests/support/sample_budget_record.h"
 #include "tests/support/sample_certificate.h"
 
@@ -212,27 +207,16 @@ TEST(CertificateInRecord, WriterRefusesWhatWouldBeLost) {
 
 class CertificateRecordSchema : public testing::Test {
 protected:
-    void SetUp() override {
-        std::ifstream file(std::string(GUMCERT_SOURCE_DIR) + "/schemas/record-1.schema.json");
-        ASSERT_TRUE(file);
-        document_ = json::parse(file);
-        valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-            .populateSchema(valijson::adapters::NlohmannJsonAdapter(document_), schema_);
-    }
-    bool accepts(const json& record) {
-        valijson::Validator validator;
-        return validator.validate(schema_, valijson::adapters::NlohmannJsonAdapter(record), nullptr);
-    }
+    [[nodiscard]] bool accepts(const json& record) const { return schema_.accepts(record); }
     /// A node with its reference followed; among alternatives the one that is not null.
     [[nodiscard]] const json& resolved(const json& node) const {
         if (node.contains("oneOf")) {
             return resolved(node.at("oneOf").at(1));
         }
-        return node.contains("$ref") ? document_.at(json::json_pointer(node.at("$ref").get<std::string>().substr(1)))
-                                     : node;
+        return schema_.followed(node);
     }
     [[nodiscard]] const json& schema_of(std::string_view pointer) const {
-        const json* node = &document_.at("definitions").at("certificate_of_record");
+        const json* node = &schema_.document().at("definitions").at("certificate_of_record");
         for (std::string_view rest = pointer; !rest.empty();) {
             rest.remove_prefix(1);
             const std::size_t end = std::min(rest.find('/'), rest.size());
@@ -242,8 +226,7 @@ protected:
         }
         return *node;
     }
-    json document_;
-    valijson::Schema schema_;
+    const test::JsonSchema schema_{"record-1.schema.json"};
 };
 
 TEST_F(CertificateRecordSchema, HasTheKeysOfTheDescription) {

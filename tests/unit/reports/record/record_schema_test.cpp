@@ -1,17 +1,12 @@
 #include "reports/record/evaluation_record.h"
+#include "tests/support/json_schema.h"
 #include "tests/support/sample_budget_record.h"
 #include "tests/support/sample_comparison_record.h"
 #include "tests/support/sample_evidence.h"
 
-#define VALIJSON_USE_EXCEPTIONS 1
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
-#include <fstream>
 #include <functional>
 #include <string>
 
@@ -22,32 +17,9 @@ using nlohmann::json;
 
 class RecordSchema : public ::testing::Test {
 protected:
-    void SetUp() override {
-        std::ifstream file(std::string(GUMCERT_SOURCE_DIR) + "/schemas/record-1.schema.json");
-        ASSERT_TRUE(file) << "schemas/record-1.schema.json is missing";
-        document_ = json::parse(file);
-        valijson::SchemaParser parser(valijson::SchemaParser::kDraft7);
-        parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(document_), schema_);
-    }
+    [[nodiscard]] bool accepts(const json& record) { return (messages_ = schema_.refusals(record)).empty(); }
 
-    bool accepts(const json& record) {
-        valijson::Validator validator;
-        valijson::ValidationResults results;
-        const valijson::adapters::NlohmannJsonAdapter target(record);
-        const bool valid = validator.validate(schema_, target, &results);
-        valijson::ValidationResults::Error error;
-        messages_.clear();
-        while (results.popError(error)) {
-            for (const std::string& part : error.context) {
-                messages_ += part;
-            }
-            messages_ += ": " + error.description + "\n";
-        }
-        return valid;
-    }
-
-    json document_;
-    valijson::Schema schema_;
+    const test::JsonSchema schema_{"record-1.schema.json"};
     std::string messages_;
 };
 
