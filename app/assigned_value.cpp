@@ -1,6 +1,5 @@
 #include "app/assigned_value.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 

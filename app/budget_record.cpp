@@ -1,6 +1,5 @@
 #include "app/budget_record.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -20,6 +19,7 @@
 #include "app/zero_uncertainty.h"
 #include "gum/coverage.h"
 #include "gum/quantity/decimal_rounding.h"
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/special_values.h"
 #include "gum/rounding.h"
 #include "text/csv_field.h"

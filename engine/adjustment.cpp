@@ -3,9 +3,6 @@
 #include <ceres/ceres.h>
 #include <glog/logging.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -15,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::engine {
@@ -369,8 +367,8 @@ RankReport NormalEquations::rank(double tolerance) const {
             continue;
         }
         const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * block.normal *
-                                                                   scale.asDiagonal());
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+            Eigen::MatrixXd(scale.asDiagonal() * block.normal * scale.asDiagonal()));
         const double ratio = eigen.eigenvalues()[0] / eigen.eigenvalues()[diagonal.size() - 1];
         report.smallest_to_largest = std::min(report.smallest_to_largest, ratio);
         if (!(ratio > tolerance)) {
@@ -387,7 +385,8 @@ RankReport NormalEquations::rank(double tolerance) const {
         return report;
     }
     const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * reduced_ * scale.asDiagonal());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+        Eigen::MatrixXd(scale.asDiagonal() * reduced_ * scale.asDiagonal()));
     const double ratio = eigen.eigenvalues()[0] / std::max(1.0, eigen.eigenvalues()[border_ - 1]);
     report.smallest_to_largest = std::min(report.smallest_to_largest, ratio);
     if (!(ratio > tolerance)) {
@@ -403,7 +402,7 @@ BorderedCovariance NormalEquations::bordered_covariance() const {
     if (border_ > 0) {
         // Scaled to a unit diagonal first: metres, radians and scales differ by many powers of ten.
         const Eigen::VectorXd scale = reduced_.diagonal().cwiseSqrt().cwiseInverse();
-        const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * reduced_ * scale.asDiagonal());
+        const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd(scale.asDiagonal() * reduced_ * scale.asDiagonal()));
         if (factor.info() != Eigen::Success) {
             throw gum::NoResultError(
                 gum::Diagnostic{"GC-ADJUST-0002", "adjustment", "the normal equations are singular",
@@ -547,7 +546,7 @@ Eigen::VectorXd NormalEquations::step() const {
     }
     if (border_ > 0) {
         const Eigen::VectorXd scale = reduced_.diagonal().cwiseSqrt().cwiseInverse();
-        const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * reduced_ * scale.asDiagonal());
+        const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd(scale.asDiagonal() * reduced_ * scale.asDiagonal()));
         step.head(border_) = scale.asDiagonal() * factor.solve(scale.asDiagonal() * right);
     }
     for (const EliminatedBlock& block : blocks_) {

@@ -1,7 +1,5 @@
 #include "engine/circle_closure.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::engine {
@@ -104,7 +103,7 @@ std::pair<MatrixXd, double> cofactors_of(const CircleClosureMeasurement& m) {
     datum.topLeftCorner(n, n).setConstant(1.0 / static_cast<double>(n));
     datum.bottomRightCorner(n, n).setConstant(1.0 / static_cast<double>(n));
     const double weight = R.trace() / static_cast<double>(2 * n);
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(R + weight * datum);
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(R + weight * datum));
     const double least = eigen.eigenvalues()(0);
     const double most = eigen.eigenvalues()(2 * n - 1);
     if (!(least > k_rank_tolerance * most)) {

@@ -3,10 +3,6 @@
 #include <ceres/ceres.h>
 #include <glog/logging.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -14,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 #include "text/numbers.h"
 

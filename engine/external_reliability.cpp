@@ -1,10 +1,10 @@
 #include "engine/external_reliability.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "gum/quantity/dense_factors.h"
 
 namespace gumcert::engine {
 
@@ -57,7 +57,7 @@ Bounds bounds_of(const TallMatrix& quantities, const Eigen::MatrixXd& biases) {
     const Eigen::MatrixXd scaled = inverse.asDiagonal() * biases;
     Eigen::MatrixXd metric = Eigen::MatrixXd::Identity(scaled.rows(), scaled.rows()) * k_floor;
     metric.selfadjointView<Eigen::Lower>().rankUpdate(scaled);
-    const Eigen::LLT<Eigen::MatrixXd> factor(metric.selfadjointView<Eigen::Lower>());
+    const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd(metric.selfadjointView<Eigen::Lower>()));
     Bounds bounds;
     bounds.row = (quantities * scale.asDiagonal() * factor.matrixL()).rowwise().norm();
     bounds.column = factor.matrixL().solve(scaled).colwise().norm();

@@ -1,9 +1,5 @@
 #include "engine/geometry_check.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SVD>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -18,6 +14,7 @@
 #include "engine/datum.h"
 #include "engine/degrees_text.h"
 #include "engine/joint_adjustment.h"
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/units.h"
 #include "text/numbers.h"
 

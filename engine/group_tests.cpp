@@ -1,7 +1,5 @@
 #include "engine/group_tests.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 
 #include "engine/fixed_parts.h"
 #include "engine/median.h"
+#include "gum/quantity/dense_factors.h"
 
 namespace gumcert::engine {
 

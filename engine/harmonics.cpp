@@ -1,10 +1,10 @@
 #include "engine/harmonics.h"
 
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "gum/quantity/dense_factors.h"
 
 namespace gumcert::engine {
 

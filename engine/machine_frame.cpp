@@ -1,15 +1,13 @@
 #include "engine/machine_frame.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "engine/datum.h"
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::engine {
@@ -65,13 +63,12 @@ std::array<int, 2> cross_coordinates(RotaryAxis axis) {
 }
 
 /// S with S Sᵀ = covariance, symmetric; also of a singular one.
-template <int n>
-Eigen::Matrix<double, n, n> root_of(const Eigen::Matrix<double, n, n>& covariance) {
+Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
     // To a unit diagonal first: metres and radians differ by powers of ten.
-    const Eigen::Matrix<double, n, 1> u = covariance.diagonal().cwiseSqrt();
-    const Eigen::Matrix<double, n, 1> inverse_u = (u.array() > 0.0).select(u.cwiseInverse(), 0.0);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n, n>> eigen(inverse_u.asDiagonal() * covariance *
-                                                                           inverse_u.asDiagonal());
+    const Eigen::VectorXd u = covariance.diagonal().cwiseSqrt();
+    const Eigen::VectorXd inverse_u = (u.array() > 0.0).select(u.cwiseInverse(), 0.0);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+        Eigen::MatrixXd(inverse_u.asDiagonal() * covariance * inverse_u.asDiagonal()));
     return u.asDiagonal() * eigen.operatorSqrt();
 }
 
@@ -128,7 +125,7 @@ MachineFrameFit fit_machine_frame(const Eigen::MatrixXd& points, const Eigen::Ma
         const Eigen::LLT<Eigen::MatrixXd> weight(sum);
         const Eigen::MatrixXd whitened = weight.matrixL().solve(design);
         const Eigen::VectorXd whitened_residual = weight.matrixL().solve(residual);
-        const Eigen::LLT<Eigen::MatrixXd> normal(whitened.transpose() * whitened);
+        const Eigen::LLT<Eigen::MatrixXd> normal(Eigen::MatrixXd(whitened.transpose() * whitened));
         const Vector6 change = normal.solve(whitened.transpose() * whitened_residual);
         fit.covariance = normal.solve(Matrix6::Identity());
         fit.chi_square = whitened_residual.squaredNorm();

@@ -1,7 +1,5 @@
 #include "engine/measurement_plan.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,6 +9,7 @@
 #include "engine/geometry_check.h"
 #include "engine/reliability.h"
 #include "engine/station_covariance.h"
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/units.h"
 
 namespace gumcert::engine {

@@ -1,12 +1,11 @@
 #include "engine/reliability.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "engine/fixed_parts.h"
+#include "gum/quantity/dense_factors.h"
 
 namespace gumcert::engine {
 
@@ -110,7 +109,7 @@ std::vector<DistanceReliability> distance_reliability(const JointAdjustment& adj
         const Eigen::VectorXd difference = group.cholesky * group.residual;
         const Eigen::MatrixXd noise = group.cholesky * group.cholesky.transpose();
         const Eigen::MatrixXd parameters = covariance(columns, columns);
-        const Eigen::LLT<Eigen::MatrixXd> kept_factor(noise(kept, kept));
+        const Eigen::LLT<Eigen::MatrixXd> kept_factor(Eigen::MatrixXd(noise(kept, kept)));
         for (const Eigen::Index self : left_out) {
             double deviation = difference[self];
             double variance = noise(self, self);

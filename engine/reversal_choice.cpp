@@ -1,13 +1,11 @@
 #include "engine/reversal_choice.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/units.h"
 #include "text/numbers.h"
 
@@ -110,7 +108,7 @@ Drifts drifts_of(const JointAdjustment& adjustment, const NormalEquations& norma
     }
     MatrixXd left = -(pull.transpose() * by_drift);
     left.diagonal() += weight.cwiseProduct(scale.cwiseAbs2());
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(0.5 * (left + left.transpose()));
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(0.5 * (left + left.transpose())));
     Drifts result{VectorXd::Zero(covariance.size()), MatrixXd::Zero(covariance.size(), 0)};
     for (Index j = 0; j < stations; ++j) {
         if (eigen.eigenvalues()[j] > k_separable) {

@@ -1,10 +1,10 @@
 #include "engine/sense_deviations.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <array>
 #include <iterator>
+
+#include "gum/quantity/dense_factors.h"
 
 namespace gumcert::engine {
 
@@ -50,7 +50,8 @@ bool fill(SenseDeviation& result, const std::vector<std::size_t>& visits, const 
         return false;
     }
     const Vector6 scale = information.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(Matrix6(scale.asDiagonal() * information * scale.asDiagonal()));
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(
+        MatrixXd(scale.asDiagonal() * information * scale.asDiagonal()));
     if (!(solver.eigenvalues()[0] > k_least_eigenvalue)) {
         return false;
     }

@@ -1,12 +1,11 @@
 #include "engine/sequential_evaluation.h"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "gum/quantity/dense_factors.h"
 
 namespace gumcert::engine {
 

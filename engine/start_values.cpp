@@ -1,9 +1,5 @@
 #include "engine/start_values.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,6 +15,7 @@
 #include "engine/geometry_check.h"
 #include "engine/joint_adjustment.h"
 #include "engine/median.h"
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/units.h"
 #include "text/numbers.h"

@@ -1,10 +1,9 @@
 #include "engine/station_covariance.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 
 #include "engine/rotation.h"
+#include "gum/quantity/dense_factors.h"
 
 namespace gumcert::engine {
 

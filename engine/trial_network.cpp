@@ -1,7 +1,5 @@
 #include "engine/trial_network.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -10,6 +8,7 @@
 #include "engine/rotary_table_model.h"
 #include "engine/rotation.h"
 #include "engine/table_parameters.h"
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::engine {
@@ -34,7 +33,7 @@ Eigen::MatrixXd weight_matrix(const Eigen::MatrixXd& cholesky) {
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix) {
     // Scaled to a unit diagonal first: metres, radians and scales differ by many powers of ten.
     const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * matrix * scale.asDiagonal());
+    const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd(scale.asDiagonal() * matrix * scale.asDiagonal()));
     if (factor.info() != Eigen::Success) {
         throw gum::NoResultError(
             gum::Diagnostic{"GC-ADJUST-0002", "rotary table trials", "the normal equations are singular",

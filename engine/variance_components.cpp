@@ -1,8 +1,5 @@
 #include "engine/variance_components.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +7,7 @@
 #include <utility>
 
 #include "engine/fixed_parts.h"
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/units.h"
 
 namespace gumcert::engine {

@@ -1,8 +1,5 @@
 #include "gum/agreement.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <cmath>
@@ -14,6 +11,7 @@
 #include "gum/comparison.h"
 #include "gum/coverage.h"
 #include "gum/propagation.h"
+#include "gum/quantity/dense_factors.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {

@@ -1,7 +1,7 @@
 #include "gum/correlated_normal.h"
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/special_values.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <cstddef>
 #include <limits>

@@ -1,10 +1,10 @@
 #include "gum/joint_validation.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <cstddef>
 
 #include "gum/coverage.h"
+#include "gum/quantity/dense_factors.h"
 
 namespace gumcert::gum {
 namespace {

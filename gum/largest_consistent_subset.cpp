@@ -1,4 +1,3 @@
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
@@ -12,6 +11,7 @@
 
 #include "gum/argument_check.h"
 #include "gum/correlated_results.h"
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/special_values.h"
 #include "gum/reference_value.h"

@@ -1,6 +1,5 @@
 #include "gum/linearity_check.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <boost/math/special_functions/erf.hpp>
@@ -9,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/distribution_shape.h"
 
 namespace gumcert::gum {

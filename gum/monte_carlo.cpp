@@ -1,7 +1,5 @@
 #include "gum/monte_carlo.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -18,6 +16,7 @@
 #include "gum/argument_check.h"
 #include "gum/monte_carlo_statistics.h"
 #include "gum/propagation.h"
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/random_draws.h"
 #include "gum/worker_threads.h"

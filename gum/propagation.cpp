@@ -1,7 +1,5 @@
 #include "gum/propagation.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +12,7 @@
 
 #include "gum/argument_check.h"
 #include "gum/coverage.h"
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/distribution_shape.h"
 #include "gum/quantity/special_values.h"

@@ -1,7 +1,5 @@
 #include "gum/reference_value.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "gum/argument_check.h"
 #include "gum/correlated_results.h"
 #include "gum/coverage.h"
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/special_values.h"
 #include "text/numbers.h"

@@ -1,8 +1,5 @@
 #include "engine/job/budget_correlation.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -13,6 +10,7 @@
 #include "engine/job/csv_table.h"
 #include "engine/job/matrix_limits.h"
 #include "gum/nearest_correlation.h"
+#include "gum/quantity/dense_factors.h"
 #include "gum/rounding.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"

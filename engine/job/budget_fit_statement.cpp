@@ -1,7 +1,5 @@
 #include "engine/job/budget_fit_statement.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include "engine/job/matrix_limits.h"
 #include "gum/expression/name.h"
 #include "gum/expression/syntax_tree.h"
+#include "gum/quantity/dense_factors.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
@@ -465,7 +464,8 @@ private:
         }
         const bool is_definite =
             matrix.allFinite() && u.minCoeff() > 1e-140 && u.maxCoeff() < 1e140 && matrix.diagonal().minCoeff() > 0.0 &&
-            Eigen::LLT<Eigen::MatrixXd>(u.cwiseInverse().asDiagonal() * matrix * u.cwiseInverse().asDiagonal())
+            Eigen::LLT<Eigen::MatrixXd>(
+                Eigen::MatrixXd(u.cwiseInverse().asDiagonal() * matrix * u.cwiseInverse().asDiagonal()))
                     .info() == Eigen::Success;
         if (!is_definite) {
             object.refuse(k_covariance_not_definite, key,

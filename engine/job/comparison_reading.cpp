@@ -1,8 +1,5 @@
 #include "engine/job/comparison_reading.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +9,7 @@
 #include "engine/job/budget_results.h"
 #include "engine/job/comparison_keys.h"
 #include "gum/coverage.h"
+#include "gum/quantity/dense_factors.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 

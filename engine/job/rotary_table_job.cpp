@@ -1,7 +1,5 @@
 #include "engine/job/rotary_table_job.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,6 +20,7 @@
 #include "engine/job/rotary_table_exclusion.h"
 #include "engine/job/rotary_table_limits.h"
 #include "engine/job/rotary_table_study.h"
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/units.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"

@@ -9,7 +9,7 @@ the longest folder prefix. Four laws, and with the option a fifth:
 1. An #include of ours names a layer in the list of the file's layer; one from outside is in its list of third-party
    headers, or in the C++ standard library.
 2. What GUMCERT_NOT_IN_HEADERS names never stands in a header, GUMCERT_PRIVATE_HEADERS excepted; and those are
-   included by their own layer only.
+   included by their own layer only. What GUMCERT_ONLY_IN names stands in its one header only.
 3. Only the layers of GUMCERT_MAY_TOUCH_FILES include <fstream> or <filesystem>.
 4. Libraries never print, exit, or read the clock, the locale or the environment: only the program (app/cli) does.
    Numbers are read and printed without the locale: std::from_chars and std::to_chars.
@@ -69,6 +69,7 @@ class Law:
         self.not_in_headers = tables["NOT_IN_HEADERS"]
         self.may_touch_files = tables["MAY_TOUCH_FILES"]
         self.private_headers = set(tables["PRIVATE_HEADERS"])
+        self.one_header, *self.only_there = tables["ONLY_IN"]
         if not self.layers:
             raise SystemExit("cmake/gumcert_layers.cmake: no GUMCERT_LAYER_FOLDERS found — the scanner reads its law there")
         self.edges = {layer: tables["EDGES_" + layer.replace("/", "_")] for layer in self.layers}
@@ -133,6 +134,8 @@ def breaches(root, path, layer, law):
             yield at, f"<{name}> is not among the third-party headers of {layer}: {', '.join(law.third_party[layer])}"
         if path.endswith(".h") and path not in law.private_headers and in_list(name, law.not_in_headers):
             yield at, f"<{name}> stands in a header — keep it in a .cpp, behind the layer's own types"
+        if name in law.only_there and path != law.one_header:
+            yield at, f"<{name}> — include {law.one_header} in its place: what it brings is compiled once"
         if name in FILE_HEADERS and layer not in law.may_touch_files:
             yield at, f"<{name}> — {layer} does not touch files"
         if layer != PROGRAM_LAYER and name in REFUSED_HEADERS:
