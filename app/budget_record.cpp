@@ -433,7 +433,7 @@ nlohmann::json options_json(const BudgetJob& job, const BudgetResult& result) {
     options["law_of_propagation"] = {{"order", 1}, {"second_order_reported_from_relative_change", 0.005}};
     options["reporting"] = {{"degrees_of_freedom", job.truncate_degrees_of_freedom ? "truncated" : "exact"},
                             {"rounding", job.rounding == gum::RoundingMode::up ? "up" : "half_even"}};
-    options["coverage"] = engine::coverage_choice_name(job.coverage);
+    options["coverage"] = gum::coverage_choice_name(job.coverage);
     options["monte_carlo"] = monte_carlo_json(job.monte_carlo ? job.monte_carlo : result.automatic_monte_carlo);
     if (!job.monte_carlo && result.automatic_monte_carlo) {
         options["monte_carlo"]["automatic"] = true;
@@ -476,8 +476,8 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
         }
     }
 
-    const engine::MonteCarloRequest asked =
-        job.monte_carlo.value_or(result.automatic_monte_carlo.value_or(engine::MonteCarloRequest{}));
+    const gum::MonteCarloRequest asked =
+        job.monte_carlo.value_or(result.automatic_monte_carlo.value_or(gum::MonteCarloRequest{}));
     const std::vector<std::string> names = budget_result_names(job, result);
     for (std::size_t p = 0; p < result.points.size(); ++p) {
         const BudgetPointResult& point = result.points[p];

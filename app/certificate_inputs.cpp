@@ -135,13 +135,13 @@ CapabilityInputs capability_inputs(const engine::BudgetJob& job, const BudgetRes
             const gum::Unit& unit = result.output_units[i];
             const auto output = static_cast<Eigen::Index>(i);
             if (point.outputs[i].by_monte_carlo && point.monte_carlo) {
-                inputs.trials.emplace(name, TrialsOfOutput{.model = point.model,
-                                                           .output = output,
-                                                           .unit = unit,
-                                                           .seed = point.monte_carlo->seed,
-                                                           .streams = point.streams,
-                                                           .trials = point.outputs[i].trials,
-                                                           .threads = threads});
+                inputs.trials.emplace(name, gum::TrialsOfOutput{.model = point.model,
+                                                                .output = output,
+                                                                .unit = unit,
+                                                                .seed = point.monte_carlo->seed,
+                                                                .streams = point.streams,
+                                                                .trials = point.outputs[i].trials,
+                                                                .threads = threads});
             } else if (point.outputs[i].coverage == "convolution") {
                 add_convolution(point, output, unit, name, inputs);
             }

@@ -225,7 +225,7 @@ KnownDistribution Certifier::known_distribution(const CertifiedValue& value, con
     if (value.coverage == "monte_carlo") {
         const auto found = result != nullptr ? inputs_.trials.find(result->name) : inputs_.trials.end();
         if (found != inputs_.trials.end()) {
-            TrialDistribution trials = count_trials(found->second);
+            gum::TrialDistribution trials = gum::count_trials(found->second);
             return {.function = std::move(trials.function),
                     .below = std::move(trials.below),
                     .note = "Probabilities are counted from " + std::to_string(trials.counted) + " Monte Carlo trials.",

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/trial_distribution.h"
 #include "certificate/certificate_data.h"
+#include "gum/trial_distribution.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -26,7 +26,7 @@ struct CapabilityInputs {
     std::map<std::string, std::function<double(double)>> distributions_below;
     /// Trials of results whose U comes from Monte Carlo, by Result::name. Counted where a decision needs them, one
     /// result after the other: they take memory.
-    std::map<std::string, TrialsOfOutput> trials = {};
+    std::map<std::string, gum::TrialsOfOutput> trials = {};
 };
 
 /// Makes a record a certificate: puts its results into certified tables, prints every value with its capability as the

@@ -391,7 +391,7 @@ nlohmann::json options_json(const CircleClosureJob& job) {
               {"u_reading", m.uses_stated_u ? "stated" : "residuals"},
               {"least_p_value", k_accepted_p}}},
             {"monte_carlo", monte_carlo_json(job.monte_carlo)},
-            {"coverage", engine::coverage_choice_name(job.coverage)}};
+            {"coverage", gum::coverage_choice_name(job.coverage)}};
 }
 
 }  // namespace

@@ -149,10 +149,10 @@ bool changes(const BudgetPointResult& point, Eigen::Index output, double change,
 }
 
 /// Monte Carlo of one point for each coverage probability that its outputs ask for.
-void run_monte_carlo(const BudgetJob& job, const engine::MonteCarloRequest& asked, unsigned threads,
+void run_monte_carlo(const BudgetJob& job, const gum::MonteCarloRequest& asked, unsigned threads,
                      const gum::Progress& progress, BudgetPointResult& point) {
     gum::MonteCarloOptions options =
-        monte_carlo_options(asked, threads, job.points.empty() ? progress : gum::Progress());
+        gum::monte_carlo_options(asked, threads, job.points.empty() ? progress : gum::Progress());
     if (!job.monte_carlo && options.adaptive) {
         options.adaptive->tolerance_divisor = k_automatic_divisor;
     }
@@ -213,10 +213,10 @@ void validate_outputs(const BudgetJob& job, BudgetPointResult& point, BudgetResu
         } else if (u > 0.0) {
             const gum::Unit& unit = result.output_units[i];
             output.validation =
-                validation_in_unit(y, u, *output.expanded_uncertainty, *output.monte_carlo,
-                                   {[&](double value) { return unit.from_si(value); },
-                                    [&](double difference) { return unit.difference_from_si(difference); }},
-                                   job.monte_carlo->digits);
+                gum::validation_in_unit(y, u, *output.expanded_uncertainty, *output.monte_carlo,
+                                        {[&](double value) { return unit.from_si(value); },
+                                         [&](double difference) { return unit.difference_from_si(difference); }},
+                                        job.monte_carlo->digits);
             if (!output.validation->validated || !output.validation->precise_enough) {
                 result.validation_failed = true;
             }
@@ -252,7 +252,7 @@ void warn(const BudgetJob& job, const BudgetPointResult& point, const std::strin
                                     .where = place,
                                     .what = "no expanded uncertainty can be stated: " + output.coverage_note,
                                     .rule = "a coverage factor needs the distribution of the result",
-                                    .action = job.coverage == engine::CoverageChoice::law_of_propagation
+                                    .action = job.coverage == gum::CoverageChoice::law_of_propagation
                                                   ? "Leave out \"coverage\": \"law_of_propagation\"."
                                                   : "Add \"coverage\": \"monte_carlo\" to the job.",
                                     .severity = gum::Severity::warning});
@@ -296,7 +296,7 @@ bool trials_do_not_vary(const BudgetPointResult& point, Eigen::Index index) {
 void report(const BudgetJob& job, const std::optional<gum::EquationSystem>& system, const std::string& where,
             unsigned threads, const gum::Progress& progress, BudgetPointResult& point, BudgetResult& result) {
     const std::vector<std::string> evidence = evidence_against_law(point, !system || is_linear(*system));
-    std::vector<engine::CoverageChoice> choices;
+    std::vector<gum::CoverageChoice> choices;
     bool needed = false;
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
         choices.push_back(coverage_choice_of(job, result.output_names[i]));

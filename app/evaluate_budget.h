@@ -63,7 +63,7 @@ struct BudgetResult {
     std::vector<BudgetPointResult> points;  ///< one without a table of points
     std::vector<gum::Diagnostic> notes;
     /// What the program ran Monte Carlo with by itself; none where the job asks for it, or nothing called for it.
-    std::optional<engine::MonteCarloRequest> automatic_monte_carlo;
+    std::optional<gum::MonteCarloRequest> automatic_monte_carlo;
     bool validation_failed = false;  ///< validation was demanded, and a result is not validated
 };
 

@@ -36,18 +36,18 @@ ClosureCoverage coverage_of(const CircleClosureModel& model, const gum::Propagat
 CircleClosureMonteCarlo run_monte_carlo(const CircleClosureJob& job, const CircleClosureResult& result,
                                         unsigned threads, const gum::Progress& progress) {
     const CircleClosureModel trials(job.measurement, result.solution, CircleClosureModel::Inputs::deviations);
-    gum::MonteCarloOptions options = monte_carlo_options(*job.monte_carlo, threads, progress);
+    gum::MonteCarloOptions options = gum::monte_carlo_options(*job.monte_carlo, threads, progress);
     options.coverage_probability = job.coverage_probability;
     options.regions = false;
     options.histogram = false;
     CircleClosureMonteCarlo monte_carlo{.result = gum::run_monte_carlo(trials, options), .validations = {}};
-    const ToUnit to_unit{.value = [&](double value) { return job.unit.from_si(value); },
-                         .difference = [&](double value) { return job.unit.difference_from_si(value); }};
+    const gum::ToUnit to_unit{.value = [&](double value) { return job.unit.from_si(value); },
+                              .difference = [&](double value) { return job.unit.difference_from_si(value); }};
     for (std::size_t i = 0; i < monte_carlo.result.outputs.size(); ++i) {
         const auto output = static_cast<Eigen::Index>(i);
-        monte_carlo.validations.push_back(
-            validation_in_unit(result.propagation.value(output), result.propagation.standard_uncertainty(output),
-                               result.coverage[i].U, monte_carlo.result.outputs[i], to_unit, job.monte_carlo->digits));
+        monte_carlo.validations.push_back(gum::validation_in_unit(
+            result.propagation.value(output), result.propagation.standard_uncertainty(output), result.coverage[i].U,
+            monte_carlo.result.outputs[i], to_unit, job.monte_carlo->digits));
     }
     return monte_carlo;
 }

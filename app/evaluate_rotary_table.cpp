@@ -41,11 +41,11 @@ Stated stated(const RotaryTableResult& result, Eigen::Index output) {
 
 RotaryTableMonteCarlo run_monte_carlo(const RotaryTableJob& job, const RotaryTableResult& result, unsigned threads,
                                       const gum::Progress& progress) {
-    const engine::MonteCarloRequest& asked = *job.monte_carlo;
+    const gum::MonteCarloRequest& asked = *job.monte_carlo;
     const auto joint = std::dynamic_pointer_cast<const engine::RotaryTableModel>(result.solution.model);
     const engine::RotaryTableTrials trials(
         *joint, {.fixture = result.fixture.model, .derived = result.parameter_model->parameters()});
-    gum::MonteCarloOptions options = monte_carlo_options(asked, threads, progress);
+    gum::MonteCarloOptions options = gum::monte_carlo_options(asked, threads, progress);
     options.coverage_probability = job.coverage_probability;
     options.regions = false;
     options.histogram = false;
@@ -67,8 +67,8 @@ RotaryTableMonteCarlo run_monte_carlo(const RotaryTableJob& job, const RotaryTab
         if (law.u > 0.0 && compared) {
             const double unit = unit_of(trials.outputs()[i]).si;
             const auto scaled = [unit](double value) { return value / unit; };
-            validation = validation_in_unit(law.value, law.u, law.U, monte_carlo.result.outputs[i], {scaled, scaled},
-                                            asked.digits);
+            validation = gum::validation_in_unit(law.value, law.u, law.U, monte_carlo.result.outputs[i],
+                                                 {scaled, scaled}, asked.digits);
         }
         monte_carlo.validations.push_back(validation);
     }

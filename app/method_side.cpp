@@ -68,7 +68,7 @@ MethodSide side_of_budget(const MethodBudget& budget, const gum::Unit& unit, dou
     }
     job.monte_carlo.reset();
     // A covariance between points, and shared sources, are those of the law of propagation.
-    job.coverage = engine::CoverageChoice::law_of_propagation;
+    job.coverage = gum::CoverageChoice::law_of_propagation;
     BudgetResult result = evaluate_budget(job, 1);
     result.output_units.front() = unit;  // the rows of its table as well are in the unit of the comparison
     const Eigen::MatrixXd covariance = budget_covariance(result);

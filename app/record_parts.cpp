@@ -57,30 +57,7 @@ void at_place(const std::string& where, const std::function<void()>& work) {
     }
 }
 
-gum::MonteCarloOptions monte_carlo_options(const engine::MonteCarloRequest& asked, unsigned threads,
-                                           const gum::Progress& progress) {
-    // The numerical error has to be small against the tolerance where the law of propagation is validated
-    // (JCGM 101:2008, 8.2).
-    constexpr double k_validation_divisor = 5.0;
-    gum::MonteCarloOptions options;
-    options.seed = asked.seed;
-    options.threads = threads;
-    if (progress) {
-        options.progress = [progress](double done) {
-            progress("Monte Carlo, " + std::to_string(static_cast<int>(100.0 * done)) + " %");
-        };
-    }
-    if (asked.trials) {
-        options.trials = *asked.trials;
-    } else {
-        options.adaptive = gum::AdaptiveTrials{.digits = asked.digits,
-                                               .most_trials = asked.most_trials,
-                                               .tolerance_divisor = asked.validate ? k_validation_divisor : 1.0};
-    }
-    return options;
-}
-
-nlohmann::json monte_carlo_json(const std::optional<engine::MonteCarloRequest>& asked) {
+nlohmann::json monte_carlo_json(const std::optional<gum::MonteCarloRequest>& asked) {
     if (!asked) {
         return nullptr;
     }
@@ -96,18 +73,9 @@ nlohmann::json monte_carlo_json(const std::optional<engine::MonteCarloRequest>& 
     return options;
 }
 
-gum::Validation validation_in_unit(double value, double u, double U, const gum::MonteCarloOutput& output,
-                                   const ToUnit& to_unit, int digits) {
-    const gum::CoverageInterval& interval = output.symmetric;
-    const gum::CoverageInterval& error = output.numerical_error.symmetric;
-    return gum::validate(to_unit.value(value), to_unit.difference(u), to_unit.difference(U),
-                         {to_unit.value(interval.low), to_unit.value(interval.high)},
-                         {to_unit.difference(error.low), to_unit.difference(error.high)}, digits);
-}
-
-reports::MonteCarloSummary monte_carlo_summary(const gum::MonteCarloOutput& from,
-                                               const engine::MonteCarloRequest& asked, const TrialsDone& done,
-                                               const ToUnit& to_unit, const std::optional<gum::Validation>& compared) {
+reports::MonteCarloSummary monte_carlo_summary(const gum::MonteCarloOutput& from, const gum::MonteCarloRequest& asked,
+                                               const TrialsDone& done, const gum::ToUnit& to_unit,
+                                               const std::optional<gum::Validation>& compared) {
     const auto ends = [&](const gum::CoverageInterval& interval) -> std::array<double, 2> {
         return {to_unit.value(interval.low), to_unit.value(interval.high)};
     };

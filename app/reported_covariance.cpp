@@ -110,7 +110,7 @@ Eigen::MatrixXd reported_covariance(const engine::BudgetJob& job, const BudgetRe
     if (result.points.size() == 1) {
         covariance = result.points.front().monte_carlo->covariance;
     } else if (static_cast<std::size_t>(u.size()) <= k_most_drawn_together) {
-        covariance = drawn_together(result, job.monte_carlo.value_or(engine::MonteCarloRequest{}).seed);
+        covariance = drawn_together(result, job.monte_carlo.value_or(gum::MonteCarloRequest{}).seed);
     }
     for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
         if (!std::isnan(u(i)) && !std::isfinite(covariance(i, i))) {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "app/record_parts.h"
-#include "app/trial_distribution.h"
 #include "gum/linearity_check.h"
+#include "gum/trial_distribution.h"
 #include "reports/record/reported_result.h"
 #include "text/lists.h"
 
@@ -18,7 +18,7 @@ namespace gumcert::app {
 namespace {
 
 using engine::BudgetJob;
-using engine::CoverageChoice;
+using gum::CoverageChoice;
 
 constexpr double k_largest_change = 0.05;     // of u by second-order terms
 constexpr double k_largest_shift = 0.1;       // of the estimate by them, in terms of u
@@ -56,13 +56,13 @@ bool tells_missing_derivative(const gum::NoResultError& error) {
 
 /// Exponent with which the trials of an output thin out: P(|Y − median| > a) ~ a^−α.
 double tail_exponent(const BudgetPointResult& point, Eigen::Index output, unsigned threads) {
-    return tail_index({.model = point.model,
-                       .output = output,
-                       .unit = {},
-                       .seed = point.monte_carlo->seed,
-                       .streams = point.streams,
-                       .trials = point.outputs[static_cast<std::size_t>(output)].trials,
-                       .threads = threads});
+    return gum::tail_index({.model = point.model,
+                            .output = output,
+                            .unit = {},
+                            .seed = point.monte_carlo->seed,
+                            .streams = point.streams,
+                            .trials = point.outputs[static_cast<std::size_t>(output)].trials,
+                            .threads = threads});
 }
 
 /// How far the ends of the interval lie aside, in parts of U: from the convolution of all distributions, correlated
@@ -180,8 +180,8 @@ bool needs_monte_carlo(CoverageChoice choice, const std::string& evidence) {
     return choice == CoverageChoice::monte_carlo || (choice == CoverageChoice::as_validated && !evidence.empty());
 }
 
-engine::MonteCarloRequest automatic_monte_carlo() {
-    engine::MonteCarloRequest request;
+gum::MonteCarloRequest automatic_monte_carlo() {
+    gum::MonteCarloRequest request;
     request.most_trials = k_most_trials;
     return request;
 }
@@ -227,11 +227,11 @@ void decide_reported(CoverageChoice choice, const std::string& evidence, const g
     bool contradicted = false;
     bool confirmed = false;
     if (output.monte_carlo && output.expanded_uncertainty && output.standard_uncertainty > 0.0) {
-        const gum::Validation compared =
-            validation_in_unit(value, output.standard_uncertainty, *output.expanded_uncertainty, *output.monte_carlo,
-                               {[&](double v) { return unit.from_si(v); },
-                                [&](double difference) { return unit.difference_from_si(difference); }},
-                               digits);
+        const gum::Validation compared = gum::validation_in_unit(
+            value, output.standard_uncertainty, *output.expanded_uncertainty, *output.monte_carlo,
+            {[&](double v) { return unit.from_si(v); },
+             [&](double difference) { return unit.difference_from_si(difference); }},
+            digits);
         contradicted = compared.precise_enough && !compared.validated;
         confirmed = compared.precise_enough && compared.validated;
     }

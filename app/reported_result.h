@@ -17,7 +17,7 @@ namespace gumcert::app {
 // ids, those of reports::ReportedResult::because.
 
 /// `coverage` as it holds for an output.
-[[nodiscard]] engine::CoverageChoice coverage_choice_of(const engine::BudgetJob& job, const std::string& output);
+[[nodiscard]] gum::CoverageChoice coverage_choice_of(const engine::BudgetJob& job, const std::string& output);
 
 /// A reason in English: "second-order terms change u or the estimate".
 [[nodiscard]] std::string reason_in_words(const std::string& reason);
@@ -43,10 +43,10 @@ struct PointPropagation {
 [[nodiscard]] std::vector<std::string> evidence_against_law(const BudgetPointResult& point, bool linear_model);
 
 /// Whether Monte Carlo has to be run for what is reported of an output.
-[[nodiscard]] bool needs_monte_carlo(engine::CoverageChoice choice, const std::string& evidence);
+[[nodiscard]] bool needs_monte_carlo(gum::CoverageChoice choice, const std::string& evidence);
 
 /// The Monte Carlo that the program runs by itself: adaptive, to the two digits that are printed.
-[[nodiscard]] engine::MonteCarloRequest automatic_monte_carlo();
+[[nodiscard]] gum::MonteCarloRequest automatic_monte_carlo();
 
 /// An input with a t-distribution and ν ≤ 2, which has no variance, that an output depends on in the first order.
 struct InputWithoutVariance {
@@ -70,7 +70,7 @@ struct ExistingMoments {
 /// Decides what is reported of an output: `because`, `against` and `by_monte_carlo` of it.
 /// \param evidence  against the law of propagation, before any trial
 /// \param digits    of u that count in the comparison with Monte Carlo (JCGM 101:2008, clause 8)
-void decide_reported(engine::CoverageChoice choice, const std::string& evidence, const gum::Unit& unit, double value,
+void decide_reported(gum::CoverageChoice choice, const std::string& evidence, const gum::Unit& unit, double value,
                      int digits, BudgetOutputResult& output);
 
 /// Notes on what is reported: one an output and reason, however many points it has.

@@ -9,7 +9,7 @@ namespace gumcert::app {
 
 namespace {
 
-using engine::CoverageChoice;
+using gum::CoverageChoice;
 using reports::MonteCarloSummary;
 using reports::ReportedResult;
 

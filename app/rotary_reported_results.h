@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/job/coverage_choice.h"
+#include "gum/coverage_choice.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -11,10 +11,10 @@ namespace gumcert::app {
 /// Monte Carlo is reported where the job asks for it, or where trials contradict the law of propagation by
 /// JCGM 101:2008, clause 8; the law of propagation, with what speaks against it, where the job asks for that.
 /// \param record  of a rotary table, with its Monte Carlo where there is one
-void report_rotary_results(reports::EvaluationRecord& record, engine::CoverageChoice choice);
+void report_rotary_results(reports::EvaluationRecord& record, gum::CoverageChoice choice);
 
 /// The same of a result with a coverage probability of its own: `reported` of it, where its trials have something to
 /// say.
-void report_result(reports::Result& result, engine::CoverageChoice choice);
+void report_result(reports::Result& result, gum::CoverageChoice choice);
 
 }  // namespace gumcert::app

@@ -130,7 +130,7 @@ nlohmann::json options_json(const RotaryTableJob& job, const engine::EvaluationO
                                                          : "stated"},
               {"distribution", shapes[static_cast<int>(measurement.fixture_shape)]}}},
             {"monte_carlo", monte_carlo_json(job.monte_carlo)},
-            {"coverage", engine::coverage_choice_name(job.coverage)},
+            {"coverage", gum::coverage_choice_name(job.coverage)},
             {"scale_model", scale_models[static_cast<int>(measurement.length_uncertainty.scale_model)]},
             {"outliers",
              {{"test", measurement.outliers.test == engine::OutlierTest::data_snooping ? "data_snooping" : "none"},

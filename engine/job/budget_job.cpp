@@ -130,7 +130,8 @@ private:
             job_.title = root.optional_name("title", 1000).value_or("");
         }
         job_.coverage_probability = root.optional_number("coverage_probability", k_probability).value_or(0.9545);
-        job_.coverage = root.optional_choice("coverage", k_coverage_choices).value_or(CoverageChoice::as_validated);
+        job_.coverage =
+            root.optional_choice("coverage", gum::k_coverage_choices).value_or(gum::CoverageChoice::as_validated);
         (void)root.optional_string("notes");
         if (const auto reporting = root.optional_object("reporting", k_reporting_keys)) {
             constexpr std::array<std::pair<std::string_view, bool>, 2> k_degrees{
@@ -219,7 +220,7 @@ private:
                 output.description = object.optional_string("description").value_or("");
             }
             output.coverage_probability = object.optional_number("coverage_probability", k_probability);
-            output.coverage = object.optional_choice("coverage", k_coverage_choices);
+            output.coverage = object.optional_choice("coverage", gum::k_coverage_choices);
             if (object.has("unit")) {
                 output.unit = read_unit(object, "unit", *problems_);
                 model_is_whole_ = model_is_whole_ && output.unit;

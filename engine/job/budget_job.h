@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "certificate/certificate_data.h"
-#include "engine/job/coverage_choice.h"
 #include "engine/job/file_source.h"
 #include "engine/job/job_kind.h"
 #include "engine/job/monte_carlo_request.h"
+#include "gum/coverage_choice.h"
 #include "gum/expression/equation_system.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/distribution.h"
@@ -116,7 +116,7 @@ struct BudgetOutput {
     certificate::LocalisedText description;
     std::optional<gum::Unit> unit;
     std::optional<double> coverage_probability;
-    std::optional<CoverageChoice> coverage;  ///< none: that of the job
+    std::optional<gum::CoverageChoice> coverage;  ///< none: that of the job
     std::string where;
 };
 
@@ -124,7 +124,7 @@ struct BudgetOutput {
 struct BudgetJob {
     std::string title;
     double coverage_probability = 0.9545;
-    CoverageChoice coverage = CoverageChoice::as_validated;  ///< of all results that do not state their own
+    gum::CoverageChoice coverage = gum::CoverageChoice::as_validated;  ///< of all results that do not state their own
     /// ν_eff is cut to the next lower whole number before k is taken, as the tables of JCGM 100:2008, G.4.1 and EA-4/02
     /// want it.
     bool truncate_degrees_of_freedom = false;
@@ -137,7 +137,7 @@ struct BudgetJob {
     std::vector<BudgetFit> fits;
     std::vector<BudgetOutput> outputs;  ///< empty: those of the model
     std::vector<BudgetPoint> points;    ///< empty: one evaluation
-    std::optional<MonteCarloRequest> monte_carlo;
+    std::optional<gum::MonteCarloRequest> monte_carlo;
     nlohmann::json document;
     std::optional<certificate::CertificateData> certificate;  ///< from the job or a file of its own
     std::vector<std::string> files;                           ///< names as the job gives them, each once, the job first

@@ -120,7 +120,8 @@ private:
         }
         (void)root.optional_string("notes");
         job_.coverage_probability = root.optional_number("coverage_probability", k_probability).value_or(0.9545);
-        job_.coverage = root.optional_choice("coverage", k_coverage_choices).value_or(CoverageChoice::as_validated);
+        job_.coverage =
+            root.optional_choice("coverage", gum::k_coverage_choices).value_or(gum::CoverageChoice::as_validated);
         const auto steps = root.required_integer("steps", {.low = k_least_steps, .high = k_most_steps});
         m.steps = steps ? static_cast<std::size_t>(*steps) : 0;
         job_.axis = root.optional_choice("axis", k_axes);
@@ -157,7 +158,7 @@ private:
 
     void read_monte_carlo_of(const JsonObject& root) {
         job_.monte_carlo = read_monte_carlo(root, job_.coverage_probability, 1, *problems_);
-        if (!job_.monte_carlo && !root.has("monte_carlo") && job_.coverage == CoverageChoice::monte_carlo) {
+        if (!job_.monte_carlo && !root.has("monte_carlo") && job_.coverage == gum::CoverageChoice::monte_carlo) {
             constexpr std::uint64_t k_most_automatic_trials = 1'000'000;
             job_.monte_carlo.emplace();
             job_.monte_carlo->most_trials = k_most_automatic_trials;

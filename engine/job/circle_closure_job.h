@@ -10,11 +10,11 @@
 
 #include "certificate/certificate_data.h"
 #include "engine/circle_closure.h"
-#include "engine/job/coverage_choice.h"
 #include "engine/job/file_source.h"
 #include "engine/job/input_codes.h"
 #include "engine/job/job_kind.h"
 #include "engine/job/monte_carlo_request.h"
+#include "gum/coverage_choice.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 
@@ -36,7 +36,7 @@ inline constexpr std::array k_closure_codes{k_closure_repeated_reading, k_closur
 struct CircleClosureJob {
     std::string title;
     double coverage_probability = 0.9545;
-    CoverageChoice coverage = CoverageChoice::as_validated;
+    gum::CoverageChoice coverage = gum::CoverageChoice::as_validated;
     gum::Unit unit;                ///< of readings and results, an angle
     std::optional<char> axis;      ///< 'A', 'B' or 'C': deviations of the table are then named EAA, EBB or ECC
     double first_angle_deg = 0.0;  ///< of the table at step 0
@@ -44,7 +44,7 @@ struct CircleClosureJob {
     CircleClosureMeasurement measurement;
     std::vector<std::string> readings_as_stated;  ///< one a reading, for documents
     std::string repeatability_source;
-    std::optional<MonteCarloRequest> monte_carlo;
+    std::optional<gum::MonteCarloRequest> monte_carlo;
     nlohmann::json document;
     std::optional<certificate::CertificateData> certificate;
     std::vector<std::string> files;

@@ -34,14 +34,14 @@ void check_trials(const JsonObject& object, double count, double p, ProblemList&
 
 }  // namespace
 
-std::optional<MonteCarloRequest> read_monte_carlo(const JsonObject& root, double coverage_probability, int usual_digits,
-                                                  ProblemList& problems) {
+std::optional<gum::MonteCarloRequest> read_monte_carlo(const JsonObject& root, double coverage_probability,
+                                                       int usual_digits, ProblemList& problems) {
     const auto object = root.optional_object("monte_carlo", k_monte_carlo_keys);
     if (!object) {
         return std::nullopt;
     }
     const double p = coverage_probability;
-    MonteCarloRequest request;
+    gum::MonteCarloRequest request;
     request.where = object->where();
     const NumberRange trials{
         .low = 1.0, .high = k_most_trials, .hint = "a job has at most 10000000000 trials; 1000000 is usual"};

@@ -145,8 +145,8 @@ constexpr int k_validated_digits = 1;
 constexpr std::uint64_t k_most_automatic_trials = 1'000'000;  // minutes
 
 /// The Monte Carlo of a job that asks for its result and says no more: adaptive, to the two digits that are printed.
-MonteCarloRequest automatic_monte_carlo(const std::string& where) {
-    MonteCarloRequest request;
+gum::MonteCarloRequest automatic_monte_carlo(const std::string& where) {
+    gum::MonteCarloRequest request;
     request.most_trials = k_most_automatic_trials;
     request.where = where;
     return request;
@@ -384,8 +384,9 @@ private:
         job_.coverage_probability = root.optional_number("coverage_probability", probability).value_or(0.9545);
         (void)root.optional_string("notes");
         job_.monte_carlo = read_monte_carlo(root, job_.coverage_probability, k_validated_digits, *problems_);
-        job_.coverage = root.optional_choice("coverage", k_coverage_choices).value_or(CoverageChoice::as_validated);
-        if (job_.coverage == CoverageChoice::monte_carlo && !job_.monte_carlo && !root.has("monte_carlo")) {
+        job_.coverage =
+            root.optional_choice("coverage", gum::k_coverage_choices).value_or(gum::CoverageChoice::as_validated);
+        if (job_.coverage == gum::CoverageChoice::monte_carlo && !job_.monte_carlo && !root.has("monte_carlo")) {
             job_.monte_carlo = automatic_monte_carlo(root.where("coverage"));
         }
         job_.simulation = read_simulation(root, *problems_);

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "certificate/certificate_data.h"
-#include "engine/job/coverage_choice.h"
 #include "engine/job/file_source.h"
 #include "engine/job/job_kind.h"
 #include "engine/job/monte_carlo_request.h"
@@ -20,6 +19,7 @@
 #include "engine/line_of_sight.h"
 #include "engine/machine_frame.h"
 #include "engine/rotary_table_measurement.h"
+#include "gum/coverage_choice.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/units.h"
 
@@ -95,8 +95,8 @@ struct RotaryTableJob {
     RotaryTableMeasurement measurement;
     std::optional<ReferenceMethod> reference;
     /// Also where `coverage` asks for its result and nothing else is said of it.
-    std::optional<MonteCarloRequest> monte_carlo;
-    CoverageChoice coverage = CoverageChoice::as_validated;
+    std::optional<gum::MonteCarloRequest> monte_carlo;
+    gum::CoverageChoice coverage = gum::CoverageChoice::as_validated;
     /// Budget of the fixture coordinates, kind `budget`, with a point "<reflector>.x", "<reflector>.y", "<reflector>.z"
     /// for each coordinate. Its results give the fixture covariance; the application evaluates it.
     /// The fixture covariance is zero until then.

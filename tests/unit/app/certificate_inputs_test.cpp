@@ -74,7 +74,7 @@ TEST(CapabilityInputs, HoldTheTrialsWhereMonteCarloIsReported) {
     const BudgetResult result = evaluate_budget(job, 1);
     ASSERT_TRUE(result.points.at(0).outputs.at(0).by_monte_carlo);
     const CapabilityInputs inputs = capability_inputs(job, result);
-    const TrialDistribution trials = count_trials(inputs.trials.at("y"));
+    const gum::TrialDistribution trials = gum::count_trials(inputs.trials.at("y"));
     EXPECT_EQ(trials.counted, 30000U);
     const gum::CoverageInterval& interval = result.points[0].outputs[0].monte_carlo->symmetric;  // [m]
     const gum::Unit um = gum::Unit::parse("um");

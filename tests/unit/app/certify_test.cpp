@@ -552,24 +552,6 @@ TEST(Certify, CountsTheTrialsOfMonteCarlo) {
                 HasSubstr("normal distribution"));
 }
 
-TEST(CountTrials, GivesTheSameForAnyNumberOfThreads) {
-    TrialsOfOutput of{.model = std::make_shared<const UniformModel>(),
-                      .unit = gum::Unit::parse("mm"),
-                      .seed = 3,
-                      .streams = {},
-                      .trials = 50001};
-    const TrialDistribution one = count_trials(of);
-    of.threads = 3;
-    const TrialDistribution three = count_trials(of);
-    EXPECT_EQ(one.counted, 50001U);
-    for (const double x : {9699.0, 9712.0, 9900.0, 10099.9, 10101.0}) {
-        EXPECT_EQ(one.function(x), three.function(x));
-    }
-    EXPECT_EQ(one.function(9699.0), 0.0);
-    EXPECT_EQ(one.function(10101.0), 1.0);
-    EXPECT_NEAR(one.function(9900.0), 0.5, 0.01);
-}
-
 TEST(Certify, SaysWhyNothingCanBeDecided) {
     EvaluationRecord record = one_result(9.7, 0.2, "m");
     certify(record, data_with_rule("DR-99", 9.0, 10.0, "m"), {});

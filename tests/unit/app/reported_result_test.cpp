@@ -262,7 +262,7 @@ TEST(ReportedResult, HasTheIntervalAndTheVerdictsOfTheExactDistribution) {
         }
         const certificate::CertifiedTable table = reports::certified_tables(e.record).front();
         const certificate::CertifiedValue& value = table.columns.front().values.front();
-        const TrialDistribution trials = count_trials(capability_inputs(job, e.result).trials.at("y"));
+        const gum::TrialDistribution trials = gum::count_trials(capability_inputs(job, e.result).trials.at("y"));
         const KnownDistribution counted{
             .function = trials.function, .below = trials.below, .note = "counted", .trials = trials.counted};
         const KnownDistribution exact{.function = c.P, .below = {}, .note = "exact", .trials = 0};

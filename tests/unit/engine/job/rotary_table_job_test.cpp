@@ -1167,14 +1167,14 @@ TEST(RotaryTableJob, ReadsMonteCarloResolutionAndShapes) {
 }
 
 TEST(RotaryTableJob, ReadsWhichEvaluationIsReported) {
-    EXPECT_EQ(read(small_campaign()).coverage, CoverageChoice::as_validated);
+    EXPECT_EQ(read(small_campaign()).coverage, gum::CoverageChoice::as_validated);
     Files files = small_campaign();
     with_key("\"coverage\": \"law_of_propagation\"")(files);
-    EXPECT_EQ(read(files).coverage, CoverageChoice::law_of_propagation);
+    EXPECT_EQ(read(files).coverage, gum::CoverageChoice::law_of_propagation);
     EXPECT_FALSE(read(files).monte_carlo);
     files = small_campaign();
     with_key("\"coverage\": \"monte_carlo\"")(files);
-    EXPECT_EQ(read(files).coverage, CoverageChoice::monte_carlo);
+    EXPECT_EQ(read(files).coverage, gum::CoverageChoice::monte_carlo);
     ASSERT_TRUE(read(files).monte_carlo) << "nothing else asks for trials";
     EXPECT_EQ(read(files).monte_carlo->most_trials, 1'000'000U);
     with_key("\"monte_carlo\": {\"trials\": 300000}")(files);

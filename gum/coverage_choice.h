@@ -4,9 +4,9 @@
 #include <string_view>
 #include <utility>
 
-namespace gumcert::engine {
+namespace gumcert::gum {
 
-/// `coverage` of a budget or rotary-table job: which evaluation is reported.
+/// Which evaluation is reported of a result.
 enum class CoverageChoice {
     as_validated,        ///< the law of propagation where it is adequate, Monte Carlo elsewhere
     law_of_propagation,  ///< whatever speaks against it
@@ -28,4 +28,4 @@ inline constexpr std::array<std::pair<std::string_view, CoverageChoice>, 3> k_co
     return "";
 }
 
-}  // namespace gumcert::engine
+}  // namespace gumcert::gum

@@ -1,4 +1,4 @@
-#include "app/trial_distribution.h"
+#include "gum/trial_distribution.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,23 +8,23 @@
 #include "gum/random_draws.h"
 #include "gum/worker_threads.h"
 
-namespace gumcert::app {
+namespace gumcert::gum {
 
 namespace {
 
 constexpr std::uint64_t k_values_at_once = std::uint64_t{1} << 17;  // drawn inputs of one block, near the processor
 
 /// Trials of a block: a multiple of 8, which is what one call of the random generator serves.
-std::uint64_t rows_of(const gum::MeasurementModel& model, Eigen::Index inputs) {
+std::uint64_t rows_of(const MeasurementModel& model, Eigen::Index inputs) {
     const auto width = static_cast<std::uint64_t>(inputs) + model.outputs().size();
     return std::clamp<std::uint64_t>(k_values_at_once / std::max<std::uint64_t>(width, 1) / 8 * 8, 64, 4096);
 }
 
 /// The trials of an output in the order in which they are drawn, coherent SI.
 std::vector<double> drawn_trials(const TrialsOfOutput& of) {
-    const gum::MeasurementModel& model = *of.model;
-    gum::WorkerThreads workers(of.threads);
-    const gum::InputDraws draws(model.inputs(), of.seed, of.streams, &workers);
+    const MeasurementModel& model = *of.model;
+    WorkerThreads workers(of.threads);
+    const InputDraws draws(model.inputs(), of.seed, of.streams, &workers);
     const std::uint64_t counted = std::min(of.trials, k_most_counted_trials);
     std::vector<double> values(static_cast<std::size_t>(counted));
     const std::uint64_t rows = rows_of(model, draws.size());
@@ -103,4 +103,4 @@ double tail_index(const TrialsOfOutput& of) {
     return exponent * (1.0 - 2.0 / std::sqrt(static_cast<double>(tail)));
 }
 
-}  // namespace gumcert::app
+}  // namespace gumcert::gum

@@ -9,15 +9,15 @@
 #include "gum/quantity/measurement_model.h"
 #include "gum/quantity/unit.h"
 
-namespace gumcert::app {
+namespace gumcert::gum {
 
-/// Which trials: those that gum::run_monte_carlo drew for one output.
+/// Which trials: those that run_monte_carlo drew for one output.
 struct TrialsOfOutput {
-    std::shared_ptr<const gum::MeasurementModel> model;
+    std::shared_ptr<const MeasurementModel> model;
     Eigen::Index output = 0;
-    gum::Unit unit;  ///< of the result
+    Unit unit;  ///< of the result
     std::uint64_t seed = 1;
-    std::vector<std::uint64_t> streams;  ///< as gum::MonteCarloOptions::streams
+    std::vector<std::uint64_t> streams;  ///< as MonteCarloOptions::streams
     std::uint64_t trials = 0;
     unsigned threads = 1;
 };
@@ -39,4 +39,4 @@ constexpr std::uint64_t k_most_counted_trials = std::uint64_t{1} << 24;  // 128 
 /// but 50 to 4000 (Hill 1975, Ann. Statist. 3, 1163-1174), less two of its standard errors.
 [[nodiscard]] double tail_index(const TrialsOfOutput& of);
 
-}  // namespace gumcert::app
+}  // namespace gumcert::gum
