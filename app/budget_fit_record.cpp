@@ -7,6 +7,7 @@
 
 #include "app/budget_texts.h"
 #include "app/record_parts.h"
+#include "gum/budget/fit_scatter.h"
 #include "gum/coverage.h"
 #include "gum/propagation.h"
 #include "gum/rounding.h"
@@ -22,7 +23,7 @@ using reports::FitSummary;
 constexpr int k_digits_of_residual = 3;
 constexpr double k_least_printed_p = 1e-4;
 
-std::string fit_method(const engine::BudgetFit& fit) {
+std::string fit_method(const gum::BudgetFit& fit) {
     if (fit.x_uncertainty.size() > 0) {
         return "errors in both variables";
     }
@@ -32,7 +33,7 @@ std::string fit_method(const engine::BudgetFit& fit) {
     return fit.y_uncertainty.cols() == 1 ? "weighted" : "generalised";
 }
 
-bool is_weighted(const engine::BudgetFit& fit) {
+bool is_weighted(const gum::BudgetFit& fit) {
     return fit.y_uncertainty.size() > 0 || fit.x_uncertainty.size() > 0;
 }
 
@@ -64,7 +65,7 @@ std::vector<std::string> printed_rounded(const std::vector<double>& values, int 
     return texts;
 }
 
-void add_parameters(const engine::BudgetFit& fit, const engine::CurveFit& solved, FitSummary& summary) {
+void add_parameters(const gum::BudgetFit& fit, const engine::CurveFit& solved, FitSummary& summary) {
     const auto p = static_cast<Eigen::Index>(fit.parameters.size());
     Eigen::MatrixXd covariance = solved.covariance;
     const auto unit_of = [&](Eigen::Index i) { return fit.parameters[static_cast<std::size_t>(i)].unit; };
@@ -75,7 +76,7 @@ void add_parameters(const engine::BudgetFit& fit, const engine::CurveFit& solved
     }
     const Eigen::MatrixXd correlation = gum::correlation_matrix(solved.covariance);
     for (Eigen::Index i = 0; i < p; ++i) {
-        const engine::BudgetFit::Parameter& from = fit.parameters[static_cast<std::size_t>(i)];
+        const gum::BudgetFit::Parameter& from = fit.parameters[static_cast<std::size_t>(i)];
         FitSummary::Parameter parameter;
         parameter.name = from.name;
         parameter.unit = from.unit.text();
@@ -100,7 +101,7 @@ void add_parameters(const engine::BudgetFit& fit, const engine::CurveFit& solved
     }
 }
 
-void add_data(const engine::BudgetFit& fit, const engine::CurveFit& solved, FitSummary& summary) {
+void add_data(const gum::BudgetFit& fit, const engine::CurveFit& solved, FitSummary& summary) {
     summary.y_name = fit.ordinate;
     summary.y_unit = fit.ordinate_unit.text();
     const auto column = [&](std::size_t regressor) {
@@ -159,7 +160,7 @@ BudgetRow joint_row(const std::string& name, const std::string& role, double var
 
 }  // namespace
 
-FitSummary fit_summary(const engine::BudgetFit& fit, const engine::CurveFit& solved) {
+FitSummary fit_summary(const gum::BudgetFit& fit, const engine::CurveFit& solved) {
     FitSummary summary;
     summary.name = fit.name;
     summary.equation = fit.equation.text;
@@ -183,16 +184,16 @@ FitSummary fit_summary(const engine::BudgetFit& fit, const engine::CurveFit& sol
         const double lower = gum::chi_square_lower_tail(solved.sum_of_squares, solved.degrees_of_freedom);
         summary.p_value = upper;
         summary.printed.p_value = upper < k_least_printed_p ? "< 0.0001" : rounded(upper, 2);
-        summary.consistency = upper < k_fit_test_level         ? "refuted"
-                              : lower < k_fit_overstated_level ? "overstated"
-                                                               : "consistent";
+        summary.consistency = upper < k_fit_test_level              ? "refuted"
+                              : lower < gum::k_fit_overstated_level ? "overstated"
+                                                                    : "consistent";
     }
     add_parameters(fit, solved, summary);
     add_data(fit, solved, summary);
     return summary;
 }
 
-BudgetRow fit_row(const engine::BudgetFit& fit, const engine::CurveFit& solved, const Eigen::VectorXd& sensitivity,
+BudgetRow fit_row(const gum::BudgetFit& fit, const engine::CurveFit& solved, const Eigen::VectorXd& sensitivity,
                   const Unit& result_unit, double result_u) {
     const bool scaled = solved.covariance_scaled;
     const double nu = scaled ? solved.degrees_of_freedom : std::numeric_limits<double>::infinity();
@@ -208,7 +209,7 @@ BudgetRow fit_row(const engine::BudgetFit& fit, const engine::CurveFit& solved, 
             joint_row(fit.regressors.front(), "fit_data", by_x, nu, scaled, result_unit, result_u));
     }
     for (Eigen::Index i = 0; i < sensitivity.size(); ++i) {
-        const engine::BudgetFit::Parameter& parameter = fit.parameters[static_cast<std::size_t>(i)];
+        const gum::BudgetFit::Parameter& parameter = fit.parameters[static_cast<std::size_t>(i)];
         const double u = std::sqrt(solved.covariance(i, i));
         BudgetRow part =
             joint_row(parameter.name, "fit_parameter", sensitivity(i) * sensitivity(i) * solved.covariance(i, i), nu,

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "app/budget_model.h"
 #include "app/budget_texts.h"
 #include "gum/analysis_of_variance.h"
+#include "gum/budget/budget_model.h"
 #include "gum/outlying_readings.h"
 #include "gum/rounding.h"
 #include "gum/type_a.h"
@@ -20,9 +20,9 @@ namespace gumcert::app {
 
 namespace {
 
-using engine::BudgetInput;
 using engine::BudgetJob;
-using engine::StatedQuantity;
+using gum::BudgetInput;
+using gum::StatedQuantity;
 
 constexpr double k_test_level = 0.05;  // of the F test
 constexpr std::size_t k_longest_lag_list = 100;
@@ -109,7 +109,7 @@ reports::ReadingsSummary readings_summary(const Stated& stated) {
     return summary;
 }
 
-gum::OneWayAnalysis analysis_of(const BudgetInput& input, const engine::GroupedReadings& from, double alpha) {
+gum::OneWayAnalysis analysis_of(const BudgetInput& input, const gum::GroupedReadings& from, double alpha) {
     if (!from.readings.empty()) {
         std::vector<std::vector<double>> groups;
         for (const std::vector<double>& group : from.readings) {
@@ -193,7 +193,7 @@ void add_statement(const Stated& stated, reports::EvaluationRecord& record) {
         add_outliers(stated, "observations", 0, in_unit(stated.input, stated.quantity.observations), record);
     }
     if (stated.quantity.groups) {
-        const engine::GroupedReadings& groups = *stated.quantity.groups;
+        const gum::GroupedReadings& groups = *stated.quantity.groups;
         record.variance_analyses.push_back(variance_analysis(stated));
         for (std::size_t i = 0; i < groups.readings.size(); ++i) {
             add_outliers(stated, "group", i + 1, in_unit(stated.input, groups.readings[i]), record);
@@ -218,7 +218,7 @@ void add_readings(const BudgetJob& job, reports::EvaluationRecord& record) {
         std::set<std::string> in_force;
         for (std::size_t p = 0; p < std::max<std::size_t>(job.points.size(), 1); ++p) {
             const std::optional<std::size_t> at = job.points.empty() ? std::nullopt : std::optional{p};
-            for (const StatedQuantity& quantity : input_at(job, i, at).components) {
+            for (const StatedQuantity& quantity : gum::input_at(job, i, at).components) {
                 if (base.stated && is_of_job(base, quantity)) {
                     in_force.insert(quantity.where);
                 }
@@ -230,7 +230,7 @@ void add_readings(const BudgetJob& job, reports::EvaluationRecord& record) {
             }
         }
         for (std::size_t p = 0; p < job.points.size(); ++p) {
-            const BudgetInput& own = input_at(job, i, p);
+            const BudgetInput& own = gum::input_at(job, i, p);
             if (&own == &base) {
                 continue;
             }

@@ -14,9 +14,9 @@
 #include "app/budget_readings.h"
 #include "app/budget_texts.h"
 #include "app/record_parts.h"
-#include "app/reported_covariance.h"
 #include "app/reported_result.h"
-#include "app/zero_uncertainty.h"
+#include "gum/budget/reported_covariance.h"
+#include "gum/budget/zero_uncertainty.h"
 #include "gum/coverage.h"
 #include "gum/quantity/decimal_rounding.h"
 #include "gum/quantity/dense_factors.h"
@@ -30,9 +30,9 @@ namespace gumcert::app {
 
 namespace {
 
-using engine::BudgetInput;
 using engine::BudgetJob;
-using engine::StatedQuantity;
+using gum::BudgetInput;
+using gum::StatedQuantity;
 using gum::Unit;
 using reports::BudgetRow;
 using reports::Printed;
@@ -92,19 +92,19 @@ BudgetRow budget_row(const std::string& name, const Unit& unit, const RowNumbers
 }
 
 /// The budget of one output at one point: a row an input, with rows of its components inside.
-std::vector<BudgetRow> budget_rows(const BudgetJob& job, const BudgetResult& result, std::optional<std::size_t> at,
-                                   const BudgetPointResult& point, Eigen::Index output, const Unit& unit) {
+std::vector<BudgetRow> budget_rows(const BudgetJob& job, const gum::BudgetResult& result, std::optional<std::size_t> at,
+                                   const gum::BudgetPointResult& point, Eigen::Index output, const Unit& unit) {
     // All quantities of a symbol have its sensitivity.
     std::vector<double> sensitivity(result.symbols.size(), 0.0);
-    const std::vector<BudgetQuantity>& quantities = point.model->quantities();
+    const std::vector<gum::BudgetQuantity>& quantities = point.model->quantities();
     for (std::size_t q = 0; q < quantities.size(); ++q) {
         sensitivity[quantities[q].symbol] = point.propagation.jacobian(output, static_cast<Eigen::Index>(q));
     }
     const double u = point.propagation.standard_uncertainty(output);
     std::vector<BudgetRow> rows;
     for (std::size_t i = 0; i < job.inputs.size(); ++i) {
-        const BudgetInput& input = input_at(job, i, at);
-        const InputTotal total = input_total(input);
+        const BudgetInput& input = gum::input_at(job, i, at);
+        const gum::InputTotal total = gum::input_total(input);
         const StatedQuantity& first = input.components.front();
         RowNumbers numbers{
             .value = total.value, .u = total.u, .nu = total.degrees_of_freedom, .sensitivity = sensitivity[i]};
@@ -164,7 +164,7 @@ std::vector<BudgetRow> budget_rows(const BudgetJob& job, const BudgetResult& res
 
 /// The part of the variance that the rows do not show, where inputs are correlated.
 /// \param inputs  of the job
-std::optional<reports::CorrelationRow> correlation_row(const BudgetPointResult& point,
+std::optional<reports::CorrelationRow> correlation_row(const gum::BudgetPointResult& point,
                                                        const std::vector<BudgetRow>& rows, std::size_t inputs,
                                                        Eigen::Index output, const Unit& unit) {
     // The row of a fit holds the covariances of its parameters; those of inputs need a row of their own.
@@ -206,7 +206,7 @@ void without_sensitivities(std::vector<BudgetRow>& rows) {
     }
 }
 
-std::string distribution_of(const BudgetOutputResult& output) {
+std::string distribution_of(const gum::BudgetOutputResult& output) {
     if (output.coverage == "convolution") {
         return "convolution";
     }
@@ -234,7 +234,7 @@ Eigen::MatrixXd in_units(const Eigen::MatrixXd& si, const std::vector<Unit>& uni
     return scaled;
 }
 
-std::vector<Unit> result_units(const BudgetResult& result) {
+std::vector<Unit> result_units(const gum::BudgetResult& result) {
     std::vector<Unit> units;
     for (std::size_t p = 0; p < result.points.size(); ++p) {
         units.insert(units.end(), result.output_units.begin(), result.output_units.end());
@@ -249,8 +249,8 @@ struct NamedCovariance {
     Eigen::MatrixXd matrix;
 };
 
-NamedCovariance named(const BudgetJob& job, const BudgetResult& result, const Eigen::MatrixXd& covariance) {
-    const std::vector<std::string> names = budget_result_names(job, result);
+NamedCovariance named(const BudgetJob& job, const gum::BudgetResult& result, const Eigen::MatrixXd& covariance) {
+    const std::vector<std::string> names = gum::budget_result_names(job, result);
     const std::vector<Unit> units = result_units(result);
     NamedCovariance all;
     std::vector<Eigen::Index> rows;
@@ -265,8 +265,8 @@ NamedCovariance named(const BudgetJob& job, const BudgetResult& result, const Ei
     return all;
 }
 
-reports::ResultCovariance covariance_of(const BudgetJob& job, const BudgetResult& result, const Eigen::MatrixXd& all,
-                                        const std::string& file) {
+reports::ResultCovariance covariance_of(const BudgetJob& job, const gum::BudgetResult& result,
+                                        const Eigen::MatrixXd& all, const std::string& file) {
     const auto [names, units, covariance] = named(job, result, all);
     reports::ResultCovariance out;
     out.names = names;
@@ -274,7 +274,7 @@ reports::ResultCovariance covariance_of(const BudgetJob& job, const BudgetResult
         out.units.push_back(unit.text());
     }
     out.file = file;
-    out.method = has_result_of_trials(result) ? "monte_carlo" : "law_of_propagation";
+    out.method = gum::has_result_of_trials(result) ? "monte_carlo" : "law_of_propagation";
     if (!file.empty()) {
         return out;
     }
@@ -292,7 +292,7 @@ reports::ResultCovariance covariance_of(const BudgetJob& job, const BudgetResult
 }
 
 /// Joint region of the outputs of the only point. The covariance must not be singular for an ellipsoid.
-reports::CoverageRegion region_of(const BudgetJob& job, const BudgetPointResult& point,
+reports::CoverageRegion region_of(const BudgetJob& job, const gum::BudgetPointResult& point,
                                   const std::vector<Unit>& units) {
     reports::CoverageRegion region;
     region.coverage_probability = job.coverage_probability;
@@ -356,21 +356,21 @@ reports::CoverageRegion region_of(const BudgetJob& job, const BudgetPointResult&
 
 /// Results whose digits are lost because double precision cannot hold the numbers that they come from: large values
 /// that cancel, among them constants, which have no uncertainty of their own to be held against.
-void warn_of_lost_digits(const BudgetResult& result, reports::EvaluationRecord& record) {
+void warn_of_lost_digits(const gum::BudgetResult& result, reports::EvaluationRecord& record) {
     constexpr double k_few_digits = 1e-6;  // of an exact value
     std::vector<std::string> names;
     std::vector<std::string> inexact;
     std::string worst;
     double most = 0.0;
     for (std::size_t p = 0; p < result.points.size(); ++p) {
-        const BudgetPointResult& point = result.points[p];
+        const gum::BudgetPointResult& point = result.points[p];
         const Eigen::VectorXd roundings = point.model->rounding(gum::input_estimates(*point.model));
         for (std::size_t i = 0; i < result.output_names.size(); ++i) {
             const auto index = static_cast<Eigen::Index>(i);
             const double lost = roundings(index);
             const double u = point.propagation.standard_uncertainty(index);
             const std::string& name = record.results[p * result.output_names.size() + i].name;
-            if (point.outputs[i].coverage_note == k_exact_by_definition &&
+            if (point.outputs[i].coverage_note == gum::k_exact_by_definition &&
                 lost > k_few_digits * std::abs(point.propagation.value(index))) {
                 inexact.push_back(name);
             }
@@ -413,7 +413,7 @@ void warn_of_lost_digits(const BudgetResult& result, reports::EvaluationRecord& 
 }
 
 /// A number that does not exist stands nowhere.
-void without_missing_moments(const BudgetOutputResult& from, reports::MonteCarloSummary& trials) {
+void without_missing_moments(const gum::BudgetOutputResult& from, reports::MonteCarloSummary& trials) {
     if (!from.has_mean) {
         trials.mean.reset();
         trials.printed.mean.clear();
@@ -427,7 +427,7 @@ void without_missing_moments(const BudgetOutputResult& from, reports::MonteCarlo
     }
 }
 
-nlohmann::json options_json(const BudgetJob& job, const BudgetResult& result) {
+nlohmann::json options_json(const BudgetJob& job, const gum::BudgetResult& result) {
     nlohmann::json options;
     options["coverage_probability"] = job.coverage_probability;
     options["law_of_propagation"] = {{"order", 1}, {"second_order_reported_from_relative_change", 0.005}};
@@ -443,17 +443,7 @@ nlohmann::json options_json(const BudgetJob& job, const BudgetResult& result) {
 
 }  // namespace
 
-std::vector<std::string> budget_result_names(const BudgetJob& job, const BudgetResult& result) {
-    std::vector<std::string> names;
-    for (std::size_t p = 0; p < result.points.size(); ++p) {
-        for (const std::string& output : result.output_names) {
-            names.push_back(job.points.empty() ? output : output + "[" + job.points[p].name + "]");
-        }
-    }
-    return names;
-}
-
-reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult& result,
+reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetResult& result,
                                         const std::vector<reports::InputFile>& files, const Eigen::MatrixXd& covariance,
                                         const std::string& covariance_file) {
     reports::EvaluationRecord record = record_head("budget",
@@ -464,7 +454,11 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
                                                     .notes = result.notes},
                                                    options_json(job, result), files);
     for (const BudgetInput& input : job.inputs) {
-        record.inputs.push_back({.name = input.name, .description = input.description, .unit = input.unit.text()});
+        const auto described = job.input_descriptions.find(input.name);
+        record.inputs.push_back({.name = input.name,
+                                 .description = described == job.input_descriptions.end() ? certificate::LocalisedText()
+                                                                                          : described->second,
+                                 .unit = input.unit.text()});
     }
     if (!job.model.empty()) {
         record.model.emplace();
@@ -478,29 +472,28 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
 
     const gum::MonteCarloRequest asked =
         job.monte_carlo.value_or(result.automatic_monte_carlo.value_or(gum::MonteCarloRequest{}));
-    const std::vector<std::string> names = budget_result_names(job, result);
+    const std::vector<std::string> names = gum::budget_result_names(job, result);
     for (std::size_t p = 0; p < result.points.size(); ++p) {
-        const BudgetPointResult& point = result.points[p];
+        const gum::BudgetPointResult& point = result.points[p];
         const Eigen::VectorXd roundings = point.model->rounding(gum::input_estimates(*point.model));
         const std::optional<std::size_t> at = job.points.empty() ? std::nullopt : std::optional<std::size_t>(p);
         for (std::size_t i = 0; i < result.output_names.size(); ++i) {
             const auto index = static_cast<Eigen::Index>(i);
-            const BudgetOutputResult& from = point.outputs[i];
+            const gum::BudgetOutputResult& from = point.outputs[i];
             const Unit& unit = result.output_units[i];
             reports::Result out;
             out.name = names[p * result.output_names.size() + i];
             out.quantity = result.output_names[i];
             out.point = at ? job.points[p].name : "";
-            for (const engine::BudgetOutput& stated : job.outputs) {
-                if (stated.name == out.quantity) {
-                    out.description = stated.description.in("en");
-                    if (!stated.description.by_language.empty()) {
-                        out.description_by_language = stated.description;
-                    }
+            if (const auto described = job.output_descriptions.find(out.quantity);
+                described != job.output_descriptions.end()) {
+                out.description = described->second.in("en");
+                if (!described->second.by_language.empty()) {
+                    out.description_by_language = described->second;
                 }
             }
             out.value = unit.from_si(point.propagation.value(index));
-            if (from.coverage_note == k_exact_by_definition) {
+            if (from.coverage_note == gum::k_exact_by_definition) {
                 out.value = held_digits(out.value, unit.difference_from_si(roundings(index)));
             }
             out.unit = unit.text();
@@ -552,7 +545,7 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
     }
     // Trials without a variance have no region that is measured by it.
     const bool any_without = std::any_of(result.points.front().outputs.begin(), result.points.front().outputs.end(),
-                                         [](const BudgetOutputResult& output) { return !output.has_u; });
+                                         [](const gum::BudgetOutputResult& output) { return !output.has_u; });
     if (result.output_names.size() > 1 && job.points.empty() && !job.model.empty() && !any_without) {
         record.region = region_of(job, result.points.front(), result.output_units);
     }
@@ -566,7 +559,8 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const BudgetResult
     return record;
 }
 
-std::string budget_covariance_csv(const BudgetJob& job, const BudgetResult& result, const Eigen::MatrixXd& covariance) {
+std::string budget_covariance_csv(const BudgetJob& job, const gum::BudgetResult& result,
+                                  const Eigen::MatrixXd& covariance) {
     const auto [names, units, matrix] = named(job, result, covariance);
     const Eigen::MatrixXd scaled = in_units(matrix, units);
     std::string csv = "result";

@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "app/budget_model.h"
 #include "app/budget_record.h"
 #include "app/read_file.h"
 #include "app/record_parts.h"
 #include "engine/job/certificate_statement.h"
+#include "gum/budget/budget_model.h"
 #include "gum/convolution.h"
 #include "gum/quantity/diagnostic.h"
 #include "text/lists.h"
@@ -63,7 +63,7 @@ void refuse_a_name_of_the_program(const certificate::Profile& own, const fs::pat
 InputValues values_of(const engine::BudgetJob& job, std::size_t input) {
     InputValues out{.unit = job.inputs[input].unit.text(), .values = {}};
     const auto add = [&](std::optional<std::size_t> point) {
-        out.values.push_back(job.inputs[input].unit.from_si(input_total(input_at(job, input, point)).value));
+        out.values.push_back(job.inputs[input].unit.from_si(gum::input_total(gum::input_at(job, input, point)).value));
     };
     if (job.points.empty()) {
         add(std::nullopt);
@@ -75,7 +75,7 @@ InputValues values_of(const engine::BudgetJob& job, std::size_t input) {
 }
 
 /// P(Y ≤ x) and P(Y < x) of an output whose k comes from the convolution, x in its unit.
-void add_convolution(const BudgetPointResult& point, Eigen::Index output, const gum::Unit& unit,
+void add_convolution(const gum::BudgetPointResult& point, Eigen::Index output, const gum::Unit& unit,
                      const std::string& name, CapabilityInputs& inputs) {
     const auto terms = gum::convolution_terms(*point.model, point.propagation, output);
     if (!terms) {
@@ -118,7 +118,7 @@ certificate::Profile certificate_profile(const certificate::CertificateData& dat
     return engine::parse_profile(read_file(file), file.filename().string());
 }
 
-CapabilityInputs capability_inputs(const engine::BudgetJob& job, const BudgetResult& result, unsigned threads) {
+CapabilityInputs capability_inputs(const engine::BudgetJob& job, const gum::BudgetResult& result, unsigned threads) {
     CapabilityInputs inputs;
     for (std::size_t i = 0; i < job.inputs.size(); ++i) {
         inputs.values.emplace(job.inputs[i].name, values_of(job, i));
@@ -126,10 +126,10 @@ CapabilityInputs capability_inputs(const engine::BudgetJob& job, const BudgetRes
     if (!job.certificate || job.certificate->specifications.empty()) {
         return inputs;
     }
-    const std::vector<std::string> names = budget_result_names(job, result);
+    const std::vector<std::string> names = gum::budget_result_names(job, result);
     const std::size_t outputs = result.output_names.size();
     for (std::size_t p = 0; p < result.points.size(); ++p) {
-        const BudgetPointResult& point = result.points[p];
+        const gum::BudgetPointResult& point = result.points[p];
         for (std::size_t i = 0; i < outputs; ++i) {
             const std::string& name = names[p * outputs + i];
             const gum::Unit& unit = result.output_units[i];

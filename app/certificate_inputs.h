@@ -3,10 +3,10 @@
 #include <filesystem>
 
 #include "app/certify.h"
-#include "app/evaluate_budget.h"
 #include "certificate/certificate_data.h"
 #include "certificate/profile.h"
 #include "engine/job/budget_job.h"
+#include "gum/budget/evaluate_budget.h"
 
 namespace gumcert::app {
 
@@ -20,7 +20,7 @@ namespace gumcert::app {
 /// What the evaluation of a budget knows for its certificate: values of the inputs at every point, the distribution of
 /// results whose k comes from a convolution, and the trials of those whose U comes from Monte Carlo.
 /// \param threads  to draw trials again; 0: as many as the machine has
-[[nodiscard]] CapabilityInputs capability_inputs(const engine::BudgetJob& job, const BudgetResult& result,
+[[nodiscard]] CapabilityInputs capability_inputs(const engine::BudgetJob& job, const gum::BudgetResult& result,
                                                  unsigned threads = 1);
 
 }  // namespace gumcert::app

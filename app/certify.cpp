@@ -14,11 +14,11 @@
 #include "app/circle_closure_findings.h"
 #include "app/environment_findings.h"
 #include "app/record_parts.h"
-#include "app/reported_result.h"
 #include "app/rotary_findings.h"
 #include "certificate/gates.h"
 #include "certificate/result_names.h"
 #include "certificate/statement_of_uncertainty.h"
+#include "gum/budget/evaluation_choice.h"
 #include "gum/coverage.h"
 #include "gum/rounding.h"
 #include "reports/record/certified_tables.h"
@@ -270,7 +270,7 @@ void add_s05(std::vector<Finding>& findings, const std::string& result, const st
 
 void add_against(std::vector<Finding>& findings, const std::string& result, const std::string& against) {
     add_s05(findings, result,
-            "the law of propagation is reported because the job asks for it, although " + reason_in_words(against),
+            "the law of propagation is reported because the job asks for it, although " + gum::reason_in_words(against),
             "Leave out \"coverage\": \"law_of_propagation\" in the job: then the result of Monte Carlo is reported.");
 }
 

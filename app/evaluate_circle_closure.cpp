@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "app/budget_coverage.h"
 #include "app/record_parts.h"
+#include "gum/budget/budget_coverage.h"
 #include "gum/convolution.h"
 #include "gum/quantity/progress.h"
 
@@ -24,9 +24,9 @@ ClosureCoverage coverage_of(const CircleClosureModel& model, const gum::Propagat
         return all;
     }
     const auto convolved = gum::expand_by_convolution(model, propagation, output);
-    if (convolved && is_noticed_change(convolved->coverage_factor, all.k)) {
+    if (convolved && gum::is_noticed_change(convolved->coverage_factor, all.k)) {
         all.coverage = "convolution";
-        all.note = convolution_note(nu, all.k);
+        all.note = gum::convolution_note(nu, all.k);
         all.k = convolved->coverage_factor;
         all.U = convolved->expanded_uncertainty;
     }

@@ -8,11 +8,9 @@
 #include "app/certify.h"
 #include "app/circle_closure_record.h"
 #include "app/document_units.h"
-#include "app/evaluate_budget.h"
 #include "app/evaluate_circle_closure.h"
 #include "app/evaluate_comparison.h"
 #include "app/evaluate_rotary_table.h"
-#include "app/reported_covariance.h"
 #include "app/rotary_table_record.h"
 #include "encoding/sha2.h"
 #include "engine/job/budget_job.h"
@@ -21,6 +19,8 @@
 #include "engine/job/file_source.h"
 #include "engine/job/job_kind.h"
 #include "engine/job/rotary_table_job.h"
+#include "gum/budget/evaluate_budget.h"
+#include "gum/budget/reported_covariance.h"
 #include "reports/record_sentences.h"
 
 namespace gumcert::app {
@@ -93,12 +93,12 @@ void make_certificate(Evaluation& evaluation, const std::optional<certificate::C
 Evaluation evaluate_budget_job(const Task& task) {
     const engine::BudgetJob job = engine::read_budget_job(task.files, task.job_file);
     const std::optional<certificate::Profile> profile = profile_of(job.certificate, task.templates);
-    BudgetResult result = evaluate_budget(job, task.threads, task.progress);
+    gum::BudgetResult result = gum::evaluate_budget(job, task.threads, task.progress);
     const std::size_t results = result.points.size() * result.output_names.size();
     Eigen::MatrixXd covariance;
     if (results > 1 && results <= k_most_correlated_results) {
-        covariance = reported_covariance(job, result);
-        note_covariance(job, covariance, result);
+        covariance = gum::reported_covariance(job, result);
+        gum::note_covariance(job, covariance, result);
     } else if (results > 1) {
         result.notes.push_back({.code = "GC-BUDGET-0040",
                                 .where = "covariance of the results",

@@ -5,11 +5,11 @@
 #include <unordered_map>
 #include <utility>
 
-#include "app/budget_covariance.h"
 #include "app/budget_record.h"
 #include "engine/job/budget_job.h"
 #include "engine/job/input_codes.h"
 #include "engine/job/input_text.h"
+#include "gum/budget/budget_covariance.h"
 #include "gum/quantity/units.h"
 #include "text/numbers.h"
 
@@ -65,7 +65,7 @@ InputGroup group_of_variants(const std::vector<InputGroup>& variants) {
     return group;
 }
 
-void check_output(const RotaryTableJob& job, const BudgetResult& result) {
+void check_output(const RotaryTableJob& job, const gum::BudgetResult& result) {
     const gum::Dimension length = gum::Unit::parse("m").dimension();
     if (result.output_names.size() == 1 && result.output_units.front().dimension() == length) {
         return;
@@ -97,7 +97,7 @@ engine::BudgetJob in_order_of_coordinates(const RotaryTableJob& job) {
     return budget;
 }
 
-void check_values(const RotaryTableJob& job, const engine::BudgetJob& budget, const BudgetResult& result) {
+void check_values(const RotaryTableJob& job, const engine::BudgetJob& budget, const gum::BudgetResult& result) {
     std::vector<Diagnostic> problems;
     for (std::size_t p = 0; p < result.points.size(); ++p) {
         const auto at = static_cast<Eigen::Index>(p);
@@ -146,10 +146,10 @@ void warn_of_columns(const RotaryTableJob& job, const Eigen::MatrixXd& covarianc
 
 void evaluate(RotaryTableJob& job, FixtureUncertainty& fixture) {
     const engine::BudgetJob budget = in_order_of_coordinates(job);
-    const BudgetResult& result = fixture.budget.emplace(evaluate_budget(budget, 1));
+    const gum::BudgetResult& result = fixture.budget.emplace(gum::evaluate_budget(budget, 1));
     check_output(job, result);
     check_values(job, budget, result);
-    const Eigen::MatrixXd covariance = budget_covariance(result);
+    const Eigen::MatrixXd covariance = gum::budget_covariance(result);
     std::vector<std::string> names;
     Eigen::Index largest = 0;
     for (Eigen::Index p = 0; p < covariance.rows(); ++p) {
@@ -182,7 +182,7 @@ void evaluate(RotaryTableJob& job, FixtureUncertainty& fixture) {
 
 }  // namespace
 
-JointBudgetModel::JointBudgetModel(const BudgetResult& result, const std::vector<std::string>& names) {
+JointBudgetModel::JointBudgetModel(const gum::BudgetResult& result, const std::vector<std::string>& names) {
     // Groups in the order in which the points first bring them, so that the result depends on the job alone.
     std::vector<SharedInput> shared;
     std::unordered_map<std::uint64_t, std::size_t> by_stream;
@@ -190,7 +190,7 @@ JointBudgetModel::JointBudgetModel(const BudgetResult& result, const std::vector
         std::size_t input = 0, variant = 0;
     };
     std::vector<std::vector<Use>> uses;
-    for (const BudgetPointResult& point : result.points) {
+    for (const gum::BudgetPointResult& point : result.points) {
         std::vector<Use>& of_point = uses.emplace_back();
         for (std::size_t g = 0; g < point.streams.size(); ++g) {
             const InputGroup& group = point.model->inputs()[g];

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "app/evaluate_budget.h"
 #include "engine/job/rotary_table_job.h"
+#include "gum/budget/evaluate_budget.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/measurement_model.h"
 #include "reports/record/evaluation_record.h"
@@ -23,7 +23,7 @@ public:
     /// \param result   of one output
     /// \param names    of the outputs, one a point
     /// \throws NoResultError  GC-FIXTURE-0001 where correlated inputs have other distributions at other points
-    JointBudgetModel(const BudgetResult& result, const std::vector<std::string>& names);
+    JointBudgetModel(const gum::BudgetResult& result, const std::vector<std::string>& names);
 
     [[nodiscard]] const std::vector<gum::InputGroup>& inputs() const override { return groups_; }
     [[nodiscard]] const std::vector<gum::OutputQuantity>& outputs() const override { return outputs_; }
@@ -35,7 +35,7 @@ private:
     std::vector<gum::InputGroup> groups_;
     std::vector<gum::OutputQuantity> outputs_;
     struct Point {
-        std::shared_ptr<const BudgetModel> model;
+        std::shared_ptr<const gum::BudgetModel> model;
         std::vector<Eigen::Index> inputs;  ///< of this model, one for each input of the point
     };
     std::vector<Point> points_;
@@ -44,9 +44,9 @@ private:
 
 /// Where the uncertainty of the fixture coordinates comes from.
 struct FixtureUncertainty {
-    reports::FixtureBudget record;       ///< for the record of the job; also without a budget
-    std::vector<gum::Diagnostic> notes;  ///< of the evaluation of the budget
-    std::optional<BudgetResult> budget;  ///< one point a coordinate, in the order x1 y1 z1 x2 …
+    reports::FixtureBudget record;            ///< for the record of the job; also without a budget
+    std::vector<gum::Diagnostic> notes;       ///< of the evaluation of the budget
+    std::optional<gum::BudgetResult> budget;  ///< one point a coordinate, in the order x1 y1 z1 x2 …
     /// Of all 3n coordinates in the same order, [m], for Monte Carlo; null without a budget.
     std::shared_ptr<const gum::MeasurementModel> model;
 };

@@ -4,9 +4,9 @@
 #include <map>
 #include <utility>
 
-#include "app/budget_covariance.h"
 #include "app/budget_record.h"
-#include "app/evaluate_budget.h"
+#include "gum/budget/budget_covariance.h"
+#include "gum/budget/evaluate_budget.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::app {
@@ -23,8 +23,8 @@ std::string place_of(const MethodBudget& budget, std::size_t i) {
         gum::Diagnostic{.code = code, .where = place_of(budget, i), .what = what, .rule = rule, .action = action});
 }
 
-engine::ResultUncertainty uncertainty_at(const MethodBudget& budget, std::size_t i, const BudgetOutputResult& output,
-                                         const gum::Unit& unit) {
+engine::ResultUncertainty uncertainty_at(const MethodBudget& budget, std::size_t i,
+                                         const gum::BudgetOutputResult& output, const gum::Unit& unit) {
     if (!output.expanded_uncertainty || !output.coverage_factor) {
         refuse_point(budget, i, "GC-COMPARE-0205", "no expanded uncertainty can be stated: " + output.coverage_note,
                      "a comparison needs the expanded uncertainty of both values",
@@ -62,22 +62,22 @@ MethodSide side_of_budget(const MethodBudget& budget, const gum::Unit& unit, dou
     engine::BudgetJob job = budget.job;
     // U of both sides for one probability; Monte Carlo of single points would not be looked at.
     job.coverage_probability = coverage_probability;
-    for (engine::BudgetOutput& output : job.outputs) {
+    for (gum::BudgetOutput& output : job.outputs) {
         output.coverage_probability.reset();
         output.coverage.reset();
     }
     job.monte_carlo.reset();
     // A covariance between points, and shared sources, are those of the law of propagation.
     job.coverage = gum::CoverageChoice::law_of_propagation;
-    BudgetResult result = evaluate_budget(job, 1);
+    gum::BudgetResult result = gum::evaluate_budget(job, 1);
     result.output_units.front() = unit;  // the rows of its table as well are in the unit of the comparison
-    const Eigen::MatrixXd covariance = budget_covariance(result);
+    const Eigen::MatrixXd covariance = gum::budget_covariance(result);
     MethodSide side;
     std::vector<Eigen::Index> rows;
     std::size_t largest = 0;
     for (std::size_t i = 0; i < budget.point.size(); ++i) {
         const std::size_t at = budget.point[i];
-        const BudgetPointResult& point = result.points[at];
+        const gum::BudgetPointResult& point = result.points[at];
         rows.push_back(static_cast<Eigen::Index>(at));
         side.value.push_back(unit.from_si(point.propagation.value(0)));
         side.uncertainty.push_back(uncertainty_at(budget, i, point.outputs.front(), unit));

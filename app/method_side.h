@@ -34,7 +34,7 @@ struct MethodBudget {
 /// Evaluates the one output of the budget at all points, with the coverage probability of the comparison.
 /// \param unit  of the comparison, of the kind of that output; the readers of jobs see to both
 /// \throws NoResultError  GC-COMPARE-0205 no expanded uncertainty at a point, -0206 an uncertainty of 0; those of
-///                        evaluate_budget()
+///                        gum::evaluate_budget()
 [[nodiscard]] MethodSide side_of_budget(const MethodBudget& budget, const gum::Unit& unit, double coverage_probability);
 
 }  // namespace gumcert::app

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "gum/validation_in_unit.h"
 #include "gum/monte_carlo.h"
 #include "gum/monte_carlo_request.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/measurement_model.h"
+#include "gum/validation_in_unit.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {

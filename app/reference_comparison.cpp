@@ -114,7 +114,7 @@ MethodSide side_of_indicator(const RotaryTableJob& job, const std::vector<Refere
 
 MethodSide side_of_budget(const RotaryTableJob& job) {
     MethodBudget budget{*job.reference_budget, job.reference_budget_file, job.reference->name, {}, {}};
-    for (const engine::BudgetPoint& point : job.reference_budget->points) {  // the reader made them of the readings
+    for (const gum::BudgetPoint& point : job.reference_budget->points) {  // the reader made them of the readings
         budget.point.push_back(budget.point.size());
         budget.name.push_back(point.name);
     }

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "app/budget_model.h"
 #include "app/name_spelling.h"
+#include "gum/budget/budget_model.h"
 
 namespace gumcert::app {
 
@@ -122,25 +122,25 @@ std::vector<gum::Diagnostic> similar_source_names(const std::set<std::string>& n
     return questions;
 }
 
-std::vector<UncertaintySource> uncertainty_sources(const engine::BudgetJob& job, const BudgetResult& result,
+std::vector<UncertaintySource> uncertainty_sources(const engine::BudgetJob& job, const gum::BudgetResult& result,
                                                    std::size_t point, std::size_t output, const gum::Unit& unit,
                                                    bool common_only) {
-    const BudgetPointResult& at = result.points[point];
+    const gum::BudgetPointResult& at = result.points[point];
     // All quantities of a symbol have its sensitivity.
     std::vector<double> sensitivity(result.symbols.size(), 0.0);
-    const std::vector<BudgetQuantity>& quantities = at.model->quantities();
+    const std::vector<gum::BudgetQuantity>& quantities = at.model->quantities();
     for (std::size_t q = 0; q < quantities.size(); ++q) {
         sensitivity[quantities[q].symbol] =
             at.propagation.jacobian(static_cast<Eigen::Index>(output), static_cast<Eigen::Index>(q));
     }
     std::vector<UncertaintySource> sources;
     for (std::size_t i = 0; i < job.inputs.size(); ++i) {
-        const engine::BudgetInput& input =
-            input_at(job, i, job.points.empty() ? std::nullopt : std::optional<std::size_t>(point));
+        const gum::BudgetInput& input =
+            gum::input_at(job, i, job.points.empty() ? std::nullopt : std::optional<std::size_t>(point));
         if (common_only && !input.common) {
             continue;
         }
-        for (const engine::StatedQuantity& component : input.components) {
+        for (const gum::StatedQuantity& component : input.components) {
             const double contribution = unit.difference_from_si(sensitivity[i] * component.u);
             if (!component.source.empty() && contribution != 0.0) {
                 sources.push_back({.source = component.source,

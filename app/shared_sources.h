@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "app/evaluate_budget.h"
 #include "engine/job/budget_job.h"
 #include "engine/job/comparison_job.h"
+#include "gum/budget/evaluate_budget.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::app {
@@ -18,8 +18,9 @@ namespace gumcert::app {
 /// \param point, output  positions in the result
 /// \param common_only    only inputs that all points of the table share
 [[nodiscard]] std::vector<engine::UncertaintySource> uncertainty_sources(const engine::BudgetJob& job,
-                                                                         const BudgetResult& result, std::size_t point,
-                                                                         std::size_t output, const gum::Unit& unit,
+                                                                         const gum::BudgetResult& result,
+                                                                         std::size_t point, std::size_t output,
+                                                                         const gum::Unit& unit,
                                                                          bool common_only = false);
 
 /// Covariance of two results through the sources that both name (JCGM 100:2008, F.1.2.3), source by source.

@@ -186,9 +186,9 @@ private:
         }
         // An input with problems of its own has been refused already.
         if (std::find(names_.begin(), names_.end(), name) == names_.end()) {
-            const bool is_parameter = std::any_of(job_.fits.begin(), job_.fits.end(), [&](const BudgetFit& fit) {
+            const bool is_parameter = std::any_of(job_.fits.begin(), job_.fits.end(), [&](const gum::BudgetFit& fit) {
                 return std::any_of(fit.parameters.begin(), fit.parameters.end(),
-                                   [&](const BudgetFit::Parameter& parameter) { return parameter.name == name; });
+                                   [&](const gum::BudgetFit::Parameter& parameter) { return parameter.name == name; });
             });
             problems_.refuse(
                 k_unknown_quantity, document_.where(pointer),
@@ -270,12 +270,12 @@ private:
     }
 
     void check_variance(std::size_t index, double variance, const std::string& pointer) {
-        const BudgetInput& input = job_.inputs[index];
+        const gum::BudgetInput& input = job_.inputs[index];
         if (!input.stated) {
             return;  // the points of the table state it, with this variance
         }
         double u2 = 0.0;
-        for (const StatedQuantity& component : input.components) {
+        for (const gum::StatedQuantity& component : input.components) {
             const double u = input.unit.difference_from_si(component.u);
             u2 += u * u;
         }
@@ -298,7 +298,7 @@ private:
                 "inputs that were observed together are an array of at least 2 names", "correct it");
             return;
         }
-        SimultaneousInputs together;
+        gum::SimultaneousInputs together;
         bool fits = true;
         for (std::size_t i = 0; i < set.size(); ++i) {
             const std::string at = child_pointer(pointer, i);
@@ -307,8 +307,8 @@ private:
                 fits = false;
                 continue;
             }
-            const BudgetInput& input = job_.inputs[*index];
-            const StatedQuantity& quantity = input.components.front();
+            const gum::BudgetInput& input = job_.inputs[*index];
+            const gum::StatedQuantity& quantity = input.components.front();
             const std::size_t n = quantity.observations.size();
             std::string objection;
             if (input.components.size() != 1 || n < 2) {
@@ -364,7 +364,7 @@ private:
             }
             return i;
         };
-        for (const InputCorrelation& pair : job_.correlations) {
+        for (const gum::InputCorrelation& pair : job_.correlations) {
             parent[root_of(pair.first)] = root_of(pair.second);
         }
         std::map<std::size_t, std::vector<std::size_t>> clusters;
@@ -393,8 +393,8 @@ private:
         const auto place = [&](std::size_t input) {
             return static_cast<Eigen::Index>(std::lower_bound(members.begin(), members.end(), input) - members.begin());
         };
-        const InputCorrelation* last = nullptr;
-        for (const InputCorrelation& pair : job_.correlations) {
+        const gum::InputCorrelation* last = nullptr;
+        for (const gum::InputCorrelation& pair : job_.correlations) {
             if (std::binary_search(members.begin(), members.end(), pair.first)) {
                 matrix(place(pair.first), place(pair.second)) = pair.r;
                 matrix(place(pair.second), place(pair.first)) = pair.r;
@@ -454,8 +454,8 @@ private:
             return false;
         }
         double most = 0.0;
-        const InputCorrelation* moved = nullptr;
-        for (InputCorrelation& pair : job_.correlations) {
+        const gum::InputCorrelation* moved = nullptr;
+        for (gum::InputCorrelation& pair : job_.correlations) {
             if (std::binary_search(members.begin(), members.end(), pair.first)) {
                 const double r = std::clamp((*nearest)(place(pair.first), place(pair.second)), -1.0, 1.0);
                 if (moved == nullptr || std::abs(r - pair.r) > most) {

@@ -42,7 +42,7 @@ public:
         : object_(object), pointer_(std::move(pointer)), document_(document), files_(files), problems_(problems) {}
 
     /// \param taken  names that no parameter may have; those of this fit are added
-    BudgetFit read(const std::string& name, std::map<std::string, std::string>& taken) {
+    gum::BudgetFit read(const std::string& name, std::map<std::string, std::string>& taken) {
         fit_.name = name;
         fit_.where = object_.where();
         const std::size_t problems_before = problems_.refusals();
@@ -90,7 +90,7 @@ private:
                                  "rename one of the two");
             }
             if (unit && is_name) {
-                BudgetFit::Parameter& read = fit_.parameters.emplace_back();
+                gum::BudgetFit::Parameter& read = fit_.parameters.emplace_back();
                 read.name = name;
                 read.unit = *unit;
                 if (start) {
@@ -128,7 +128,7 @@ private:
 
     [[nodiscard]] bool is_parameter(std::string_view name) const {
         return std::any_of(fit_.parameters.begin(), fit_.parameters.end(),
-                           [&](const BudgetFit::Parameter& parameter) { return parameter.name == name; });
+                           [&](const gum::BudgetFit::Parameter& parameter) { return parameter.name == name; });
     }
 
     /// Regressors are the names of the right side that are no parameters.
@@ -508,7 +508,7 @@ private:
     void check_equation() {
         std::vector<gum::InputSymbol> symbols;
         std::vector<std::size_t> parameters;
-        for (const BudgetFit::Parameter& parameter : fit_.parameters) {
+        for (const gum::BudgetFit::Parameter& parameter : fit_.parameters) {
             parameters.push_back(symbols.size());
             symbols.push_back({parameter.name, parameter.unit, std::nullopt});
         }
@@ -541,7 +541,7 @@ private:
             refuse_as(error, "", problems_);
             return;
         }
-        for (const BudgetFit::Parameter& parameter : fit_.parameters) {
+        for (const gum::BudgetFit::Parameter& parameter : fit_.parameters) {
             if (!parameter.start) {
                 problems_.refuse(
                     k_fit_start, document_.where(child_pointer(object_.pointer("parameters"), parameter.name)),
@@ -556,7 +556,7 @@ private:
     const JsonDocument& document_;
     JobFiles& files_;
     ProblemList& problems_;
-    BudgetFit fit_;
+    gum::BudgetFit fit_;
     std::vector<std::string> uses_;
     std::vector<std::string> columns_;  ///< regressors, then the ordinate
     std::vector<gum::Unit> units_;      ///< of the columns
@@ -632,9 +632,9 @@ std::optional<gum::EquationText> equation_text_of(const json& value, const std::
     return gum::EquationText{std::move(text), where};
 }
 
-std::vector<BudgetFit> read_fits(const JsonObject& root, const JsonDocument& document,
-                                 const std::vector<std::string>& inputs, JobFiles& files, ProblemList& problems) {
-    std::vector<BudgetFit> fits;
+std::vector<gum::BudgetFit> read_fits(const JsonObject& root, const JsonDocument& document,
+                                      const std::vector<std::string>& inputs, JobFiles& files, ProblemList& problems) {
+    std::vector<gum::BudgetFit> fits;
     const json* value = root.find("fits");
     if (value == nullptr) {
         return fits;

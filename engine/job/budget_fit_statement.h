@@ -17,9 +17,9 @@ namespace gumcert::engine {
 /// once to check its names and units, and whether it needs start values.
 ///
 /// \param inputs  names of the inputs of the job, which no parameter may have
-[[nodiscard]] std::vector<BudgetFit> read_fits(const JsonObject& root, const JsonDocument& document,
-                                               const std::vector<std::string>& inputs, JobFiles& files,
-                                               ProblemList& problems);
+[[nodiscard]] std::vector<gum::BudgetFit> read_fits(const JsonObject& root, const JsonDocument& document,
+                                                    const std::vector<std::string>& inputs, JobFiles& files,
+                                                    ProblemList& problems);
 
 /// Why a text cannot be the name of a quantity of an equation; refuses it then.
 [[nodiscard]] bool is_quantity_name(const std::string& name, const std::string& where, ProblemList& problems);

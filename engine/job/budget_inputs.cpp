@@ -34,17 +34,17 @@ std::string small_letters(std::string text) {
     return text;
 }
 
-double value_in_unit(const BudgetInput& input) {
+double value_in_unit(const gum::BudgetInput& input) {
     double sum = 0.0;
-    for (const StatedQuantity& component : input.components) {
+    for (const gum::StatedQuantity& component : input.components) {
         sum += component.stated_value;
     }
     return sum;
 }
 
-double value_in_si(const BudgetInput& input) {
+double value_in_si(const gum::BudgetInput& input) {
     double sum = 0.0;
-    for (const StatedQuantity& component : input.components) {
+    for (const gum::StatedQuantity& component : input.components) {
         sum += component.value;
     }
     return sum;
@@ -78,7 +78,7 @@ void BudgetInputs::read(const JsonObject& root) {
     for (const std::string& name : names_) {
         read_input(name, child_pointer(pointer, name), root.has("points"));
     }
-    const Reading reading = [&](const std::string& name) -> const BudgetInput* {
+    const Reading reading = [&](const std::string& name) -> const gum::BudgetInput* {
         const auto found = of_name_.find(name);
         return found == of_name_.end() || !stated_[found->second].base ? nullptr : &stated_[found->second].base->input;
     };
@@ -157,13 +157,14 @@ std::optional<BudgetInputs::Evaluated> BudgetInputs::evaluate(const Stated& stat
     out.input.where = keys.where();
     bool is_read = true;
     if (keys.has("description")) {
+        certificate::LocalisedText& description = descriptions_[stated.name] = {};
         if (const nlohmann::json* value = keys.value("description"); value != nullptr && value->is_object()) {
-            read_localised(*value, out.input.description, true,
+            read_localised(*value, description, true,
                            {&keys.document("description"), keys.pointer("description"), &keys.problems("description")});
         } else {
-            const auto description = keys.text("description");
-            out.input.description = description.value_or("");
-            is_read = description.has_value();
+            const auto text = keys.text("description");
+            description = text.value_or("");
+            is_read = text.has_value();
         }
     }
     if (keys.has("between_points")) {
@@ -254,7 +255,7 @@ bool BudgetInputs::evaluate_components(const Stated& stated, const StatementKeys
             add_component(stated, StatementKeys(document, pointer, budget_component_keys(), problems), true, out) &&
             name && is_read;
         if (out.input.components.size() > before) {
-            StatedQuantity& component = out.input.components.back();
+            gum::StatedQuantity& component = out.input.components.back();
             component.name = name.value_or("");
             const std::array<std::string*, 3> own{&component.source, &component.significance, &component.note};
             for (std::size_t k = 0; k < own.size(); ++k) {
@@ -285,7 +286,7 @@ bool BudgetInputs::evaluate_components(const Stated& stated, const StatementKeys
 
 bool BudgetInputs::complete(Evaluated& evaluated, const Reading& reading) const {
     bool is_complete = true;
-    BudgetInput& input = evaluated.input;
+    gum::BudgetInput& input = evaluated.input;
     for (std::size_t i = 0; i < input.components.size(); ++i) {
         const std::optional<StatedSpecification>& specification = evaluated.specifications[i];
         if (!specification) {
@@ -294,7 +295,7 @@ bool BudgetInputs::complete(Evaluated& evaluated, const Reading& reading) const 
         const StatementKeys& keys = evaluated.keys[i];
         double read = value_in_unit(input);
         if (specification->of) {
-            const BudgetInput* other = reading(*specification->of);
+            const gum::BudgetInput* other = reading(*specification->of);
             if (other == nullptr) {
                 // An input with problems of its own has been refused already.
                 if (std::find(names_.begin(), names_.end(), *specification->of) == names_.end()) {
@@ -326,9 +327,9 @@ bool BudgetInputs::complete(Evaluated& evaluated, const Reading& reading) const 
 }
 
 bool BudgetInputs::check_digits(const Evaluated& evaluated) {
-    const BudgetInput& input = evaluated.input;
+    const gum::BudgetInput& input = evaluated.input;
     double u2 = 0.0;
-    for (const StatedQuantity& component : input.components) {
+    for (const gum::StatedQuantity& component : input.components) {
         const double u = input.unit.difference_from_si(component.u);
         u2 += u * u;
     }
@@ -338,7 +339,7 @@ bool BudgetInputs::check_digits(const Evaluated& evaluated) {
     }
     bool all_held = true;
     for (std::size_t i = 0; i < input.components.size(); ++i) {
-        const StatedQuantity& component = input.components[i];
+        const gum::StatedQuantity& component = input.components[i];
         // A mean has digits of its own; what was written are the readings.
         const bool is_list = !component.observations.empty() || component.groups.has_value() ||
                              component.distribution.samples != nullptr;
@@ -389,8 +390,8 @@ void BudgetInputs::warn_of_similar_names() {
     }
 }
 
-std::vector<BudgetInput> BudgetInputs::inputs(std::map<std::string, std::size_t>& positions) {
-    std::vector<BudgetInput> list;
+std::vector<gum::BudgetInput> BudgetInputs::inputs(std::map<std::string, std::size_t>& positions) {
+    std::vector<gum::BudgetInput> list;
     positions_.assign(stated_.size(), 0);
     for (std::size_t i = 0; i < stated_.size(); ++i) {
         const Stated& stated = stated_[i];
@@ -401,7 +402,7 @@ std::vector<BudgetInput> BudgetInputs::inputs(std::map<std::string, std::size_t>
                 list.push_back(stated.base->input);
                 continue;
             }
-            BudgetInput& open = list.emplace_back();  // until a point states it
+            gum::BudgetInput& open = list.emplace_back();  // until a point states it
             open.name = stated.name;
             open.unit = stated.unit;
             open.stated = false;
@@ -517,9 +518,9 @@ std::optional<std::size_t> BudgetInputs::point_input(const std::string& name, co
     if (std::find(names_.begin(), names_.end(), name) != names_.end()) {
         return std::nullopt;
     }
-    const bool is_parameter = std::any_of(job.fits.begin(), job.fits.end(), [&](const BudgetFit& fit) {
+    const bool is_parameter = std::any_of(job.fits.begin(), job.fits.end(), [&](const gum::BudgetFit& fit) {
         return std::any_of(fit.parameters.begin(), fit.parameters.end(),
-                           [&](const BudgetFit::Parameter& parameter) { return parameter.name == name; });
+                           [&](const gum::BudgetFit::Parameter& parameter) { return parameter.name == name; });
     });
     if (is_parameter) {
         problems.refuse(k_point_of_fit, where, text::in_quotes(name) + " is a parameter of a fit",
@@ -534,7 +535,7 @@ std::optional<std::size_t> BudgetInputs::point_input(const std::string& name, co
     return std::nullopt;
 }
 
-void BudgetInputs::name_point(BudgetPoint& point, const std::optional<std::string>& name, const std::string& where,
+void BudgetInputs::name_point(gum::BudgetPoint& point, const std::optional<std::string>& name, const std::string& where,
                               const BudgetJob& job, ProblemList& problems) {
     point.name = name.value_or(std::to_string(job.points.size() + 1));
     const auto [entry, is_new] = point_names_.try_emplace(point.name, where);
@@ -558,7 +559,7 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
                              "write {\"name of an input\": value, …}");
             continue;
         }
-        BudgetPoint point;
+        gum::BudgetPoint point;
         std::optional<std::string> name;
         std::map<std::size_t, StatementKeys> overrides;
         std::set<std::size_t> told;
@@ -658,7 +659,7 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
         return;
     }
     for (std::size_t row = 0; row < table->rows(); ++row) {
-        BudgetPoint point;
+        gum::BudgetPoint point;
         std::optional<std::string> point_name;
         std::map<std::size_t, StatementKeys> overrides;
         std::set<std::size_t> told;
@@ -698,7 +699,7 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
     }
 }
 
-void BudgetInputs::read_point(BudgetPoint& point, const std::map<std::size_t, StatementKeys>& overrides,
+void BudgetInputs::read_point(gum::BudgetPoint& point, const std::map<std::size_t, StatementKeys>& overrides,
                               const std::set<std::size_t>& told, BudgetJob& job) {
     std::map<std::size_t, Evaluated> here;
     std::set<std::size_t> read_again;
@@ -720,7 +721,7 @@ void BudgetInputs::read_point(BudgetPoint& point, const std::map<std::size_t, St
         const std::size_t position = positions_[index];
         // The correlation from simultaneous observations belongs to the observations of the job.
         const bool is_simultaneous =
-            std::any_of(job.simultaneous.begin(), job.simultaneous.end(), [&](const SimultaneousInputs& set) {
+            std::any_of(job.simultaneous.begin(), job.simultaneous.end(), [&](const gum::SimultaneousInputs& set) {
                 return std::find(set.inputs.begin(), set.inputs.end(), position) != set.inputs.end();
             });
         if (is_simultaneous) {
@@ -734,7 +735,7 @@ void BudgetInputs::read_point(BudgetPoint& point, const std::map<std::size_t, St
         }
         const bool is_correlated =
             evaluated->input.constant &&
-            std::any_of(job.correlations.begin(), job.correlations.end(), [&](const InputCorrelation& pair) {
+            std::any_of(job.correlations.begin(), job.correlations.end(), [&](const gum::InputCorrelation& pair) {
                 return pair.first == position || pair.second == position;
             });
         if (is_correlated) {
@@ -753,7 +754,7 @@ void BudgetInputs::read_point(BudgetPoint& point, const std::map<std::size_t, St
             here.emplace(index, *stated_[index].base);
         }
     }
-    const Reading reading = [&](const std::string& name) -> const BudgetInput* {
+    const Reading reading = [&](const std::string& name) -> const gum::BudgetInput* {
         const auto found = of_name_.find(name);
         if (found == of_name_.end()) {
             return nullptr;

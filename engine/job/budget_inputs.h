@@ -33,7 +33,11 @@ public:
 
     /// The inputs without problems, in the order of the job.
     /// \param positions  receives where each one is
-    [[nodiscard]] std::vector<BudgetInput> inputs(std::map<std::string, std::size_t>& positions);
+    [[nodiscard]] std::vector<gum::BudgetInput> inputs(std::map<std::string, std::size_t>& positions);
+    /// What the inputs are, by their names.
+    [[nodiscard]] const std::map<std::string, certificate::LocalisedText>& descriptions() const {
+        return descriptions_;
+    }
     /// Names and units of all inputs, for the equations.
     [[nodiscard]] std::vector<gum::InputSymbol> symbols() const;
     /// True when the specification of another input refers to it.
@@ -45,7 +49,7 @@ public:
 private:
     /// An input, and what is needed to evaluate it again at a point.
     struct Evaluated {
-        BudgetInput input;
+        gum::BudgetInput input;
         std::vector<std::optional<StatedSpecification>> specifications;  ///< one a component
         std::vector<StatementKeys> keys;                                 ///< one a component
         bool is_stated_common = false;
@@ -61,7 +65,7 @@ private:
         std::vector<std::string> silent;       ///< names of the first points that leave it to the job
         std::map<std::string_view, std::size_t> overridden;  ///< keys of the base: points that replace them
     };
-    using Reading = std::function<const BudgetInput*(const std::string&)>;  ///< the input of a name, or null
+    using Reading = std::function<const gum::BudgetInput*(const std::string&)>;  ///< the input of a name, or null
 
     void read_input(const std::string& name, const std::string& pointer, bool has_points);
     [[nodiscard]] std::optional<Evaluated> evaluate(const Stated& stated, const StatementKeys& keys);
@@ -81,11 +85,11 @@ private:
     void read_point_array(const nlohmann::json& points, const std::string& pointer, BudgetJob& job);
     void read_point_file(const std::string& name, BudgetJob& job);
     /// \param told  inputs that were refused at this point already
-    void read_point(BudgetPoint& point, const std::map<std::size_t, StatementKeys>& overrides,
+    void read_point(gum::BudgetPoint& point, const std::map<std::size_t, StatementKeys>& overrides,
                     const std::set<std::size_t>& told, BudgetJob& job);
     [[nodiscard]] std::optional<std::size_t> point_input(const std::string& name, const std::string& where,
                                                          const BudgetJob& job, ProblemList& problems) const;
-    void name_point(BudgetPoint& point, const std::optional<std::string>& name, const std::string& where,
+    void name_point(gum::BudgetPoint& point, const std::optional<std::string>& name, const std::string& where,
                     const BudgetJob& job, ProblemList& problems);
 
     const JsonDocument& document_;
@@ -98,6 +102,7 @@ private:
     std::vector<std::size_t> positions_;             ///< stated_ → job.inputs
     std::vector<std::vector<std::size_t>> readers_;  ///< inputs whose specification refers to one, in stated_
     std::map<std::string, std::string> point_names_;
+    std::map<std::string, certificate::LocalisedText> descriptions_;
     bool symbols_are_whole_ = true;
 };
 

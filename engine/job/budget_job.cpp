@@ -15,6 +15,7 @@
 #include "engine/job/certificate_statement.h"
 #include "engine/job/job_files.h"
 #include "engine/job/json_document.h"
+#include "engine/job/monte_carlo_request.h"
 #include "text/visible_text.h"
 
 namespace gumcert::engine {
@@ -79,8 +80,9 @@ private:
         read_correlations(*root, *document_, covariance, positions, inputs.names(), job_, *problems_);
         read_outputs(*root);
         inputs.read_points(*root, job_);
+        job_.input_descriptions = inputs.descriptions();
         double p = job_.coverage_probability;
-        for (const BudgetOutput& output : job_.outputs) {
+        for (const gum::BudgetOutput& output : job_.outputs) {
             p = std::max(p, output.coverage_probability.value_or(p));
         }
         job_.monte_carlo = read_monte_carlo(*root, p, 2, *problems_);
@@ -209,15 +211,18 @@ private:
 
     void read_outputs(const JsonObject& root) {
         for_each_member(root, "outputs", k_output_keys, [&](const std::string& name, const JsonObject& object) {
-            BudgetOutput output;
+            gum::BudgetOutput output;
             output.name = name;
             output.where = object.where();
-            const nlohmann::json* const description = object.find("description");
-            if (description != nullptr && description->is_object()) {
-                read_localised(*description, output.description, true,
-                               {&*document_, object.pointer("description"), problems_});
+            const nlohmann::json* const stated = object.find("description");
+            certificate::LocalisedText description;
+            if (stated != nullptr && stated->is_object()) {
+                read_localised(*stated, description, true, {&*document_, object.pointer("description"), problems_});
             } else {
-                output.description = object.optional_string("description").value_or("");
+                description = object.optional_string("description").value_or("");
+            }
+            if (!description.empty()) {
+                job_.output_descriptions[name] = std::move(description);
             }
             output.coverage_probability = object.optional_number("coverage_probability", k_probability);
             output.coverage = object.optional_choice("coverage", gum::k_coverage_choices);
@@ -250,27 +255,27 @@ private:
             return;
         }
         const bool is_accepted = problems_->refusals() == 0;
-        std::vector<gum::InputSymbol> symbols = model_inputs(job_);
+        std::vector<gum::InputSymbol> symbols = gum::model_inputs(job_);
         if (!is_accepted) {
             // The inputs that were refused for what they state have a name and a unit all the same.
             symbols = inputs.symbols();
             std::map<std::string, std::optional<double>> constants;
-            for (const gum::InputSymbol& known : model_inputs(job_)) {
+            for (const gum::InputSymbol& known : gum::model_inputs(job_)) {
                 constants.emplace(known.name, known.constant);
             }
             for (gum::InputSymbol& symbol : symbols) {
                 const auto known = constants.find(symbol.name);
                 symbol.constant = known == constants.end() ? std::nullopt : known->second;
             }
-            for (const BudgetFit& fit : job_.fits) {
-                for (const BudgetFit::Parameter& parameter : fit.parameters) {
+            for (const gum::BudgetFit& fit : job_.fits) {
+                for (const gum::BudgetFit::Parameter& parameter : fit.parameters) {
                     symbols.push_back({parameter.name, parameter.unit, std::nullopt});
                 }
             }
         }
         try {
             const gum::EquationSystem system =
-                gum::EquationSystem::compile(job_.model, symbols, job_.unknowns, model_outputs(job_));
+                gum::EquationSystem::compile(job_.model, symbols, job_.unknowns, gum::model_outputs(job_));
             for (const gum::Diagnostic& warning : system.warnings()) {
                 problems_->warn(InputCode{warning.code, {}}, warning.where, warning.what, warning.rule, warning.action);
             }
@@ -304,12 +309,12 @@ private:
         for (const gum::InputSymbol& symbol : inputs.symbols()) {
             known.emplace(symbol.name, symbol.unit);
         }
-        for (const BudgetFit& fit : job_.fits) {
-            for (const BudgetFit::Parameter& parameter : fit.parameters) {
+        for (const gum::BudgetFit& fit : job_.fits) {
+            for (const gum::BudgetFit::Parameter& parameter : fit.parameters) {
                 known.emplace(parameter.name, parameter.unit);
             }
         }
-        for (const BudgetOutput& output : job_.outputs) {
+        for (const gum::BudgetOutput& output : job_.outputs) {
             const auto found = known.find(output.name);
             if (found == known.end()) {
                 if (inputs.symbols_are_whole() && problems_->refusals() == 0) {
@@ -358,42 +363,6 @@ const std::vector<JobKeys>& all_keys() {
 
 std::span<const JobKeys> budget_job_keys() {
     return all_keys();
-}
-
-std::vector<gum::InputSymbol> model_inputs(const BudgetJob& job) {
-    std::set<std::size_t> stated_by_points;
-    for (const BudgetPoint& point : job.points) {
-        for (const auto& [index, input] : point.inputs) {
-            stated_by_points.insert(index);
-        }
-    }
-    std::vector<gum::InputSymbol> symbols;
-    for (std::size_t i = 0; i < job.inputs.size(); ++i) {
-        const BudgetInput& input = job.inputs[i];
-        gum::InputSymbol& symbol =
-            symbols.emplace_back(gum::InputSymbol{input.name, input.unit, std::nullopt, input.where});
-        if (input.constant && !stated_by_points.contains(i)) {
-            double value = 0.0;
-            for (const StatedQuantity& component : input.components) {
-                value += component.value;
-            }
-            symbol.constant = value;
-        }
-    }
-    for (const BudgetFit& fit : job.fits) {
-        for (const BudgetFit::Parameter& parameter : fit.parameters) {
-            symbols.push_back({parameter.name, parameter.unit, std::nullopt});
-        }
-    }
-    return symbols;
-}
-
-std::vector<gum::OutputSymbol> model_outputs(const BudgetJob& job) {
-    std::vector<gum::OutputSymbol> symbols;
-    for (const BudgetOutput& output : job.outputs) {
-        symbols.push_back({output.name, output.unit, output.where});
-    }
-    return symbols;
 }
 
 BudgetJob read_budget_job(const FileSource& source, const std::string& job_file) {

@@ -6,11 +6,12 @@
 
 namespace gumcert::engine {
 
-std::vector<std::pair<std::string, gum::Unit>> budget_results(const BudgetJob& budget) {
+std::vector<std::pair<std::string, gum::Unit>> budget_results(const gum::Budget& budget) {
     std::vector<std::pair<std::string, gum::Unit>> results;
-    const std::vector<gum::InputSymbol> inputs = model_inputs(budget);
+    const std::vector<gum::InputSymbol> inputs = gum::model_inputs(budget);
     if (!budget.model.empty()) {
-        const auto system = gum::EquationSystem::compile(budget.model, inputs, budget.unknowns, model_outputs(budget));
+        const auto system =
+            gum::EquationSystem::compile(budget.model, inputs, budget.unknowns, gum::model_outputs(budget));
         for (std::size_t i = 0; i < system.output_count(); ++i) {
             results.emplace_back(system.output_name(i), system.output_unit(i));
         }
@@ -18,7 +19,7 @@ std::vector<std::pair<std::string, gum::Unit>> budget_results(const BudgetJob& b
     }
     for (const gum::InputSymbol& input : inputs) {
         const auto stated = std::find_if(budget.outputs.begin(), budget.outputs.end(),
-                                         [&](const BudgetOutput& output) { return output.name == input.name; });
+                                         [&](const gum::BudgetOutput& output) { return output.name == input.name; });
         if (stated != budget.outputs.end() || budget.outputs.empty()) {
             results.emplace_back(input.name,
                                  stated != budget.outputs.end() && stated->unit ? *stated->unit : input.unit);

@@ -516,7 +516,7 @@ bool StatementReader::limits_may_have(DistributionKind kind, double nu) const {
     return true;
 }
 
-void StatementReader::make_limits_inexact(StatedQuantity& quantity, double nu) {
+void StatementReader::make_limits_inexact(gum::StatedQuantity& quantity, double nu) {
     if (std::isinf(nu) || quantity.distribution.kind != DistributionKind::uniform) {
         return;
     }
@@ -632,8 +632,8 @@ std::optional<EvaluatedStatement> evaluate_statement(const StatementKeys& keys, 
     return StatementReader(keys, context).evaluate();
 }
 
-bool specify(StatedQuantity& quantity, const StatedSpecification& specification, double reading, const gum::Unit& unit,
-             const StatementKeys& keys) {
+bool specify(gum::StatedQuantity& quantity, const StatedSpecification& specification, double reading,
+             const gum::Unit& unit, const StatementKeys& keys) {
     const double width = std::abs(reading) * specification.percent_of_reading / 100.0 +
                          specification.range * specification.percent_of_range / 100.0 + specification.floor;
     const double width_si = unit.difference_to_si(width);

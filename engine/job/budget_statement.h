@@ -42,7 +42,7 @@ struct StatementContext {
 };
 
 struct EvaluatedStatement {
-    StatedQuantity quantity;
+    gum::StatedQuantity quantity;
     bool is_constant = false;
     std::optional<StatedSpecification> specification;  ///< u of the quantity is missing until `specify` is called
 };
@@ -56,7 +56,7 @@ struct EvaluatedStatement {
 /// Uncertainty of a quantity from the specification of the instrument that read it.
 /// \param reading  [unit], of the input that `specification.of` names
 /// \return false when it was refused
-[[nodiscard]] bool specify(StatedQuantity& quantity, const StatedSpecification& specification, double reading,
+[[nodiscard]] bool specify(gum::StatedQuantity& quantity, const StatedSpecification& specification, double reading,
                            const gum::Unit& unit, const StatementKeys& keys);
 
 }  // namespace gumcert::engine

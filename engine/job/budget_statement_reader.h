@@ -83,7 +83,7 @@ public:
 
     /// Rectangular limits whose half-width has the relative uncertainty r = 1/√(2ν) become those of a curvilinear
     /// trapezoid, inexactly known within d = r a (JCGM 101:2008, 6.4.3); u stays a/√3, with ν.
-    static void make_limits_inexact(StatedQuantity& quantity, double nu);
+    static void make_limits_inexact(gum::StatedQuantity& quantity, double nu);
 
 private:
     // ---- which statement it is --------------------------------------------------------------------------------------
@@ -192,8 +192,8 @@ private:
     /// Readings in groups, valid with or without an effect between the groups: u = s(x̄_j)/√J with J − 1 degrees of
     /// freedom                                                                   (after JCGM 100:2008, H.5)
     bool read_groups();
-    bool read_lists_of(GroupedReadings& groups) const;
-    bool read_summary_of(GroupedReadings& groups) const;
+    bool read_lists_of(gum::GroupedReadings& groups) const;
+    bool read_summary_of(gum::GroupedReadings& groups) const;
 
     // ---- distributions ----------------------------------------------------------------------------------------------
 
@@ -212,7 +212,7 @@ private:
     const StatementContext& context_;
     const gum::Unit& unit_;
     std::string unit_text_, difference_text_;  ///< empty for a number
-    StatedQuantity quantity_;
+    gum::StatedQuantity quantity_;
     bool is_constant_ = false;
     std::optional<StatedSpecification> specification_;
 };

@@ -145,7 +145,7 @@ bool StatementReader::count_fits(std::string_view key, std::size_t count, std::s
 }
 
 bool StatementReader::read_groups() {
-    GroupedReadings groups;
+    gum::GroupedReadings groups;
     const json* value = keys_.value("groups");
     const bool is_read = value != nullptr && (value->is_array() ? read_lists_of(groups) : read_summary_of(groups));
     if (!is_read || !count_fits("groups", groups.means.size(), 2, "an evaluation of groups needs at least 2 groups")) {
@@ -166,7 +166,7 @@ bool StatementReader::read_groups() {
     return set_type_a("groups", u, nu);
 }
 
-bool StatementReader::read_lists_of(GroupedReadings& groups) const {
+bool StatementReader::read_lists_of(gum::GroupedReadings& groups) const {
     const json& lists = *keys_.value("groups");
     bool fits = true;
     for (std::size_t i = 0; i < lists.size(); ++i) {
@@ -205,7 +205,7 @@ bool StatementReader::read_lists_of(GroupedReadings& groups) const {
     return fits;
 }
 
-bool StatementReader::read_summary_of(GroupedReadings& groups) const {
+bool StatementReader::read_summary_of(gum::GroupedReadings& groups) const {
     const auto object = keys_.object("groups", k_groups_keys);
     if (!object) {
         return false;

@@ -13,6 +13,7 @@
 #include "engine/job/csv_table.h"
 #include "engine/job/job_files.h"
 #include "engine/job/json_document.h"
+#include "engine/job/monte_carlo_request.h"
 #include "engine/job/statement_keys.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
@@ -246,7 +247,7 @@ private:
         if (!statement) {
             return;
         }
-        const StatedQuantity& q = statement->quantity;
+        const gum::StatedQuantity& q = statement->quantity;
         if (q.stated_value != 0.0 && *pattern != ClosurePattern::scale && *pattern != ClosurePattern::turn) {
             object.refuse(k_closure_value, "value", "the value is " + text::shortest_plain(q.stated_value),
                           "an effect of this kind has the value 0: what is the same at all readings goes into the "

@@ -13,8 +13,8 @@
 #include "engine/job/file_source.h"
 #include "engine/job/input_codes.h"
 #include "engine/job/job_kind.h"
-#include "engine/job/monte_carlo_request.h"
 #include "gum/coverage_choice.h"
+#include "gum/monte_carlo_request.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 

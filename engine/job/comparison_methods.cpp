@@ -181,7 +181,7 @@ private:
         for (const SidePoint& other : others) {
             known.emplace(name_in_budget(other.point), &other.point);
         }
-        const std::vector<BudgetPoint>& points = side.side.budget->points;
+        const std::vector<gum::BudgetPoint>& points = side.side.budget->points;
         const std::size_t count = std::max<std::size_t>(points.size(), 1);
         for (std::size_t i = 0; i < count; ++i) {
             SidePoint read;

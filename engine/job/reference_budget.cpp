@@ -66,7 +66,7 @@ void check_output(const BudgetJob& budget, ProblemList& problems) {
 void check_reading(const BudgetJob& budget, ProblemList& problems) {
     const std::string rule = "the mean reading at each point takes the place of the value of the input \"reading\"";
     const auto reading = std::find_if(budget.inputs.begin(), budget.inputs.end(),
-                                      [](const BudgetInput& input) { return input.name == k_reading; });
+                                      [](const gum::BudgetInput& input) { return input.name == k_reading; });
     if (reading == budget.inputs.end()) {
         problems.refuse(k_reference_budget_reading, text::visible(problems.file()) + "#/inputs",
                         "no input is named \"reading\"", rule,
@@ -96,7 +96,7 @@ std::string points_of(const BudgetJob& budget, std::span<const ReferencePoint> p
                       std::span<const double> angles_deg) {
     static constexpr std::array<char, 3> k_directions{'x', 'y', 'z'};
     const auto reading = std::find_if(budget.inputs.begin(), budget.inputs.end(),
-                                      [](const BudgetInput& input) { return input.name == k_reading; });
+                                      [](const gum::BudgetInput& input) { return input.name == k_reading; });
     nlohmann::json table = nlohmann::json::array();
     for (const ReferencePoint& point : points) {
         table.push_back({{"point", std::string(1, k_directions[point.direction]) + " " +

@@ -16,6 +16,7 @@
 #include "engine/job/job_files.h"
 #include "engine/job/json_document.h"
 #include "engine/job/machine_frame_reading.h"
+#include "engine/job/monte_carlo_request.h"
 #include "engine/job/reference_budget.h"
 #include "engine/job/rotary_table_exclusion.h"
 #include "engine/job/rotary_table_limits.h"
@@ -743,7 +744,7 @@ private:
             return;
         }
         std::vector<std::string> stated;
-        for (const BudgetPoint& point : budget.points) {
+        for (const gum::BudgetPoint& point : budget.points) {
             stated.push_back(point.name);
         }
         std::vector<std::string> sorted_expected = expected;

@@ -14,12 +14,12 @@
 #include "certificate/certificate_data.h"
 #include "engine/job/file_source.h"
 #include "engine/job/job_kind.h"
-#include "engine/job/monte_carlo_request.h"
 #include "engine/job/rotary_table_exclusion.h"
 #include "engine/line_of_sight.h"
 #include "engine/machine_frame.h"
 #include "engine/rotary_table_measurement.h"
 #include "gum/coverage_choice.h"
+#include "gum/monte_carlo_request.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/units.h"
 

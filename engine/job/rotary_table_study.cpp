@@ -1,4 +1,5 @@
 #include "engine/job/rotary_table_study.h"
+#include "engine/job/monte_carlo_request.h"
 #include "engine/job/rotary_table_limits.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"

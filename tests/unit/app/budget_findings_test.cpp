@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "app/budget_covariance.h"
 #include "app/budget_record.h"
-#include "app/evaluate_budget.h"
+#include "gum/budget/budget_covariance.h"
+#include "gum/budget/evaluate_budget.h"
 #include "tests/support/sample_certificate.h"
 #include "tests/unit/engine/job/budget_campaign.h"
 
@@ -21,8 +21,8 @@ using testing::HasSubstr;
 
 reports::EvaluationRecord record_of(const std::string& keys) {
     const engine::BudgetJob job = engine::test::read_budget(keys);
-    const BudgetResult result = evaluate_budget(job, 1);
-    return budget_record(job, result, {}, budget_covariance(result), "");
+    const gum::BudgetResult result = gum::evaluate_budget(job, 1);
+    return budget_record(job, result, {}, gum::budget_covariance(result), "");
 }
 
 std::string line(const std::string& more) {

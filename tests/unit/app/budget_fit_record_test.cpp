@@ -6,9 +6,9 @@
 #include <random>
 #include <string>
 
-#include "app/budget_covariance.h"
 #include "app/budget_record.h"
-#include "app/evaluate_budget.h"
+#include "gum/budget/budget_covariance.h"
+#include "gum/budget/evaluate_budget.h"
 #include "tests/unit/engine/job/budget_campaign.h"
 
 namespace gumcert::app {
@@ -18,8 +18,8 @@ using reports::BudgetRow;
 using reports::EvaluationRecord;
 
 EvaluationRecord record_of_fit(const engine::BudgetJob& job) {
-    const BudgetResult result = evaluate_budget(job, 1);
-    return budget_record(job, result, {}, budget_covariance(result), "");
+    const gum::BudgetResult result = gum::evaluate_budget(job, 1);
+    return budget_record(job, result, {}, gum::budget_covariance(result), "");
 }
 
 /// A straight line through points with u_y 0.1 and residuals of a given size.

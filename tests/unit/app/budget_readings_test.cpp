@@ -8,10 +8,10 @@
 #include <random>
 #include <string>
 
-#include "app/budget_covariance.h"
-#include "app/budget_model.h"
 #include "app/budget_record.h"
-#include "app/evaluate_budget.h"
+#include "gum/budget/budget_covariance.h"
+#include "gum/budget/budget_model.h"
+#include "gum/budget/evaluate_budget.h"
 #include "tests/unit/engine/job/budget_campaign.h"
 
 namespace gumcert::app {
@@ -20,8 +20,8 @@ namespace {
 using reports::EvaluationRecord;
 
 EvaluationRecord record_of(const engine::BudgetJob& job) {
-    const BudgetResult result = evaluate_budget(job, 1);
-    return budget_record(job, result, {}, budget_covariance(result), "");
+    const gum::BudgetResult result = gum::evaluate_budget(job, 1);
+    return budget_record(job, result, {}, gum::budget_covariance(result), "");
 }
 
 TEST(BudgetReadings, AreThoseOfThePoints) {
@@ -131,7 +131,7 @@ TEST(BudgetReadings, EveryPrintedNumberIsOfAStatementInForce) {
         for (std::size_t i = 0; i < inputs; ++i) {
             bool base_in_force = false;
             for (std::size_t p = 0; p < points; ++p) {
-                const engine::BudgetInput& at = input_at(job, i, p);
+                const gum::BudgetInput& at = gum::input_at(job, i, p);
                 const bool own = &at != &job.inputs[i];
                 base_in_force = base_in_force || !own;
                 const std::optional<double> mean = mean_of(at.name, own ? job.points[p].name : "");
@@ -147,7 +147,7 @@ TEST(BudgetReadings, EveryPrintedNumberIsOfAStatementInForce) {
             for (std::size_t i = 0; i < inputs; ++i) {
                 const reports::BudgetRow& row = record.results.at(p).budget.at(i);
                 EXPECT_EQ(row.input, job.inputs[i].name);
-                EXPECT_NEAR(*row.value, input_at(job, i, p).components[0].stated_value, 1e-9);
+                EXPECT_NEAR(*row.value, gum::input_at(job, i, p).components[0].stated_value, 1e-9);
             }
         }
     }

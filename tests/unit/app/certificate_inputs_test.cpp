@@ -57,7 +57,7 @@ TEST(CapabilityInputs, HoldTheValuesOfTheInputsInTheirUnits) {
     const engine::BudgetJob job = budget(R"("x": {"value": 10, "unit": "mm", "u": 0.1},
                                             "t": {"value": 23, "unit": "degC", "u": 0.1})",
                                          "y = x + 0*t*x/t", R"(, "points": [{"x": 20}, {"x": 30}])");
-    const CapabilityInputs inputs = capability_inputs(job, evaluate_budget(job, 1));
+    const CapabilityInputs inputs = capability_inputs(job, gum::evaluate_budget(job, 1));
     EXPECT_EQ(inputs.values.at("x").unit, "mm");
     ASSERT_EQ(inputs.values.at("x").values.size(), 2U);
     EXPECT_NEAR(inputs.values.at("x").values[0], 20.0, 1e-12);
@@ -71,7 +71,7 @@ TEST(CapabilityInputs, HoldTheTrialsWhereMonteCarloIsReported) {
     const engine::BudgetJob job =
         budget(R"("a": {"value": 0, "unit": "mm", "u": 0.002}, "b": {"value": 0, "unit": "1", "u": 1})", "y = a*b",
                R"(, "outputs": {"y": {"unit": "um"}}, "monte_carlo": {"trials": 30000, "seed": 5})");
-    const BudgetResult result = evaluate_budget(job, 1);
+    const gum::BudgetResult result = gum::evaluate_budget(job, 1);
     ASSERT_TRUE(result.points.at(0).outputs.at(0).by_monte_carlo);
     const CapabilityInputs inputs = capability_inputs(job, result);
     const gum::TrialDistribution trials = gum::count_trials(inputs.trials.at("y"));
@@ -87,10 +87,10 @@ TEST(CapabilityInputs, HoldTheTrialsWhereMonteCarloIsReported) {
 TEST(CapabilityInputs, HoldTheDistributionOfAConvolution) {
     const engine::BudgetJob job =
         budget(R"("x": {"value": 10, "unit": "mm", "half_width": 0.1, "distribution": "uniform"})", "y = x");
-    const CapabilityInputs inputs = capability_inputs(job, evaluate_budget(job, 1));
+    const CapabilityInputs inputs = capability_inputs(job, gum::evaluate_budget(job, 1));
     ASSERT_EQ(inputs.distributions.size(), 1U);
     const auto& P = inputs.distributions.at("y");  // x in millimetres, or in what the model gives
-    const gum::Unit unit = evaluate_budget(job, 1).output_units.at(0);
+    const gum::Unit unit = gum::evaluate_budget(job, 1).output_units.at(0);
     const auto at = [&](double mm) { return P(unit.from_si(1e-3 * mm)); };
     EXPECT_NEAR(at(10.0), 0.5, 1e-6);
     EXPECT_NEAR(at(10.05), 0.75, 1e-6);

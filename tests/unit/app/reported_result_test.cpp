@@ -37,7 +37,7 @@ engine::BudgetJob budget(const std::string& model, const std::string& inputs, co
 }
 
 struct Evaluated {
-    BudgetResult result;
+    gum::BudgetResult result;
     reports::EvaluationRecord record;
     [[nodiscard]] const reports::Result& y() const { return record.results.front(); }
     [[nodiscard]] const reports::ReportedResult& reported() const { return y().reported; }
@@ -49,7 +49,7 @@ struct Evaluated {
 
 Evaluated evaluated(const engine::BudgetJob& job) {
     Evaluated out;
-    out.result = evaluate_budget(job, 1);
+    out.result = gum::evaluate_budget(job, 1);
     out.record = budget_record(job, out.result, {}, {}, "");
     return out;
 }

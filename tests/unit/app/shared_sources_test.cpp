@@ -86,7 +86,7 @@ TEST(UncertaintySources, AreSignedContributionsInTheUnitOfTheComparison) {
             {"name": "reading", "value": 0, "u": 0.1},
             {"name": "drift", "value": 0, "u": 0.3, "source": "laser"}]}},
         "outputs": {"y": {"unit": "mm"}})");
-    const Sources found = uncertainty_sources(job, evaluate_budget(job, 1), 0, 0, k_um);
+    const Sources found = uncertainty_sources(job, gum::evaluate_budget(job, 1), 0, 0, k_um);
     ASSERT_EQ(found.size(), 3U);
     EXPECT_EQ(found[0].source, "gauge");
     EXPECT_EQ(found[0].input, "a");
@@ -102,7 +102,7 @@ TEST(UncertaintySources, OfAPointThatStatesItsOwnInput) {
         "a": {"value": 1, "unit": "um", "u": 0.3, "source": "laser"},
         "b": {"value": 1, "unit": "um", "u": 0.1, "source": "indicator"}},
         "points": [{"point": "P", "b": {"value": 7, "u": 0.2, "source": "indicator"}}, {"point": "Q"}])");
-    const BudgetResult result = evaluate_budget(job, 1);
+    const gum::BudgetResult result = gum::evaluate_budget(job, 1);
     const Sources all = uncertainty_sources(job, result, 0, 0, k_um);
     ASSERT_EQ(all.size(), 2U);
     EXPECT_NEAR(all[1].contribution, 0.2, 1e-12);

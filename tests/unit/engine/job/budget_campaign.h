@@ -22,7 +22,7 @@ inline BudgetJob read_budget(const std::string& keys, BudgetFiles files = {}) {
 }
 
 /// A job with one input X and no model.
-inline BudgetInput read_one_input(const std::string& statement, const BudgetFiles& files = {}) {
+inline gum::BudgetInput read_one_input(const std::string& statement, const BudgetFiles& files = {}) {
     return read_budget(R"("inputs": {"X": )" + statement + "}", files).inputs.at(0);
 }
 

@@ -130,9 +130,9 @@ TEST(BudgetJob, EvaluatesEveryStatement) {
     };
     for (const StatementCase& expected : cases) {
         SCOPED_TRACE(expected.statement);
-        const BudgetInput input = read_one_input(expected.statement);
+        const gum::BudgetInput input = read_one_input(expected.statement);
         ASSERT_EQ(input.components.size(), 1U);
-        const StatedQuantity& q = input.components.front();
+        const gum::StatedQuantity& q = input.components.front();
         EXPECT_EQ(q.statement, expected.row);
         const double close = 1e-14;
         EXPECT_NEAR(q.value, expected.value, close * std::max(std::abs(expected.value), expected.u));
@@ -149,12 +149,13 @@ TEST(BudgetJob, EvaluatesEveryStatement) {
 }
 
 TEST(BudgetJob, ConvertsTemperaturesAsScalesAndTheirUncertaintiesAsDifferences) {
-    const StatedQuantity q = read_one_input(R"j({"unit": "degF", "observations": [50, 68, 59]})j").components.front();
+    const gum::StatedQuantity q =
+        read_one_input(R"j({"unit": "degF", "observations": [50, 68, 59]})j").components.front();
     EXPECT_NEAR(q.value, 15.0, 1e-12);  // 59 °F
     EXPECT_NEAR(q.u, 5.0 / std::sqrt(3.0), 1e-12);
     EXPECT_NEAR(q.observations.at(1), 20.0, 1e-12);
     EXPECT_DOUBLE_EQ(q.stated_value, 59.0);
-    const BudgetInput sum = read_one_input(R"j({"unit": "degF", "components": [
+    const gum::BudgetInput sum = read_one_input(R"j({"unit": "degF", "components": [
         {"name": "reading", "value": 68, "u": 0.9}, {"name": "correction", "value": 1.8, "half_width": 1.8}]})j");
     EXPECT_NEAR(sum.components[0].value + sum.components[1].value, 21.0, 1e-12);
     EXPECT_NEAR(sum.components[0].u, 0.5, 1e-15);
@@ -197,8 +198,8 @@ TEST(BudgetJob, ReadsTheExampleOfTheContract) {
     EXPECT_EQ(job.monte_carlo->seed, 1U);
     EXPECT_THAT(job.files, ElementsAre("job.json"));
     EXPECT_EQ(job.document.at("kind"), "budget");
-    EXPECT_EQ(model_inputs(job).size(), 6U);
-    EXPECT_EQ(model_outputs(job).front().name, "l");
+    EXPECT_EQ(gum::model_inputs(job).size(), 6U);
+    EXPECT_EQ(gum::model_outputs(job).front().name, "l");
 }
 
 TEST(BudgetJob, TakesCorrelationsFromEveryStatement) {
@@ -264,7 +265,7 @@ TEST(BudgetJob, ReadsPointsFromATable) {
     EXPECT_EQ(job.points[1].inputs[1].second.components[0].value, 3.0);
     EXPECT_THAT(job.files, ElementsAre("job.json", "points.csv"));
     // A constant that a point changes cannot be an exponent of the model.
-    EXPECT_FALSE(model_inputs(job)[1].constant);
+    EXPECT_FALSE(gum::model_inputs(job)[1].constant);
 }
 
 TEST(BudgetJob, LeavesInputsToThePoints) {
@@ -280,7 +281,7 @@ TEST(BudgetJob, LeavesInputsToThePoints) {
     EXPECT_DOUBLE_EQ(job.points[0].inputs[1].second.components[0].value, 0.01);
     EXPECT_DOUBLE_EQ(job.points[1].inputs[3].second.components[0].distribution.scale, 0.101e-3);
     EXPECT_EQ(job.points[0].inputs[2].second.components[0].observations.size(), 3U);
-    for (const BudgetInput& input : job.inputs) {
+    for (const gum::BudgetInput& input : job.inputs) {
         EXPECT_FALSE(input.stated) << input.name;
     }
     EXPECT_TRUE(job.warnings.empty()) << job.warnings.front().what;
@@ -310,7 +311,7 @@ TEST(BudgetJob, ReadsFits) {
 })j",
                     {{"decay.csv", "x,y\n0,2\n1,1\n2,0.5\n"}, {"v.csv", "4,0,0\n0,4,1\n0,1,4\n"}});
     ASSERT_EQ(job.fits.size(), 2U);
-    const BudgetFit& line = job.fits[0];
+    const gum::BudgetFit& line = job.fits[0];
     EXPECT_EQ(line.name, "calibration");
     EXPECT_EQ(line.ordinate, "V");
     EXPECT_THAT(line.regressors, ElementsAre("t"));
@@ -322,7 +323,7 @@ TEST(BudgetJob, ReadsFits) {
     EXPECT_DOUBLE_EQ(line.y_uncertainty(1, 0), 1e-5);
     EXPECT_EQ(job.fits[1].y_uncertainty(1, 2), 1.0);
     EXPECT_TRUE(job.fits[1].scale_by_residuals);
-    EXPECT_EQ(model_inputs(job).back().name, "s");
+    EXPECT_EQ(gum::model_inputs(job).back().name, "s");
 }
 
 TEST(BudgetJob, ReadsSamplesFromAFile) {
@@ -332,7 +333,8 @@ TEST(BudgetJob, ReadsSamplesFromAFile) {
     }
     const test::BudgetFiles files{{"mc.csv", csv}};
     EXPECT_EQ(read_one_input(R"j({"samples": "mc.csv"})j", files).components[0].value, 3.0);
-    const StatedQuantity q = read_one_input(R"j({"samples": {"file": "mc.csv", "column": "Y"}})j", files).components[0];
+    const gum::StatedQuantity q =
+        read_one_input(R"j({"samples": {"file": "mc.csv", "column": "Y"}})j", files).components[0];
     EXPECT_EQ(q.value, 7.0);
     EXPECT_NEAR(q.u, 2.0, 1e-14);
     EXPECT_EQ(q.degrees_of_freedom, 99.0);

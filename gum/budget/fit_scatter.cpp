@@ -1,19 +1,18 @@
-#include "app/fit_scatter.h"
+#include "gum/budget/fit_scatter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "app/budget_fit_record.h"
 #include "gum/coverage.h"
 #include "gum/quantity/decimal_rounding.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
 
-namespace gumcert::app {
+namespace gumcert::gum {
 
-bool is_without_scatter(const engine::BudgetFit& fit, const engine::CurveFit& solved) {
+bool is_without_scatter(const BudgetFit& fit, const engine::CurveFit& solved) {
     constexpr double k_roundings = 64.0;
     if (fit.y_uncertainty.size() > 0 || solved.residuals.size() == 0) {
         return false;
@@ -34,19 +33,19 @@ double least_uncertainty(const Eigen::MatrixXd& uncertainty) {
 }
 
 /// How far data may be from the decimal numbers that were written.
-double rounding_of(const Eigen::Ref<const Eigen::VectorXd>& data, const gum::Unit& unit) {
+double rounding_of(const Eigen::Ref<const Eigen::VectorXd>& data, const Unit& unit) {
     double most = 0.0;
     for (const double value : data) {
-        most = std::max(most, unit.difference_to_si(gum::decimal_rounding(unit.from_si(value))));
+        most = std::max(most, unit.difference_to_si(decimal_rounding(unit.from_si(value))));
     }
     return most;
 }
 
 }  // namespace
 
-std::optional<gum::Diagnostic> lost_digits_message(const engine::BudgetFit& fit, const engine::CurveFit& solved) {
+std::optional<Diagnostic> lost_digits_message(const BudgetFit& fit, const engine::CurveFit& solved) {
     std::string name = fit.ordinate;
-    const gum::Unit* unit = &fit.ordinate_unit;
+    const Unit* unit = &fit.ordinate_unit;
     double u = least_uncertainty(fit.y_uncertainty);
     if (u == 0.0 && solved.degrees_of_freedom > 0.0) {
         u = std::sqrt(solved.residuals.squaredNorm() / solved.degrees_of_freedom);
@@ -61,36 +60,36 @@ std::optional<gum::Diagnostic> lost_digits_message(const engine::BudgetFit& fit,
             u = u_x;
         }
     }
-    if (!(u > 0.0) || !(lost > gum::k_accepted_rounding * u)) {
+    if (!(u > 0.0) || !(lost > k_accepted_rounding * u)) {
         return std::nullopt;
     }
-    return gum::Diagnostic{
-        .code = "GC-BUDGET-0034",
-        .where = "fit " + fit.name,
-        .what = "the digits of the data of " + name + " are held to ±" +
-                gum::round_significant(unit->difference_from_si(lost), 2) +
-                " only, and their standard uncertainty is " + gum::round_significant(unit->difference_from_si(u), 2),
-        .rule = "a number has about 16 digits; what is lost of it must be small beside its uncertainty",
-        .action = "Subtract a whole number from the data, and add it as a constant in the model.",
-        .severity = gum::Severity::warning};
+    return Diagnostic{.code = "GC-BUDGET-0034",
+                      .where = "fit " + fit.name,
+                      .what = "the digits of the data of " + name + " are held to ±" +
+                              round_significant(unit->difference_from_si(lost), 2) +
+                              " only, and their standard uncertainty is " +
+                              round_significant(unit->difference_from_si(u), 2),
+                      .rule = "a number has about 16 digits; what is lost of it must be small beside its uncertainty",
+                      .action = "Subtract a whole number from the data, and add it as a constant in the model.",
+                      .severity = Severity::warning};
 }
 
-gum::Diagnostic no_scatter_message(const engine::BudgetFit& fit) {
+Diagnostic no_scatter_message(const BudgetFit& fit) {
     return {.code = "GC-BUDGET-0036",
             .where = fit.where.empty() ? "fit " + fit.name : fit.where,
             .what = "all residuals are 0: the parameters have no uncertainty that could be found from them",
             .rule = "residuals of 0 say that the scatter is below the resolution, not that there is none",
             .action = "State the standard uncertainty of the data, with the resolution in it: \"u_" + fit.ordinate +
                       "\" in \"data\".",
-            .severity = gum::Severity::warning};
+            .severity = Severity::warning};
 }
 
-bool keeps_stated_uncertainties(const engine::BudgetFit& fit, const engine::CurveFit& solved) {
+bool keeps_stated_uncertainties(const BudgetFit& fit, const engine::CurveFit& solved) {
     return fit.scale_by_residuals && fit.y_uncertainty.size() > 0 && solved.degrees_of_freedom > 0.0 &&
-           gum::chi_square_lower_tail(solved.sum_of_squares, solved.degrees_of_freedom) < k_fit_overstated_level;
+           chi_square_lower_tail(solved.sum_of_squares, solved.degrees_of_freedom) < k_fit_overstated_level;
 }
 
-gum::Diagnostic kept_uncertainties_message(const engine::BudgetFit& fit) {
+Diagnostic kept_uncertainties_message(const BudgetFit& fit) {
     return {.code = "GC-BUDGET-0035",
             .where = "fit " + fit.name,
             .what =
@@ -102,7 +101,7 @@ gum::Diagnostic kept_uncertainties_message(const engine::BudgetFit& fit) {
             .action =
                 "State the uncertainties that the data have, or leave them out where the residuals alone are to "
                 "give them.",
-            .severity = gum::Severity::warning};
+            .severity = Severity::warning};
 }
 
-}  // namespace gumcert::app
+}  // namespace gumcert::gum

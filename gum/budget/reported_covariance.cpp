@@ -1,4 +1,4 @@
-#include "app/reported_covariance.h"
+#include "gum/budget/reported_covariance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,15 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "app/budget_covariance.h"
-#include "app/budget_record.h"
-#include "app/record_parts.h"
-#include "app/reported_result.h"
+#include "gum/budget/budget_covariance.h"
+#include "gum/budget/evaluation_choice.h"
 #include "gum/propagation.h"
 #include "gum/random_draws.h"
 #include "text/lists.h"
 
-namespace gumcert::app {
+namespace gumcert::gum {
 
 namespace {
 
@@ -48,7 +46,7 @@ Eigen::VectorXd reported_uncertainties(const BudgetResult& result) {
 Eigen::MatrixXd drawn_together(const BudgetResult& result, std::uint64_t seed) {
     const auto m = static_cast<Eigen::Index>(result.output_names.size());
     const Eigen::Index n = m * static_cast<Eigen::Index>(result.points.size());
-    std::vector<gum::InputDraws> draws;
+    std::vector<InputDraws> draws;
     for (const BudgetPointResult& point : result.points) {
         draws.emplace_back(point.model->inputs(), seed, point.streams);
     }
@@ -82,7 +80,7 @@ Eigen::MatrixXd drawn_together(const BudgetResult& result, std::uint64_t seed) {
 
 /// The same correlations beside other standard uncertainties.
 Eigen::MatrixXd with_uncertainties(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& u) {
-    const Eigen::MatrixXd R = gum::correlation_matrix(covariance);
+    const Eigen::MatrixXd R = correlation_matrix(covariance);
     Eigen::MatrixXd scaled(u.size(), u.size());
     for (Eigen::Index j = 0; j < u.size(); ++j) {
         for (Eigen::Index i = 0; i < u.size(); ++i) {
@@ -101,7 +99,7 @@ bool has_result_of_trials(const BudgetResult& result) {
     });
 }
 
-Eigen::MatrixXd reported_covariance(const engine::BudgetJob& job, const BudgetResult& result) {
+Eigen::MatrixXd reported_covariance(const Budget& budget, const BudgetResult& result) {
     if (!has_result_of_trials(result)) {
         return budget_covariance(result);
     }
@@ -110,7 +108,7 @@ Eigen::MatrixXd reported_covariance(const engine::BudgetJob& job, const BudgetRe
     if (result.points.size() == 1) {
         covariance = result.points.front().monte_carlo->covariance;
     } else if (static_cast<std::size_t>(u.size()) <= k_most_drawn_together) {
-        covariance = drawn_together(result, job.monte_carlo.value_or(gum::MonteCarloRequest{}).seed);
+        covariance = drawn_together(result, budget.monte_carlo.value_or(MonteCarloRequest{}).seed);
     }
     for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
         if (!std::isnan(u(i)) && !std::isfinite(covariance(i, i))) {
@@ -120,7 +118,7 @@ Eigen::MatrixXd reported_covariance(const engine::BudgetJob& job, const BudgetRe
     return covariance.size() > 0 ? with_uncertainties(covariance, u) : Eigen::MatrixXd();
 }
 
-void note_covariance(const engine::BudgetJob& job, const Eigen::MatrixXd& covariance, BudgetResult& result) {
+void note_covariance(const Budget& budget, const Eigen::MatrixXd& covariance, BudgetResult& result) {
     if (!has_result_of_trials(result)) {
         return;
     }
@@ -130,7 +128,7 @@ void note_covariance(const engine::BudgetJob& job, const Eigen::MatrixXd& covari
                                 .what = std::move(what),
                                 .rule = std::move(rule),
                                 .action = std::move(action),
-                                .severity = gum::Severity::note});
+                                .severity = Severity::note});
     };
     if (covariance.size() == 0) {
         add("GC-BUDGET-0041", "covariance of the results", "no covariance is stated",
@@ -140,7 +138,7 @@ void note_covariance(const engine::BudgetJob& job, const Eigen::MatrixXd& covari
             "Split the table of points where the covariance between points is needed.");
         return;
     }
-    const std::vector<std::string> names = budget_result_names(job, result);
+    const std::vector<std::string> names = budget_result_names(budget, result);
     std::vector<std::string> without;
     for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
         if (std::isnan(covariance(i, i))) {
@@ -155,4 +153,4 @@ void note_covariance(const engine::BudgetJob& job, const Eigen::MatrixXd& covari
     }
 }
 
-}  // namespace gumcert::app
+}  // namespace gumcert::gum

@@ -9,16 +9,16 @@
 #include <vector>
 
 #include "engine/curve_fit.h"
-#include "engine/job/budget_job.h"
+#include "gum/budget/budget.h"
 #include "gum/expression/equation_system.h"
 #include "gum/quantity/measurement_model.h"
 
-namespace gumcert::app {
+namespace gumcert::gum {
 
-/// What the symbols of a model stand for: the inputs of the job, then the parameters of its fits.
+/// What the symbols of a model stand for: the inputs of the budget, then the parameters of its fits.
 struct BudgetSymbol {
     std::string name;
-    gum::Unit unit;
+    Unit unit;
 };
 
 /// One quantity that the law of propagation and Monte Carlo treat as one: a component of an input, or a parameter of a
@@ -29,16 +29,16 @@ struct BudgetQuantity {
     std::size_t component = k_whole;  ///< of the input
 };
 
-/// The measurement model of a budget job: every symbol of the equations is the sum of its quantities.
-class BudgetModel final : public gum::MeasurementModel {
+/// The measurement model of a budget: every symbol of the equations is the sum of its quantities.
+class BudgetModel final : public MeasurementModel {
 public:
     /// \param system      nothing: the symbols themselves are the outputs
     /// \param quantities  one for each quantity of the groups, in their order
-    BudgetModel(std::optional<gum::EquationSystem> system, const std::vector<BudgetSymbol>& symbols,
-                std::vector<gum::InputGroup> groups, std::vector<BudgetQuantity> quantities);
+    BudgetModel(std::optional<EquationSystem> system, const std::vector<BudgetSymbol>& symbols,
+                std::vector<InputGroup> groups, std::vector<BudgetQuantity> quantities);
 
-    [[nodiscard]] const std::vector<gum::InputGroup>& inputs() const override { return groups_; }
-    [[nodiscard]] const std::vector<gum::OutputQuantity>& outputs() const override { return outputs_; }
+    [[nodiscard]] const std::vector<InputGroup>& inputs() const override { return groups_; }
+    [[nodiscard]] const std::vector<OutputQuantity>& outputs() const override { return outputs_; }
     [[nodiscard]] const std::vector<BudgetQuantity>& quantities() const { return quantities_; }
     [[nodiscard]] Eigen::VectorXd evaluate(const Eigen::VectorXd& x) const override;
     [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const override;
@@ -50,28 +50,28 @@ public:
 private:
     [[nodiscard]] Eigen::VectorXd symbols(const Eigen::VectorXd& x) const;
 
-    std::optional<gum::EquationSystem> system_;
+    std::optional<EquationSystem> system_;
     Eigen::Index symbol_count_ = 0;
-    std::vector<gum::InputGroup> groups_;
+    std::vector<InputGroup> groups_;
     std::vector<BudgetQuantity> quantities_;
-    std::vector<gum::OutputQuantity> outputs_;
+    std::vector<OutputQuantity> outputs_;
     Eigen::VectorXd start_;    ///< solution of implicit equations at the estimates, where every trial begins
     bool one_to_one_ = false;  ///< quantity i is symbol i: nothing to add up
 };
 
-/// The groups of a job at one point of its table, with all that follows from them.
+/// The groups of a budget at one point of its table, with all that follows from them.
 struct BudgetInputs {
-    std::vector<gum::InputGroup> groups;
+    std::vector<InputGroup> groups;
     std::vector<BudgetQuantity> quantities;
     std::vector<std::uint64_t> streams;  ///< of random numbers, one a group: equal for what points have in common
-    std::vector<gum::Diagnostic> notes;  ///< choices that a person should know of
+    std::vector<Diagnostic> notes;       ///< choices that a person should know of
 };
 
-/// Symbols of a job, in the order of its inputs and fits.
-[[nodiscard]] std::vector<BudgetSymbol> budget_symbols(const engine::BudgetJob& job);
+/// Symbols of a budget, in the order of its inputs and fits.
+[[nodiscard]] std::vector<BudgetSymbol> budget_symbols(const Budget& budget);
 
 /// Puts the components of the inputs into groups: those of inputs tied by correlations form one, and those with samples
-/// of one file; every other component is one of its own. A job without a component for an input counts as one.
+/// of one file; every other component is one of its own. An input that is one statement counts as one component.
 ///
 /// The correlation r of two inputs belongs to all of their components in proportion to their standard uncertainties,
 /// r u_i u_j/(u_a u_b): components of one input stay independent of each other, and the input keeps the distribution of
@@ -84,23 +84,11 @@ struct BudgetInputs {
 /// chosen.
 ///
 /// Points that share some inputs of a correlated group draw the others by themselves, given those that they share.
-/// \param fits   one for each fit of the job
-/// \param point  position in job.points, or nothing
+/// \param fits   one for each fit of the budget
+/// \param point  position in budget.points, or nothing
 /// \throws InputError     GC-BUDGET-0002 for a correlation that the distributions of its inputs cannot have,
 ///                        GC-BUDGET-0003 for one that contradicts joint samples
-[[nodiscard]] BudgetInputs budget_inputs(const engine::BudgetJob& job, const std::vector<engine::CurveFit>& fits,
+[[nodiscard]] BudgetInputs budget_inputs(const Budget& budget, const std::vector<engine::CurveFit>& fits,
                                          std::optional<std::size_t> point);
 
-/// The input of a job that holds at a point of its table.
-[[nodiscard]] const engine::BudgetInput& input_at(const engine::BudgetJob& job, std::size_t input,
-                                                  std::optional<std::size_t> point);
-
-/// Estimate, standard uncertainty and degrees of freedom (Welch–Satterthwaite) of an input as the sum of its
-/// components.
-struct InputTotal {
-    double value = 0.0, u = 0.0;
-    double degrees_of_freedom = std::numeric_limits<double>::infinity();
-};
-[[nodiscard]] InputTotal input_total(const engine::BudgetInput& input);
-
-}  // namespace gumcert::app
+}  // namespace gumcert::gum

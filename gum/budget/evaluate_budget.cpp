@@ -1,4 +1,4 @@
-#include "app/evaluate_budget.h"
+#include "gum/budget/evaluate_budget.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,20 +6,16 @@
 #include <map>
 #include <utility>
 
-#include "app/budget_coverage.h"
-#include "app/fit_scatter.h"
-#include "app/record_parts.h"
-#include "app/reported_result.h"
-#include "app/zero_uncertainty.h"
+#include "gum/budget/budget_coverage.h"
+#include "gum/budget/evaluation_choice.h"
+#include "gum/budget/fit_scatter.h"
+#include "gum/budget/zero_uncertainty.h"
 #include "gum/quantity/progress.h"
+#include "gum/validation_in_unit.h"
 
-namespace gumcert::app {
+namespace gumcert::gum {
 
 namespace {
-
-using engine::BudgetFit;
-using engine::BudgetJob;
-using gum::Diagnostic;
 
 // Second-order terms are reported where they change the standard uncertainty by half a percent or the estimate by a
 // hundredth of it.
@@ -32,7 +28,7 @@ constexpr double k_automatic_divisor = 2.0;                   // of the toleranc
 /// The equation of a fit as the curve of the adjustment.
 class EquationCurve final : public engine::Curve {
 public:
-    EquationCurve(gum::EquationSystem system, std::size_t parameters)
+    EquationCurve(EquationSystem system, std::size_t parameters)
         : system_(std::move(system)), parameters_(static_cast<Eigen::Index>(parameters)) {
         std::vector<std::size_t> positions(parameters);
         for (std::size_t i = 0; i < parameters; ++i) {
@@ -50,7 +46,7 @@ public:
             by_parameter = derivative.row(0).head(parameters_).transpose();
             by_x = derivative.row(0).tail(x.size()).transpose();
             return system_.evaluate(all)(0);
-        } catch (const gum::NoResultError&) {  // the adjustment tries other parameters then
+        } catch (const NoResultError&) {  // the adjustment tries other parameters then
             by_parameter = Eigen::VectorXd::Zero(parameters_);
             by_x = Eigen::VectorXd::Zero(x.size());
             return std::numeric_limits<double>::quiet_NaN();
@@ -59,7 +55,7 @@ public:
     [[nodiscard]] bool is_linear() const override { return linear_; }
 
 private:
-    gum::EquationSystem system_;
+    EquationSystem system_;
     Eigen::Index parameters_;
     bool linear_ = false;
 };
@@ -86,7 +82,7 @@ bool has_intercept(const EquationCurve& curve, const engine::CurveData& data, Ei
 }
 
 engine::CurveFit evaluate_fit(const BudgetFit& fit) {
-    std::vector<gum::InputSymbol> symbols;
+    std::vector<InputSymbol> symbols;
     std::vector<std::string> names;
     Eigen::VectorXd start(static_cast<Eigen::Index>(fit.parameters.size()));
     for (const BudgetFit::Parameter& parameter : fit.parameters) {
@@ -97,8 +93,8 @@ engine::CurveFit evaluate_fit(const BudgetFit& fit) {
     for (std::size_t i = 0; i < fit.regressors.size(); ++i) {
         symbols.push_back({.name = fit.regressors[i], .unit = fit.regressor_units[i], .constant = {}});
     }
-    const gum::OutputSymbol output{.name = fit.ordinate, .unit = fit.ordinate_unit, .where = fit.where};
-    const EquationCurve curve(gum::EquationSystem::compile({&fit.equation, 1}, symbols, {}, {&output, 1}),
+    const OutputSymbol output{.name = fit.ordinate, .unit = fit.ordinate_unit, .where = fit.where};
+    const EquationCurve curve(EquationSystem::compile({&fit.equation, 1}, symbols, {}, {&output, 1}),
                               fit.parameters.size());
     engine::CurveData data{.x = fit.x,
                            .y = fit.y,
@@ -114,14 +110,14 @@ engine::CurveFit evaluate_fit(const BudgetFit& fit) {
     return solved;
 }
 
-std::optional<gum::EquationSystem> compile_model(const BudgetJob& job) {
-    if (job.model.empty()) {
+std::optional<EquationSystem> compile_model(const Budget& budget) {
+    if (budget.model.empty()) {
         return std::nullopt;
     }
-    return gum::EquationSystem::compile(job.model, engine::model_inputs(job), job.unknowns, engine::model_outputs(job));
+    return EquationSystem::compile(budget.model, model_inputs(budget), budget.unknowns, model_outputs(budget));
 }
 
-bool is_linear(const gum::EquationSystem& system) {
+bool is_linear(const EquationSystem& system) {
     std::vector<std::size_t> all(system.input_count());
     for (std::size_t i = 0; i < all.size(); ++i) {
         all[i] = i;
@@ -129,13 +125,13 @@ bool is_linear(const gum::EquationSystem& system) {
     return system.is_affine_in(all);
 }
 
-double coverage_probability_of(const BudgetJob& job, const std::string& output) {
-    for (const engine::BudgetOutput& stated : job.outputs) {
+double coverage_probability_of(const Budget& budget, const std::string& output) {
+    for (const BudgetOutput& stated : budget.outputs) {
         if (stated.name == output && stated.coverage_probability) {
             return *stated.coverage_probability;
         }
     }
-    return job.coverage_probability;
+    return budget.coverage_probability;
 }
 
 bool changes(const BudgetPointResult& point, Eigen::Index output, double change, double shift) {
@@ -149,24 +145,23 @@ bool changes(const BudgetPointResult& point, Eigen::Index output, double change,
 }
 
 /// Monte Carlo of one point for each coverage probability that its outputs ask for.
-void run_monte_carlo(const BudgetJob& job, const gum::MonteCarloRequest& asked, unsigned threads,
-                     const gum::Progress& progress, BudgetPointResult& point) {
-    gum::MonteCarloOptions options =
-        gum::monte_carlo_options(asked, threads, job.points.empty() ? progress : gum::Progress());
-    if (!job.monte_carlo && options.adaptive) {
+void run_monte_carlo(const Budget& budget, const MonteCarloRequest& asked, unsigned threads, const Progress& progress,
+                     BudgetPointResult& point) {
+    MonteCarloOptions options = monte_carlo_options(asked, threads, budget.points.empty() ? progress : Progress());
+    if (!budget.monte_carlo && options.adaptive) {
         options.adaptive->tolerance_divisor = k_automatic_divisor;
     }
     options.streams = point.streams;
     // What is drawn of simultaneous observations is right for one result at a time, not for a region of several.
-    options.regions = job.points.empty() && job.simultaneous.empty();
-    options.histogram = job.points.size() <= k_most_points_with_histogram;
-    std::map<double, gum::MonteCarloResult> results;
+    options.regions = budget.points.empty() && budget.simultaneous.empty();
+    options.histogram = budget.points.size() <= k_most_points_with_histogram;
+    std::map<double, MonteCarloResult> results;
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
         BudgetOutputResult& output = point.outputs[i];
         auto found = results.find(output.coverage_probability);
         if (found == results.end()) {
             options.coverage_probability = output.coverage_probability;
-            found = results.emplace(output.coverage_probability, gum::run_monte_carlo(*point.model, options)).first;
+            found = results.emplace(output.coverage_probability, run_monte_carlo(*point.model, options)).first;
             if (!point.monte_carlo) {
                 point.monte_carlo = found->second;
             }
@@ -178,13 +173,13 @@ void run_monte_carlo(const BudgetJob& job, const gum::MonteCarloRequest& asked, 
 }
 
 /// Monte Carlo that nobody asked for: what it cannot do is told with the reason for which it was run.
-void run_monte_carlo_unasked(const BudgetJob& job, const std::vector<std::string>& evidence, const std::string& where,
-                             unsigned threads, const gum::Progress& progress, BudgetPointResult& point,
+void run_monte_carlo_unasked(const Budget& budget, const std::vector<std::string>& evidence, const std::string& where,
+                             unsigned threads, const Progress& progress, BudgetPointResult& point,
                              BudgetResult& result) {
     result.automatic_monte_carlo = automatic_monte_carlo();
     try {
-        run_monte_carlo(job, *result.automatic_monte_carlo, threads, progress, point);
-    } catch (const gum::NoResultError& error) {
+        run_monte_carlo(budget, *result.automatic_monte_carlo, threads, progress, point);
+    } catch (const NoResultError& error) {
         std::vector<Diagnostic> all = error.diagnostics();
         for (Diagnostic& problem : all) {
             for (std::size_t i = 0; i < evidence.size(); ++i) {
@@ -198,12 +193,12 @@ void run_monte_carlo_unasked(const BudgetJob& job, const std::vector<std::string
                 " \"coverage\": \"law_of_propagation\" states the result of the law all the same, with a "
                 "warning, and is no ground for an accredited certificate.";
         }
-        throw gum::NoResultError(std::move(all));
+        throw NoResultError(std::move(all));
     }
 }
 
-/// What Monte Carlo adds to the outputs: validation, where the job demands it.
-void validate_outputs(const BudgetJob& job, BudgetPointResult& point, BudgetResult& result) {
+/// What Monte Carlo adds to the outputs: validation, where the budget demands it.
+void validate_outputs(const Budget& budget, BudgetPointResult& point, BudgetResult& result) {
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
         BudgetOutputResult& output = point.outputs[i];
         const double u = output.standard_uncertainty;
@@ -211,12 +206,12 @@ void validate_outputs(const BudgetJob& job, BudgetPointResult& point, BudgetResu
         if (!output.expanded_uncertainty) {
             result.validation_failed = true;
         } else if (u > 0.0) {
-            const gum::Unit& unit = result.output_units[i];
+            const Unit& unit = result.output_units[i];
             output.validation =
-                gum::validation_in_unit(y, u, *output.expanded_uncertainty, *output.monte_carlo,
-                                        {[&](double value) { return unit.from_si(value); },
-                                         [&](double difference) { return unit.difference_from_si(difference); }},
-                                        job.monte_carlo->digits);
+                validation_in_unit(y, u, *output.expanded_uncertainty, *output.monte_carlo,
+                                   {[&](double value) { return unit.from_si(value); },
+                                    [&](double difference) { return unit.difference_from_si(difference); }},
+                                   budget.monte_carlo->digits);
             if (!output.validation->validated || !output.validation->precise_enough) {
                 result.validation_failed = true;
             }
@@ -225,9 +220,9 @@ void validate_outputs(const BudgetJob& job, BudgetPointResult& point, BudgetResu
 }
 
 /// JCGM 102:2011, clause 8, where there are several outputs whose first order does not vanish.
-void validate_together(const BudgetJob& job, BudgetPointResult& point, BudgetResult& result) {
+void validate_together(const Budget& budget, BudgetPointResult& point, BudgetResult& result) {
     const auto m = static_cast<Eigen::Index>(point.outputs.size());
-    if (m < 2 || !job.points.empty() || job.model.empty() || !job.simultaneous.empty() ||
+    if (m < 2 || !budget.points.empty() || budget.model.empty() || !budget.simultaneous.empty() ||
         !(point.propagation.standard_uncertainty.minCoeff() > 0.0)) {
         return;
     }
@@ -235,13 +230,13 @@ void validate_together(const BudgetJob& job, BudgetPointResult& point, BudgetRes
     for (Eigen::Index j = 0; j < m; ++j) {
         in_unit(j) = result.output_units[static_cast<std::size_t>(j)].difference_from_si(1.0);
     }
-    point.joint_validation = gum::validate_jointly(
-        point.propagation, gum::joint_effective_degrees_of_freedom(*point.model, point.propagation), *point.monte_carlo,
-        in_unit, job.monte_carlo->digits);
+    point.joint_validation =
+        validate_jointly(point.propagation, joint_effective_degrees_of_freedom(*point.model, point.propagation),
+                         *point.monte_carlo, in_unit, budget.monte_carlo->digits);
     result.validation_failed = result.validation_failed || !point.joint_validation->validated;
 }
 
-void warn(const BudgetJob& job, const BudgetPointResult& point, const std::string& where, BudgetResult& result) {
+void warn(const Budget& budget, const BudgetPointResult& point, const std::string& where, BudgetResult& result) {
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
         const std::string place = "result " + result.output_names[i] + where;
         const BudgetOutputResult& output = point.outputs[i];
@@ -252,10 +247,10 @@ void warn(const BudgetJob& job, const BudgetPointResult& point, const std::strin
                                     .where = place,
                                     .what = "no expanded uncertainty can be stated: " + output.coverage_note,
                                     .rule = "a coverage factor needs the distribution of the result",
-                                    .action = job.coverage == gum::CoverageChoice::law_of_propagation
+                                    .action = budget.coverage == CoverageChoice::law_of_propagation
                                                   ? "Leave out \"coverage\": \"law_of_propagation\"."
                                                   : "Add \"coverage\": \"monte_carlo\" to the job.",
-                                    .severity = gum::Severity::warning});
+                                    .severity = Severity::warning});
         }
         if (!output.stabilised && output.has_u) {
             result.notes.push_back(
@@ -265,19 +260,19 @@ void warn(const BudgetJob& job, const BudgetPointResult& point, const std::strin
                  .rule = "adaptive Monte Carlo ends when twice the standard deviation of each result "
                          "is within its tolerance (JCGM 101:2008, 7.9.4)",
                  .action = "Raise adaptive.max_trials, or ask for one digit.",
-                 .severity = gum::Severity::warning});
+                 .severity = Severity::warning});
         }
     }
 }
 
 /// Second-order terms, unless the model has no second derivatives at the estimates.
-std::optional<gum::SecondOrderPropagation> second_order_of(const BudgetPointResult& point) {
+std::optional<SecondOrderPropagation> second_order_of(const BudgetPointResult& point) {
     if (!point.without_derivative.empty()) {
         return std::nullopt;
     }
     try {
-        return gum::propagate_to_second_order(*point.model, point.propagation);
-    } catch (const gum::NoResultError&) {
+        return propagate_to_second_order(*point.model, point.propagation);
+    } catch (const NoResultError&) {
         return std::nullopt;  // the probes of the model see what there is to see
     }
 }
@@ -293,22 +288,22 @@ bool trials_do_not_vary(const BudgetPointResult& point, Eigen::Index index) {
 }
 
 /// Which result of each output is reported, with the Monte Carlo that this takes.
-void report(const BudgetJob& job, const std::optional<gum::EquationSystem>& system, const std::string& where,
-            unsigned threads, const gum::Progress& progress, BudgetPointResult& point, BudgetResult& result) {
+void report(const Budget& budget, const std::optional<EquationSystem>& system, const std::string& where,
+            unsigned threads, const Progress& progress, BudgetPointResult& point, BudgetResult& result) {
     const std::vector<std::string> evidence = evidence_against_law(point, !system || is_linear(*system));
-    std::vector<gum::CoverageChoice> choices;
+    std::vector<CoverageChoice> choices;
     bool needed = false;
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
-        choices.push_back(coverage_choice_of(job, result.output_names[i]));
+        choices.push_back(coverage_choice_of(budget, result.output_names[i]));
         needed = needed || needs_monte_carlo(choices[i], evidence[i]);
     }
-    if (job.monte_carlo) {
-        run_monte_carlo(job, *job.monte_carlo, threads, progress, point);
-        if (job.monte_carlo->validate) {
-            validate_outputs(job, point, result);
+    if (budget.monte_carlo) {
+        run_monte_carlo(budget, *budget.monte_carlo, threads, progress, point);
+        if (budget.monte_carlo->validate) {
+            validate_outputs(budget, point, result);
         }
     } else if (needed) {
-        run_monte_carlo_unasked(job, evidence, where, threads, progress, point, result);
+        run_monte_carlo_unasked(budget, evidence, where, threads, progress, point, result);
     }
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
         BudgetOutputResult& output = point.outputs[i];
@@ -319,7 +314,7 @@ void report(const BudgetJob& job, const std::optional<gum::EquationSystem>& syst
             output.has_u = exist.u;
         }
         decide_reported(choices[i], evidence[i], result.output_units[i], point.propagation.value(index),
-                        job.monte_carlo ? job.monte_carlo->digits : 2, output);
+                        budget.monte_carlo ? budget.monte_carlo->digits : 2, output);
         if (trials_do_not_vary(point, index)) {
             output.by_monte_carlo = false;  // what the law says of u = 0 holds for the trials too
             output.because.clear();
@@ -328,15 +323,15 @@ void report(const BudgetJob& job, const std::optional<gum::EquationSystem>& syst
             output.standard_uncertainty = output.monte_carlo->standard_uncertainty;
         }
     }
-    if (job.monte_carlo && job.monte_carlo->validate) {
-        validate_together(job, point, result);
+    if (budget.monte_carlo && budget.monte_carlo->validate) {
+        validate_together(budget, point, result);
     }
 }
 
-BudgetPointResult evaluate_point(const BudgetJob& job, const std::optional<gum::EquationSystem>& system,
-                                 std::optional<std::size_t> at, unsigned threads, const gum::Progress& progress,
+BudgetPointResult evaluate_point(const Budget& budget, const std::optional<EquationSystem>& system,
+                                 std::optional<std::size_t> at, unsigned threads, const Progress& progress,
                                  BudgetResult& result) {
-    BudgetInputs inputs = budget_inputs(job, result.fits, at);
+    BudgetInputs inputs = budget_inputs(budget, result.fits, at);
     if (!at || *at == 0) {
         result.notes.insert(result.notes.end(), inputs.notes.begin(), inputs.notes.end());
     }
@@ -344,7 +339,7 @@ BudgetPointResult evaluate_point(const BudgetJob& job, const std::optional<gum::
     point.streams = std::move(inputs.streams);
     point.model = std::make_shared<const BudgetModel>(system, result.symbols, std::move(inputs.groups),
                                                       std::move(inputs.quantities));
-    PointPropagation propagated = propagate_where_possible(job, system, *point.model, result.symbols);
+    PointPropagation propagated = propagate_where_possible(budget, system, *point.model, result.symbols);
     point.propagation = std::move(propagated.propagation);
     point.without_derivative = std::move(propagated.without_derivative);
     if (system && !is_linear(*system) && point.propagation.jacobian.cols() <= k_most_inputs_of_second_order) {
@@ -352,26 +347,26 @@ BudgetPointResult evaluate_point(const BudgetJob& job, const std::optional<gum::
     }
     for (std::size_t i = 0; i < result.output_names.size(); ++i) {
         BudgetOutputResult output;
-        output.coverage_probability = coverage_probability_of(job, result.output_names[i]);
+        output.coverage_probability = coverage_probability_of(budget, result.output_names[i]);
         const auto index = static_cast<Eigen::Index>(i);
         point.propagation.coverage_probability = output.coverage_probability;
-        expand_by_propagation(job, point, index, output);
-        state_zero_uncertainty(job, point, result.output_names[i], output);
+        expand_by_propagation(budget, point, index, output);
+        state_zero_uncertainty(budget, point, result.output_names[i], output);
         output.second_order_matters = changes(point, index, k_reported_change, k_reported_shift);
         point.outputs.push_back(std::move(output));
     }
-    const std::string where = at ? " at point " + job.points[*at].name : "";
-    report(job, system, where, threads, progress, point, result);
-    warn(job, point, where, result);
+    const std::string where = at ? " at point " + budget.points[*at].name : "";
+    report(budget, system, where, threads, progress, point, result);
+    warn(budget, point, where, result);
     return point;
 }
 
 }  // namespace
 
-BudgetResult evaluate_budget(const BudgetJob& job, unsigned threads, const gum::Progress& progress) {
+BudgetResult evaluate_budget(const Budget& budget, unsigned threads, const Progress& progress) {
     BudgetResult result;
-    result.symbols = budget_symbols(job);
-    for (const BudgetFit& fit : job.fits) {
+    result.symbols = budget_symbols(budget);
+    for (const BudgetFit& fit : budget.fits) {
         if (progress) {
             progress("fit of " + fit.name);
         }
@@ -385,7 +380,7 @@ BudgetResult evaluate_budget(const BudgetJob& job, unsigned threads, const gum::
             result.notes.push_back(std::move(*lost));
         }
     }
-    const std::optional<gum::EquationSystem> system = compile_model(job);
+    const std::optional<EquationSystem> system = compile_model(budget);
     if (system) {
         for (std::size_t i = 0; i < system->output_count(); ++i) {
             result.output_names.push_back(system->output_name(i));
@@ -395,26 +390,36 @@ BudgetResult evaluate_budget(const BudgetJob& job, unsigned threads, const gum::
         for (const BudgetSymbol& symbol : result.symbols) {
             result.output_names.push_back(symbol.name);
             // An input that is a result has the unit that it is asked for in.
-            const auto stated = std::find_if(job.outputs.begin(), job.outputs.end(), [&](const auto& output) {
+            const auto stated = std::find_if(budget.outputs.begin(), budget.outputs.end(), [&](const auto& output) {
                 return output.name == symbol.name && output.unit;
             });
-            result.output_units.push_back(stated != job.outputs.end() ? *stated->unit : symbol.unit);
+            result.output_units.push_back(stated != budget.outputs.end() ? *stated->unit : symbol.unit);
         }
     }
-    if (job.points.empty()) {
-        if (progress && job.monte_carlo) {
+    if (budget.points.empty()) {
+        if (progress && budget.monte_carlo) {
             progress("Monte Carlo");
         }
-        result.points.push_back(evaluate_point(job, system, std::nullopt, threads, progress, result));
+        result.points.push_back(evaluate_point(budget, system, std::nullopt, threads, progress, result));
     }
-    for (std::size_t p = 0; p < job.points.size(); ++p) {
+    for (std::size_t p = 0; p < budget.points.size(); ++p) {
         if (progress) {
-            progress("point " + std::to_string(p + 1) + " of " + std::to_string(job.points.size()));
+            progress("point " + std::to_string(p + 1) + " of " + std::to_string(budget.points.size()));
         }
-        result.points.push_back(evaluate_point(job, system, p, threads, progress, result));
+        result.points.push_back(evaluate_point(budget, system, p, threads, progress, result));
     }
-    note_reported(job, result);
+    note_reported(budget, result);
     return result;
 }
 
-}  // namespace gumcert::app
+std::vector<std::string> budget_result_names(const Budget& budget, const BudgetResult& result) {
+    std::vector<std::string> names;
+    for (std::size_t p = 0; p < result.points.size(); ++p) {
+        for (const std::string& output : result.output_names) {
+            names.push_back(budget.points.empty() ? output : output + "[" + budget.points[p].name + "]");
+        }
+    }
+    return names;
+}
+
+}  // namespace gumcert::gum

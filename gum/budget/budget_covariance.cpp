@@ -1,4 +1,4 @@
-#include "app/budget_covariance.h"
+#include "gum/budget/budget_covariance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "gum/correlated_normal.h"
 #include "gum/propagation.h"
 
-namespace gumcert::app {
+namespace gumcert::gum {
 
 namespace {
 
@@ -25,15 +25,15 @@ using PointFactor = std::vector<std::pair<Deviate, Eigen::VectorXd>>;
 
 /// How the quantities of a group move with its shared deviates: D L, for quantities that are drawn at this point alone
 /// D G L of those that are shared. It is what gum/random_draws.h draws.
-Eigen::MatrixXd shared_root(const gum::InputGroup& group) {
-    const Eigen::MatrixXd R = gum::correlation_matrix(group.covariance);
-    Eigen::MatrixXd root = gum::semidefinite_root(R);
+Eigen::MatrixXd shared_root(const InputGroup& group) {
+    const Eigen::MatrixXd R = correlation_matrix(group.covariance);
+    Eigen::MatrixXd root = semidefinite_root(R);
     if (!group.own_streams.empty()) {
         std::vector<bool> is_given;
         for (const std::uint64_t own : group.own_streams) {
-            is_given.push_back(own == gum::InputGroup::k_shared);
+            is_given.push_back(own == InputGroup::k_shared);
         }
-        const gum::ConditionalNormal conditional = gum::conditional_normal(R, is_given);
+        const ConditionalNormal conditional = conditional_normal(R, is_given);
         for (std::size_t i = 0; i < conditional.others.size(); ++i) {
             Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(root.cols());
             for (std::size_t g = 0; g < conditional.given.size(); ++g) {
@@ -50,7 +50,7 @@ PointFactor factor_of(const BudgetPointResult& point) {
     PointFactor factor;
     Eigen::Index column = 0;
     for (std::size_t g = 0; g < point.streams.size(); ++g) {
-        const gum::InputGroup& group = point.model->inputs()[g];
+        const InputGroup& group = point.model->inputs()[g];
         const auto J = point.propagation.jacobian.middleCols(column, group.size());
         column += group.size();
         if (group.size() == 1 || group.is_diagonal()) {
@@ -110,4 +110,4 @@ Eigen::MatrixXd budget_covariance(const BudgetResult& result) {
     return covariance;
 }
 
-}  // namespace gumcert::app
+}  // namespace gumcert::gum

@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 
-#include "app/evaluate_budget.h"
+#include "gum/budget/evaluate_budget.h"
 
-namespace gumcert::app {
+namespace gumcert::gum {
 
 /// Covariance of all results, points one after the other: (points · outputs) square, coherent SI.
 ///
@@ -14,4 +14,4 @@ namespace gumcert::app {
 /// points follows from that of inputs alone, in whatever order the inputs stand.
 [[nodiscard]] Eigen::MatrixXd budget_covariance(const BudgetResult& result);
 
-}  // namespace gumcert::app
+}  // namespace gumcert::gum

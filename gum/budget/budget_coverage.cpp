@@ -1,4 +1,4 @@
-#include "app/budget_coverage.h"
+#include "gum/budget/budget_coverage.h"
 
 #include <cmath>
 #include <string>
@@ -7,7 +7,7 @@
 #include "gum/coverage.h"
 #include "gum/rounding.h"
 
-namespace gumcert::app {
+namespace gumcert::gum {
 
 namespace {
 
@@ -23,10 +23,10 @@ bool is_noticed_change(double k_of_convolution, double k) {
 std::string convolution_note(double degrees_of_freedom, double k) {
     return "k is taken from the convolution of all distributions; that of the " +
            std::string(std::isinf(degrees_of_freedom) ? "normal " : "t-") + "distribution would be " +
-           gum::round_to_quantum(k, 2);
+           round_to_quantum(k, 2);
 }
 
-void expand_by_propagation(const engine::BudgetJob& job, const BudgetPointResult& point, Eigen::Index output,
+void expand_by_propagation(const Budget& budget, const BudgetPointResult& point, Eigen::Index output,
                            BudgetOutputResult& result) {
     const double u = point.propagation.standard_uncertainty(output);
     result.standard_uncertainty = u;
@@ -41,7 +41,7 @@ void expand_by_propagation(const engine::BudgetJob& job, const BudgetPointResult
     if (std::isnan(result.degrees_of_freedom)) {
         result.coverage = "none";
         Eigen::Index g = 0;
-        for (const gum::InputGroup& group : point.model->inputs()) {
+        for (const InputGroup& group : point.model->inputs()) {
             if (std::isnan(group.degrees_of_freedom) &&
                 point.propagation.budget[static_cast<std::size_t>(g)].variance(output) > 0.0) {
                 result.coverage_note = group.no_degrees_of_freedom_because;
@@ -60,9 +60,9 @@ void expand_by_propagation(const engine::BudgetJob& job, const BudgetPointResult
     }
     // One number of degrees of freedom for k, for what is printed and for a decision on conformity.
     double& nu = result.degrees_of_freedom;
-    double k = gum::coverage_factor(result.coverage_probability, nu);
-    if (!gum::convolution_changes_little(*point.model, point.propagation, output)) {
-        const auto convolved = gum::expand_by_convolution(*point.model, point.propagation, output);
+    double k = coverage_factor(result.coverage_probability, nu);
+    if (!convolution_changes_little(*point.model, point.propagation, output)) {
+        const auto convolved = expand_by_convolution(*point.model, point.propagation, output);
         if (convolved) {
             result.asymmetry = convolved->asymmetry;
         }
@@ -73,7 +73,7 @@ void expand_by_propagation(const engine::BudgetJob& job, const BudgetPointResult
                 result.k_numerical_error = convolved->numerical_error;
                 result.coverage_note += "; the numerical error of k from " + std::to_string(convolved->draws) +
                                         " draws of correlated inputs is " +
-                                        gum::round_significant(convolved->numerical_error, 1);
+                                        round_significant(convolved->numerical_error, 1);
             }
             result.coverage_factor = convolved->coverage_factor;
             result.expanded_uncertainty = convolved->expanded_uncertainty;
@@ -81,13 +81,13 @@ void expand_by_propagation(const engine::BudgetJob& job, const BudgetPointResult
         }
     }
     result.coverage = std::isinf(nu) ? "normal" : "student_t";
-    if (job.truncate_degrees_of_freedom && std::isfinite(nu) && nu >= 1.0) {
+    if (budget.truncate_degrees_of_freedom && std::isfinite(nu) && nu >= 1.0) {
         nu = std::floor(nu * (1.0 + k_rounding_of_degrees_of_freedom));
-        k = gum::coverage_factor(result.coverage_probability, nu);
+        k = coverage_factor(result.coverage_probability, nu);
         result.coverage_note = "k is taken for the next lower whole number of degrees of freedom";
     }
     result.coverage_factor = k;
     result.expanded_uncertainty = *result.coverage_factor * u;
 }
 
-}  // namespace gumcert::app
+}  // namespace gumcert::gum

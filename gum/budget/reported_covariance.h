@@ -2,10 +2,10 @@
 
 #include <Eigen/Core>
 
-#include "app/evaluate_budget.h"
-#include "engine/job/budget_job.h"
+#include "gum/budget/budget.h"
+#include "gum/budget/evaluate_budget.h"
 
-namespace gumcert::app {
+namespace gumcert::gum {
 
 constexpr std::size_t k_most_drawn_together = 500;  ///< results at points, where the trials give their covariance
 
@@ -17,13 +17,13 @@ constexpr std::size_t k_most_drawn_together = 500;  ///< results at points, wher
 /// has NaN in its row and column.
 /// \return empty where Monte Carlo gives none: more results at points than k_most_drawn_together, or a trial without a
 /// finite value
-[[nodiscard]] Eigen::MatrixXd reported_covariance(const engine::BudgetJob& job, const BudgetResult& result);
+[[nodiscard]] Eigen::MatrixXd reported_covariance(const Budget& budget, const BudgetResult& result);
 
 /// Whether reported_covariance is that of trials.
 [[nodiscard]] bool has_result_of_trials(const BudgetResult& result);
 
 /// What a reader of the covariance has to know: that it comes from trials, which results it leaves out, or why there is
 /// none.
-void note_covariance(const engine::BudgetJob& job, const Eigen::MatrixXd& covariance, BudgetResult& result);
+void note_covariance(const Budget& budget, const Eigen::MatrixXd& covariance, BudgetResult& result);
 
-}  // namespace gumcert::app
+}  // namespace gumcert::gum

@@ -1,4 +1,4 @@
-#include "app/budget_model.h"
+#include "gum/budget/budget_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,18 +15,9 @@
 #include "gum/rounding.h"
 #include "text/numbers.h"
 
-namespace gumcert::app {
+namespace gumcert::gum {
 
 namespace {
-
-using engine::BudgetInput;
-using engine::BudgetJob;
-using engine::StatedQuantity;
-using gum::Dependence;
-using gum::Diagnostic;
-using gum::Distribution;
-using gum::DistributionKind;
-using gum::InputGroup;
 
 constexpr std::size_t k_streams_an_input = 4096;  // more components than an input may have
 
@@ -46,8 +37,8 @@ std::string shown(double degrees_of_freedom) {
 
 /// Sets of inputs that correlations, or readings taken together, tie to each other, each ascending, in the order of
 /// their first input.
-std::vector<std::vector<std::size_t>> clusters(const BudgetJob& job) {
-    std::vector<std::size_t> parent(job.inputs.size());
+std::vector<std::vector<std::size_t>> clusters(const Budget& budget) {
+    std::vector<std::size_t> parent(budget.inputs.size());
     std::iota(parent.begin(), parent.end(), std::size_t{0});
     const auto root = [&](std::size_t i) {
         while (parent[i] != i) {
@@ -61,30 +52,30 @@ std::vector<std::vector<std::size_t>> clusters(const BudgetJob& job) {
         const std::size_t b = root(j);
         parent[std::max(a, b)] = std::min(a, b);
     };
-    for (const engine::InputCorrelation& correlation : job.correlations) {
+    for (const InputCorrelation& correlation : budget.correlations) {
         join(correlation.first, correlation.second);
     }
-    for (const engine::SimultaneousInputs& set : job.simultaneous) {
+    for (const SimultaneousInputs& set : budget.simultaneous) {
         for (const std::size_t input : set.inputs) {
             join(set.inputs.front(), input);
         }
     }
-    std::vector<std::vector<std::size_t>> members(job.inputs.size());
-    for (std::size_t i = 0; i < job.inputs.size(); ++i) {
+    std::vector<std::vector<std::size_t>> members(budget.inputs.size());
+    for (std::size_t i = 0; i < budget.inputs.size(); ++i) {
         members[root(i)].push_back(i);
     }
     std::erase_if(members, [](const std::vector<std::size_t>& m) { return m.empty(); });
     return members;
 }
 
-gum::Evaluation evaluation_of(const BudgetInput& input) {
+Evaluation evaluation_of(const BudgetInput& input) {
     const bool all_a = std::all_of(input.components.begin(), input.components.end(),
-                                   [](const StatedQuantity& q) { return q.evaluation == gum::Evaluation::type_a; });
-    return all_a ? gum::Evaluation::type_a : gum::Evaluation::type_b;
+                                   [](const StatedQuantity& q) { return q.evaluation == Evaluation::type_a; });
+    return all_a ? Evaluation::type_a : Evaluation::type_b;
 }
 
-std::string coherent_unit(const gum::Unit& unit) {
-    return gum::Unit::coherent(unit.dimension()).text();
+std::string coherent_unit(const Unit& unit) {
+    return Unit::coherent(unit.dimension()).text();
 }
 
 InputGroup single_group(const std::string& name, const BudgetInput& input, const StatedQuantity& quantity) {
@@ -93,7 +84,7 @@ InputGroup single_group(const std::string& name, const BudgetInput& input, const
     group.source = quantity.source;
     group.unit = coherent_unit(input.unit);
     group.evaluation = quantity.evaluation;
-    group.distribution = std::string(gum::distribution_name(quantity.distribution.kind));
+    group.distribution = std::string(distribution_name(quantity.distribution.kind));
     group.value = Eigen::VectorXd::Constant(1, quantity.value);
     group.covariance = Eigen::MatrixXd::Constant(1, 1, quantity.u * quantity.u);
     group.degrees_of_freedom = quantity.degrees_of_freedom;
@@ -102,7 +93,7 @@ InputGroup single_group(const std::string& name, const BudgetInput& input, const
 }
 
 std::string printed_coefficient(double r) {
-    return gum::round_to_quantum(r, 4);
+    return round_to_quantum(r, 4);
 }
 
 /// A component of an input, as it stands in a group.
@@ -117,11 +108,11 @@ struct Member {
     }
 };
 
-std::vector<Member> members_of(const BudgetJob& job, const std::vector<std::size_t>& inputs,
+std::vector<Member> members_of(const Budget& budget, const std::vector<std::size_t>& inputs,
                                std::optional<std::size_t> point) {
     std::vector<Member> members;
     for (const std::size_t input : inputs) {
-        const BudgetInput& stated = input_at(job, input, point);
+        const BudgetInput& stated = input_at(budget, input, point);
         for (std::size_t c = 0; c < stated.components.size(); ++c) {
             members.push_back({input, c, &stated});
         }
@@ -132,7 +123,7 @@ std::vector<Member> members_of(const BudgetJob& job, const std::vector<std::size
 /// Values, marginals and quantities of a group, and a covariance without correlations.
 void begin_group(const std::vector<Member>& members, InputGroup& group, BudgetInputs& result) {
     const auto n = static_cast<Eigen::Index>(members.size());
-    group.evaluation = gum::Evaluation::type_a;
+    group.evaluation = Evaluation::type_a;
     group.value.resize(n);
     group.covariance = Eigen::MatrixXd::Zero(n, n);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -141,8 +132,8 @@ void begin_group(const std::vector<Member>& members, InputGroup& group, BudgetIn
         if (i == 0 || members[static_cast<std::size_t>(i - 1)].input != member.input) {
             group.name += (group.name.empty() ? "" : ", ") + member.stated->name;
         }
-        if (evaluation_of(*member.stated) == gum::Evaluation::type_b) {
-            group.evaluation = gum::Evaluation::type_b;
+        if (evaluation_of(*member.stated) == Evaluation::type_b) {
+            group.evaluation = Evaluation::type_b;
         }
         group.value(i) = quantity.value;
         group.covariance(i, i) = quantity.u * quantity.u;
@@ -159,22 +150,22 @@ void add_note(BudgetInputs& result, const std::string& code, const std::string& 
                             .what = std::move(what),
                             .rule = std::move(rule),
                             .action = std::move(action),
-                            .severity = gum::Severity::note});
+                            .severity = Severity::note});
 }
 
 /// Degrees of freedom of a group of correlated inputs as one contribution.
-void set_degrees_of_freedom(const BudgetJob& job, const std::vector<std::size_t>& inputs,
-                            std::optional<std::size_t> point, const engine::SimultaneousInputs* observed,
-                            InputGroup& group, BudgetInputs& result) {
+void set_degrees_of_freedom(const Budget& budget, const std::vector<std::size_t>& inputs,
+                            std::optional<std::size_t> point, const SimultaneousInputs* observed, InputGroup& group,
+                            BudgetInputs& result) {
     if (observed != nullptr) {
         group.degrees_of_freedom = static_cast<double>(observed->observations - 1);
         return;
     }
-    double least = gum::k_infinity;
+    double least = k_infinity;
     double most = 0.0;
     std::string all;
     for (const std::size_t input : inputs) {
-        const double nu = input_total(input_at(job, input, point)).degrees_of_freedom;
+        const double nu = input_total(input_at(budget, input, point)).degrees_of_freedom;
         least = std::min(least, nu);
         most = std::max(most, nu);
         all += (all.empty() ? "" : ", ") + shown(nu);
@@ -199,9 +190,9 @@ void set_degrees_of_freedom(const BudgetJob& job, const std::vector<std::size_t>
 /// \throws InputError  GC-BUDGET-0002
 void set_copula(const std::vector<Member>& members, InputGroup& group, BudgetInputs& result) {
     const auto n = static_cast<Eigen::Index>(members.size());
-    const Eigen::MatrixXd R = gum::correlation_matrix(group.covariance);
-    std::vector<std::optional<gum::HermiteProfile>> profiles(members.size());
-    const gum::HermiteProfile normal(Distribution::normal(0.0, 1.0));
+    const Eigen::MatrixXd R = correlation_matrix(group.covariance);
+    std::vector<std::optional<HermiteProfile>> profiles(members.size());
+    const HermiteProfile normal(Distribution::normal(0.0, 1.0));
     for (std::size_t i = 0; i < members.size(); ++i) {
         if (members[i].quantity().u > 0.0 && members[i].quantity().distribution.kind != DistributionKind::constant) {
             profiles[i].emplace(members[i].quantity().distribution);
@@ -221,34 +212,34 @@ void set_copula(const std::vector<Member>& members, InputGroup& group, BudgetInp
                 continue;
             }
             // Degrees of freedom say how well u is known, not what the quantity is like: t counts as normal here.
-            const gum::HermiteProfile& a = is_t(i) ? normal : *profiles[i];
-            const gum::HermiteProfile& b = is_t(j) ? normal : *profiles[j];
-            const auto [lowest, highest] = gum::HermiteProfile::attainable(a, b);
+            const HermiteProfile& a = is_t(i) ? normal : *profiles[i];
+            const HermiteProfile& b = is_t(j) ? normal : *profiles[j];
+            const auto [lowest, highest] = HermiteProfile::attainable(a, b);
             if (r < lowest - k_attained || r > highest + k_attained) {
-                problems.push_back(
-                    {.code = "GC-BUDGET-0002",
-                     .where = "inputs " + members[i].name() + " and " + members[j].name(),
-                     .what = "correlated with r = " + printed_coefficient(r) + ", as " +
-                             std::string(gum::distribution_name(members[i].quantity().distribution.kind)) + " and " +
-                             std::string(gum::distribution_name(members[j].quantity().distribution.kind)),
-                     .rule = "two quantities with these distributions have a coefficient from " +
-                             printed_coefficient(lowest) + " to " + printed_coefficient(highest),
-                     .action = "Correct the coefficient, or state distributions of one shape."});
+                problems.push_back({.code = "GC-BUDGET-0002",
+                                    .where = "inputs " + members[i].name() + " and " + members[j].name(),
+                                    .what = "correlated with r = " + printed_coefficient(r) + ", as " +
+                                            std::string(distribution_name(members[i].quantity().distribution.kind)) +
+                                            " and " +
+                                            std::string(distribution_name(members[j].quantity().distribution.kind)),
+                                    .rule = "two quantities with these distributions have a coefficient from " +
+                                            printed_coefficient(lowest) + " to " + printed_coefficient(highest),
+                                    .action = "Correct the coefficient, or state distributions of one shape."});
                 continue;
             }
             N(row, column) = profiles[i]->has_correlation() && profiles[j]->has_correlation()
-                                 ? gum::HermiteProfile::normal_correlation(*profiles[i], *profiles[j], r)
+                                 ? HermiteProfile::normal_correlation(*profiles[i], *profiles[j], r)
                                  : r;
             N(column, row) = N(row, column);
         }
     }
     if (!problems.empty()) {
-        throw gum::InputError(std::move(problems));
+        throw InputError(std::move(problems));
     }
-    if (!gum::is_positive_semidefinite(N)) {
-        const auto nearest = gum::nearest_correlation(N, Eigen::MatrixXd::Constant(n, n, 2.0));
+    if (!is_positive_semidefinite(N)) {
+        const auto nearest = nearest_correlation(N, Eigen::MatrixXd::Constant(n, n, 2.0));
         if (!nearest) {
-            throw gum::InputError(
+            throw InputError(
                 Diagnostic{.code = "GC-BUDGET-0002",
                            .where = "inputs " + group.name,
                            .what = "the coefficients of correlation cannot hold together for these distributions",
@@ -262,7 +253,7 @@ void set_copula(const std::vector<Member>& members, InputGroup& group, BudgetInp
                 const auto i = static_cast<std::size_t>(column);
                 const auto j = static_cast<std::size_t>(row);
                 if (profiles[i] && profiles[j] && profiles[i]->has_correlation() && profiles[j]->has_correlation()) {
-                    const double r = gum::HermiteProfile::pearson(*profiles[i], *profiles[j], (*nearest)(row, column));
+                    const double r = HermiteProfile::pearson(*profiles[i], *profiles[j], (*nearest)(row, column));
                     most = std::max(most, std::abs(r - R(row, column)));
                 }
             }
@@ -271,7 +262,7 @@ void set_copula(const std::vector<Member>& members, InputGroup& group, BudgetInp
         add_note(result, "GC-BUDGET-0014", group.name,
                  "no correlated normal deviates give all the stated coefficients; Monte Carlo has the nearest that "
                  "exist, off by " +
-                     gum::round_significant(most, 2) + " at most",
+                     round_significant(most, 2) + " at most",
                  "a correlation matrix is positive semi-definite",
                  "Correct the coefficients if they are not meant so.");
     }
@@ -279,8 +270,8 @@ void set_copula(const std::vector<Member>& members, InputGroup& group, BudgetInp
 }
 
 /// What Monte Carlo draws of a group of correlated inputs.
-void set_dependence(const BudgetJob& job, const std::vector<Member>& members,
-                    const engine::SimultaneousInputs* observed, InputGroup& group, BudgetInputs& result) {
+void set_dependence(const Budget& budget, const std::vector<Member>& members, const SimultaneousInputs* observed,
+                    InputGroup& group, BudgetInputs& result) {
     const auto all_of_kind = [&](DistributionKind kind) {
         return std::all_of(group.marginals.begin(), group.marginals.end(),
                            [&](const Distribution& marginal) { return marginal.kind == kind; });
@@ -311,7 +302,7 @@ void set_dependence(const BudgetJob& job, const std::vector<Member>& members,
             return m.kind == DistributionKind::normal || m.kind == DistributionKind::student_t ||
                    m.kind == DistributionKind::constant;
         });
-        if (job.monte_carlo || for_k) {
+        if (budget.monte_carlo || for_k) {
             add_note(result, "GC-BUDGET-0011", group.name,
                      "correlated, and not all normal or all t with one number of degrees of freedom",
                      "Monte Carlo joins them by a Gaussian copula that gives them the stated coefficients of "
@@ -325,20 +316,20 @@ void set_dependence(const BudgetJob& job, const std::vector<Member>& members,
 }
 
 /// Adds inputs that are correlated with each other as one group of their components.
-void add_correlated(const BudgetJob& job, const std::vector<std::size_t>& inputs, std::optional<std::size_t> point,
+void add_correlated(const Budget& budget, const std::vector<std::size_t>& inputs, std::optional<std::size_t> point,
                     BudgetInputs& result) {
-    const std::vector<Member> members = members_of(job, inputs, point);
+    const std::vector<Member> members = members_of(budget, inputs, point);
     InputGroup group;
     begin_group(members, group, result);
     // r u_a u_b is the covariance of two inputs; each component has the part of it that its variance has in that of its
     // input: r (u_i²/u_a)(u_j²/u_b).
     std::map<std::pair<std::size_t, std::size_t>, double> r_of;
-    for (const engine::InputCorrelation& correlation : job.correlations) {
-        r_of.emplace(std::pair{correlation.first, correlation.second}, correlation.r);
+    for (const InputCorrelation& correlation : budget.correlations) {
+        r_of.emplace(std::minmax(correlation.first, correlation.second), correlation.r);
     }
     std::map<std::size_t, double> u_of;
     for (const std::size_t input : inputs) {
-        u_of.emplace(input, input_total(input_at(job, input, point)).u);
+        u_of.emplace(input, input_total(input_at(budget, input, point)).u);
     }
     for (std::size_t j = 0; j < members.size(); ++j) {
         for (std::size_t i = 0; i < j; ++i) {
@@ -357,14 +348,14 @@ void add_correlated(const BudgetJob& job, const std::vector<std::size_t>& inputs
     }
     // Inputs that were observed together, and nothing else, are an ensemble by construction.
     const auto observed =
-        std::find_if(job.simultaneous.begin(), job.simultaneous.end(), [&](const engine::SimultaneousInputs& set) {
+        std::find_if(budget.simultaneous.begin(), budget.simultaneous.end(), [&](const SimultaneousInputs& set) {
             std::vector<std::size_t> sorted = set.inputs;
             std::sort(sorted.begin(), sorted.end());
             return sorted == inputs;
         });
-    const engine::SimultaneousInputs* set = observed == job.simultaneous.end() ? nullptr : &*observed;
-    set_degrees_of_freedom(job, inputs, point, set, group, result);
-    set_dependence(job, members, set, group, result);
+    const SimultaneousInputs* set = observed == budget.simultaneous.end() ? nullptr : &*observed;
+    set_degrees_of_freedom(budget, inputs, point, set, group, result);
+    set_dependence(budget, members, set, group, result);
 
     // Where some of the inputs are common to all points and others are not, these are drawn given those.
     const auto is_own = [&](const Member& member) { return point && !member.stated->common; };
@@ -420,10 +411,10 @@ void add_joint_samples(const std::vector<Member>& members, std::optional<std::si
 
 /// Quantities with samples of one file, in the order of the inputs; those that a point states apart from the others.
 /// \throws InputError  GC-BUDGET-0003
-std::vector<std::vector<Member>> joint_samples(const BudgetJob& job, std::optional<std::size_t> point) {
+std::vector<std::vector<Member>> joint_samples(const Budget& budget, std::optional<std::size_t> point) {
     std::map<std::pair<std::string, bool>, std::vector<Member>> by_file;
-    for (std::size_t i = 0; i < job.inputs.size(); ++i) {
-        const BudgetInput& stated = input_at(job, i, point);
+    for (std::size_t i = 0; i < budget.inputs.size(); ++i) {
+        const BudgetInput& stated = input_at(budget, i, point);
         for (std::size_t c = 0; c < stated.components.size(); ++c) {
             if (stated.components[c].sample_rows) {
                 by_file[{stated.components[c].sample_file, stated.common}].push_back({i, c, &stated});
@@ -436,7 +427,7 @@ std::vector<std::vector<Member>> joint_samples(const BudgetJob& job, std::option
         if (members.size() < 2) {
             continue;
         }
-        for (const engine::InputCorrelation& correlation : job.correlations) {
+        for (const InputCorrelation& correlation : budget.correlations) {
             const auto has = [&](std::size_t input) {
                 return std::any_of(members.begin(), members.end(), [&](const Member& m) { return m.input == input; });
             };
@@ -444,8 +435,8 @@ std::vector<std::vector<Member>> joint_samples(const BudgetJob& job, std::option
                 const bool both = has(correlation.first) && has(correlation.second);
                 problems.push_back(
                     {.code = "GC-BUDGET-0003",
-                     .where =
-                         "inputs " + job.inputs[correlation.first].name + " and " + job.inputs[correlation.second].name,
+                     .where = "inputs " + budget.inputs[correlation.first].name + " and " +
+                              budget.inputs[correlation.second].name,
                      .what = "r = " + printed_coefficient(correlation.r) + " is stated beside samples of the file " +
                              key.first,
                      .rule = both ? "the rows of the file say how its columns are correlated"
@@ -457,14 +448,14 @@ std::vector<std::vector<Member>> joint_samples(const BudgetJob& job, std::option
         joint.push_back(std::move(members));
     }
     if (!problems.empty()) {
-        throw gum::InputError(std::move(problems));
+        throw InputError(std::move(problems));
     }
     return joint;
 }
 
 }  // namespace
 
-BudgetModel::BudgetModel(std::optional<gum::EquationSystem> system, const std::vector<BudgetSymbol>& symbols,
+BudgetModel::BudgetModel(std::optional<EquationSystem> system, const std::vector<BudgetSymbol>& symbols,
                          std::vector<InputGroup> groups, std::vector<BudgetQuantity> quantities)
     : system_(std::move(system)),
       symbol_count_(static_cast<Eigen::Index>(symbols.size())),
@@ -479,7 +470,7 @@ BudgetModel::BudgetModel(std::optional<gum::EquationSystem> system, const std::v
             outputs_.push_back({system_->output_name(i), coherent_unit(system_->output_unit(i))});
         }
         if (system_->unknown_count() > 0) {
-            start_ = system_->solve(this->symbols(gum::input_estimates(*this)));
+            start_ = system_->solve(this->symbols(input_estimates(*this)));
         }
     } else {
         for (const BudgetSymbol& symbol : symbols) {
@@ -505,7 +496,7 @@ Eigen::VectorXd BudgetModel::evaluate(const Eigen::VectorXd& x) const {
 
 Eigen::VectorXd BudgetModel::rounding(const Eigen::VectorXd& x) const {
     const Eigen::VectorXd z = symbols(x);
-    return system_ ? system_->rounding(z) : z.unaryExpr([](double value) { return gum::decimal_rounding(value); });
+    return system_ ? system_->rounding(z) : z.unaryExpr([](double value) { return decimal_rounding(value); });
 }
 
 Eigen::MatrixXd BudgetModel::jacobian(const Eigen::VectorXd& x) const {
@@ -559,52 +550,23 @@ void BudgetModel::evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& x, Ei
     }
 }
 
-std::vector<BudgetSymbol> budget_symbols(const BudgetJob& job) {
+std::vector<BudgetSymbol> budget_symbols(const Budget& budget) {
     std::vector<BudgetSymbol> symbols;
-    for (const BudgetInput& input : job.inputs) {
+    for (const BudgetInput& input : budget.inputs) {
         symbols.push_back({input.name, input.unit});
     }
-    for (const engine::BudgetFit& fit : job.fits) {
-        for (const engine::BudgetFit::Parameter& parameter : fit.parameters) {
+    for (const BudgetFit& fit : budget.fits) {
+        for (const BudgetFit::Parameter& parameter : fit.parameters) {
             symbols.push_back({parameter.name, parameter.unit});
         }
     }
     return symbols;
 }
 
-const BudgetInput& input_at(const BudgetJob& job, std::size_t input, std::optional<std::size_t> point) {
-    if (point) {
-        for (const auto& [index, own] : job.points[*point].inputs) {
-            if (index == input) {
-                return own;
-            }
-        }
-    }
-    return job.inputs[input];
-}
-
-InputTotal input_total(const BudgetInput& input) {
-    if (input.components.size() == 1) {
-        const StatedQuantity& only = input.components.front();
-        return {.value = only.value, .u = only.u, .degrees_of_freedom = only.degrees_of_freedom};
-    }
-    InputTotal total;
-    double variance = 0.0;
-    std::vector<gum::UncertaintyContribution> contributions;
-    for (const StatedQuantity& component : input.components) {
-        total.value += component.value;
-        variance += component.u * component.u;
-        contributions.push_back({.uncertainty = component.u, .degrees_of_freedom = component.degrees_of_freedom});
-    }
-    total.u = std::sqrt(variance);
-    total.degrees_of_freedom = gum::effective_degrees_of_freedom(contributions);
-    return total;
-}
-
-BudgetInputs budget_inputs(const BudgetJob& job, const std::vector<engine::CurveFit>& fits,
+BudgetInputs budget_inputs(const Budget& budget, const std::vector<engine::CurveFit>& fits,
                            std::optional<std::size_t> point) {
     BudgetInputs result;
-    std::vector<std::vector<Member>> joint = joint_samples(job, point);
+    std::vector<std::vector<Member>> joint = joint_samples(budget, point);
     const auto group_of = [&](std::size_t input, std::size_t component) {
         return std::find_if(joint.begin(), joint.end(), [&](const std::vector<Member>& members) {
             return std::any_of(members.begin(), members.end(), [&](const Member& member) {
@@ -612,13 +574,13 @@ BudgetInputs budget_inputs(const BudgetJob& job, const std::vector<engine::Curve
             });
         });
     };
-    for (const std::vector<std::size_t>& members : clusters(job)) {
+    for (const std::vector<std::size_t>& members : clusters(budget)) {
         if (members.size() > 1) {
-            add_correlated(job, members, point, result);
+            add_correlated(budget, members, point, result);
             continue;
         }
         const std::size_t index = members.front();
-        const BudgetInput& input = input_at(job, index, point);
+        const BudgetInput& input = input_at(budget, index, point);
         for (std::size_t c = 0; c < input.components.size(); ++c) {
             if (const auto together = group_of(index, c); together != joint.end()) {
                 if (together->front().input == index && together->front().component == c) {
@@ -633,29 +595,29 @@ BudgetInputs budget_inputs(const BudgetJob& job, const std::vector<engine::Curve
             result.streams.push_back(stream_of(index, c, input.common ? std::nullopt : point));
         }
     }
-    std::size_t symbol = job.inputs.size();
-    for (std::size_t f = 0; f < job.fits.size(); ++f) {
+    std::size_t symbol = budget.inputs.size();
+    for (std::size_t f = 0; f < budget.fits.size(); ++f) {
         const engine::CurveFit& fit = fits[f];
         InputGroup group;
-        group.name = job.fits[f].name;
-        group.source = job.fits[f].name;
-        group.evaluation = fit.covariance_scaled ? gum::Evaluation::type_a : gum::Evaluation::type_b;
+        group.name = budget.fits[f].name;
+        group.source = budget.fits[f].name;
+        group.evaluation = fit.covariance_scaled ? Evaluation::type_a : Evaluation::type_b;
         group.value = fit.parameters;
         group.covariance = fit.covariance;
-        group.degrees_of_freedom = fit.covariance_scaled ? fit.degrees_of_freedom : gum::k_infinity;
+        group.degrees_of_freedom = fit.covariance_scaled ? fit.degrees_of_freedom : k_infinity;
         for (Eigen::Index i = 0; i < fit.parameters.size(); ++i) {
             group.marginals.push_back(
                 Distribution::student_t(fit.parameters(i), std::sqrt(fit.covariance(i, i)), group.degrees_of_freedom));
-            const engine::BudgetFit::Parameter& parameter = job.fits[f].parameters[static_cast<std::size_t>(i)];
+            const BudgetFit::Parameter& parameter = budget.fits[f].parameters[static_cast<std::size_t>(i)];
             group.quantities.push_back({parameter.name, coherent_unit(parameter.unit)});
             result.quantities.push_back({symbol++, BudgetQuantity::k_whole});
         }
         group.dependence = fit.covariance_scaled ? Dependence::student_t : Dependence::normal;
         group.distribution = fit.covariance_scaled ? "student_t" : "normal";
         result.groups.push_back(std::move(group));
-        result.streams.push_back((job.inputs.size() + f) * k_streams_an_input);
+        result.streams.push_back((budget.inputs.size() + f) * k_streams_an_input);
     }
     return result;
 }
 
-}  // namespace gumcert::app
+}  // namespace gumcert::gum

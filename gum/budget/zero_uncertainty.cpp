@@ -1,36 +1,36 @@
-#include "app/zero_uncertainty.h"
+#include "gum/budget/zero_uncertainty.h"
 
 #include <algorithm>
 #include <set>
 #include <vector>
 
-#include "app/budget_model.h"
+#include "gum/budget/budget_model.h"
 #include "gum/expression/equation_system.h"
 #include "gum/expression/name.h"
 
-namespace gumcert::app {
+namespace gumcert::gum {
 
 namespace {
 
 /// The names that an output depends on, directly and through other equations, in the form in which names are compared.
-std::set<std::string> names_behind(const engine::BudgetJob& job, const std::string& output) {
-    std::vector<gum::EquationNames> equations;
-    for (const gum::EquationText& equation : job.model) {
-        equations.push_back(gum::equation_names(equation));
+std::set<std::string> names_behind(const Budget& budget, const std::string& output) {
+    std::vector<EquationNames> equations;
+    for (const EquationText& equation : budget.model) {
+        equations.push_back(equation_names(equation));
     }
     std::set<std::string> unknowns;
-    for (const gum::UnknownSymbol& unknown : job.unknowns) {
-        unknowns.insert(gum::canonical_name(unknown.name));
+    for (const UnknownSymbol& unknown : budget.unknowns) {
+        unknowns.insert(canonical_name(unknown.name));
     }
     std::set<std::string> names;
-    std::vector<std::string> left{gum::canonical_name(output)};
+    std::vector<std::string> left{canonical_name(output)};
     while (!left.empty()) {
         const std::string name = left.back();
         left.pop_back();
         if (!names.insert(name).second) {
             continue;
         }
-        for (const gum::EquationNames& equation : equations) {
+        for (const EquationNames& equation : equations) {
             if (equation.defines == name || (equation.defines.empty() && unknowns.contains(name))) {
                 left.insert(left.end(), equation.uses.begin(), equation.uses.end());
             }
@@ -41,16 +41,16 @@ std::set<std::string> names_behind(const engine::BudgetJob& job, const std::stri
 
 }  // namespace
 
-bool is_exact_by_definition(const engine::BudgetJob& job, const BudgetPointResult& point, const std::string& output) {
-    const std::set<std::string> names = names_behind(job, output);
-    const std::vector<BudgetSymbol> symbols = budget_symbols(job);
+bool is_exact_by_definition(const Budget& budget, const BudgetPointResult& point, const std::string& output) {
+    const std::set<std::string> names = names_behind(budget, output);
+    const std::vector<BudgetSymbol> symbols = budget_symbols(budget);
     std::size_t quantity = 0;
-    for (const gum::InputGroup& group : point.model->inputs()) {
+    for (const InputGroup& group : point.model->inputs()) {
         for (Eigen::Index i = 0; i < group.size(); ++i, ++quantity) {
             const std::size_t symbol = point.model->quantities()[quantity].symbol;
-            const bool is_fitted = symbol >= job.inputs.size();  // no constant, whatever its covariance
+            const bool is_fitted = symbol >= budget.inputs.size();  // no constant, whatever its covariance
             const double variance = group.covariance.cols() == 1 ? group.covariance(i, 0) : group.covariance(i, i);
-            if ((is_fitted || variance != 0.0) && names.contains(gum::canonical_name(symbols[symbol].name))) {
+            if ((is_fitted || variance != 0.0) && names.contains(canonical_name(symbols[symbol].name))) {
                 return false;
             }
         }
@@ -58,13 +58,13 @@ bool is_exact_by_definition(const engine::BudgetJob& job, const BudgetPointResul
     return true;
 }
 
-void state_zero_uncertainty(const engine::BudgetJob& job, const BudgetPointResult& point, const std::string& output,
+void state_zero_uncertainty(const Budget& budget, const BudgetPointResult& point, const std::string& output,
                             BudgetOutputResult& result) {
     if (result.standard_uncertainty != 0.0 || result.coverage == "none") {
         return;
     }
     result.coverage_factor.reset();
-    if (is_exact_by_definition(job, point, output)) {
+    if (is_exact_by_definition(budget, point, output)) {
         result.coverage_note = k_exact_by_definition;
         result.expanded_uncertainty = 0.0;
         return;
@@ -77,21 +77,21 @@ void state_zero_uncertainty(const engine::BudgetJob& job, const BudgetPointResul
         "equation, or its derivatives vanish at these estimates";
 }
 
-gum::Diagnostic zero_uncertainty_message(const BudgetOutputResult& result, const std::string& where) {
+Diagnostic zero_uncertainty_message(const BudgetOutputResult& result, const std::string& where) {
     if (result.coverage_note == k_exact_by_definition) {
         return {.code = "GC-BUDGET-0028",
                 .where = where,
                 .what = result.coverage_note,
                 .rule = "a result without uncertainty was stated as such",
                 .action = "State an uncertainty where one of the constants has one.",
-                .severity = gum::Severity::note};
+                .severity = Severity::note};
     }
     return {.code = "GC-BUDGET-0029",
             .where = where,
             .what = result.coverage_note,
             .rule = "an uncertainty of 0 is stated on purpose, with \"constant\": true, or not at all",
             .action = "Correct the equation: a quantity that is read twice has two names, one for each reading.",
-            .severity = gum::Severity::warning};
+            .severity = Severity::warning};
 }
 
-}  // namespace gumcert::app
+}  // namespace gumcert::gum

@@ -1,10 +1,8 @@
-#include "app/budget_covariance.h"
+#include "gum/budget/budget_covariance.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -12,17 +10,16 @@
 #include <vector>
 
 #include "gum/random_draws.h"
-#include "tests/unit/engine/job/budget_campaign.h"
+#include "tests/unit/gum/budget/made_budgets.h"
 
-namespace gumcert::app {
+namespace gumcert::gum {
 namespace {
 
-BudgetResult evaluate_keys(const std::string& keys) {
-    return evaluate_budget(engine::test::read_budget(keys), 1);
-}
+using test::correlate;
+using test::input;
 
-Eigen::MatrixXd covariance(const std::string& keys) {
-    return budget_covariance(evaluate_keys(keys));
+Eigen::MatrixXd covariance(const Budget& of) {
+    return budget_covariance(evaluate_budget(of, 1));
 }
 
 void expect_equal(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double tolerance, const std::string& of) {
@@ -30,23 +27,30 @@ void expect_equal(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double tol
     EXPECT_LE((a - b).cwiseAbs().maxCoeff(), tolerance * b.cwiseAbs().maxCoeff()) << of << "\n" << a << "\n\n" << b;
 }
 
-const std::string k_a = R"("a": {"value": 0, "u": 1})";
-const std::string k_b = R"("b": {"value": 0, "u": 1})";
-const std::string k_own_b = R"("points": [{"b": {"value": 1, "u": 1}}, {"b": {"value": 2, "u": 2}}])";
-
-std::string job_text(const std::string& inputs, const std::string& model, double r) {
-    return R"("model": ["y = )" + model + R"("], "inputs": {)" + inputs + R"(}, "correlations": [["a", "b", )" +
-           std::to_string(r) + "]], " + k_own_b;
+/// Inputs a and b of u = 1, of which two points state b with u = 1 and u = 2.
+Budget two_points(const std::vector<std::string>& names, const std::string& model) {
+    Budget of = test::budget({"y = " + model}, {});
+    for (const std::string& name : names) {
+        of.inputs.push_back(input(name, state_uncertainty(0, 1)));
+    }
+    of.points = {test::point(of, "1", {{"b", state_uncertainty(1, 1)}}),
+                 test::point(of, "2", {{"b", state_uncertainty(2, 2)}})};
+    return of;
 }
 
 // b = r a + what is of the point alone: cov(b1, b2) = r² u1 u2, cov(a + b1, a + b2) = (1 + r u1)(1 + r u2).
 TEST(BudgetCovariance, OfInputsThatThePointsStateGivenThoseThatTheyShare) {
     for (const double r : {0.5, -0.25, 0.99}) {
-        for (const std::string& inputs : {k_a + ", " + k_b, k_b + ", " + k_a}) {
-            const Eigen::MatrixXd sum = covariance(job_text(inputs, "a + b", r));
+        for (const std::vector<std::string>& names : {std::vector<std::string>{"a", "b"}, {"b", "a"}}) {
+            const auto of = [&](const std::string& model) {
+                Budget made = two_points(names, model);
+                correlate(made, "a", "b", r);
+                return covariance(made);
+            };
+            const Eigen::MatrixXd sum = of("a + b");
             EXPECT_NEAR(sum(0, 1), (1.0 + r) * (1.0 + 2.0 * r), 1e-14);
             EXPECT_NEAR(sum(0, 0), 2.0 + 2.0 * r, 1e-14);
-            const Eigen::MatrixXd alone = covariance(job_text(inputs, "b", r));
+            const Eigen::MatrixXd alone = of("b");
             EXPECT_NEAR(alone(0, 1), r * r * 2.0, 1e-14);
             EXPECT_NEAR(alone(1, 1), 4.0, 1e-14);
         }
@@ -54,14 +58,9 @@ TEST(BudgetCovariance, OfInputsThatThePointsStateGivenThoseThatTheyShare) {
 }
 
 TEST(BudgetCovariance, WithoutCorrelationPointsShareWhatTheyDoNotState) {
-    const Eigen::MatrixXd V = covariance(R"("model": ["y = a + b"], "inputs": {)" + k_a + ", " + k_b + "}, " + k_own_b);
+    const Eigen::MatrixXd V = covariance(two_points({"a", "b"}, "a + b"));
     EXPECT_NEAR(V(0, 1), 1.0, 1e-15);
     EXPECT_NEAR(V(1, 1), 5.0, 1e-15);
-}
-
-std::string digits(double value) {
-    std::array<char, 32> text{};
-    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
 /// A generated table: four inputs with correlations, some of them stated by the points.
@@ -71,38 +70,35 @@ struct Table {
     std::vector<double> r;  // ab ac ad bc bd cd
     std::vector<bool> own;
     std::vector<bool> split;  // into two components
+    bool linear = false;
 
-    [[nodiscard]] std::string keys(const std::vector<std::size_t>& order) const {
-        std::string inputs;
+    [[nodiscard]] Budget in(const std::vector<std::size_t>& order) const {
+        Budget of =
+            test::budget({"y = " + names[0] + " + 2*" + names[1] + " - " + names[2] + (linear ? " - " : "*") + names[3],
+                          "z = " + names[0] + " - " + names[3]},
+                         {});
         for (const std::size_t i : order) {
-            const std::string U = digits(u[i]);
-            inputs += (inputs.empty() ? "\"" : ", \"") + names[i] + "\": ";
-            inputs += split[i] ? R"({"components": [{"name": "p", "value": 1, "u": )" + digits(0.6 * u[i]) +
-                                     R"(}, {"name": "q", "value": 0, "u": )" + digits(0.8 * u[i]) + "}]}"
-                               : R"({"value": 1, "u": )" + U + "}";
+            of.inputs.push_back(split[i] ? test::sum_of(names[i], {state_uncertainty(1.0, 0.6 * u[i]),
+                                                                   state_uncertainty(0.0, 0.8 * u[i])})
+                                         : input(names[i], state_uncertainty(1.0, u[i])));
         }
-        std::string correlations;
         std::size_t pair = 0;
         for (std::size_t i = 0; i < 4; ++i) {
             for (std::size_t j = i + 1; j < 4; ++j, ++pair) {
-                correlations += (correlations.empty() ? "[\"" : ", [\"") + names[i] + "\", \"" + names[j] + "\", " +
-                                digits(r[pair]) + "]";
+                correlate(of, names[i], names[j], r[pair]);
             }
         }
-        std::string points;
+        of.coverage = CoverageChoice::law_of_propagation;
         for (int p = 1; p <= 3; ++p) {
-            std::string stated = R"({"point": ")" + std::to_string(p) + "\"";
+            std::vector<std::pair<std::string, StatedQuantity>> stated;
             for (std::size_t i = 0; i < 4; ++i) {
                 if (own[i] && !split[i] && !(p == 3 && i == 1)) {  // b is shared by point 3 all the same
-                    stated += ", \"" + names[i] + R"(": {"value": )" + std::to_string(p) + R"(, "u": )" +
-                              digits(u[i] * p) + "}";
+                    stated.emplace_back(names[i], state_uncertainty(p, u[i] * p));
                 }
             }
-            points += (points.empty() ? "" : ", ") + stated + "}";
+            of.points.push_back(test::point(of, std::to_string(p), stated));
         }
-        return "\"model\": [\"y = " + names[0] + " + 2*" + names[1] + " - " + names[2] + "*" + names[3] +
-               "\", \"z = " + names[0] + " - " + names[3] + "\"], \"inputs\": {" + inputs + "}, \"correlations\": [" +
-               correlations + "], \"coverage\": \"law_of_propagation\", \"points\": [" + points + "]";
+        return of;
     }
 };
 
@@ -134,7 +130,7 @@ TEST(BudgetCovariance, DoesNotDependOnOrderNamesOrSplitting) {
     for (int round = 0; round < 40; ++round) {
         Table table = random_table(random);
         std::iota(order.begin(), order.end(), std::size_t{0});
-        const BudgetResult result = evaluate_keys(table.keys(order));
+        const BudgetResult result = evaluate_budget(table.in(order), 1);
         const Eigen::MatrixXd V = budget_covariance(result);
         EXPECT_LE((V - V.transpose()).cwiseAbs().maxCoeff(), 0.0);
         const auto same = [&](const BudgetResult& other, const std::string& change) {
@@ -149,15 +145,15 @@ TEST(BudgetCovariance, DoesNotDependOnOrderNamesOrSplitting) {
             }
         };
         std::shuffle(order.begin(), order.end(), random);
-        same(evaluate_keys(table.keys(order)), "order");
+        same(evaluate_budget(table.in(order), 1), "order");
         table.names = {"zeta", "Y", "b", "a"};
-        same(evaluate_keys(table.keys(order)), "names");
+        same(evaluate_budget(table.in(order), 1), "names");
         for (std::size_t i = 0; i < 4; ++i) {
             if (!table.own[i]) {
                 table.split[i] = !table.split[i];
             }
         }
-        same(evaluate_keys(table.keys(order)), "splitting");
+        same(evaluate_budget(table.in(order), 1), "splitting");
     }
 }
 
@@ -167,16 +163,15 @@ TEST(BudgetCovariance, IsThatOfTheTrialsOfThePoints) {
     std::vector<std::size_t> order(4);
     std::iota(order.begin(), order.end(), std::size_t{0});
     for (int round = 0; round < 6; ++round) {
-        const Table table = random_table(random);
-        std::string keys = table.keys(order);
-        keys.replace(keys.find(table.names[2] + "*"), 2, "c - ");  // a linear model
-        const BudgetResult result = evaluate_keys(keys);
+        Table table = random_table(random);
+        table.linear = true;
+        const BudgetResult result = evaluate_budget(table.in(order), 1);
         const Eigen::MatrixXd V = budget_covariance(result);
         constexpr Eigen::Index k_trials = 20000;
         Eigen::MatrixXd y(k_trials, V.rows());
         for (Eigen::Index p = 0; p < 3; ++p) {
             const BudgetPointResult& point = result.points[static_cast<std::size_t>(p)];
-            const gum::InputDraws draws(point.model->inputs(), 1, point.streams);
+            const InputDraws draws(point.model->inputs(), 1, point.streams);
             Eigen::MatrixXd x(k_trials, draws.size());
             draws.draw(0, x);
             Eigen::MatrixXd block(k_trials, 2);
@@ -194,4 +189,4 @@ TEST(BudgetCovariance, IsThatOfTheTrialsOfThePoints) {
 }
 
 }  // namespace
-}  // namespace gumcert::app
+}  // namespace gumcert::gum

@@ -1,0 +1,74 @@
+#include "gum/budget/budget.h"
+
+#include <cmath>
+#include <set>
+
+#include "gum/coverage.h"
+
+namespace gumcert::gum {
+
+std::vector<InputSymbol> model_inputs(const Budget& budget) {
+    std::set<std::size_t> stated_by_points;
+    for (const BudgetPoint& point : budget.points) {
+        for (const auto& [index, input] : point.inputs) {
+            stated_by_points.insert(index);
+        }
+    }
+    std::vector<InputSymbol> symbols;
+    for (std::size_t i = 0; i < budget.inputs.size(); ++i) {
+        const BudgetInput& input = budget.inputs[i];
+        InputSymbol& symbol = symbols.emplace_back(InputSymbol{input.name, input.unit, std::nullopt, input.where});
+        if (input.constant && !stated_by_points.contains(i)) {
+            double value = 0.0;
+            for (const StatedQuantity& component : input.components) {
+                value += component.value;
+            }
+            symbol.constant = value;
+        }
+    }
+    for (const BudgetFit& fit : budget.fits) {
+        for (const BudgetFit::Parameter& parameter : fit.parameters) {
+            symbols.push_back({parameter.name, parameter.unit, std::nullopt});
+        }
+    }
+    return symbols;
+}
+
+std::vector<OutputSymbol> model_outputs(const Budget& budget) {
+    std::vector<OutputSymbol> symbols;
+    for (const BudgetOutput& output : budget.outputs) {
+        symbols.push_back({output.name, output.unit, output.where});
+    }
+    return symbols;
+}
+
+const BudgetInput& input_at(const Budget& budget, std::size_t input, std::optional<std::size_t> point) {
+    if (point) {
+        for (const auto& [index, own] : budget.points[*point].inputs) {
+            if (index == input) {
+                return own;
+            }
+        }
+    }
+    return budget.inputs[input];
+}
+
+InputTotal input_total(const BudgetInput& input) {
+    if (input.components.size() == 1) {
+        const StatedQuantity& only = input.components.front();
+        return {.value = only.value, .u = only.u, .degrees_of_freedom = only.degrees_of_freedom};
+    }
+    InputTotal total;
+    double variance = 0.0;
+    std::vector<UncertaintyContribution> contributions;
+    for (const StatedQuantity& component : input.components) {
+        total.value += component.value;
+        variance += component.u * component.u;
+        contributions.push_back({.uncertainty = component.u, .degrees_of_freedom = component.degrees_of_freedom});
+    }
+    total.u = std::sqrt(variance);
+    total.degrees_of_freedom = effective_degrees_of_freedom(contributions);
+    return total;
+}
+
+}  // namespace gumcert::gum

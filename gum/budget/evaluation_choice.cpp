@@ -1,0 +1,318 @@
+#include "gum/budget/evaluation_choice.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "gum/linearity_check.h"
+#include "gum/trial_distribution.h"
+#include "gum/validation_in_unit.h"
+#include "text/lists.h"
+
+namespace gumcert::gum {
+
+namespace {
+
+constexpr double k_largest_change = 0.05;     // of u by second-order terms
+constexpr double k_largest_shift = 0.1;       // of the estimate by them, in terms of u
+constexpr double k_vanishing = 0.01;          // u of first order beside that of the model itself
+constexpr double k_largest_asymmetry = 0.05;  // shift of the ends by the skewness, in terms of U
+constexpr std::uint64_t k_most_trials = 20'000'000;
+constexpr double k_suspicious_share = 0.005;  // of one deviation in the sum of all squares
+constexpr double k_suspicious_in_few = 30.0;  // divided by the trials: what a normal distribution shows
+
+bool is_without(const std::vector<bool>& flags, std::size_t output) {
+    return output < flags.size() && flags[output];
+}
+
+/// A model whose sensitivities are known already.
+class KnownJacobian final : public MeasurementModel {
+public:
+    KnownJacobian(const MeasurementModel& of, Eigen::MatrixXd jacobian) : of_(of), jacobian_(std::move(jacobian)) {}
+    [[nodiscard]] const std::vector<InputGroup>& inputs() const override { return of_.inputs(); }
+    [[nodiscard]] const std::vector<OutputQuantity>& outputs() const override { return of_.outputs(); }
+    [[nodiscard]] Eigen::VectorXd evaluate(const Eigen::VectorXd& x) const override { return of_.evaluate(x); }
+    [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& /*x*/) const override { return jacobian_; }
+
+private:
+    const MeasurementModel& of_;
+    Eigen::MatrixXd jacobian_;
+};
+
+/// Whether a message says that a derivative is missing, and nothing else.
+bool tells_missing_derivative(const NoResultError& error) {
+    return std::all_of(error.diagnostics().begin(), error.diagnostics().end(), [](const Diagnostic& d) {
+        return d.code == "GC-MODEL-0063" || d.code == "GC-MODEL-0064" || d.code == "GC-GUM-0056";
+    });
+}
+
+/// Exponent with which the trials of an output thin out: P(|Y − median| > a) ~ a^−α.
+double tail_exponent(const BudgetPointResult& point, Eigen::Index output, unsigned threads) {
+    return tail_index({.model = point.model,
+                       .output = output,
+                       .unit = {},
+                       .seed = point.monte_carlo->seed,
+                       .streams = point.streams,
+                       .trials = point.outputs[static_cast<std::size_t>(output)].trials,
+                       .threads = threads});
+}
+
+/// How far the ends of the interval lie aside, in parts of U: from the convolution of all distributions, correlated
+/// ones among them. Where it is not known the ends move by γ (k² − 1)/6 u, the first term of the expansion of Cornish
+/// and Fisher (1938).
+double asymmetry_of(const BudgetPointResult& point, std::size_t output) {
+    const BudgetOutputResult& of = point.outputs[output];
+    if (of.asymmetry) {
+        return std::abs(*of.asymmetry);
+    }
+    const double k = of.coverage_factor.value_or(2.0);
+    const double skewness = linear_skewness(*point.model, point.propagation, static_cast<Eigen::Index>(output));
+    return std::abs(skewness) * std::abs(k * k - 1.0) / (6.0 * k);
+}
+
+}  // namespace
+
+CoverageChoice coverage_choice_of(const Budget& budget, const std::string& output) {
+    for (const BudgetOutput& stated : budget.outputs) {
+        if (stated.name == output && stated.coverage) {
+            return *stated.coverage;
+        }
+    }
+    return budget.coverage;
+}
+
+std::string reason_in_words(const std::string& reason) {
+    static const std::map<std::string, std::string> k_words = {
+        {"asked", "the job asks for it"},
+        {"second_order", "second-order terms change u by more than 5 % or the estimate by more than 0.1 u"},
+        {"vanishing", "the first derivatives of the model vanish at the estimates"},
+        {"no_derivative", "the model has no derivative at the estimates"},
+        {"not_linear", "the model is not linear over the uncertainties of its inputs"},
+        {"asymmetric", "an input whose distribution is not symmetric dominates"},
+        {"contradicted", "Monte Carlo contradicts the law of propagation (JCGM 101:2008, clause 8)"}};
+    const auto found = k_words.find(reason);
+    return found == k_words.end() ? "" : found->second;
+}
+
+PointPropagation propagate_where_possible(const Budget& budget, const std::optional<EquationSystem>& system,
+                                          const BudgetModel& model, const std::vector<BudgetSymbol>& symbols) {
+    try {
+        return {.propagation = propagate(model, budget.coverage_probability), .without_derivative = {}};
+    } catch (const NoResultError& refused) {
+        if (!system || !tells_missing_derivative(refused)) {
+            throw;
+        }
+        // Each output has a model of its own: only some of them may be without a derivative.
+        const Eigen::VectorXd x = input_estimates(model);
+        PointPropagation result;
+        Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(system->output_count()), x.size());
+        for (std::size_t i = 0; i < system->output_count(); ++i) {
+            const OutputSymbol output{.name = system->output_name(i), .unit = system->output_unit(i), .where = {}};
+            bool exists = true;
+            try {
+                const BudgetModel alone(
+                    EquationSystem::compile(budget.model, model_inputs(budget), budget.unknowns, {&output, 1}), symbols,
+                    model.inputs(), model.quantities());
+                const Eigen::MatrixXd row = alone.jacobian(x);
+                exists = row.allFinite();
+                if (exists) {
+                    jacobian.row(static_cast<Eigen::Index>(i)) = row.row(0);
+                }
+            } catch (const NoResultError& error) {
+                exists = false;
+                if (coverage_choice_of(budget, output.name) == CoverageChoice::law_of_propagation) {
+                    throw;
+                }
+            }
+            result.without_derivative.push_back(!exists);
+        }
+        result.propagation = propagate(KnownJacobian(model, std::move(jacobian)), budget.coverage_probability);
+        return result;
+    }
+}
+
+std::vector<std::string> evidence_against_law(const BudgetPointResult& point, bool linear_model) {
+    const std::size_t outputs = point.outputs.size();
+    std::vector<std::string> evidence(outputs);
+    std::vector<LinearityCheck> checks;
+    if (!linear_model) {
+        std::vector<std::optional<double>> factors;
+        for (const BudgetOutputResult& output : point.outputs) {
+            factors.push_back(output.coverage_factor);
+        }
+        checks = check_linearity(*point.model, point.propagation, factors);
+    }
+    for (std::size_t i = 0; i < outputs; ++i) {
+        const auto index = static_cast<Eigen::Index>(i);
+        const double u = point.propagation.standard_uncertainty(index);
+        if (is_without(point.without_derivative, i)) {
+            evidence[i] = "no_derivative";
+            continue;
+        }
+        if (point.second_order) {
+            const double second = point.second_order->standard_uncertainty(index);
+            const double shift = std::abs(point.second_order->shift(index));
+            if (std::abs(second - u) > k_largest_change * u || shift > k_largest_shift * std::max(u, second)) {
+                evidence[i] = u < k_vanishing * second ? "vanishing" : "second_order";
+                continue;
+            }
+        }
+        if (!checks.empty() && !checks[i].adequate) {
+            evidence[i] = u < k_vanishing * checks[i].spread ? "vanishing" : "not_linear";
+            continue;
+        }
+        if (asymmetry_of(point, i) > k_largest_asymmetry) {
+            evidence[i] = "asymmetric";
+        }
+    }
+    return evidence;
+}
+
+bool needs_monte_carlo(CoverageChoice choice, const std::string& evidence) {
+    return choice == CoverageChoice::monte_carlo || (choice == CoverageChoice::as_validated && !evidence.empty());
+}
+
+MonteCarloRequest automatic_monte_carlo() {
+    MonteCarloRequest request;
+    request.most_trials = k_most_trials;
+    return request;
+}
+
+std::vector<InputWithoutVariance> inputs_without_variance(const BudgetPointResult& point, Eigen::Index output) {
+    std::vector<InputWithoutVariance> found;
+    Eigen::Index column = 0;
+    for (const InputGroup& group : point.model->inputs()) {
+        for (Eigen::Index i = 0; i < group.size(); ++i, ++column) {
+            const auto at = static_cast<std::size_t>(i);
+            if (at < group.marginals.size() && group.marginals[at].kind == DistributionKind::student_t &&
+                group.marginals[at].shape <= 2.0 && point.propagation.jacobian(output, column) != 0.0) {
+                found.push_back({.column = column, .nu = group.marginals[at].shape});
+            }
+        }
+    }
+    return found;
+}
+
+ExistingMoments existing_moments(const std::optional<EquationSystem>& system, const BudgetPointResult& point,
+                                 Eigen::Index output, unsigned threads) {
+    ExistingMoments exist;
+    const std::vector<BudgetQuantity>& quantities = point.model->quantities();
+    for (const InputWithoutVariance& input : inputs_without_variance(point, output)) {
+        const std::array<std::size_t, 1> symbol{quantities[static_cast<std::size_t>(input.column)].symbol};
+        if (!system || system->is_affine_in(symbol)) {
+            exist.u = false;
+            exist.mean = exist.mean && input.nu > 1.0;
+        }
+    }
+    const BudgetOutputResult& of = point.outputs[static_cast<std::size_t>(output)];
+    const double share = of.monte_carlo->largest_share;
+    if (exist.u && share > k_suspicious_share + k_suspicious_in_few / static_cast<double>(of.trials)) {
+        const double exponent = tail_exponent(point, output, threads);
+        exist.u = exponent > 2.0;
+        exist.mean = exponent > 1.0;
+    }
+    return exist;
+}
+
+void decide_reported(CoverageChoice choice, const std::string& evidence, const Unit& unit, double value, int digits,
+                     BudgetOutputResult& output) {
+    bool contradicted = false;
+    bool confirmed = false;
+    if (output.monte_carlo && output.expanded_uncertainty && output.standard_uncertainty > 0.0) {
+        const Validation compared =
+            validation_in_unit(value, output.standard_uncertainty, *output.expanded_uncertainty, *output.monte_carlo,
+                               {[&](double v) { return unit.from_si(v); },
+                                [&](double difference) { return unit.difference_from_si(difference); }},
+                               digits);
+        contradicted = compared.precise_enough && !compared.validated;
+        confirmed = compared.precise_enough && compared.validated;
+    }
+    // What a probe or the skewness of an input gives reason to fear, trials can refute.
+    const bool only_feared = evidence == "not_linear" || evidence == "asymmetric";
+    const std::string against = only_feared && confirmed           ? ""
+                                : evidence.empty() && contradicted ? "contradicted"
+                                                                   : evidence;
+    output.by_monte_carlo = false;
+    output.because.clear();
+    output.against.clear();
+    if (choice == CoverageChoice::law_of_propagation) {
+        output.against = against;
+    } else if (output.monte_carlo && (choice == CoverageChoice::monte_carlo || !against.empty())) {
+        output.by_monte_carlo = true;
+        output.because = choice == CoverageChoice::monte_carlo ? "asked" : against;
+    }
+}
+
+void note_reported(const Budget& budget, BudgetResult& result) {
+    struct Places {
+        std::vector<std::string> points;
+        bool any = false;
+    };
+    const auto places_of = [&](std::size_t output, const auto& holds) {
+        Places places;
+        for (std::size_t p = 0; p < result.points.size(); ++p) {
+            if (holds(result.points[p].outputs[output])) {
+                places.any = true;
+                if (!budget.points.empty()) {
+                    places.points.push_back(budget.points[p].name);
+                }
+            }
+        }
+        return places;
+    };
+    constexpr std::size_t k_most_names = 5;
+    const auto where_of = [&](std::size_t output, const Places& places) {
+        const std::string name = "result " + result.output_names[output];
+        return places.points.empty() ? name
+                                     : name + " at " + (places.points.size() == 1 ? "point " : "points ") +
+                                           text::listed(places.points, k_most_names);
+    };
+    static constexpr std::array<const char*, 6> k_reasons{"second_order", "vanishing",  "no_derivative",
+                                                          "not_linear",   "asymmetric", "contradicted"};
+    for (std::size_t i = 0; i < result.output_names.size(); ++i) {
+        for (const char* reason : k_reasons) {
+            const Places reported = places_of(i, [&](const BudgetOutputResult& o) { return o.because == reason; });
+            if (reported.any) {
+                result.notes.push_back(
+                    {.code = "GC-BUDGET-0025",
+                     .where = where_of(i, reported),
+                     .what = "the result of Monte Carlo is reported, because " + reason_in_words(reason),
+                     .rule = "the law of propagation holds for models that are nearly linear and results that are "
+                             "nearly normal (JCGM 101:2008, clause 8)",
+                     .action = budget.monte_carlo
+                                   ? "The law of propagation stands beside it in the record."
+                                   : "State \"monte_carlo\" in the job to choose seed and number of trials.",
+                     .severity = Severity::note});
+            }
+            const Places forced = places_of(i, [&](const BudgetOutputResult& o) { return o.against == reason; });
+            if (forced.any) {
+                result.notes.push_back(
+                    {.code = "GC-BUDGET-0026",
+                     .where = where_of(i, forced),
+                     .what = "the law of propagation is reported because the job asks for it, although " +
+                             reason_in_words(reason),
+                     .rule = "a result is stated by the evaluation that holds (JCGM 101:2008, clause 8)",
+                     .action = "Leave out \"coverage\": \"law_of_propagation\": then Monte Carlo is reported.",
+                     .severity = Severity::warning});
+            }
+        }
+        const Places without = places_of(i, [](const BudgetOutputResult& o) { return o.monte_carlo && !o.has_u; });
+        if (without.any) {
+            result.notes.push_back(
+                {.code = "GC-BUDGET-0027",
+                 .where = where_of(i, without),
+                 .what = "the trials of Monte Carlo give no standard uncertainty: their tails fall off so slowly that "
+                         "the distribution has no variance, or none that trials can find",
+                 .rule = "a standard deviation of trials estimates u only where the distribution has one; coverage "
+                         "intervals always exist (JCGM 101:2008, 6.4.9.4 and clause 7.7)",
+                 .action =
+                     "State the coverage interval; take more readings (ν above 2), or keep a divisor away from 0.",
+                 .severity = Severity::warning});
+        }
+    }
+}
+
+}  // namespace gumcert::gum

@@ -1,0 +1,115 @@
+#include "gum/budget/evaluation_choice.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gum/quantity/diagnostic.h"
+#include "tests/unit/gum/budget/made_budgets.h"
+
+namespace gumcert::gum {
+namespace {
+
+using test::input;
+using test::tells;
+
+BudgetOutputResult result_of(const std::string& model, std::vector<BudgetInput> inputs) {
+    return test::first_result(test::budget({model}, std::move(inputs)));
+}
+
+TEST(EvaluationChoice, SaysWhyMonteCarloIsReported) {
+    const BudgetInput x0 = input("x", state_uncertainty(0, 1));
+    const std::vector<BudgetInput> pair{input("a", state_uncertainty(3, 1)), input("b", state_uncertainty(3, 1))};
+    EXPECT_EQ(result_of("y = x^2", {x0}).because, "vanishing");
+    EXPECT_EQ(result_of("y = x^3", {x0}).because, "vanishing");
+    EXPECT_EQ(result_of("y = x^2", {input("x", state_uncertainty(1, 0.5))}).because, "second_order");
+    EXPECT_EQ(result_of("y = abs(a - b)", pair).because, "no_derivative");
+    EXPECT_EQ(result_of("y = max(x, 0)", {input("x", state_uncertainty(0.01, 1))}).because, "not_linear");
+    EXPECT_EQ(result_of("y = x", {input("x", test::shaped(DistributionKind::lognormal, 0, 1, 0.8))}).because,
+              "asymmetric");
+    EXPECT_EQ(result_of("y = 2*x", {x0}).because, "");
+    EXPECT_FALSE(result_of("y = 2*x", {x0}).monte_carlo.has_value());
+}
+
+TEST(EvaluationChoice, IsThatOfTheOutputBeforeThatOfTheBudget) {
+    Budget of = test::budget({"y = 2*x", "z = 3*x"}, {input("x", state_uncertainty(0, 1))});
+    of.coverage = CoverageChoice::monte_carlo;
+    of.outputs = {
+        {.name = "y", .unit = {}, .coverage_probability = {}, .coverage = {}, .where = {}},
+        {.name = "z", .unit = {}, .coverage_probability = {}, .coverage = CoverageChoice::as_validated, .where = {}}};
+    EXPECT_EQ(coverage_choice_of(of, "y"), CoverageChoice::monte_carlo);
+    EXPECT_EQ(coverage_choice_of(of, "z"), CoverageChoice::as_validated);
+    const std::vector<BudgetOutputResult> outputs = evaluate_budget(of, 1).points.at(0).outputs;
+    EXPECT_EQ(outputs[0].because, "asked");
+    EXPECT_FALSE(outputs[1].by_monte_carlo);
+}
+
+TEST(EvaluationChoice, NeedsTrialsWhereTheLawIsInDoubt) {
+    EXPECT_FALSE(needs_monte_carlo(CoverageChoice::as_validated, ""));
+    EXPECT_TRUE(needs_monte_carlo(CoverageChoice::as_validated, "not_linear"));
+    EXPECT_FALSE(needs_monte_carlo(CoverageChoice::law_of_propagation, "not_linear"));
+    EXPECT_TRUE(needs_monte_carlo(CoverageChoice::monte_carlo, ""));
+    EXPECT_EQ(automatic_monte_carlo().digits, 2);
+    EXPECT_FALSE(automatic_monte_carlo().trials.has_value());
+}
+
+TEST(EvaluationChoice, ForcedTellsWhatSpeaksAgainstIt) {
+    Budget of = test::budget({"y = x^2"}, {input("x", state_uncertainty(1, 0.5))});
+    of.coverage = CoverageChoice::law_of_propagation;
+    const BudgetResult result = evaluate_budget(of, 1);
+    EXPECT_EQ(result.points[0].outputs[0].against, "second_order");
+    EXPECT_FALSE(result.points[0].outputs[0].monte_carlo.has_value());
+    EXPECT_TRUE(tells(result, "GC-BUDGET-0026"));
+    Budget kink = test::budget({"y = abs(x)"}, {input("x", state_uncertainty(0, 1))});
+    kink.coverage = CoverageChoice::law_of_propagation;
+    EXPECT_THROW((void)evaluate_budget(kink, 1), NoResultError);
+}
+
+// One output without a derivative does not take it from the others.
+TEST(EvaluationChoice, PropagatesOutputsBesideOneWithoutDerivative) {
+    const BudgetResult result =
+        evaluate_budget(test::budget({"d = abs(a - b)", "s = a + b"},
+                                     {input("a", state_uncertainty(3, 1)), input("b", state_uncertainty(3, 1))}),
+                        1);
+    const BudgetPointResult& point = result.points.front();
+    EXPECT_EQ(point.without_derivative, (std::vector<bool>{true, false}));
+    EXPECT_EQ(point.outputs[0].because, "no_derivative");
+    EXPECT_FALSE(point.outputs[1].by_monte_carlo);
+    EXPECT_NEAR(point.outputs[1].standard_uncertainty, std::sqrt(2.0), 1e-12);
+}
+
+// JCGM 101:2008, 6.4.9.4: a t-distribution has an expectation for ν > 1 and a standard deviation for ν > 2 only.
+TEST(EvaluationChoice, StatesNoMomentThatDoesNotExist) {
+    const auto moments = [](const std::string& model, std::vector<BudgetInput> inputs) {
+        Budget of = test::budget({model}, std::move(inputs));
+        of.coverage = CoverageChoice::monte_carlo;
+        of.monte_carlo.emplace().trials = 200000;
+        const BudgetOutputResult result = test::first_result(of);
+        return std::pair{result.has_mean, result.has_u};
+    };
+    EXPECT_EQ(moments("y = x", {input("x", state_observations({1, 1.1}))}), std::pair(false, false));
+    EXPECT_EQ(moments("y = x", {input("x", state_observations({1, 1.1, 1.05}))}), std::pair(true, false));
+    EXPECT_EQ(moments("y = x", {input("x", state_uncertainty(1, 0.1, 4))}), std::pair(true, true));
+    EXPECT_EQ(moments("y = a/b", {input("a", state_uncertainty(1, 0.1)), input("b", state_uncertainty(0.5, 0.5))}),
+              std::pair(false, false));
+}
+
+TEST(EvaluationChoice, TellsOnceForAllPoints) {
+    Budget of = test::budget({"y = x^2"}, {input("x", state_uncertainty(0, 1))});
+    of.points = {test::point(of, "low", {{"x", state_uncertainty(0, 1)}}),
+                 test::point(of, "high", {{"x", state_uncertainty(0, 2)}})};
+    std::vector<std::string> places;
+    for (const Diagnostic& note : evaluate_budget(of, 1).notes) {
+        if (note.code == "GC-BUDGET-0025") {
+            places.push_back(note.where);
+        }
+    }
+    EXPECT_THAT(places, testing::ElementsAre(testing::HasSubstr("y at points low")));
+}
+
+}  // namespace
+}  // namespace gumcert::gum
