@@ -51,6 +51,10 @@ expect_printed(monte_carlo "law of propagation  dm = 1.2340 mg, u = 0.0539 mg" "
 # ISO/TS 28037:2010, clause 7
 expect_printed(calibration_line "a = 0.5788, u = 0.4764" "b = 2.1597, u = 0.1355"
                "chi-square = 2.743 on 4 degrees of freedom" "x = 4.594, u = 0.163")
+# JCGM 100:2008, H.3: b(30 °C) = -0.1494 °C with u = 0.0041 °C, and the resolution of the reading
+expect_printed(uncertainty_budget "t[30 degC] = 29.8506 degC, U = 0.0096 K (u = 0.0042 K, k = 2.32, student_t)"
+               "r(22 degC, 30 degC) = -0.59, r(26 degC, 30 degC) = 0.90"
+               "inputs y1, y2: correlated, with 9 degrees of freedom each")
 
 # The installed package must not remember the tree that it was built from.
 file(GLOB_RECURSE package_files ${prefix}/lib/cmake/*.cmake ${prefix}/lib/*/cmake/*.cmake)
