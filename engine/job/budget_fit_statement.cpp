@@ -15,6 +15,7 @@
 #include "gum/quantity/dense_factors.h"
 #include "text/lists.h"
 #include "text/numbers.h"
+#include "text/place.h"
 #include "text/visible_text.h"
 
 namespace gumcert::engine {
@@ -286,7 +287,7 @@ private:
             if (field.name.starts_with("u_") && !contains(uncertainties, field.name) &&
                 !contains(columns_, field.name)) {
                 const std::vector<std::string_view> known(uncertainties.begin(), uncertainties.end());
-                file->problems->refuse(k_fit_uncertainty, where_in_text(file->problems->file(), field.place),
+                file->problems->refuse(k_fit_uncertainty, text::where_in_text(file->problems->file(), field.place),
                                        "the column " + text::in_quotes(field.name) + " belongs to no column of the fit",
                                        "uncertainties are in columns " + text::any_of(known), "correct the name");
                 is_known = false;

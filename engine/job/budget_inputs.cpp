@@ -13,6 +13,7 @@
 #include "gum/rounding.h"
 #include "text/lists.h"
 #include "text/numbers.h"
+#include "text/place.h"
 #include "text/visible_text.h"
 
 namespace gumcert::engine {
@@ -631,7 +632,7 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
             columns.push_back({field.name, std::nullopt, {}});
             continue;
         }
-        const std::string where = where_in_text(name, field.place);
+        const std::string where = text::where_in_text(name, field.place);
         const std::size_t dot = field.name.rfind('.');
         const std::string_view key =
             dot == std::string::npos ? std::string_view{"value"} : std::string_view{field.name}.substr(dot + 1);

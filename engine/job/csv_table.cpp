@@ -1,5 +1,6 @@
 #include "engine/job/csv_table.h"
 #include "text/lists.h"
+#include "text/place.h"
 #include "text/utf8.h"
 #include "text/visible_text.h"
 
@@ -47,7 +48,8 @@ public:
                 return false;
             }
             if (fields.size() == k_columns) {
-                problems_.refuse(k_csv_too_many_columns, where_in_text(problems_.file(), {field.line, field.column}),
+                problems_.refuse(k_csv_too_many_columns,
+                                 text::where_in_text(problems_.file(), {field.line, field.column}),
                                  "more than " + std::to_string(k_columns) + " fields in a row",
                                  "a row has at most " + std::to_string(k_columns) + " fields",
                                  "check that the file is the table that the job means");
@@ -93,7 +95,7 @@ private:
     }
 
     bool refuse_quote(std::uint32_t line, std::uint32_t column, std::string what) {
-        problems_.refuse(k_csv_quote, where_in_text(problems_.file(), {line, column}), std::move(what),
+        problems_.refuse(k_csv_quote, text::where_in_text(problems_.file(), {line, column}), std::move(what),
                          "a field with commas or quotes stands between double quotes, and a quote inside it is doubled "
                          "(RFC 4180)",
                          "correct the quotes");
@@ -156,7 +158,7 @@ private:
 };
 
 std::string where_is(const CsvCell& cell, const ProblemList& problems) {
-    return where_in_text(problems.file(), {cell.line, cell.column});
+    return text::where_in_text(problems.file(), {cell.line, cell.column});
 }
 
 /// True when the fields that a row has too many can be explained by decimal commas: 12,345 reads as two fields.

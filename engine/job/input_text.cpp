@@ -7,6 +7,7 @@
 #include "engine/job/file_source.h"
 #include "text/edit_distance.h"
 #include "text/numbers.h"
+#include "text/place.h"
 #include "text/utf8.h"
 #include "text/visible_text.h"
 
@@ -24,27 +25,6 @@ bool is_space(char32_t c) {
 
 }  // namespace
 
-std::string where_in_text(const std::string& file, TextPlace place) {
-    return text::visible(file) + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
-}
-
-TextPlace PlaceFinder::at(std::size_t offset) {
-    if (offset < offset_) {
-        offset_ = 0;
-        place_ = {};
-    }
-    const std::size_t end = std::min(offset, text_.size());
-    for (; offset_ < end; ++offset_) {
-        if (text_[offset_] == '\n') {
-            ++place_.line;
-            place_.column = 1;
-        } else if (!text::is_continuation(text_[offset_])) {
-            ++place_.column;
-        }
-    }
-    return place_;
-}
-
 std::optional<std::string_view> check_text(std::string_view bytes, ProblemList& problems) {
     const std::string& file = problems.file();
     const std::string save_as = "save the file as UTF-8 text";
@@ -58,30 +38,30 @@ std::optional<std::string_view> check_text(std::string_view bytes, ProblemList& 
     using namespace std::string_view_literals;
     const bool zero_in_pair = bytes.size() >= 2 && ((bytes[0] == '\0') != (bytes[1] == '\0'));
     if (begins("\xFF\xFE"sv) || begins("\xFE\xFF"sv) || begins("\0\0\xFE\xFF"sv) || zero_in_pair) {
-        problems.refuse(k_utf16, where_in_text(file, {}), "the file is UTF-16 or UTF-32 text (byte offset 0)",
+        problems.refuse(k_utf16, text::where_in_text(file, {}), "the file is UTF-16 or UTF-32 text (byte offset 0)",
                         "only UTF-8 is read", save_as);
         return std::nullopt;
     }
     const std::size_t skipped = begins("\xEF\xBB\xBF"sv) ? 3 : 0;
     const std::string_view text = bytes.substr(skipped);
-    PlaceFinder finder(text);
+    text::PlaceFinder finder(text);
     for (std::size_t i = 0; i < text.size();) {
         const unsigned c = byte_at(text, i);
         if (c == 0) {
-            problems.refuse(k_nul_character, where_in_text(file, finder.at(i)),
+            problems.refuse(k_nul_character, text::where_in_text(file, finder.at(i)),
                             "a NUL character (byte offset " + std::to_string(i + skipped) + ")",
                             "a text has no NUL characters", "check that the file is not damaged, and " + save_as);
             return std::nullopt;
         }
         if (c == '\r' && (i + 1 == text.size() || text[i + 1] != '\n')) {
-            problems.refuse(k_lone_carriage_return, where_in_text(file, finder.at(i)),
+            problems.refuse(k_lone_carriage_return, text::where_in_text(file, finder.at(i)),
                             "a carriage return without a line feed (byte offset " + std::to_string(i + skipped) + ")",
                             "lines end in LF or CRLF", "save the file with Unix or Windows line ends");
             return std::nullopt;
         }
         const std::size_t size = text::decode_utf8(text, i).bytes;
         if (size == 0) {
-            problems.refuse(k_not_utf8, where_in_text(file, finder.at(i)),
+            problems.refuse(k_not_utf8, text::where_in_text(file, finder.at(i)),
                             "byte 0x" + text::hexadecimal(c, 2) + " at byte offset " + std::to_string(i + skipped) +
                                 " is not UTF-8",
                             "only UTF-8 is read", save_as + " (it seems to be in another encoding, or is damaged)");

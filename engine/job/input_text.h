@@ -11,29 +11,6 @@
 
 namespace gumcert::engine {
 
-/// A place in a text: line and column in characters, both from 1.
-struct TextPlace {
-    std::size_t line = 1;
-    std::size_t column = 1;
-
-    friend bool operator==(const TextPlace&, const TextPlace&) = default;
-};
-
-/// `file:line:column`.
-[[nodiscard]] std::string where_in_text(const std::string& file, TextPlace place);
-
-/// Walks through a text that is UTF-8 and tells the places of offsets, in one pass when they ascend.
-class PlaceFinder {
-public:
-    explicit PlaceFinder(std::string_view text) : text_(text) {}
-    [[nodiscard]] TextPlace at(std::size_t offset);
-
-private:
-    std::string_view text_;
-    std::size_t offset_ = 0;
-    TextPlace place_;
-};
-
 /// Checks what holds for every text file: size, UTF-8 without NUL, and lines that end in LF or CRLF.
 ///
 /// \param bytes  the file; a byte order mark of UTF-8 is accepted

@@ -103,7 +103,7 @@ std::vector<CsvHeaderField> csv_header(std::string_view bytes) {
     while (start < bytes.size() && (bytes[start] == '\n' || bytes[start] == '\r')) {
         ++start;
     }
-    PlaceFinder finder(bytes);
+    text::PlaceFinder finder(bytes);
     std::vector<CsvHeaderField> fields;
     for (std::size_t i = start; i < bytes.size();) {
         CsvHeaderField field{{}, finder.at(i)};
@@ -132,7 +132,7 @@ std::vector<std::string> keys_in_order(const JsonDocument& document, const std::
     std::vector<std::tuple<std::size_t, std::size_t, std::string>> keys;
     for (const auto& [key, value] : document.value.at(nlohmann::json::json_pointer(pointer)).items()) {
         const auto place = document.places.find(child_pointer(pointer, key));
-        const TextPlace at = place == document.places.end() ? TextPlace{} : place->second;
+        const text::Place at = place == document.places.end() ? text::Place{} : place->second;
         keys.emplace_back(at.line, at.column, key);
     }
     std::sort(keys.begin(), keys.end());

@@ -11,6 +11,7 @@
 #include "engine/job/json_document.h"
 #include "engine/job/problem_list.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/place.h"
 
 namespace gumcert::engine {
 
@@ -63,7 +64,7 @@ private:
 /// One field of the header of a table.
 struct CsvHeaderField {
     std::string name;
-    TextPlace place;
+    text::Place place;
 };
 
 /// The names in the first line of a table that is not blank, for readers whose columns are not known beforehand.

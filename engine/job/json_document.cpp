@@ -1,6 +1,7 @@
 #include "engine/job/json_document.h"
 #include "text/lists.h"
 #include "text/numbers.h"
+#include "text/place.h"
 #include "text/utf8.h"
 #include "text/visible_text.h"
 
@@ -64,8 +65,8 @@ private:
     static bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
     void refuse_at(std::size_t offset, const InputCode& code, std::string what, std::string rule, std::string action) {
-        problems_.refuse(code, where_in_text(problems_.file(), finder_.at(offset)), std::move(what), std::move(rule),
-                         std::move(action));
+        problems_.refuse(code, text::where_in_text(problems_.file(), finder_.at(offset)), std::move(what),
+                         std::move(rule), std::move(action));
     }
     void refuse_here(const InputCode& code, std::string what, std::string rule, std::string action) {
         refuse_at(offset_, code, std::move(what), std::move(rule), std::move(action));
@@ -202,8 +203,8 @@ private:
                 const auto first = document_.places.find(pointer_);
                 problems_.refuse(
                     k_json_duplicate_key,
-                    text::visible(problems_.file()) + "#" + text::visible(pointer_) +
-                        place_text(finder_.at(key_offset)),
+                    text::visible(problems_.file()) + "#" + text::visible(pointer_) + " (" +
+                        text::line_and_column(finder_.at(key_offset)) + ")",
                     "the key " + text::in_quotes(member->first) + " occurs twice" +
                         (first == document_.places.end() ? std::string{}
                                                          : ", first in line " + std::to_string(first->second.line)),
@@ -430,15 +431,11 @@ private:
         }
     }
 
-    [[nodiscard]] static std::string place_text(TextPlace place) {
-        return " (line " + std::to_string(place.line) + ", column " + std::to_string(place.column) + ")";
-    }
-
     std::string_view text_;
     ProblemList& problems_;
     const JsonLimits& limits_;
     JsonDocument& document_;
-    PlaceFinder finder_;
+    text::PlaceFinder finder_;
     std::size_t offset_ = 0;
     std::size_t values_ = 0;
     std::string pointer_;
@@ -450,8 +447,7 @@ private:
 std::string JsonDocument::where(const std::string& pointer) const {
     std::string shown = text::visible(file) + "#" + text::visible(pointer);
     if (const auto place = places.find(pointer); place != places.end()) {
-        shown +=
-            " (line " + std::to_string(place->second.line) + ", column " + std::to_string(place->second.column) + ")";
+        shown += " (" + text::line_and_column(place->second) + ")";
     }
     return shown;
 }
@@ -466,7 +462,7 @@ std::string JsonDocument::number_as_written(const std::string& pointer) const {
         line_start = text.find('\n', line_start) + 1;
     }
     std::size_t begin = line_start;
-    PlaceFinder finder(std::string_view{text}.substr(line_start));
+    text::PlaceFinder finder(std::string_view{text}.substr(line_start));
     while (finder.at(begin - line_start).column < place->second.column && begin < text.size()) {
         ++begin;
     }

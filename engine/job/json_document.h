@@ -14,6 +14,7 @@
 
 #include "engine/job/input_text.h"
 #include "engine/job/problem_list.h"
+#include "text/place.h"
 
 namespace gumcert::engine {
 
@@ -28,7 +29,7 @@ struct JsonLimits {
 struct JsonDocument {
     std::string file;
     nlohmann::json value;
-    std::unordered_map<std::string, TextPlace> places;  ///< JSON pointer (RFC 6901) → first character of the value
+    std::unordered_map<std::string, text::Place> places;  ///< JSON pointer (RFC 6901) → first character of the value
 
     /// `job.json#/fixture/coordinates (line 12, column 5)`; without a place when the pointer has none.
     [[nodiscard]] std::string where(const std::string& pointer) const;
