@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/plan_figures.h"
+#include "json/canonical_json.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app::plan {
@@ -195,7 +196,7 @@ std::string data_json(const Setting& setting, const std::string& job_name, const
                             {"expected", expected_json(setting, proposal->layout, proposal->expected)}};
     }
     data["notes"] = setting.notes;
-    return reports::canonical_json(data);
+    return gumcert::json::canonical_json(data);
 }
 
 }  // namespace gumcert::app::plan

@@ -10,7 +10,8 @@
 
 #include "app/record_parts.h"
 #include "encoding/sha2.h"
-#include "reports/record/canonical_json.h"
+#include "json/canonical_json.h"
+#include "json/json_pointer.h"
 #include "text/lists.h"
 #include "text/utf8.h"
 
@@ -31,7 +32,7 @@ std::string shown(const json& value) {
     if (value.is_structured()) {
         return value.is_array() ? "a list of " + std::to_string(value.size()) : "an object";
     }
-    std::string text = reports::canonical_json(value);
+    std::string text = gumcert::json::canonical_json(value);
     text.pop_back();
     if (text.size() > k_longest_text) {
         std::size_t end = k_longest_text;
@@ -78,7 +79,7 @@ public:
             }
         } else if (stated.is_object() && evaluated.is_object()) {
             for (const auto& [key, item] : stated.items()) {
-                const std::string at = pointer + "/" + reports::pointer_token(key);
+                const std::string at = pointer + "/" + gumcert::json::pointer_token(key);
                 if (const auto other = evaluated.find(key); other != evaluated.end()) {
                     compare(item, *other, at);
                 } else {
@@ -87,7 +88,7 @@ public:
             }
             for (const auto& [key, item] : evaluated.items()) {
                 if (!stated.contains(key)) {
-                    differs(pointer + "/" + reports::pointer_token(key), "nothing", shown(item));
+                    differs(pointer + "/" + gumcert::json::pointer_token(key), "nothing", shown(item));
                 }
             }
         } else if (stated.is_array() && evaluated.is_array() && stated.size() == evaluated.size()) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
+#include "json/canonical_json.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app::simulation {
@@ -129,7 +130,7 @@ std::string data_json(const std::string& job_name, const engine::RotaryTableJob&
         object["with_noise"] = study.adjusted > 0 ? results_json(study.noisy, basis.layout, true) : json();
         data["studies"].push_back(std::move(object));
     }
-    return reports::canonical_json(data);
+    return gumcert::json::canonical_json(data);
 }
 
 }  // namespace gumcert::app::simulation

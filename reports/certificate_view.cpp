@@ -11,7 +11,6 @@
 #include "reports/certificate_statement_sections.h"
 #include "reports/circle_closure_sections.h"
 #include "reports/comparison_sections.h"
-#include "reports/record/canonical_json.h"
 #include "reports/reported_results.h"
 #include "reports/svg_plot.h"
 #include "reports/wording.h"

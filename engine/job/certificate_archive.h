@@ -11,7 +11,7 @@
 
 #include "certificate/certificate_fields.h"
 #include "engine/job/certificate_codes.h"
-#include "engine/job/json_document.h"
+#include "engine/job/json_object.h"
 #include "engine/job/problem_list.h"
 
 namespace gumcert::engine {

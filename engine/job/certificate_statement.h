@@ -6,7 +6,7 @@
 
 #include "certificate/certificate_data.h"
 #include "engine/job/job_files.h"
-#include "engine/job/json_document.h"
+#include "engine/job/json_object.h"
 
 namespace gumcert::engine {
 

@@ -18,7 +18,7 @@
 #include "engine/job/comparison_job.h"
 #include "engine/job/csv_table.h"
 #include "engine/job/job_files.h"
-#include "engine/job/json_document.h"
+#include "engine/job/json_object.h"
 #include "engine/job/matrix_limits.h"
 
 namespace gumcert::engine {

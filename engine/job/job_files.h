@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/job/file_source.h"
-#include "engine/job/json_document.h"
+#include "engine/job/json_object.h"
 #include "engine/job/problem_list.h"
 #include "gum/quantity/diagnostic.h"
 #include "text/place.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/job/json_document.h"
+#include "engine/job/json_object.h"
 #include "text/lists.h"
 #include "text/visible_text.h"
 

@@ -8,10 +8,13 @@
 
 #include "engine/job/file_source.h"
 
+namespace gumcert::json {
+struct JsonDocument;
+}
+
 namespace gumcert::engine {
 
 class ProblemList;
-struct JsonDocument;
 
 /// One object of the job document and the keys that it may have.
 struct JobKeys {
@@ -27,7 +30,7 @@ struct JobKeys {
 
 /// `schema` and `kind` of a job that is read already; problems go to the list.
 /// \return the kind when it is one of these
-[[nodiscard]] std::optional<std::string> read_kind(const JsonDocument& document, ProblemList& problems);
+[[nodiscard]] std::optional<std::string> read_kind(const gumcert::json::JsonDocument& document, ProblemList& problems);
 
 /// The kind that a job seems to be of, also where its text has faults: which reader should tell what is wrong with it.
 /// \return nothing when that cannot be seen

@@ -7,7 +7,7 @@
 
 #include "engine/job/job_files.h"
 #include "engine/job/job_kind.h"
-#include "engine/job/json_document.h"
+#include "engine/job/json_object.h"
 #include "engine/machine_frame.h"
 
 namespace gumcert::engine {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/job/json_document.h"
+#include "engine/job/json_object.h"
 #include "engine/job/problem_list.h"
 #include "text/numbers.h"
 

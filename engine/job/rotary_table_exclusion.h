@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/job/job_kind.h"
-#include "engine/job/json_document.h"
+#include "engine/job/json_object.h"
 #include "engine/job/problem_list.h"
 
 namespace gumcert::engine {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/job/json_document.h"
+#include "engine/job/json_object.h"
 
 namespace gumcert::engine {
 

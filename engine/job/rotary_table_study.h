@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/job/job_kind.h"
-#include "engine/job/json_document.h"
+#include "engine/job/json_object.h"
 #include "engine/job/problem_list.h"
 #include "engine/job/rotary_table_job.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/job/csv_table.h"
-#include "engine/job/json_document.h"
+#include "engine/job/json_object.h"
 #include "engine/job/problem_list.h"
 
 namespace gumcert::engine {

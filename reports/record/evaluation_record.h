@@ -571,7 +571,4 @@ struct EvaluationRecord {
 /// somebody edits and closes again. A digest says that a record is whole, not who made it.
 [[nodiscard]] std::string with_digest(nlohmann::json record);
 
-/// Canonical text of any JSON value (the same rules).
-[[nodiscard]] std::string canonical_json(const nlohmann::json& value);
-
 }  // namespace gumcert::reports

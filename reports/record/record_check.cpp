@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "reports/record/canonical_json.h"
+#include "json/json_pointer.h"
 #include "reports/record/record_rules.h"
 #include "reports/record/reported_result.h"
 
@@ -204,7 +204,7 @@ void check_results(const EvaluationRecord& r, const RecordBreach& report) {
     };
     std::set<std::string> names;
     for (const Result& result : r.results) {
-        const std::string at = "/results/" + pointer_token(result.name);
+        const std::string at = "/results/" + json::pointer_token(result.name);
         names.insert(result.name);
         if (result.U.has_value() != (result.coverage != "none") || (result.k && !result.U)) {
             report(at + "/U", result.U ? "stated" : "not stated",

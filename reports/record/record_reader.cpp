@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -16,20 +17,28 @@
 
 #include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
-#include "reports/record/canonical_json.h"
+#include "json/canonical_json.h"
+#include "json/json_pointer.h"
+#include "json/strict_parser.h"
 #include "reports/record/record_check.h"
 #include "reports/record/record_fields.h"
 #include "reports/record/record_problems.h"
 #include "reports/record/record_rules.h"
-#include "reports/record/record_text.h"
 #include "reports/record/reported_result.h"
 
 namespace gumcert::reports {
 
 namespace {
 
+using gumcert::json::canonical_json;
+using gumcert::json::Fault;
+using gumcert::json::pointer_token;
 using nlohmann::json;
 using Range = certificate::NumberRule;
+
+/// A record is limited as a whole, and holds whole files. Its own rules tell of long integers, with their places.
+constexpr gumcert::json::ParserOptions k_record_text{
+    .string_bytes = k_max_record_bytes, .values = k_max_record_bytes, .byte_order_mark = true, .long_integers = true};
 
 class Reader {
 public:
@@ -499,6 +508,37 @@ private:
     }
 };
 
+/// What a fault of the text means for a record.
+void refuse_text(const gumcert::json::ParsingProblem& problem, RecordProblems& problems) {
+    switch (problem.fault) {
+        case Fault::duplicate_key:
+            problems.add("GC-RECORD-0012", problem.pointer, "the key appears twice", "a key is used once in an object",
+                         k_restore);
+            break;
+        case Fault::nul_character:
+            problems.add("GC-RECORD-0016", problem.pointer, "a text with a NUL character (\\u0000)",
+                         "texts of a record have none: documents would end there", k_restore);
+            break;
+        case Fault::depth:
+            problems.add("GC-RECORD-0018", std::string(gumcert::json::parent_pointer(problem.pointer)),
+                         "nested deeper than " + std::to_string(k_record_text.depth) + " levels",
+                         "a record is at most that deep", k_restore);
+            break;
+        default:
+            problems.add(
+                "GC-RECORD-0011", problem.pointer,
+                "parse error at " + text::line_and_column(problem.place) + ": " + problem.what,
+                "a record is one JSON value in UTF-8, byte " + std::to_string(problem.offset + 1) + " breaks it",
+                k_restore);
+    }
+}
+
+/// The JSON value of a record; nothing when its text cannot be read to the end.
+std::optional<json> value_of(const std::string& text, RecordProblems& problems) {
+    return gumcert::json::parse(text, k_record_text,
+                                [&](const gumcert::json::ParsingProblem& problem) { refuse_text(problem, problems); });
+}
+
 }  // namespace
 
 EvaluationRecord record_from_json(const std::string& text, const std::string& where) {
@@ -508,9 +548,10 @@ EvaluationRecord record_from_json(const std::string& text, const std::string& wh
                      "a record has at most " + std::to_string(k_max_record_bytes) + " bytes", k_restore);
         problems.throw_if_any();
     }
-    json root = json_of_text(text, problems);
+    std::optional<json> read = value_of(text, problems);
     problems.throw_if_any();
 
+    json& root = *read;
     if (!root.is_object()) {
         problems.add("GC-RECORD-0015", "", root.type_name(), "must be an object", k_restore);
         problems.throw_if_any();

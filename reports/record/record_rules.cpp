@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "reports/record/evaluation_record.h"
+#include "json/canonical_json.h"
 
 namespace gumcert::reports {
 
@@ -47,7 +47,7 @@ bool is_allowed(double v, Range range) {
 }
 
 std::string record_number(double v) {
-    std::string text = std::isnan(v) ? "NaN" : std::isinf(v) ? "infinity" : canonical_json(nlohmann::json(v));
+    std::string text = std::isnan(v) ? "NaN" : std::isinf(v) ? "infinity" : json::canonical_json(nlohmann::json(v));
     if (!text.empty() && text.back() == '\n') {
         text.pop_back();
     }

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 #include "certificate/certificate_fields.h"
-#include "reports/record/canonical_json.h"
+#include "json/json_pointer.h"
 
 namespace gumcert::reports {
 
@@ -14,13 +15,14 @@ namespace gumcert::reports {
 inline constexpr std::array<const char*, 3> k_severities = {"note", "warning", "error"};
 inline constexpr const char* k_digest_key = "digest";
 inline constexpr const char* k_digest_algorithm = "SHA-256";
+inline constexpr std::size_t k_max_record_bytes = 128UL * 1024UL * 1024UL;  ///< size of a record as text
 
 /// Where a value stands. Its JSON pointer is made where it is needed: a record has a million values, and few problems.
 struct Place {
     const std::string& parent;  ///< JSON pointer of the object or array around it
     std::string_view key;
 
-    [[nodiscard]] std::string pointer() const { return parent + "/" + pointer_token(key); }
+    [[nodiscard]] std::string pointer() const { return parent + "/" + gumcert::json::pointer_token(key); }
 };
 
 /// "must be greater than 0", for a number that breaks the rule.

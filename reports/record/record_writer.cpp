@@ -11,7 +11,8 @@
 
 #include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
-#include "reports/record/canonical_json.h"
+#include "json/canonical_json.h"
+#include "json/json_pointer.h"
 #include "reports/record/record_check.h"
 #include "reports/record/record_fields.h"
 #include "reports/record/record_rules.h"
@@ -21,6 +22,8 @@ namespace gumcert::reports {
 
 namespace {
 
+using gumcert::json::canonical_json;
+using gumcert::json::pointer_token;
 using nlohmann::json;
 using Range = certificate::NumberRule;
 

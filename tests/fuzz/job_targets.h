@@ -4,25 +4,20 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "engine/job/budget_job.h"
 #include "engine/job/csv_table.h"
-#include "engine/job/json_document.h"
 #include "engine/job/rotary_table_job.h"
+#include "tests/fuzz/json_target.h"
 
 /// What must hold for any bytes, for the fuzz targets and for the test that replays their corpus. Every function ends
 /// in a result or in a refusal; anything else throws std::logic_error or is caught by the sanitizers.
 namespace gumcert::engine::fuzz {
 
-inline void demand(bool holds, const char* what) {
-    if (!holds) {
-        throw std::logic_error(what);
-    }
-}
+using gumcert::json::fuzz::demand;
 
 /// A refusal has a code and is one line of text that cannot deceive a terminal.
 inline void demand_honest(const std::vector<gum::Diagnostic>& diagnostics) {
@@ -34,23 +29,6 @@ inline void demand_honest(const std::vector<gum::Diagnostic>& diagnostics) {
             demand(static_cast<unsigned char>(c) >= 0x20U && c != '\x7F', "a control character in a message");
         }
     }
-}
-
-/// What is accepted as JSON is JSON for nlohmann-json as well, with the same value.
-inline bool json_document(std::string_view bytes) {
-    ProblemList problems("fuzz.json");
-    const std::optional<JsonDocument> document = read_json_document(bytes, problems);
-    demand(document || problems.refusals() > 0, "refused without a reason");
-    demand_honest(problems.refused());
-    if (!document || problems.refusals() > 0) {
-        return false;
-    }
-    const nlohmann::json second = nlohmann::json::parse(bytes, nullptr, false, true);
-    demand(!second.is_discarded() && second == document->value, "nlohmann-json reads it differently");
-    for (const auto& [pointer, place] : document->places) {
-        demand(document->value.contains(nlohmann::json::json_pointer(pointer)), "a place of nothing");
-    }
-    return true;
 }
 
 inline bool csv_table(std::string_view bytes) {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/job/job_kind.h"
-#include "engine/job/json_document.h"
+#include "engine/job/json_object.h"
 #include "tests/support/file_content.h"
 #include "tests/support/json_schema.h"
 

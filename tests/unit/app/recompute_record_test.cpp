@@ -9,6 +9,7 @@
 #include <set>
 
 #include "encoding/sha2.h"
+#include "json/canonical_json.h"
 #include "text/utf8.h"
 
 namespace gumcert::app {
@@ -152,7 +153,7 @@ Edits edit_at_random(const std::string& text, int count, unsigned seed) {
         ++edits.done;
         json copy = record;
         copy.at(json::json_pointer(at)) = other;
-        EXPECT_THROW(static_cast<void>(read(reports::canonical_json(copy))), gum::InputError)
+        EXPECT_THROW(static_cast<void>(read(gumcert::json::canonical_json(copy))), gum::InputError)
             << at << " with the old digest";
         bool refused = false;
         try {
@@ -303,7 +304,7 @@ TEST(RecomputeRecord, SaysWhyItCannot) {
     EXPECT_EQ(codes(edited(text, "/software/commit", "0123456789ab")), std::vector<std::string>{"GC-RECORD-0025"});
     json record = json::parse(text);
     record.erase("digest");
-    EXPECT_EQ(codes(reports::canonical_json(record)), std::vector<std::string>{"GC-RECORD-0026"});
+    EXPECT_EQ(codes(gumcert::json::canonical_json(record)), std::vector<std::string>{"GC-RECORD-0026"});
     record["job"]["files"][0]["content"] = nullptr;
     record["job"]["files"][0]["encoding"] = "none";
     const std::vector<gum::Diagnostic> why = refusals(reports::with_digest(record));

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/job/budget_job.h"
-#include "engine/job/json_document.h"
+#include "engine/job/json_object.h"
 #include "tests/support/job_schema.h"
 #include "tests/unit/engine/job/budget_campaign.h"
 #include "tests/unit/engine/job/campaign.h"

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "engine/job/json_document.h"
+#include "engine/job/json_object.h"
 #include "tests/support/certificate_keys.h"
 #include "tests/support/job_schema.h"
 #include "tests/unit/engine/job/bad_certificate_data.h"

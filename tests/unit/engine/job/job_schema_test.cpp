@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/job/json_document.h"
+#include "engine/job/json_object.h"
 #include "engine/job/rotary_table_job.h"
 #include "tests/support/job_schema.h"
 #include "tests/unit/engine/job/campaign.h"

@@ -5,6 +5,7 @@
 #include <functional>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/fuzz/job_targets.h"
@@ -108,8 +109,9 @@ void replay(const std::string& target, const std::function<bool(std::string_view
     EXPECT_LT(accepted, mutations);
 }
 
-TEST(Mutations, JsonDocumentEndsInAResultOrARefusal) {
-    replay("json_document", fuzz::json_document, 10'000);
+TEST(Mutations, JsonTextEndsInAResultOrARefusal) {
+    replay(
+        "json_text", [](std::string_view text) { return gumcert::json::fuzz::json_text(text); }, 10'000);
 }
 
 TEST(Mutations, CsvTableEndsInAResultOrARefusal) {

@@ -1,5 +1,5 @@
-#include "reports/record/canonical_json.h"
 #include "reports/record/evaluation_record.h"
+#include "reports/record/record_rules.h"
 #include "tests/support/record_refusal.h"
 #include "tests/support/sample_comparison_record.h"
 

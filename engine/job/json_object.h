@@ -8,58 +8,32 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "engine/job/input_text.h"
 #include "engine/job/problem_list.h"
-#include "text/place.h"
+#include "json/json_document.h"
+#include "json/json_pointer.h"
 
 namespace gumcert::engine {
 
-/// Limits of a JSON document. nlohmann-json copies and destroys recursively, so the depth is checked while parsing.
-struct JsonLimits {
-    std::size_t depth = 64;                            ///< objects and arrays inside each other
-    std::size_t string_bytes = std::size_t{1} << 20U;  ///< one string or key
-    std::size_t values = 2'000'000;                    ///< all values together
-};
+using gumcert::json::child_pointer;
+using gumcert::json::described;
+using gumcert::json::JsonDocument;
 
-/// A JSON document and the places of its values.
-struct JsonDocument {
-    std::string file;
-    nlohmann::json value;
-    std::unordered_map<std::string, text::Place> places;  ///< JSON pointer (RFC 6901) → first character of the value
-
-    /// `job.json#/fixture/coordinates (line 12, column 5)`; without a place when the pointer has none.
-    [[nodiscard]] std::string where(const std::string& pointer) const;
-
-    std::string text;  ///< as it was read
-
-    /// A number as the text has it, "0.50"; "" where the pointer has no place, or none stands there. One pass of the
-    /// text.
-    [[nodiscard]] std::string number_as_written(const std::string& pointer) const;
-};
-
-/// The pointer of a member or an element (RFC 6901: `~` and `/` of a key are escaped).
-[[nodiscard]] std::string child_pointer(const std::string& pointer, std::string_view key);
-[[nodiscard]] std::string child_pointer(const std::string& pointer, std::size_t index);
-
-/// Reads JSON (RFC 8259) strictly: UTF-8 only, `//` comments allowed, no duplicate keys, no NaN, no numbers that double
-/// precision cannot hold, no integer that it would change.
+/// Reads the JSON of a job (json/strict_parser.h); `//` comments are allowed.
 ///
 /// \param bytes     the content of the file; a UTF-8 byte order mark and CRLF are accepted
 /// \param problems  receives what is wrong; its file is the name in the messages
 /// \return the document; nothing when its text cannot be read to the end. With problems that let reading go on, such
 ///         as duplicate keys (the first one is kept), the document is returned *and* the list has refusals. A number
 ///         that was refused has the nlohmann type `discarded`; the readers below say nothing more about it.
-[[nodiscard]] std::optional<JsonDocument> read_json_document(std::string_view bytes, ProblemList& problems,
-                                                             const JsonLimits& limits = {});
+[[nodiscard]] std::optional<JsonDocument> read_json_document(std::string_view bytes, ProblemList& problems);
 
 /// The same.
 /// \throws InputError with every problem
-[[nodiscard]] JsonDocument parse_json_document(std::string_view bytes, const std::string& file,
-                                               const JsonLimits& limits = {});
+[[nodiscard]] JsonDocument parse_json_document(std::string_view bytes, const std::string& file);
 
 /// Typed reading of one object of a document. Every reader puts what is wrong into the list and returns nothing, so
 /// that all problems of a document are found in one go.
@@ -149,8 +123,5 @@ private:
     std::span<const std::string_view> keys_;
     ProblemList* problems_;
 };
-
-/// A JSON value in a few words for a message: `"axis_line"`, `-2.5`, `an object`.
-[[nodiscard]] std::string described(const nlohmann::json& value);
 
 }  // namespace gumcert::engine

@@ -1,6 +1,8 @@
-#include "reports/record/canonical_json.h"
+#include "json/canonical_json.h"
 
 #include "gum/quantity/diagnostic.h"
+#include "json/json_pointer.h"
+#include "json/strict_parser.h"
 #include "text/utf8.h"
 
 #include <nlohmann/json.hpp>
@@ -12,11 +14,14 @@
 #include <string>
 #include <string_view>
 
-namespace gumcert::reports {
+namespace gumcert::json {
 
 namespace {
 
-using nlohmann::json;
+using Value = nlohmann::json;
+
+/// What is written can be read again.
+constexpr std::size_t k_deepest = ParserOptions{}.depth;
 
 /// Where a value stands. The pointer is made only where a value is refused.
 struct Step {
@@ -40,38 +45,38 @@ class Writer {
 public:
     std::string text;
 
-    void value(const json& v, const Step* at, std::size_t depth) {
-        if (depth > k_max_json_depth) {
-            refuse("GC-RECORD-0004", at, "nested deeper than " + std::to_string(k_max_json_depth) + " levels",
+    void value(const Value& v, const Step* at, std::size_t depth) {
+        if (depth > k_deepest) {
+            refuse("GC-RECORD-0004", at, "nested deeper than " + std::to_string(k_deepest) + " levels",
                    "a record is at most that deep");
         }
         switch (v.type()) {
-            case json::value_t::object:
+            case Value::value_t::object:
                 object(v, at, depth);
                 return;
-            case json::value_t::array:
+            case Value::value_t::array:
                 array(v, at, depth);
                 return;
-            case json::value_t::string:
+            case Value::value_t::string:
                 string(v.get_ref<const std::string&>(), at);
                 return;
-            case json::value_t::boolean:
+            case Value::value_t::boolean:
                 text += v.get<bool>() ? "true" : "false";
                 return;
-            case json::value_t::number_integer:
+            case Value::value_t::number_integer:
                 number(v.get<std::int64_t>());
                 return;
-            case json::value_t::number_unsigned:
+            case Value::value_t::number_unsigned:
                 number(v.get<std::uint64_t>());
                 return;
-            case json::value_t::number_float:
+            case Value::value_t::number_float:
                 real(v.get<double>(), at);
                 return;
-            case json::value_t::null:
+            case Value::value_t::null:
                 text += "null";
                 return;
-            case json::value_t::binary:
-            case json::value_t::discarded:
+            case Value::value_t::binary:
+            case Value::value_t::discarded:
                 break;
         }
         refuse("GC-RECORD-0003", at, "a value that JSON cannot hold", "a record is JSON");
@@ -153,7 +158,7 @@ private:
         text.append(depth, ' ');
     }
 
-    void object(const json& v, const Step* at, std::size_t depth) {
+    void object(const Value& v, const Step* at, std::size_t depth) {
         if (v.empty()) {
             text += "{}";
             return;
@@ -175,9 +180,9 @@ private:
         text += '}';
     }
 
-    void array(const json& v, const Step* at, std::size_t depth) {
+    void array(const Value& v, const Step* at, std::size_t depth) {
         bool plain = true;
-        for (const json& item : v) {
+        for (const Value& item : v) {
             plain = plain && !item.is_structured();
         }
         text += '[';
@@ -201,20 +206,6 @@ private:
 
 }  // namespace
 
-std::string pointer_token(std::string_view key) {
-    std::string token;
-    for (const char c : key) {
-        if (c == '~') {
-            token += "~0";
-        } else if (c == '/') {
-            token += "~1";
-        } else {
-            token += c;
-        }
-    }
-    return token;
-}
-
 std::string canonical_json(const nlohmann::json& value) {
     Writer writer;
     writer.value(value, nullptr, 0);
@@ -222,4 +213,4 @@ std::string canonical_json(const nlohmann::json& value) {
     return std::move(writer.text);
 }
 
-}  // namespace gumcert::reports
+}  // namespace gumcert::json

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "json/strict_parser.h"
+
+namespace gumcert::json {
+
+/// A JSON document and the places of its values.
+struct JsonDocument {
+    std::string file;
+    nlohmann::json value;
+    Places places;
+
+    /// `job.json#/fixture/coordinates (line 12, column 5)`; without a place when the pointer has none.
+    [[nodiscard]] std::string where(const std::string& pointer) const;
+
+    std::string text;  ///< as it was read
+
+    /// A number as the text has it, "0.50"; "" where the pointer has no place, or none stands there. One pass of the
+    /// text.
+    [[nodiscard]] std::string number_as_written(const std::string& pointer) const;
+};
+
+/// A JSON value in a few words for a message: `"axis_line"`, `-2.5`, `an object`.
+[[nodiscard]] std::string described(const nlohmann::json& value);
+
+}  // namespace gumcert::json
