@@ -7,6 +7,7 @@
 #include "app/recompute_record.h"
 #include "engine/job/file_source.h"
 #include "engine/job/job_kind.h"
+#include "json/strict_parser.h"
 
 namespace gumcert::app {
 
@@ -56,10 +57,18 @@ FileCheck check_file(const fs::path& file, unsigned threads, const fs::path& tem
     }
     const bool is_record =
         text.find("\"gumcert/record/") != std::string::npos && text.find("\"gumcert/job/1\"") == std::string::npos;
-    const nlohmann::json document = nlohmann::json::parse(text, nullptr, false, /*ignore_comments=*/true);
-    const bool says_record = document.is_object() && document.contains("schema") && document["schema"].is_string() &&
-                             document["schema"].get<std::string>().starts_with("gumcert/record/");
-    if (says_record || (document.is_discarded() && is_record)) {
+    // What is wrong with the text, the reader of the record or the job says.
+    const std::optional<nlohmann::json> document = json::parse(text,
+                                                               {.string_bytes = text.size(),
+                                                                .values = text.size(),
+                                                                .comments = true,
+                                                                .byte_order_mark = true,
+                                                                .long_integers = true},
+                                                               [](const json::ParsingProblem&) {});
+    const bool says_record = document && document->is_object() && document->contains("schema") &&
+                             (*document)["schema"].is_string() &&
+                             (*document)["schema"].get<std::string>().starts_with("gumcert/record/");
+    if (says_record || (!document && is_record)) {
         return check_record(text, file.string(), threads, templates, progress);
     }
     const engine::DiskFileSource disk(file.parent_path());

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "gum/expression/syntax_tree.h"
+#include "json/strict_parser.h"
 #include "reports/certificate_view.h"
 #include "reports/dcc/dcc_reader.h"
 
@@ -40,11 +41,11 @@ std::optional<std::string> json_number(const std::string& text) {
     const std::size_t first = std::min(digits.find_first_not_of('0'), whole);
     digits.erase(0, first == whole ? first - (first > 0 ? 1 : 0) : first);
     number = (negative ? "-" : "") + digits + rest.substr(exponent_at);
-    const nlohmann::json parsed = nlohmann::json::parse(number, nullptr, false);
+    const std::optional<nlohmann::json> parsed = json::parse_faultless(number, {.long_integers = true});
     double value = 0.0;
     // Numbers too large or too small for a double are refused by the reader of jobs as well.
     const bool in_range = std::from_chars(number.data(), number.data() + number.size(), value).ec == std::errc();
-    return parsed.is_number() && in_range && std::isfinite(value) ? std::optional(number) : std::nullopt;
+    return parsed && parsed->is_number() && in_range && std::isfinite(value) ? std::optional(number) : std::nullopt;
 }
 
 double value_of(const std::string& number) {

@@ -1,14 +1,19 @@
 #include "reports/asset_files.h"
 
 #include "gum/quantity/diagnostic.h"
+#include "json/strict_parser.h"
 #include "reports/wording.h"
+#include "text/place.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <fstream>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <utility>
 
 namespace gumcert::reports {
 
@@ -28,19 +33,25 @@ std::string read_asset(const std::filesystem::path& file) {
     return text;
 }
 
-namespace {
-
-nlohmann::json parsed(const std::filesystem::path& file) {
-    nlohmann::json wording = nlohmann::json::parse(read_asset(file), nullptr, false);
-    if (!wording.is_object()) {
+nlohmann::json read_json_asset(const std::filesystem::path& file) {
+    const auto refuse = [](std::string where, std::string what) {
         throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0001",
-                                                .where = file.string(),
-                                                .what = "not a JSON object",
+                                                .where = std::move(where),
+                                                .what = std::move(what),
                                                 .rule = "wording files are JSON",
                                                 .action = "take the templates of this release"});
+    };
+    std::optional<nlohmann::json> read =
+        json::parse(read_asset(file), {.byte_order_mark = true}, [&](const json::ParsingProblem& problem) {
+            refuse(file.string() + " (" + text::line_and_column(problem.place) + ")", problem.what);
+        });
+    if (!read || !read->is_object()) {
+        refuse(file.string(), "not a JSON object");
     }
-    return wording;
+    return std::move(*read);
 }
+
+namespace {
 
 /// \throws gum::StorageError if there is no wording of this language
 nlohmann::json wording_of(const std::string& language, const RenderAssets& assets) {
@@ -56,7 +67,7 @@ nlohmann::json wording_of(const std::string& language, const RenderAssets& asset
                                                 .rule = "a document is printed in a language of templates/wording",
                                                 .action = "choose another language, e.g. en"});
     }
-    return parsed(file);
+    return read_json_asset(file);
 }
 
 nlohmann::json wording_of(const std::vector<std::string>& languages, const RenderAssets& assets) {
@@ -73,7 +84,7 @@ nlohmann::json wording_of(const std::vector<std::string>& languages, const Rende
             all.push_back(wording_of(language, assets));
         }
     }
-    all.front()[Wording::k_sentences_key] = parsed(assets.templates / "wording" / "sentences.json");
+    all.front()[Wording::k_sentences_key] = read_json_asset(assets.templates / "wording" / "sentences.json");
     return all;
 }
 

@@ -14,6 +14,10 @@ namespace gumcert::reports {
 /// \throws gum::StorageError if it cannot be read
 [[nodiscard]] std::string read_asset(const std::filesystem::path& file);
 
+/// The object of a JSON file of the product, read strictly.
+/// \throws gum::StorageError if it cannot be read, or is none
+[[nodiscard]] nlohmann::json read_json_asset(const std::filesystem::path& file);
+
 /// Languages that a document is printed in, the binding one first: those that the assets ask for, else the first two of
 /// the certificate data, else English.
 [[nodiscard]] std::vector<std::string> languages_of(const EvaluationRecord& record, const RenderAssets& assets);

@@ -89,8 +89,7 @@ std::vector<std::string> program_sentences_of(const EvaluationRecord& record) {
 }
 
 void identify_sentences(EvaluationRecord& record, const std::filesystem::path& templates) {
-    const ProgramSentences catalogue(
-        nlohmann::json::parse(read_asset(templates / "wording" / "sentences.json"), nullptr, false));
+    const ProgramSentences catalogue(read_json_asset(templates / "wording" / "sentences.json"));
     record.statements.clear();
     std::set<std::string> seen;
     for (const std::string& text : program_sentences_of(record)) {

@@ -12,15 +12,16 @@
 #include <algorithm>
 #include <cstring>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
+#include "json/strict_parser.h"
 #include "signing/certificates.h"
 #include "signing/checked_signature.h"
 #include "signing/external_program.h"
 #include "signing/signing_files.h"
 #include "signing/time_texts.h"
+#include "text/place.h"
 
 namespace gumcert::signing {
 
@@ -153,10 +154,6 @@ struct Description {
 constexpr const char* k_description_rule =
     R"(a signer is {"certificates": "chain.pem", "key": "key.pem"}, or with "command": ["/path/program", "word"])";
 
-bool has_nul(const nlohmann::json& text) {
-    return text.get_ref<const std::string&>().find('\0') != std::string::npos;
-}
-
 /// A secret that more people than its owner may read is none; where they may write, they can put another in its place.
 void warn_of_access(const fs::path& file, std::vector<gum::Diagnostic>& warnings) {
     constexpr unsigned k_read_by_others = 0044;
@@ -190,18 +187,18 @@ void read_description_key(Description& description, const std::string& file, con
                         : name == "passphrase_file" ? &description.passphrase_file
                                                     : nullptr;
     if (text != nullptr) {
-        if (!value.is_string() || value.get_ref<const std::string&>().empty() || has_nul(value)) {
+        if (!value.is_string() || value.get_ref<const std::string&>().empty()) {
             refuse_value("not the name of a file");
         }
         *text = value.get<std::string>();
     } else if (name == "command") {
-        const auto is_word = [](const nlohmann::json& word) { return word.is_string() && !has_nul(word); };
+        const auto is_word = [](const nlohmann::json& word) { return word.is_string(); };
         if (!value.is_array() || value.empty() || !std::all_of(value.begin(), value.end(), is_word)) {
             refuse_value("not a list of words");
         }
         description.command = value.get<std::vector<std::string>>();
     } else if (name == "time_limit_s") {
-        if (!value.is_number_unsigned() || value < 1 || value > 9999) {
+        if (!value.is_number_integer() || value < 1 || value > 9999) {
             refuse_value("not a whole number of seconds from 1 to 9999");
         }
         description.time_limit = value.get<std::int64_t>();
@@ -211,25 +208,21 @@ void read_description_key(Description& description, const std::string& file, con
 }
 
 Description read_description(const fs::path& file) {
-    std::set<std::string> seen;
-    std::string repeated;
-    const auto look_at_keys = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
-        if (depth == 1 && event == nlohmann::json::parse_event_t::key &&
-            !seen.insert(parsed.get<std::string>()).second) {
-            repeated = parsed.get<std::string>();
+    const auto refuse_text = [&](const json::ParsingProblem& problem) {
+        if (problem.fault == json::Fault::duplicate_key) {
+            refuse("GC-SIGN-0013", file.string() + "#" + problem.pointer, "the key stands there twice",
+                   k_description_rule, "keep one of them: nobody can know which one is meant");
         }
-        return true;
+        refuse("GC-SIGN-0013", file.string() + " (" + text::line_and_column(problem.place) + ")", problem.what,
+               k_description_rule, "correct the file");
     };
-    const nlohmann::json json = nlohmann::json::parse(read_signing_file(file), look_at_keys, false);
-    if (!json.is_object()) {
+    const std::optional<nlohmann::json> read =
+        json::parse(read_signing_file(file), {.byte_order_mark = true, .long_integers = true}, refuse_text);
+    if (!read || !read->is_object()) {
         refuse("GC-SIGN-0013", file.string(), "not a JSON object", k_description_rule, "correct the file");
     }
-    if (!repeated.empty()) {
-        refuse("GC-SIGN-0013", file.string() + "#/" + repeated, "the key stands there twice", k_description_rule,
-               "keep one of them: nobody can know which one is meant");
-    }
     Description description;
-    for (const auto& [name, value] : json.items()) {
+    for (const auto& [name, value] : read->items()) {
         read_description_key(description, file.string(), name, value);
     }
     if (description.certificates.empty() || description.key.empty() == description.command.empty()) {

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "gum/quantity/diagnostic.h"
+#include "json/strict_parser.h"
 #include "reports/asset_files.h"
 #include "reports/dcc/xml_document.h"
+#include "text/place.h"
 
 namespace gumcert::reports {
 
@@ -33,8 +36,12 @@ std::string text_of(const nlohmann::json& object, const char* key, const std::st
 
 RefTypes RefTypes::read(const RenderAssets& assets) {
     const std::filesystem::path file = assets.templates / "dcc" / "ref_types.json";
-    const nlohmann::json json = nlohmann::json::parse(read_asset(file), nullptr, false);
     const std::string where = file.string();
+    const std::optional<nlohmann::json> read =
+        json::parse(read_asset(file), {.byte_order_mark = true}, [&](const json::ParsingProblem& problem) {
+            refuse(where + " (" + text::line_and_column(problem.place) + ")", problem.what);
+        });
+    const nlohmann::json json = read.value_or(nullptr);
     if (!json.is_object() || !json.contains("definitions") || !json["definitions"].is_array() ||
         !json.contains("names") || !json["names"].is_object()) {
         refuse(where, "not an object with `definitions` and `names`");
