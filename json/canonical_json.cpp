@@ -1,7 +1,7 @@
 #include "json/canonical_json.h"
 
 #include "gum/quantity/diagnostic.h"
-#include "json/json_pointer.h"
+#include "json/step.h"
 #include "json/strict_parser.h"
 #include "text/utf8.h"
 
@@ -23,19 +23,9 @@ using Value = nlohmann::json;
 /// What is written can be read again.
 constexpr std::size_t k_deepest = ParserOptions{}.depth;
 
-/// Where a value stands. The pointer is made only where a value is refused.
-struct Step {
-    const Step* outer = nullptr;
-    std::string_view key = {};
-};
-
-std::string pointer_of(const Step* at) {
-    return at == nullptr ? std::string() : pointer_of(at->outer) + "/" + pointer_token(at->key);
-}
-
-[[noreturn]] void refuse(std::string code, const Step* at, std::string what, std::string rule) {
+[[noreturn]] void refuse(std::string code, const Step& at, std::string what, std::string rule) {
     throw gum::NoResultError(gum::Diagnostic{.code = std::move(code),
-                                             .where = "record#" + pointer_of(at),
+                                             .where = "record#" + at.pointer(),
                                              .what = std::move(what),
                                              .rule = std::move(rule),
                                              .action = "nothing was written; check the input that leads to it"});
@@ -45,7 +35,7 @@ class Writer {
 public:
     std::string text;
 
-    void value(const Value& v, const Step* at, std::size_t depth) {
+    void value(const Value& v, const Step& at, std::size_t depth) {
         if (depth > k_deepest) {
             refuse("GC-RECORD-0004", at, "nested deeper than " + std::to_string(k_deepest) + " levels",
                    "a record is at most that deep");
@@ -90,7 +80,7 @@ private:
         text.append(buffer, end);
     }
 
-    void real(double v, const Step* at) {
+    void real(double v, const Step& at) {
         if (!std::isfinite(v)) {
             refuse("GC-RECORD-0001", at, std::isnan(v) ? "not a number (NaN)" : "infinite",
                    "every number of a record is finite");
@@ -111,7 +101,7 @@ private:
         number(v);
     }
 
-    void string(std::string_view s, const Step* at) {
+    void string(std::string_view s, const Step& at) {
         static constexpr char k_hex[] = "0123456789abcdef";
         if (!text::is_utf8(s)) {
             refuse("GC-RECORD-0002", at, "text that is not valid UTF-8", "texts of a record are UTF-8");
@@ -158,7 +148,7 @@ private:
         text.append(depth, ' ');
     }
 
-    void object(const Value& v, const Step* at, std::size_t depth) {
+    void object(const Value& v, const Step& at, std::size_t depth) {
         if (v.empty()) {
             text += "{}";
             return;
@@ -173,14 +163,13 @@ private:
             new_line(depth + 1);
             string(key, at);
             text += ": ";
-            const Step inside{at, key};
-            value(item, &inside, depth + 1);
+            value(item, at.child(key), depth + 1);
         }
         new_line(depth);
         text += '}';
     }
 
-    void array(const Value& v, const Step* at, std::size_t depth) {
+    void array(const Value& v, const Step& at, std::size_t depth) {
         bool plain = true;
         for (const Value& item : v) {
             plain = plain && !item.is_structured();
@@ -193,9 +182,7 @@ private:
                 text += i == 0 ? "" : ",";
                 new_line(depth + 1);
             }
-            const std::string index = std::to_string(i);
-            const Step inside{at, index};
-            value(v[i], &inside, depth + 1);
+            value(v[i], at.child(i), depth + 1);
         }
         if (!plain) {
             new_line(depth);
@@ -208,7 +195,7 @@ private:
 
 std::string canonical_json(const nlohmann::json& value) {
     Writer writer;
-    writer.value(value, nullptr, 0);
+    writer.value(value, {}, 0);
     writer.text += '\n';
     return std::move(writer.text);
 }

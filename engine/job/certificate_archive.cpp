@@ -223,30 +223,19 @@ void read_localised(const json& value, certificate::LocalisedText& text, bool ma
     }
 }
 
-const json* CertificateArchive::find(std::string_view key) {
-    keys_.push_back(key);
-    const auto found = object_->find(key);
-    return found == object_->end() ? nullptr : &*found;
-}
-
 void CertificateArchive::require(std::string_view key) const {
-    if (!object_->contains(key)) {
+    if (!object_.contains(key)) {
         place_.refuse(k_certificate_missing_key, "the key " + text::in_quotes(key) + " is missing",
                       "the entry means nothing without it", "add " + text::in_quotes(key) + ", or remove the entry");
     }
 }
 
-void CertificateArchive::finish() const {
-    for (const auto& [key, value] : object_->items()) {
-        if (std::find(keys_.begin(), keys_.end(), key) != keys_.end()) {
-            continue;
-        }
-        const auto nearest = nearest_word(key, keys_);
-        place_.child(key).refuse(k_certificate_unknown_key, "the key " + text::in_quotes(key),
-                                 "only keys that the program knows are accepted, so that no statement is lost",
-                                 nearest ? "perhaps " + text::in_quotes(*nearest) + " is meant"
-                                         : "remove it, or look the keys up in docs/certificate_data.md");
-    }
+void CertificateArchive::unknown_key(const std::string& key) const {
+    const auto nearest = nearest_word(key, keys_);
+    place_.child(key).refuse(k_certificate_unknown_key, "the key " + text::in_quotes(key),
+                             "only keys that the program knows are accepted, so that no statement is lost",
+                             nearest ? "perhaps " + text::in_quotes(*nearest) + " is meant"
+                                     : "remove it, or look the keys up in docs/certificate_data.md");
 }
 
 }  // namespace gumcert::engine

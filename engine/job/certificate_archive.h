@@ -13,6 +13,7 @@
 #include "engine/job/certificate_codes.h"
 #include "engine/job/json_object.h"
 #include "engine/job/problem_list.h"
+#include "json/struct_reader.h"
 
 namespace gumcert::engine {
 
@@ -64,52 +65,52 @@ void check_lists(const certificate::CertificateData& data, const CertificatePlac
 
 /// Reads the members that `describe` lists from one object of a document, and refuses what is not among them. What is
 /// missing keeps its default. Nothing stops it: every problem is found in one go.
-class CertificateArchive {
+class CertificateArchive : public gumcert::json::StructReader<CertificateArchive, CertificatePlace> {
 public:
     /// \param place  of an object
-    explicit CertificateArchive(CertificatePlace place)
-        : place_(std::move(place)), object_(&place_.document->value.at(nlohmann::json::json_pointer(place_.pointer))) {}
+    explicit CertificateArchive(const CertificatePlace& place) : CertificateArchive(value_at(place), place) {}
 
-    template <class Type, class... Rule>
-    void operator()(std::string_view key, Type& v, Rule... rule) {
-        if (const nlohmann::json* value = find(key)) {
-            read(*value, v, place_.child(key), rule...);
-        }
-    }
-    template <class Type>
-    void operator()(std::string_view key, Type& v, std::initializer_list<const char*> words) {
-        if (const nlohmann::json* value = find(key)) {
-            read(*value, v, place_.child(key), words);
-        }
-    }
-    template <class Type, class... Rule>
-    void needed(std::string_view key, Type& v, Rule... rule) {
-        (*this)(key, v, rule...);
-        require(key);
-    }
-    template <class Type>
-    void needed(std::string_view key, Type& v, std::initializer_list<const char*> words) {
-        (*this)(key, v, words);
-        require(key);
-    }
     /// The program fills it in: no key of a job.
     template <class Type>
     void filled(std::string_view, Type&) {}
 
-    /// To be called when every key was asked for: what is left in the object is unknown.
-    void finish() const;
-
     /// A whole struct.
     /// \param place  of any value
     template <class Struct>
-    static void read_struct(Struct& v, const CertificatePlace& place) {
-        const nlohmann::json& value = place.document->value.at(nlohmann::json::json_pointer(place.pointer));
-        if (!value.is_object()) {
+    static void read_struct_at(Struct& v, const CertificatePlace& place) {
+        const nlohmann::json& value = value_at(place);
+        if (value.is_object()) {
+            read_struct(value, v, place);
+        } else {
             refuse_type(value, "an object", place);
-            return;
         }
+    }
+
+private:
+    friend StructReader;
+    static constexpr bool k_null_is_none = false;
+    std::vector<std::string_view> keys_;
+
+    CertificateArchive(const nlohmann::json& object, const CertificatePlace& place) : StructReader(object, place) {}
+
+    static const nlohmann::json& value_at(const CertificatePlace& place) {
+        return place.document->value.at(nlohmann::json::json_pointer(place.pointer));
+    }
+
+    const nlohmann::json* find(std::string_view key) {
+        keys_.push_back(key);
+        return find_if_there(key);
+    }
+    void require(std::string_view key) const;
+    void unknown_key(const std::string& key) const;
+    static void wrong_type(const nlohmann::json& value, std::string_view expected, const CertificatePlace& place) {
+        refuse_type(value, expected, place);
+    }
+
+    template <class Struct>
+    static void read_struct(const nlohmann::json& object, Struct& v, const CertificatePlace& place) {
         const std::size_t refusals = place.problems->refusals();
-        CertificateArchive archive(place);
+        CertificateArchive archive(object, place);
         describe(archive, v);
         archive.finish();
         if (place.problems->refusals() == refusals) {
@@ -117,56 +118,23 @@ public:
         }
     }
 
-private:
-    CertificatePlace place_;
-    const nlohmann::json* object_;
-    std::vector<std::string_view> keys_;
-
-    const nlohmann::json* find(std::string_view key);
-    void require(std::string_view key) const;
-
-    template <class Type, class Rule = certificate::NumberRule>
-    static void read(const nlohmann::json& value, Type& v, const CertificatePlace& place, Rule rule = {}) {
-        if (value.is_discarded()) {
-            return;  // a number that was refused while the text was read
+    template <class Number, class Rule>
+    requires std::same_as<Number, double> || std::same_as<Number, int>
+    static void read_value(const nlohmann::json& value, Number& v, const CertificatePlace& place, const Rule& rule) {
+        certificate::NumberRule allowed = certificate::NumberRule::any;
+        if constexpr (std::same_as<Rule, certificate::NumberRule>) {
+            allowed = rule;
         }
-        if constexpr (std::same_as<Type, double> || std::same_as<Type, int>) {
-            read_number(value, v, place, rule);
-        } else if constexpr (std::same_as<Type, bool>) {
-            if (value.is_boolean()) {
-                v = value.get<bool>();
-            } else {
-                refuse_type(value, "true or false", place);
-            }
-        } else if constexpr (std::same_as<Type, std::string>) {
-            read_text(value, v, place, rule);
-        } else if constexpr (std::same_as<Type, certificate::LocalisedText>) {
-            bool may_be_empty = false;
-            if constexpr (std::same_as<Rule, certificate::TextForm>) {
-                may_be_empty = rule == certificate::TextForm::text_or_none;
-            }
-            read_localised(value, v, may_be_empty, place);
-        } else if constexpr (requires { v.has_value(); }) {
-            read(value, v.emplace(), place, rule);
-        } else if constexpr (requires { v.resize(1); }) {
-            read_list(value, v, place, rule);
-        } else {
-            read_struct(v, place);
-        }
-    }
-
-    template <class Number>
-    static void read_number(const nlohmann::json& value, Number& v, const CertificatePlace& place,
-                            certificate::NumberRule rule) {
         if (!value.is_number()) {
             refuse_type(value, "a number", place);
-        } else if (acceptable_number(value.get<double>(), rule, place)) {
+        } else if (acceptable_number(value.get<double>(), allowed, place)) {
             v = static_cast<Number>(value.get<double>());
         }
     }
 
     template <class Rule>
-    static void read_text(const nlohmann::json& value, std::string& v, const CertificatePlace& place, Rule rule) {
+    static void read_value(const nlohmann::json& value, std::string& v, const CertificatePlace& place,
+                           const Rule& rule) {
         if (!value.is_string()) {
             refuse_type(value, "a text", place);
             return;
@@ -185,17 +153,14 @@ private:
         }
     }
 
-    template <class List, class Rule>
-    static void read_list(const nlohmann::json& value, List& v, const CertificatePlace& place, Rule rule) {
-        if (!value.is_array()) {
-            refuse_type(value, "an array", place);
-            return;
+    template <class Rule>
+    static void read_value(const nlohmann::json& value, certificate::LocalisedText& v, const CertificatePlace& place,
+                           const Rule& rule) {
+        bool may_be_empty = false;
+        if constexpr (std::same_as<Rule, certificate::TextForm>) {
+            may_be_empty = rule == certificate::TextForm::text_or_none;
         }
-        v.clear();
-        v.resize(value.size());
-        for (std::size_t i = 0; i < v.size(); ++i) {
-            read(value[i], v[i], place.child(i), rule);
-        }
+        read_localised(value, v, may_be_empty, place);
     }
 };
 

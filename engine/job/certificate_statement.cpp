@@ -25,7 +25,7 @@ std::optional<Profile> read_profile(std::string_view bytes, ProblemList& problem
         return std::nullopt;
     }
     Profile profile;
-    CertificateArchive::read_struct(profile, {&*document, "", &problems});
+    CertificateArchive::read_struct_at(profile, {&*document, "", &problems});
     return problems.refusals() == 0 ? std::optional{std::move(profile)} : std::nullopt;
 }
 
@@ -61,7 +61,7 @@ void read_symbol(JobFiles& files, certificate::Accreditation& accreditation) {
 std::optional<CertificateData> read_data(JobFiles& files, const CertificatePlace& place) {
     const std::size_t refusals = place.problems->refusals();
     CertificateData data;
-    CertificateArchive::read_struct(data, place);
+    CertificateArchive::read_struct_at(data, place);
     check_lists(data, place);
     if (!place.document->value.at(json::json_pointer(place.pointer)).contains("status")) {
         data.status = data.accreditation ? "accredited" : "specimen";

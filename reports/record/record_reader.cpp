@@ -19,7 +19,9 @@
 #include "gum/quantity/diagnostic.h"
 #include "json/canonical_json.h"
 #include "json/json_pointer.h"
+#include "json/step.h"
 #include "json/strict_parser.h"
+#include "json/struct_reader.h"
 #include "reports/record/record_check.h"
 #include "reports/record/record_fields.h"
 #include "reports/record/record_problems.h"
@@ -32,7 +34,7 @@ namespace {
 
 using gumcert::json::canonical_json;
 using gumcert::json::Fault;
-using gumcert::json::pointer_token;
+using gumcert::json::Step;
 using nlohmann::json;
 using Range = certificate::NumberRule;
 
@@ -40,50 +42,12 @@ using Range = certificate::NumberRule;
 constexpr gumcert::json::ParserOptions k_record_text{
     .string_bytes = k_max_record_bytes, .values = k_max_record_bytes, .byte_order_mark = true, .long_integers = true};
 
-class Reader {
+class Reader : public gumcert::json::StructReader<Reader, Step> {
 public:
-    Reader(const json& object, std::string pointer, RecordProblems& problems)
-        : object_(object), pointer_(std::move(pointer)), problems_(problems) {}
+    /// \param place  its steps above and their keys outlive the reader
+    Reader(const json& object, const Step& place, RecordProblems& problems)
+        : StructReader(object, place), problems_(problems) {}
 
-    template <class Type>
-    void operator()(const char* key, Type& v, Range range = Range::any) {
-        if (const json* item = find(key)) {
-            from_json(*item, v, {pointer_, key}, range);
-        }
-    }
-
-    void operator()(const char* key, std::string& v, std::initializer_list<const char*> allowed) {
-        const json* item = find(key);
-        if (item == nullptr) {
-            return;
-        }
-        from_json(*item, v, {pointer_, key}, Range::any);
-        if (item->is_string() && std::find(allowed.begin(), allowed.end(), v) == allowed.end()) {
-            unknown_word(pointer_ + "/" + key, v, allowed);
-        }
-    }
-
-    void operator()(const char* key, std::vector<std::string>& v, std::initializer_list<const char*> allowed) {
-        (*this)(key, v);
-        for (std::size_t i = 0; i < v.size(); ++i) {
-            if (std::find(allowed.begin(), allowed.end(), v[i]) == allowed.end()) {
-                unknown_word(pointer_ + "/" + key + "/" + std::to_string(i), v[i], allowed);
-            }
-        }
-    }
-
-    template <class Type>
-    void operator()(const char* key, Type& v, certificate::TextForm) {
-        (*this)(key, v);
-    }
-
-    template <class Type, class... Rule>
-    void needed(const char* key, Type& v, const Rule&... rule) {
-        (*this)(key, v, rule...);
-    }
-    void needed(const char* key, std::string& v, std::initializer_list<const char*> allowed) {
-        (*this)(key, v, allowed);
-    }
     template <class Type>
     void filled(const char* key, Type& v) {
         (*this)(key, v);
@@ -100,10 +64,10 @@ public:
     }
 
     /// A key that a later release added to the schema: where it is missing, the value stays as it is.
-    template <class Type>
-    void added(const char* key, Type& v, Range range = Range::any) {
-        if (const json* item = find_if_there(key)) {
-            from_json(*item, v, {pointer_, key}, range);
+    template <class Type, class... Rule>
+    void added(const char* key, Type& v, const Rule&... rule) {
+        if (object_.contains(key)) {
+            (*this)(key, v, rule...);
         }
     }
     void added(const char* key, std::string& v, std::initializer_list<const char*> allowed) {
@@ -115,9 +79,9 @@ public:
     template <class Describe>
     void group(const char* key, const Describe& describe_group) {
         if (const json* item = find(key)) {
-            const std::string at = pointer_ + "/" + key;
+            const Step at = place_.child(key);
             if (!item->is_object()) {
-                wrong_type(*item, at, "an object");
+                wrong_type(*item, "an object", at);
                 return;
             }
             Reader inner(*item, at, problems_);
@@ -130,7 +94,7 @@ public:
 
     void null(const char* key) {
         if (const json* item = find(key); item != nullptr && !item->is_null()) {
-            wrong_type(*item, pointer_ + "/" + key, "null in records of this version");
+            wrong_type(*item, "null in records of this version", place_.child(key));
         }
     }
 
@@ -140,9 +104,9 @@ public:
         if (item == nullptr) {
             return;
         }
-        const std::string at = pointer_ + "/" + key;
+        const Step at = place_.child(key);
         if (!item->is_object()) {
-            wrong_type(*item, at, "an object");
+            wrong_type(*item, "an object", at);
             return;
         }
         std::string algorithm;
@@ -151,7 +115,8 @@ public:
         inner("value", value);
         inner.finish();
         if (value.empty()) {
-            problems_.add("GC-RECORD-0016", at + "/value", "\"\"", "must be 64 hexadecimal digits", k_restore);
+            problems_.add("GC-RECORD-0016", at.pointer() + "/value", "\"\"", "must be 64 hexadecimal digits",
+                          k_restore);
         }
     }
 
@@ -176,11 +141,12 @@ public:
         if (all == nullptr) {
             return;
         }
+        const Step all_at = place_.child(key);
         std::map<std::int64_t, Result> in_order;
         for (const auto& [name, item] : all->items()) {
-            const std::string at = pointer_ + "/" + key + "/" + pointer_token(name);
+            const Step at = all_at.child(name);
             if (!item.is_object()) {
-                wrong_type(item, at, "an object");
+                wrong_type(item, "an object", at);
                 continue;
             }
             Result result;
@@ -192,7 +158,7 @@ public:
             inner.finish();
             result.reported = reported_result(result);
             if (order < 0 || static_cast<std::uint64_t>(order) >= all->size() || in_order.contains(order)) {
-                problems_.add("GC-RECORD-0016", at + "/order", std::to_string(order),
+                problems_.add("GC-RECORD-0016", at.pointer() + "/order", std::to_string(order),
                               "the orders of all results are 0, 1, 2 …, each once", k_restore);
                 continue;
             }
@@ -209,15 +175,16 @@ public:
         if (all == nullptr) {
             return;
         }
+        const Step all_at = place_.child(key);
         std::map<std::int64_t, ComparisonSummary> in_order;
         const auto size = static_cast<std::int64_t>(all->size());
         const bool ordered =
             std::any_of(all->begin(), all->end(), [](const json& i) { return i.is_object() && i.contains("order"); });
         std::int64_t next = 0;
         for (const auto& [direction, item] : all->items()) {
-            const std::string at = pointer_ + "/" + key + "/" + pointer_token(direction);
+            const Step at = all_at.child(direction);
             if (!item.is_object()) {
-                wrong_type(item, at, "an object");
+                wrong_type(item, "an object", at);
                 continue;
             }
             ComparisonSummary s;
@@ -231,7 +198,7 @@ public:
             }
             inner.finish();
             if (order < 0 || order >= size || in_order.contains(order)) {
-                problems_.add("GC-RECORD-0016", at + "/order", std::to_string(order),
+                problems_.add("GC-RECORD-0016", at.pointer() + "/order", std::to_string(order),
                               "the orders of all directions are 0, 1, 2 …, each once", k_restore);
                 continue;
             }
@@ -273,11 +240,12 @@ public:
     /// What is said twice has to be the same twice.
     void by_name(const std::vector<TableParameter>& v) {
         const json* U = find_object("U");
-        const auto same = [&](const json* in, const std::string& at, const std::string& name, double expected) {
+        const Step U_at = place_.child("U");
+        const auto same = [&](const json* in, const Step& at, const std::string& name, double expected) {
             const auto found = in == nullptr ? json::const_iterator() : in->find(name);
             const bool stated = in != nullptr && found != in->end();
             if (in != nullptr && (!stated || !found->is_number() || found->get<double>() != expected)) {
-                problems_.add("GC-RECORD-0016", at + "/" + pointer_token(name), stated ? found->dump() : "missing",
+                problems_.add("GC-RECORD-0016", at.child(name).pointer(), stated ? found->dump() : "missing",
                               "must be " + record_number(expected) + ", as the parameter of that name says", k_restore);
             }
         };
@@ -285,40 +253,24 @@ public:
         for (const TableParameter& p : v) {
             names.insert(p.name);
             static_cast<void>(find_if_there(p.name));
-            same(&object_, pointer_, p.name, p.value);
-            same(U, pointer_ + "/U", p.name, p.U);
+            same(&object_, place_, p.name, p.value);
+            same(U, U_at, p.name, p.U);
         }
         if (U == nullptr) {
             return;
         }
         for (const auto& [name, item] : U->items()) {
             if (!names.contains(name)) {
-                problems_.add("GC-RECORD-0014", pointer_ + "/U/" + pointer_token(name), "unknown key",
+                problems_.add("GC-RECORD-0014", U_at.child(name).pointer(), "unknown key",
                               "U holds the parameters of the list and no others", k_restore);
             }
         }
     }
 
-    /// To be called when every known key was asked for: what is left in the object is unknown.
-    void finish() {
-        std::sort(known_.begin(), known_.end(), std::less<>());
-        known_.erase(std::unique(known_.begin(), known_.end()), known_.end());
-        if (known_.size() == object_.size()) {
-            return;
-        }
-        for (const auto& [key, item] : object_.items()) {
-            if (!std::binary_search(known_.begin(), known_.end(), &key, std::less<>())) {
-                problems_.add("GC-RECORD-0014", pointer_ + "/" + pointer_token(key), "unknown key",
-                              "a record holds the keys of schema gumcert/record/1 and no others", k_restore);
-            }
-        }
-    }
-
 private:
-    const json& object_;
-    std::string pointer_;
+    friend StructReader;
+    static constexpr bool k_null_is_none = true;
     RecordProblems& problems_;
-    std::vector<const std::string*> known_;  ///< the keys of the object that were asked for
 
     /// Calls read(reader of the object) for each object of an array; whatever else stands there is told and left out.
     template <class Read>
@@ -327,11 +279,11 @@ private:
         if (all == nullptr) {
             return;
         }
-        const std::string inside = pointer_ + "/" + key + "/";
+        const Step all_at = place_.child(key);
         for (std::size_t i = 0; i < all->size(); ++i) {
-            const std::string at = inside + std::to_string(i);
+            const Step at = all_at.child(i);
             if (!(*all)[i].is_object()) {
-                wrong_type((*all)[i], at, "an object");
+                wrong_type((*all)[i], "an object", at);
                 continue;
             }
             Reader inner((*all)[i], at, problems_);
@@ -340,28 +292,26 @@ private:
         }
     }
 
-    const json* find_if_there(std::string_view key) {
-        const auto found = object_.find(key);
-        if (found == object_.end()) {
-            return nullptr;
-        }
-        known_.push_back(&found.key());
-        return &*found;
-    }
-
     const json* find(std::string_view key) {
         const json* item = find_if_there(key);
         if (item == nullptr) {
-            problems_.add("GC-RECORD-0013", pointer_ + "/" + pointer_token(key), "missing",
+            problems_.add("GC-RECORD-0013", place_.child(key).pointer(), "missing",
                           "every key of schema gumcert/record/1 is present", k_restore);
         }
         return item;
     }
 
+    void require(std::string_view) {}  // find() has
+
+    void unknown_key(const std::string& key) {
+        problems_.add("GC-RECORD-0014", place_.child(key).pointer(), "unknown key",
+                      "a record holds the keys of schema gumcert/record/1 and no others", k_restore);
+    }
+
     const json* find_object(const char* key) {
         const json* item = find(key);
         if (item != nullptr && !item->is_object()) {
-            wrong_type(*item, pointer_ + "/" + key, "an object");
+            wrong_type(*item, "an object", place_.child(key));
             return nullptr;
         }
         return item;
@@ -370,31 +320,44 @@ private:
     const json* find_array(const char* key) {
         const json* item = find(key);
         if (item != nullptr && !item->is_array()) {
-            wrong_type(*item, pointer_ + "/" + key, "an array");
+            wrong_type(*item, "an array", place_.child(key));
             return nullptr;
         }
         return item;
     }
 
-    void wrong_type(const json& item, const std::string& at, const std::string& expected) {
-        problems_.add("GC-RECORD-0015", at, item.type_name(), "must be " + expected, k_restore);
+    void wrong_type(const json& item, const std::string& expected, const Step& at) {
+        problems_.add("GC-RECORD-0015", at.pointer(), item.type_name(), "must be " + expected, k_restore);
     }
 
-    void unknown_word(const std::string& at, const std::string& word, std::initializer_list<const char*> allowed) {
+    void wrong_size(const json& item, std::size_t size, const Step& at) {
+        problems_.add("GC-RECORD-0017", at.pointer(), std::to_string(item.size()) + " items",
+                      "must be " + std::to_string(size), k_restore);
+    }
+
+    template <class Struct>
+    void read_struct(const json& object, Struct& v, const Step& at) {
+        Reader inner(object, at, problems_);
+        describe(inner, v);
+        inner.finish();
+    }
+
+    void unknown_word(const Step& at, const std::string& word, std::initializer_list<const char*> allowed) {
         std::string rule = "must be one of";
         for (const char* name : allowed) {
             rule += std::string(" \"") + name + '"';
         }
-        problems_.add("GC-RECORD-0016", at, '"' + word + '"', rule, k_restore);
+        problems_.add("GC-RECORD-0016", at.pointer(), '"' + word + '"', rule, k_restore);
     }
 
-    void localised(const json& item, certificate::LocalisedText& v, const std::string& at) {
+    template <class Rule>
+    void read_value(const json& item, certificate::LocalisedText& v, const Step& at, const Rule&) {
         if (item.is_string()) {
             v.plain = item.get<std::string>();
             return;
         }
         if (!item.is_object()) {
-            wrong_type(item, at, "a text, or an object with one text a language");
+            wrong_type(item, "a text, or an object with one text a language", at);
             return;
         }
         Reader inner(item, at, problems_);
@@ -407,16 +370,28 @@ private:
         }
         inner.finish();
         if (item.empty()) {
-            problems_.add("GC-RECORD-0016", at, "no language", "a text is stated in one language at least", k_restore);
+            problems_.add("GC-RECORD-0016", at.pointer(), "no language", "a text is stated in one language at least",
+                          k_restore);
         }
     }
 
-    void number(const json& item, double& v, const Place& at, Range range) {
+    template <class Rule>
+    static Range range_of(const Rule& rule) {
+        if constexpr (std::same_as<Rule, Range>) {
+            return rule;
+        } else {
+            return Range::any;
+        }
+    }
+
+    template <class Rule>
+    void read_value(const json& item, double& v, const Step& at, const Rule& rule) {
         if (!item.is_number()) {
-            wrong_type(item, at.pointer(), "a number");
+            wrong_type(item, "a number", at);
             return;
         }
         v = item.get<double>();
+        const Range range = range_of(rule);
         // Whole numbers above 2^53 that a double cannot hold would lose digits in silence.
         constexpr double k_two_to_53 = 9007199254740992.0;
         if (!item.is_number_float() && std::abs(v) > k_two_to_53) {
@@ -427,84 +402,45 @@ private:
         }
     }
 
-    template <class Type>
-    void from_json(const json& item, Type& v, const Place& at, Range range) {
-        if constexpr (std::same_as<Type, double>) {
-            number(item, v, at, range);
-        } else if constexpr (std::same_as<Type, bool>) {
-            if (item.is_boolean()) {
-                v = item.get<bool>();
-            } else {
-                wrong_type(item, at.pointer(), "true or false");
-            }
-        } else if constexpr (std::same_as<Type, std::string>) {
-            if (item.is_string()) {
-                v = item.get<std::string>();
-                if (v.find('\0') != std::string::npos) {
-                    problems_.add("GC-RECORD-0016", at.pointer(), "a text with NUL (U+0000)",
-                                  "a text that is printed has no NUL", k_restore);
-                }
-            } else {
-                wrong_type(item, at.pointer(), "a text");
-            }
-        } else if constexpr (std::same_as<Type, std::int64_t>) {
-            if (item.is_number_integer() && item <= std::numeric_limits<std::int64_t>::max()) {
-                v = item.get<std::int64_t>();
-                if (!is_allowed(static_cast<double>(v), range)) {
-                    problems_.add("GC-RECORD-0016", at.pointer(), std::to_string(v), text_of_rule(range), k_restore);
-                }
-            } else {
-                wrong_type(item, at.pointer(), "a whole number");
-            }
-        } else if constexpr (std::same_as<Type, int>) {
-            std::int64_t whole = 0;
-            from_json(item, whole, at, range);
-            v = static_cast<int>(
-                std::clamp<std::int64_t>(whole, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
-        } else if constexpr (std::same_as<Type, certificate::LocalisedText>) {
-            localised(item, v, at.pointer());
-        } else if constexpr (std::same_as<Type, std::pair<double, double>>) {
-            std::array<double, 2> ends{};
-            from_json(item, ends, at, range);
-            v = {ends[0], ends[1]};
-        } else if constexpr (requires { v.has_value(); }) {
-            if (item.is_null()) {
-                v.reset();
-            } else {
-                // Not emplace(): for Clang a nested struct with initialisers is not constructible there.
-                v = typename Type::value_type{};
-                from_json(item, *v, at, range);
-            }
-        } else if constexpr (requires { v.size(); }) {
-            list(item, v, at, range);
-        } else {
-            if (!item.is_object()) {
-                wrong_type(item, at.pointer(), "an object");
-                return;
-            }
-            Reader inner(item, at.pointer(), problems_);
-            describe(inner, v);
-            inner.finish();
+    template <class Rule>
+    void read_value(const json& item, std::int64_t& v, const Step& at, const Rule& rule) {
+        if (!item.is_number_integer() || item > std::numeric_limits<std::int64_t>::max()) {
+            wrong_type(item, "a whole number", at);
+            return;
+        }
+        v = item.get<std::int64_t>();
+        if (const Range range = range_of(rule); !is_allowed(static_cast<double>(v), range)) {
+            problems_.add("GC-RECORD-0016", at.pointer(), std::to_string(v), text_of_rule(range), k_restore);
         }
     }
 
-    template <class List>
-    void list(const json& item, List& v, const Place& at, Range range) {
-        if (!item.is_array()) {
-            wrong_type(item, at.pointer(), "an array");
+    template <class Rule>
+    void read_value(const json& item, int& v, const Step& at, const Rule& rule) {
+        std::int64_t whole = 0;
+        read_value(item, whole, at, rule);
+        v = static_cast<int>(
+            std::clamp<std::int64_t>(whole, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
+    }
+
+    template <class Rule>
+    void read_value(const json& item, std::string& v, const Step& at, const Rule& rule) {
+        if (!item.is_string()) {
+            wrong_type(item, "a text", at);
             return;
         }
-        if constexpr (requires { v.resize(item.size()); }) {
-            v.resize(item.size());
-        } else if (item.size() != v.size()) {
-            problems_.add("GC-RECORD-0017", at.pointer(), std::to_string(item.size()) + " items",
-                          "must be " + std::to_string(v.size()), k_restore);
-            return;
+        v = item.get<std::string>();
+        if constexpr (std::same_as<Rule, std::initializer_list<const char*>>) {
+            if (std::find(rule.begin(), rule.end(), v) == rule.end()) {
+                unknown_word(at, v, rule);
+            }
         }
-        const std::string inside = at.pointer();
-        for (std::size_t i = 0; i < v.size(); ++i) {
-            from_json(item[i], v[i], {inside, std::to_string(i)}, range);
-        }
+    }
+
+    template <class Rule>
+    void read_value(const json& item, std::pair<double, double>& v, const Step& at, const Rule& rule) {
+        std::array<double, 2> ends{};
+        read(item, ends, at, rule);
+        v = {ends[0], ends[1]};
     }
 };
 
@@ -568,7 +504,7 @@ EvaluationRecord record_from_json(const std::string& text, const std::string& wh
     }
 
     EvaluationRecord record;
-    Reader reader(root, "", problems);
+    Reader reader(root, Step{}, problems);
     describe(reader, record);
     reader.finish();
     problems.throw_if_any();

@@ -3,10 +3,8 @@
 #include <array>
 #include <cstddef>
 #include <string>
-#include <string_view>
 
 #include "certificate/certificate_fields.h"
-#include "json/json_pointer.h"
 
 namespace gumcert::reports {
 
@@ -16,14 +14,6 @@ inline constexpr std::array<const char*, 3> k_severities = {"note", "warning", "
 inline constexpr const char* k_digest_key = "digest";
 inline constexpr const char* k_digest_algorithm = "SHA-256";
 inline constexpr std::size_t k_max_record_bytes = 128UL * 1024UL * 1024UL;  ///< size of a record as text
-
-/// Where a value stands. Its JSON pointer is made where it is needed: a record has a million values, and few problems.
-struct Place {
-    const std::string& parent;  ///< JSON pointer of the object or array around it
-    std::string_view key;
-
-    [[nodiscard]] std::string pointer() const { return parent + "/" + gumcert::json::pointer_token(key); }
-};
 
 /// "must be greater than 0", for a number that breaks the rule.
 [[nodiscard]] const char* text_of_rule(certificate::NumberRule rule);

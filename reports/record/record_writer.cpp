@@ -12,7 +12,7 @@
 #include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
 #include "json/canonical_json.h"
-#include "json/json_pointer.h"
+#include "json/step.h"
 #include "reports/record/record_check.h"
 #include "reports/record/record_fields.h"
 #include "reports/record/record_rules.h"
@@ -23,7 +23,7 @@ namespace gumcert::reports {
 namespace {
 
 using gumcert::json::canonical_json;
-using gumcert::json::pointer_token;
+using gumcert::json::Step;
 using nlohmann::json;
 using Range = certificate::NumberRule;
 
@@ -37,25 +37,30 @@ using Range = certificate::NumberRule;
                                              .action = std::move(action)});
 }
 
+[[noreturn]] void refuse_record(const Step& at, std::string what, std::string rule) {
+    refuse_record(at.pointer(), std::move(what), std::move(rule));
+}
+
 class Writer {
 public:
-    explicit Writer(std::string pointer) : pointer_(std::move(pointer)) {}
+    /// \param place  its steps above and their keys outlive the writer
+    explicit Writer(const Step& place) : place_(place) {}
     json object = json::object();
 
     template <class Type>
     void operator()(const char* key, const Type& v, Range range = Range::any) {
-        object[key] = to_json(v, {pointer_, key}, range);
+        object[key] = to_json(v, place_.child(key), range);
     }
 
     void operator()(const char* key, const std::string& v, std::initializer_list<const char*> allowed) {
         if (std::find(allowed.begin(), allowed.end(), v) == allowed.end()) {
-            refuse_record(pointer_ + "/" + key, '"' + v + '"', "is not one of the names that a record may hold here");
+            refuse_record(place_.child(key), '"' + v + '"', "is not one of the names that a record may hold here");
         }
         object[key] = v;
     }
 
     void operator()(const char* key, const std::vector<std::string>& v, std::initializer_list<const char*> allowed) {
-        const std::string at = pointer_ + "/" + key;
+        const Step at = place_.child(key);
         json all = json::array();
         for (std::size_t i = 0; i < v.size(); ++i) {
             Writer inner(at);
@@ -100,7 +105,7 @@ public:
 
     template <class Describe>
     void group(const char* key, const Describe& describe_group) {
-        Writer inner(pointer_ + "/" + key);
+        Writer inner(place_.child(key));
         describe_group(inner);
         object[key] = std::move(inner.object);
     }
@@ -114,17 +119,18 @@ public:
     void document(const char* key, const std::string& text) {
         json value = text.empty() ? json() : json::parse(text, nullptr, false);
         if (value.is_discarded()) {
-            refuse_record(pointer_ + "/" + key, "text that is not JSON", "the job and the options are JSON texts");
+            refuse_record(place_.child(key), "text that is not JSON", "the job and the options are JSON texts");
         }
         object[key] = std::move(value);
     }
 
     void results(const char* key, const std::vector<Result>& v) {
         json all = json::object();
+        const Step all_at = place_.child(key);
         for (std::size_t i = 0; i < v.size(); ++i) {
-            const std::string at = pointer_ + "/" + key + "/" + pointer_token(v[i].name);
+            const Step at = all_at.child(v[i].name);
             json item = structure(v[i], at);
-            item["reported"] = structure(reported_result(v[i]), at + "/reported");
+            item["reported"] = structure(reported_result(v[i]), at.child("reported"));
             item["order"] = i;
             insert(all, v[i].name, std::move(item), at);
         }
@@ -133,8 +139,9 @@ public:
 
     void summary(const char* key, const std::vector<ComparisonSummary>& v) {
         json all = json::object();
+        const Step all_at = place_.child(key);
         for (std::size_t i = 0; i < v.size(); ++i) {
-            const std::string at = pointer_ + "/" + key + "/" + pointer_token(v[i].direction);
+            const Step at = all_at.child(v[i].direction);
             json item = structure(v[i], at);
             item["order"] = i;
             insert(all, v[i].direction, std::move(item), at);
@@ -143,14 +150,15 @@ public:
     }
 
     void errors(const char* key, const std::vector<ErrorsAtAngle>& v, const RotaryTable& rotary) {
+        const Step all_at = place_.child(key);
         json all = json::array();
         for (std::size_t i = 0; i < v.size(); ++i) {
-            Writer inner(pointer_ + "/" + key + "/" + std::to_string(i));
+            Writer inner(all_at.child(i));
             inner("angle_deg", v[i].angle_deg);
             inner("printed_angle", v[i].printed_angle);
             for (std::size_t m = 0; m < v[i].errors.size(); ++m) {
                 const std::string& name = rotary.error_names[m];
-                const std::string at = inner.pointer_ + "/" + pointer_token(name);
+                const Step at = inner.place_.child(name);
                 insert(inner.object, name, structure(v[i].errors[m], at), at);
             }
             all.push_back(std::move(inner.object));
@@ -160,16 +168,17 @@ public:
 
     void quantity_budgets(const char* key, const std::vector<QuantityBudget>& v,
                           const std::vector<std::string>& sources) {
+        const Step all_at = place_.child(key);
         json all = json::array();
         for (std::size_t i = 0; i < v.size(); ++i) {
-            Writer inner(pointer_ + "/" + key + "/" + std::to_string(i));
+            Writer inner(all_at.child(i));
             inner("quantity", v[i].quantity);
             inner("angle_deg", v[i].angle_deg);
             inner("u", v[i].u, Range::not_negative);
             inner("unit", v[i].unit);
             json shares = json::object();
             for (std::size_t s = 0; s < std::min(sources.size(), v[i].shares.size()); ++s) {
-                shares[sources[s]] = to_json(v[i].shares[s], {inner.pointer_, "shares"}, Range::any);
+                shares[sources[s]] = to_json(v[i].shares[s], inner.place_.child("shares"), Range::any);
             }
             inner.object["shares"] = std::move(shares);
             all.push_back(std::move(inner.object));
@@ -188,23 +197,23 @@ public:
     }
 
 private:
-    std::string pointer_;
+    Step place_;
 
-    static void insert(json& into, const std::string& name, json item, const std::string& at) {
+    static void insert(json& into, const std::string& name, json item, const Step& at) {
         if (!into.emplace(name, std::move(item)).second) {
             refuse_record(at, "the name \"" + name + "\" is used twice", "names of one list differ");
         }
     }
 
     template <class Struct>
-    static json structure(const Struct& v, const std::string& at) {
+    static json structure(const Struct& v, const Step& at) {
         Writer inner(at);
         describe(inner, v);
         return std::move(inner.object);
     }
 
     /// A text for all languages is a string, else an object with one text a language.
-    static json text_to_json(const certificate::LocalisedText& v, const std::string& at) {
+    static json text_to_json(const certificate::LocalisedText& v, const Step& at) {
         if (v.by_language.empty()) {
             return v.plain;
         }
@@ -224,7 +233,7 @@ private:
     }
 
     template <class Type>
-    static json to_json(const Type& v, const Place& at, Range range) {
+    static json to_json(const Type& v, const Step& at, Range range) {
         if constexpr (std::same_as<Type, double>) {
             if (!std::isfinite(v)) {
                 throw gum::NoResultError(
@@ -235,32 +244,30 @@ private:
                                     .action = "nothing was written; check the input that leads to it"});
             }
             if (!is_allowed(v, range)) {
-                refuse_record(at.pointer(), record_number(v), text_of_rule(range));
+                refuse_record(at, record_number(v), text_of_rule(range));
             }
             return v;
         } else if constexpr (std::same_as<Type, std::int64_t> || std::same_as<Type, int>) {
             if (!is_allowed(static_cast<double>(v), range)) {
-                refuse_record(at.pointer(), std::to_string(v), text_of_rule(range));
+                refuse_record(at, std::to_string(v), text_of_rule(range));
             }
             return v;
         } else if constexpr (std::same_as<Type, certificate::LocalisedText>) {
-            return text_to_json(v, at.pointer());
+            return text_to_json(v, at);
         } else if constexpr (std::same_as<Type, std::pair<double, double>>) {
-            const std::string inside = at.pointer();
-            return json::array({to_json(v.first, {inside, "0"}, range), to_json(v.second, {inside, "1"}, range)});
+            return json::array({to_json(v.first, at.child(0), range), to_json(v.second, at.child(1), range)});
         } else if constexpr (std::same_as<Type, bool> || std::same_as<Type, std::string>) {
             return v;
         } else if constexpr (requires { v.has_value(); }) {
             return v.has_value() ? to_json(*v, at, range) : json();
         } else if constexpr (requires { v.size(); }) {
-            const std::string inside = at.pointer();
             json all = json::array();
             for (std::size_t i = 0; i < v.size(); ++i) {
-                all.push_back(to_json(v[i], {inside, std::to_string(i)}, range));
+                all.push_back(to_json(v[i], at.child(i), range));
             }
             return all;
         } else {
-            return structure(v, at.pointer());
+            return structure(v, at);
         }
     }
 };
@@ -271,7 +278,7 @@ std::string to_canonical_json(const EvaluationRecord& record) {
     check_record(record, [](const std::string& at, std::string what, std::string rule) {
         refuse_record(at, std::move(what), std::move(rule));
     });
-    Writer writer("");
+    Writer writer(Step{});
     describe(writer, record);
     std::string text = with_digest(std::move(writer.object));
     if (text.size() > k_max_record_bytes) {
