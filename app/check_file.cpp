@@ -64,7 +64,7 @@ FileCheck check_file(const fs::path& file, unsigned threads, const fs::path& tem
                                                                 .comments = true,
                                                                 .byte_order_mark = true,
                                                                 .long_integers = true},
-                                                               [](const json::ParsingProblem&) {});
+                                                               [](const gumcert::json::ParsingProblem&) {});
     const bool says_record = document && document->is_object() && document->contains("schema") &&
                              (*document)["schema"].is_string() &&
                              (*document)["schema"].get<std::string>().starts_with("gumcert/record/");

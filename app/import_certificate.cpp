@@ -41,7 +41,7 @@ std::optional<std::string> json_number(const std::string& text) {
     const std::size_t first = std::min(digits.find_first_not_of('0'), whole);
     digits.erase(0, first == whole ? first - (first > 0 ? 1 : 0) : first);
     number = (negative ? "-" : "") + digits + rest.substr(exponent_at);
-    const std::optional<nlohmann::json> parsed = json::parse_faultless(number, {.long_integers = true});
+    const std::optional<nlohmann::json> parsed = gumcert::json::parse_faultless(number, {.long_integers = true});
     double value = 0.0;
     // Numbers too large or too small for a double are refused by the reader of jobs as well.
     const bool in_range = std::from_chars(number.data(), number.data() + number.size(), value).ec == std::errc();

@@ -24,13 +24,13 @@ reports::EvaluationRecord record_head(const std::string& kind, const JobHead& jo
     record.title = job.title;
     record.coverage_probability = job.coverage_probability;
     record.printed_coverage = gum::round_significant(100.0 * job.coverage_probability, 4) + " %";
-    record.job_json = json::canonical_json(job.document);
+    record.job_json = gumcert::json::canonical_json(job.document);
     record.job_files = files;
     // The sizes of units that the numbers were found with.
     static const std::string unit_table = encoding::sha256(gum::unit_table_text());
     nlohmann::json in_force = options;
     in_force["unit_table_sha256"] = unit_table;
-    record.options_json = json::canonical_json(in_force);
+    record.options_json = gumcert::json::canonical_json(in_force);
     record.diagnostics = job.warnings;
     record.diagnostics.insert(record.diagnostics.end(), job.notes.begin(), job.notes.end());
     return record;

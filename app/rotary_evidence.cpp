@@ -37,7 +37,7 @@ const char* sign_of(Approach approach) {
 }
 
 /// The unit of what a kind estimates: "um", "ppm", or "1" for a number of steps or a ratio; and its value.
-std::pair<const char*, double> unit_of(GroupKind kind) {
+std::pair<const char*, double> unit_of_kind(GroupKind kind) {
     switch (kind) {
         case GroupKind::angle_index:
         case GroupKind::succession:
@@ -70,7 +70,7 @@ reports::GroupTestRow group_row(const GroupTest& test, const RotaryTableMeasurem
             row.printed.angle = text::shortest(*row.angle_deg);
         }
     }
-    const auto [name_of_unit, unit] = unit_of(test.kind);
+    const auto [name_of_unit, unit] = unit_of_kind(test.kind);
     row.unit = name_of_unit;
     row.estimate = test.estimate / unit;
     if (test.minimal_detectable > 0.0) {

@@ -11,6 +11,10 @@ target_compile_options(gumcert_compile_options INTERFACE
     $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond -Wlogical-op>
     # The same digits from every build: no contraction into fused multiply-add.
     -ffp-contract=off)
+# Of sources that are compiled as one.
+add_library(gumcert_files_as_one INTERFACE)
+target_compile_options(gumcert_files_as_one INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+
 option(GUMCERT_WARNINGS_AS_ERRORS "Treat warnings as errors" OFF)
 if(GUMCERT_WARNINGS_AS_ERRORS)
     target_compile_options(gumcert_compile_options INTERFACE -Werror)

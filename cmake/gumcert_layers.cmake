@@ -121,6 +121,10 @@ function(gumcert_layer folder)
     target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/gumcert>)
     target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:gumcert_compile_options> ${ARG_PRIVATE} PUBLIC ${ARG_PUBLIC})
+    # After the warnings of every target: a source that is included looks to the compiler like a header of the next one.
+    if(CMAKE_BUILD_TYPE STREQUAL "Release")
+        target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:gumcert_files_as_one>)
+    endif()
     foreach(package IN LISTS ARG_HEADER_ONLY)
         target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:${package}>)
     endforeach()

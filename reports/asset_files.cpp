@@ -41,8 +41,8 @@ nlohmann::json read_json_asset(const std::filesystem::path& file) {
                                                 .rule = "wording files are JSON",
                                                 .action = "take the templates of this release"});
     };
-    std::optional<nlohmann::json> read =
-        json::parse(read_asset(file), {.byte_order_mark = true}, [&](const json::ParsingProblem& problem) {
+    std::optional<nlohmann::json> read = gumcert::json::parse(
+        read_asset(file), {.byte_order_mark = true}, [&](const gumcert::json::ParsingProblem& problem) {
             refuse(file.string() + " (" + text::line_and_column(problem.place) + ")", problem.what);
         });
     if (!read || !read->is_object()) {

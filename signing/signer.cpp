@@ -208,8 +208,8 @@ void read_description_key(Description& description, const std::string& file, con
 }
 
 Description read_description(const fs::path& file) {
-    const auto refuse_text = [&](const json::ParsingProblem& problem) {
-        if (problem.fault == json::Fault::duplicate_key) {
+    const auto refuse_text = [&](const gumcert::json::ParsingProblem& problem) {
+        if (problem.fault == gumcert::json::Fault::duplicate_key) {
             refuse("GC-SIGN-0013", file.string() + "#" + problem.pointer, "the key stands there twice",
                    k_description_rule, "keep one of them: nobody can know which one is meant");
         }

@@ -49,7 +49,7 @@ const std::vector<JobKeys>& all_keys() {
 template <typename E>
 using Choice = std::pair<std::string_view, E>;
 
-constexpr std::array<Choice<char>, 3> k_axes{{{"A", 'A'}, {"B", 'B'}, {"C", 'C'}}};
+constexpr std::array<Choice<char>, 3> k_axis_letters{{{"A", 'A'}, {"B", 'B'}, {"C", 'C'}}};
 constexpr std::array<Choice<bool>, 2> k_numberings{{{"with", false}, {"against", true}}};
 constexpr std::array<Choice<double>, 2> k_senses{{{"positive", 1.0}, {"negative", -1.0}}};
 constexpr std::array<Choice<bool>, 2> k_drifts{{{"none", false}, {"linear", true}}};
@@ -125,7 +125,7 @@ private:
             root.optional_choice("coverage", gum::k_coverage_choices).value_or(gum::CoverageChoice::as_validated);
         const auto steps = root.required_integer("steps", {.low = k_least_steps, .high = k_most_steps});
         m.steps = steps ? static_cast<std::size_t>(*steps) : 0;
-        job_.axis = root.optional_choice("axis", k_axes);
+        job_.axis = root.optional_choice("axis", k_axis_letters);
         job_.first_angle_deg = root.optional_number("first_angle_deg", between(-360.0, 360.0, "°")).value_or(0.0);
         job_.artefact = root.optional_name("artefact").value_or("");
         m.against = root.required_choice("numbering", k_numberings).value_or(false);

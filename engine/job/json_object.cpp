@@ -11,43 +11,43 @@ namespace gumcert::engine {
 namespace {
 
 /// The code of a fault of the text.
-const InputCode& code_of(json::Fault fault) {
+const InputCode& code_of(gumcert::json::Fault fault) {
     switch (fault) {
-        case json::Fault::empty:
+        case gumcert::json::Fault::empty:
             return k_empty_file;
-        case json::Fault::syntax:
+        case gumcert::json::Fault::syntax:
             break;
-        case json::Fault::trailing_text:
+        case gumcert::json::Fault::trailing_text:
             return k_json_trailing_text;
-        case json::Fault::comment:
+        case gumcert::json::Fault::comment:
             return k_json_comment;
-        case json::Fault::not_utf8:
+        case gumcert::json::Fault::not_utf8:
             return k_not_utf8;
-        case json::Fault::nul_character:
+        case gumcert::json::Fault::nul_character:
             return k_nul_character;
-        case json::Fault::depth:
+        case gumcert::json::Fault::depth:
             return k_json_depth;
-        case json::Fault::string_too_long:
+        case gumcert::json::Fault::string_too_long:
             return k_json_string_too_long;
-        case json::Fault::too_many_values:
+        case gumcert::json::Fault::too_many_values:
             return k_json_too_many_values;
-        case json::Fault::duplicate_key:
+        case gumcert::json::Fault::duplicate_key:
             return k_json_duplicate_key;
-        case json::Fault::number_range:
+        case gumcert::json::Fault::number_range:
             return k_json_number_range;
-        case json::Fault::inexact_integer:
+        case gumcert::json::Fault::inexact_integer:
             return k_json_inexact_integer;
-        case json::Fault::not_finite:
+        case gumcert::json::Fault::not_finite:
             return k_json_not_finite;
     }
     return k_json_syntax;
 }
 
-std::string where_of(const json::ParsingProblem& problem, const std::string& file) {
-    if (problem.fault == json::Fault::empty) {
+std::string where_of(const gumcert::json::ParsingProblem& problem, const std::string& file) {
+    if (problem.fault == gumcert::json::Fault::empty) {
         return text::visible(file);
     }
-    if (problem.fault == json::Fault::duplicate_key) {
+    if (problem.fault == gumcert::json::Fault::duplicate_key) {
         return text::visible(file) + "#" + text::visible(problem.pointer) + " (" +
                text::line_and_column(problem.place) + ")";
     }
@@ -55,10 +55,10 @@ std::string where_of(const json::ParsingProblem& problem, const std::string& fil
 }
 
 /// What helps whoever writes a job.
-std::string action_of(const json::ParsingProblem& problem) {
-    return problem.fault == json::Fault::depth             ? "check that the file is a job"
-           : problem.fault == json::Fault::too_many_values ? "move tables of numbers to CSV files"
-                                                           : problem.action;
+std::string action_of(const gumcert::json::ParsingProblem& problem) {
+    return problem.fault == gumcert::json::Fault::depth             ? "check that the file is a job"
+           : problem.fault == gumcert::json::Fault::too_many_values ? "move tables of numbers to CSV files"
+                                                                    : problem.action;
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ std::optional<JsonDocument> read_json_document(std::string_view bytes, ProblemLi
     JsonDocument document{problems.file(), {}, {}, std::string{*text}};
     std::optional<nlohmann::json> value = json::parse(
         *text, {.comments = true},
-        [&](const json::ParsingProblem& problem) {
+        [&](const gumcert::json::ParsingProblem& problem) {
             problems.refuse(code_of(problem.fault), where_of(problem, problems.file()), problem.what, problem.rule,
                             action_of(problem));
         },

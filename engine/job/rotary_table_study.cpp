@@ -27,6 +27,7 @@ constexpr std::array<std::string_view, 9> k_simulation_keys{"runs",
                                                             "table_repeatability",
                                                             "outliers",
                                                             "angle_counts"};
+constexpr std::array<std::string_view, 3> k_coordinate_keys{"x_mm", "y_mm", "z_mm"};
 constexpr std::array<std::string_view, 3> k_simulated_table_keys{"u_linear_um", "u_axial_arcsec", "u_tilt_arcsec"};
 constexpr std::array<std::string_view, 2> k_simulated_outliers_keys{"count", "size_um"};
 constexpr std::array<std::string_view, 8> k_plan_keys{"angles_deg",       "senses",         "dead_paths",
@@ -140,14 +141,13 @@ void read_region(const JsonObject& plan, PlanRequest& request) {
     if (!region) {
         return;
     }
-    static constexpr std::array<std::string_view, 3> k_axes{"x_mm", "y_mm", "z_mm"};
     std::array<Eigen::Vector3d, 2> corners{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
     bool is_whole = true;
-    for (std::size_t k = 0; k < k_axes.size(); ++k) {
-        const auto limits = region->required_numbers(k_axes[k], 2, k_station_coordinate);
+    for (std::size_t k = 0; k < k_coordinate_keys.size(); ++k) {
+        const auto limits = region->required_numbers(k_coordinate_keys[k], 2, k_station_coordinate);
         if (limits && (*limits)[0] > (*limits)[1]) {
             region->refuse(
-                k_limits_reversed, k_axes[k],
+                k_limits_reversed, k_coordinate_keys[k],
                 "from " + text::shortest_plain((*limits)[0]) + " mm to " + text::shortest_plain((*limits)[1]) + " mm",
                 "the lower limit stands first", "exchange the two");
         }
@@ -235,9 +235,8 @@ void read_box(const JsonObject& object, SightStatement& sight) {
     Obstacle obstacle;
     const auto name = object.required_name("name");
     bool is_whole = name.has_value();
-    constexpr std::array<std::string_view, 3> k_axes{"x_mm", "y_mm", "z_mm"};
-    for (std::size_t k = 0; k < k_axes.size(); ++k) {
-        const auto extent = read_extent(object, k_axes[k]);
+    for (std::size_t k = 0; k < k_coordinate_keys.size(); ++k) {
+        const auto extent = read_extent(object, k_coordinate_keys[k]);
         is_whole = is_whole && extent;
         if (extent) {
             obstacle.low(static_cast<Eigen::Index>(k)) = (*extent)[0];

@@ -55,7 +55,7 @@ void methods(DccWriter& w) {
     w.xml.close();
 }
 
-void software(DccWriter& w) {
+void software_used(DccWriter& w) {
     w.xml.open("dcc:usedSoftware");
     w.xml.open("dcc:software");
     w.text("dcc:name", w.record().software.name);
@@ -197,7 +197,7 @@ void conditions(DccWriter& w) {
 
 void write_circumstances(DccWriter& w) {
     methods(w);
-    software(w);
+    software_used(w);
     equipment(w);
     conditions(w);
 }

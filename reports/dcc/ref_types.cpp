@@ -37,8 +37,8 @@ std::string text_of(const nlohmann::json& object, const char* key, const std::st
 RefTypes RefTypes::read(const RenderAssets& assets) {
     const std::filesystem::path file = assets.templates / "dcc" / "ref_types.json";
     const std::string where = file.string();
-    const std::optional<nlohmann::json> read =
-        json::parse(read_asset(file), {.byte_order_mark = true}, [&](const json::ParsingProblem& problem) {
+    const std::optional<nlohmann::json> read = gumcert::json::parse(
+        read_asset(file), {.byte_order_mark = true}, [&](const gumcert::json::ParsingProblem& problem) {
             refuse(where + " (" + text::line_and_column(problem.place) + ")", problem.what);
         });
     const nlohmann::json json = read.value_or(nullptr);

@@ -47,7 +47,9 @@ bool is_allowed(double v, Range range) {
 }
 
 std::string record_number(double v) {
-    std::string text = std::isnan(v) ? "NaN" : std::isinf(v) ? "infinity" : json::canonical_json(nlohmann::json(v));
+    std::string text = std::isnan(v)   ? "NaN"
+                       : std::isinf(v) ? "infinity"
+                                       : gumcert::json::canonical_json(nlohmann::json(v));
     if (!text.empty() && text.back() == '\n') {
         text.pop_back();
     }
