@@ -20,28 +20,9 @@ using certificate::AgreedSpecification;
 using certificate::CertifiedValue;
 using certificate::Verdict;
 using gum::ConformityDecision;
-using gum::ConformityVerdict;
 using gum::Unit;
 
 constexpr double k_noise = 1e-12;  // of a capability that a unit was converted of
-
-const char* name_of(ConformityVerdict verdict) {
-    switch (verdict) {
-        case ConformityVerdict::pass:
-            return "pass";
-        case ConformityVerdict::fail:
-            return "fail";
-        case ConformityVerdict::conditional_pass:
-            return "conditional_pass";
-        case ConformityVerdict::conditional_fail:
-            return "conditional_fail";
-        case ConformityVerdict::undetermined:
-            return "undetermined";
-        case ConformityVerdict::not_applicable:
-            break;
-    }
-    return "not_applicable";
-}
 
 /// A specification in the unit of a column.
 struct Agreed {
@@ -219,7 +200,7 @@ void fill(Verdict& verdict, const ConformityDecision& decision) {
     verdict.acceptance_lower = decision.acceptance.lower;
     verdict.acceptance_upper = decision.acceptance.upper;
     verdict.guard_band = decision.guard_band;
-    verdict.verdict = name_of(decision.verdict);
+    verdict.verdict = gum::verdict_name(decision.verdict);
     verdict.conformance_probability = decision.conformance_probability;
     verdict.specific_risk = decision.specific_risk;
     verdict.largest_specific_risk = decision.largest_specific_risk;
@@ -265,7 +246,7 @@ Verdict verdict_of(const AgreedSpecification& specification, const certificate::
         fill(verdict, shown);
         const ConformityDecision by_hand =
             gum::decide_conformity(rule.rule, rule.parameters, rule.limits, numbers->printed);
-        verdict.verdict_from_printed = name_of(by_hand.verdict);
+        verdict.verdict_from_printed = gum::verdict_name(by_hand.verdict);
         if (by_hand.rule == shown.rule) {  // else rounding has moved a ratio past the one where an alternative begins
             shown = by_hand;
         }
