@@ -14,6 +14,7 @@
 #include "engine/job/certificate_archive.h"
 #include "engine/job/certificate_statement.h"
 #include "engine/job/job_files.h"
+#include "engine/job/job_kinds.h"
 #include "engine/job/json_object.h"
 #include "engine/job/monte_carlo_request.h"
 #include "text/visible_text.h"
@@ -119,12 +120,12 @@ private:
                               "must be \"gumcert/job/1\"",
                               "check that the file is a job, and which version of the program it is for");
         }
-        const auto kind = text_of("kind", "budget");
-        if (kind && *kind != "budget") {
+        const auto kind = text_of("kind", std::string(k_budget_kind));
+        if (kind && *kind != k_budget_kind) {
             problems_->refuse(k_wrong_kind, document_->where("/kind"), "a job of kind " + text::in_quotes(*kind),
                               "a job of kind \"budget\" is expected here", "use the command for this kind of job");
         }
-        return kind && *kind == "budget";
+        return kind && *kind == k_budget_kind;
     }
 
     void read_common(const JsonObject& root) {

@@ -12,6 +12,7 @@
 #include "engine/job/certificate_statement.h"
 #include "engine/job/csv_table.h"
 #include "engine/job/job_files.h"
+#include "engine/job/job_kinds.h"
 #include "engine/job/json_object.h"
 #include "engine/job/monte_carlo_request.h"
 #include "engine/job/statement_keys.h"
@@ -106,12 +107,12 @@ public:
 private:
     bool is_circle_closure() {
         const auto kind = read_kind(*document_, *problems_);
-        if (kind && *kind != "circle_closure") {
+        if (kind && *kind != k_circle_closure_kind) {
             problems_->refuse(k_wrong_kind, document_->where("/kind"), "a job of kind " + text::in_quotes(*kind),
                               "a job of kind \"circle_closure\" is expected here",
                               "use the command for this kind of job");
         }
-        return kind && *kind == "circle_closure";
+        return kind && *kind == k_circle_closure_kind;
     }
 
     void read_job(const JsonObject& root) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/job/circle_closure_job.h"
+#include "engine/job/job_kinds.h"
 #include "engine/job/rotary_table_job.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
@@ -26,7 +27,7 @@ double named_angle(double degrees) {
 std::vector<double> read_job_of(const FileSource& source, const std::string& file, JobFiles& files, bool of_artefact,
                                 ComparisonSide& side) {
     std::vector<double> angles;
-    if (probable_job_kind(source, file) == "circle_closure") {
+    if (probable_job_kind(source, file) == k_circle_closure_kind) {
         side.circle_closure = std::make_shared<const CircleClosureJob>(read_circle_closure_job(source, file));
         files.add(side.circle_closure->files, side.circle_closure->warnings);
         for (std::size_t i = 0; i < side.circle_closure->measurement.steps; ++i) {

@@ -10,6 +10,7 @@
 #include "engine/job/comparison_methods.h"
 #include "engine/job/comparison_participants.h"
 #include "engine/job/comparison_reading.h"
+#include "engine/job/job_kinds.h"
 #include "text/visible_text.h"
 
 namespace gumcert::engine {
@@ -47,7 +48,7 @@ private:
         if (!kind || is_record(document)) {
             return;
         }
-        if (*kind != "comparison") {
+        if (*kind != k_comparison_kind) {
             problems.refuse(k_wrong_kind, document.where("/kind"), "a job of kind " + text::in_quotes(*kind),
                             "a job of kind \"comparison\" is expected here", "use the command for this kind of job");
             return;

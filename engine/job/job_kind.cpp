@@ -1,8 +1,8 @@
 #include "engine/job/job_kind.h"
 
 #include <algorithm>
-#include <array>
 
+#include "engine/job/job_kinds.h"
 #include "engine/job/json_object.h"
 #include "text/lists.h"
 #include "text/visible_text.h"
@@ -12,11 +12,11 @@ namespace gumcert::engine {
 namespace {
 
 constexpr std::string_view k_schema = "gumcert/job/1";
-constexpr std::array<std::string_view, 4> k_kinds{"budget", "rotary_table", "circle_closure", "comparison"};
 
 }  // namespace
 
-std::optional<std::string> read_kind(const JsonDocument& document, ProblemList& problems) {
+std::optional<std::string> read_kind(const JsonDocument& document, ProblemList& problems,
+                                     std::span<const std::string_view> kinds) {
     if (!document.value.is_object()) {
         (void)JsonObject::root(document, {}, problems);
         return std::nullopt;
@@ -45,28 +45,28 @@ std::optional<std::string> read_kind(const JsonDocument& document, ProblemList& 
                         "check that the file is a job, and which version of the program it is for");
     }
     const std::optional<std::string> kind = text_of("kind", "the kind of the job");
-    if (kind && std::find(k_kinds.begin(), k_kinds.end(), *kind) == k_kinds.end()) {
-        const std::optional<std::string_view> nearest = nearest_word(*kind, k_kinds);
-        problems.refuse(k_wrong_kind, document.where("/kind"), text::in_quotes(*kind),
-                        "must be " + text::any_of(k_kinds),
+    if (kind && std::find(kinds.begin(), kinds.end(), *kind) == kinds.end()) {
+        const std::optional<std::string_view> nearest = nearest_word(*kind, kinds);
+        problems.refuse(k_wrong_kind, document.where("/kind"), text::in_quotes(*kind), "must be " + text::any_of(kinds),
                         nearest ? "did you mean \"" + std::string{*nearest} + "\"?" : "choose one of them");
         return std::nullopt;
     }
     return kind;
 }
 
-std::string job_kind(const FileSource& source, const std::string& job_file) {
+std::string job_kind(const FileSource& source, const std::string& job_file, std::span<const std::string_view> kinds) {
     ProblemList problems(job_file);
     const std::string bytes = source.read(job_file);
     const std::optional<JsonDocument> document = read_json_document(bytes, problems);
-    const std::optional<std::string> kind = document ? read_kind(*document, problems) : std::nullopt;
+    const std::optional<std::string> kind = document ? read_kind(*document, problems, kinds) : std::nullopt;
     if (problems.refusals() > 0) {
         throw gum::InputError(problems.refused());
     }
     return kind.value();
 }
 
-std::optional<std::string> probable_job_kind(const FileSource& source, const std::string& name) {
+std::optional<std::string> probable_job_kind(const FileSource& source, const std::string& name,
+                                             std::span<const std::string_view> kinds) {
     ProblemList problems(name);
     const std::string bytes = source.read(name);
     const std::optional<JsonDocument> document = read_json_document(bytes, problems);
@@ -76,7 +76,7 @@ std::optional<std::string> probable_job_kind(const FileSource& source, const std
     }
     // The text ends before its end, or is none: the first kind that is named in it.
     const std::size_t key = bytes.find("\"kind\"");
-    for (const std::string_view kind : k_kinds) {
+    for (const std::string_view kind : kinds) {
         if (key != std::string::npos && bytes.find('"' + std::string(kind) + '"', key) < bytes.find(',', key)) {
             return std::string(kind);
         }
@@ -88,8 +88,20 @@ std::optional<std::string> probable_job_kind(const std::filesystem::path& job_fi
     return probable_job_kind(DiskFileSource(job_file.parent_path()), job_file.filename().string());
 }
 
+std::optional<std::string> probable_job_kind(const FileSource& source, const std::string& job_file) {
+    return probable_job_kind(source, job_file, k_job_kinds);
+}
+
 std::string job_kind(const std::filesystem::path& job_file) {
     return job_kind(DiskFileSource(job_file.parent_path()), job_file.filename().string());
+}
+
+std::string job_kind(const FileSource& source, const std::string& job_file) {
+    return job_kind(source, job_file, k_job_kinds);
+}
+
+std::optional<std::string> read_kind(const JsonDocument& document, ProblemList& problems) {
+    return read_kind(document, problems, k_job_kinds);
 }
 
 }  // namespace gumcert::engine

@@ -14,6 +14,7 @@
 #include "engine/job/certificate_statement.h"
 #include "engine/job/csv_table.h"
 #include "engine/job/job_files.h"
+#include "engine/job/job_kinds.h"
 #include "engine/job/json_object.h"
 #include "engine/job/machine_frame_reading.h"
 #include "engine/job/monte_carlo_request.h"
@@ -260,7 +261,7 @@ private:
         if (!kind) {
             return;
         }
-        if (*kind != "rotary_table") {
+        if (*kind != k_rotary_table_kind) {
             problems.refuse(k_wrong_kind, document->where("/kind"), "a job of kind " + text::in_quotes(*kind),
                             "a job of kind \"rotary_table\" is expected here", "use the command for this kind of job");
             return;
