@@ -1,10 +1,12 @@
 #pragma once
 
+#include "reports/document_kinds.h"
 #include "reports/record/evaluation_record.h"
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstddef>
+#include <span>
 #include <string>
 
 namespace gumcert::reports {
@@ -37,8 +39,10 @@ namespace gumcert::reports {
 /// Numbers are the texts of `printed` in the record with the decimal sign of the language, otherwise untouched; what
 /// has no such text is rounded here, once for all forms. Control and direction characters of texts become U+FFFD.
 /// \param wording  labels and sentences: templates/wording/<language>.json, or an array of two of them
+/// \param kinds    what records of each kind show
 /// \throws gum::StorageError if the wording lacks a text
-[[nodiscard]] nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::json& wording);
+[[nodiscard]] nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::json& wording,
+                                              std::span<const DocumentKind> kinds = document_kinds());
 
 /// A text as it may stand in a document: tab and line feed become blanks; other control characters, characters that
 /// change the direction of writing, and bytes that are not UTF-8 become U+FFFD.

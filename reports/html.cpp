@@ -62,7 +62,7 @@ std::string view_as_html(nlohmann::json view, const RenderAssets& assets) {
 }
 
 std::string render_html(const EvaluationRecord& record, const RenderAssets& assets) {
-    return view_as_html(certificate_view(record, read_wording(assets, record)), assets);
+    return view_as_html(certificate_view(record, read_wording(assets, record), assets.kinds), assets);
 }
 
 }  // namespace gumcert::reports

@@ -89,7 +89,7 @@ std::string view_as_pdf(const nlohmann::json& view, const RenderAssets& assets) 
 
 std::string render_pdf(const EvaluationRecord& record, const RenderAssets& assets, const std::string& dcc,
                        PdfWorker* worker) {
-    const nlohmann::json view = certificate_view(record, read_wording(assets, record));
+    const nlohmann::json view = certificate_view(record, read_wording(assets, record), assets.kinds);
     if (worker != nullptr) {
         return checked_pdf(view, assets, dcc, *worker);
     }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "reports/document_kinds.h"
 #include "reports/record/evaluation_record.h"
 
 #include <chrono>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,7 @@ struct RenderAssets {
     /// Languages to print in, the binding one first, at most two; empty: those of the certificate data, else English.
     std::vector<std::string> languages;
     std::chrono::seconds pdf_time_limit{60};
+    std::span<const DocumentKind> kinds = document_kinds();  ///< what records of each kind show
 };
 
 /// The certificate as one HTML file: style and plots inside, no scripts, nothing to load.

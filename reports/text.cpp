@@ -436,7 +436,7 @@ std::string view_as_text(const nlohmann::json& view) {
 }
 
 std::string render_text(const EvaluationRecord& record, const RenderAssets& assets) {
-    return view_as_text(certificate_view(record, read_wording(assets, record)));
+    return view_as_text(certificate_view(record, read_wording(assets, record), assets.kinds));
 }
 
 }  // namespace gumcert::reports

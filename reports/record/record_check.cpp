@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "json/json_pointer.h"
+#include "reports/record/record_kinds.h"
 #include "reports/record/record_rules.h"
 #include "reports/record/reported_result.h"
 
@@ -334,7 +335,7 @@ void check_record(const EvaluationRecord& record, const RecordBreach& report) {
     if (record.comparison) {
         check_comparison(*record.comparison, inside("/comparison", report));
     }
-    if (record.kind == "comparison" && (!record.comparison || record.comparison->form == "rotary_table")) {
+    if (record.kind == k_comparison_kind && (!record.comparison || record.comparison->form == "rotary_table")) {
         report(record.comparison ? "/comparison/form" : "/comparison",
                record.comparison ? "\"rotary_table\"" : "missing",
                "a record of kind comparison holds a comparison of the form \"laboratories\" or \"methods\"");

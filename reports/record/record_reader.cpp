@@ -24,6 +24,7 @@
 #include "json/struct_reader.h"
 #include "reports/record/record_check.h"
 #include "reports/record/record_fields.h"
+#include "reports/record/record_kinds.h"
 #include "reports/record/record_problems.h"
 #include "reports/record/record_rules.h"
 #include "reports/record/reported_result.h"
@@ -47,6 +48,15 @@ public:
     /// \param place  its steps above and their keys outlive the reader
     Reader(const json& object, const Step& place, RecordProblems& problems)
         : StructReader(object, place), problems_(problems) {}
+
+    template <class Words>
+    void unknown_word(const Step& at, const std::string& word, const Words& allowed) {
+        std::string rule = "must be one of";
+        for (const std::string_view name : allowed) {
+            rule += " \"" + std::string(name) + '"';
+        }
+        problems_.add("GC-RECORD-0016", at.pointer(), '"' + word + '"', rule, k_restore);
+    }
 
     template <class Type>
     void filled(const char* key, Type& v) {
@@ -342,14 +352,6 @@ private:
         inner.finish();
     }
 
-    void unknown_word(const Step& at, const std::string& word, std::initializer_list<const char*> allowed) {
-        std::string rule = "must be one of";
-        for (const char* name : allowed) {
-            rule += std::string(" \"") + name + '"';
-        }
-        problems_.add("GC-RECORD-0016", at.pointer(), '"' + word + '"', rule, k_restore);
-    }
-
     template <class Rule>
     void read_value(const json& item, certificate::LocalisedText& v, const Step& at, const Rule&) {
         if (item.is_string()) {
@@ -478,6 +480,11 @@ std::optional<json> value_of(const std::string& text, RecordProblems& problems) 
 }  // namespace
 
 EvaluationRecord record_from_json(const std::string& text, const std::string& where) {
+    return record_from_json(text, where, k_record_kinds);
+}
+
+EvaluationRecord record_from_json(const std::string& text, const std::string& where,
+                                  std::span<const std::string_view> kinds) {
     RecordProblems problems(where);
     if (text.size() > k_max_record_bytes) {
         problems.add("GC-RECORD-0010", "", std::to_string(text.size()) + " bytes",
@@ -505,6 +512,11 @@ EvaluationRecord record_from_json(const std::string& text, const std::string& wh
 
     EvaluationRecord record;
     Reader reader(root, Step{}, problems);
+    if (const auto kind = root.find("kind");
+        kind != root.end() && kind->is_string() && std::find(kinds.begin(), kinds.end(), *kind) == kinds.end()) {
+        const Step document;
+        reader.unknown_word(document.child("kind"), kind->get<std::string>(), kinds);
+    }
     describe(reader, record);
     reader.finish();
     problems.throw_if_any();
