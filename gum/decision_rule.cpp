@@ -1,5 +1,6 @@
 #include "gum/decision_rule.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -11,8 +12,6 @@
 
 namespace gumcert::gum {
 namespace {
-
-constexpr std::size_t k_rules = 13;
 
 constexpr std::array<std::string_view, 8> k_methods = {"1", "2", "3", "4", "5", "6", "rds", "rp10"};
 
@@ -31,36 +30,166 @@ bool rests_on_ratio(const std::string& method) {
     return method == "6" || method == "rds" || method == "rp10";
 }
 
+/// What `probability` of a rule is.
+enum class Probability { none, largest_risk, to_prove };
+
 /// The parameters that a rule looks at.
 struct Uses {
-    bool factor = false, band = false, probability = false, ratio = false, largest_U = false, alternative = false,
-         method = false;
+    bool factor = false, band = false, ratio = false, largest_U = false, alternative = false, method = false;
+    Probability probability = Probability::none;
 };
-Uses uses_of(DecisionRule rule) {
-    switch (rule) {
-        case DecisionRule::simple_acceptance_with_ratio:
-            return {.ratio = true, .largest_U = true, .alternative = true};
-        case DecisionRule::guard_band_factor:
-            return {.factor = true};
-        case DecisionRule::non_binary:
-        case DecisionRule::agreed:
-            return {.factor = true, .band = true};
-        case DecisionRule::specific_risk:
-            return {.probability = true};
-        case DecisionRule::iso_14253_1:
-            return {.factor = true, .probability = true};
-        case DecisionRule::z540_3:
-            return {.probability = true, .ratio = true, .alternative = true, .method = true};
-        case DecisionRule::b89_7_3_1:
-            return {.factor = true, .ratio = true, .alternative = true};
-        case DecisionRule::simple_acceptance:
-        case DecisionRule::guard_band_u:
-        case DecisionRule::three_way:
-        case DecisionRule::relaxed:
-        case DecisionRule::prescribed:
-            return {};
+
+using Sentences = std::vector<std::string>;
+/// Says what is missing or contradictory.
+using Needs = void (*)(const DecisionRuleParameters& p, const ToleranceLimits& limits, Sentences& say);
+
+void ratio_or_largest_U(const DecisionRuleParameters& p, const ToleranceLimits& /*limits*/, Sentences& say) {
+    if (!p.test_uncertainty_ratio && !p.largest_U) {
+        say.emplace_back("DR-02 needs test_uncertainty_ratio (the least ratio) or largest_U.");
     }
-    return {};
+}
+
+void factor(const DecisionRuleParameters& p, const ToleranceLimits& /*limits*/, Sentences& say) {
+    if (!p.guard_factor) {
+        say.emplace_back("DR-04 needs guard_factor, the r of w = r·U.");
+    }
+}
+
+void factor_or_band_or_none(const DecisionRuleParameters& p, const ToleranceLimits& /*limits*/, Sentences& say) {
+    if (p.guard_factor && p.guard_band) {
+        say.emplace_back("guard_factor and guard_band are both stated; DR-05 takes one of them, or none for w = U.");
+    }
+}
+
+void largest_risk(const DecisionRuleParameters& p, const ToleranceLimits& /*limits*/, Sentences& say) {
+    if (!p.probability) {
+        say.emplace_back("DR-07 needs probability, the largest risk that is accepted.");
+    }
+}
+
+void factor_or_probability(const DecisionRuleParameters& p, const ToleranceLimits& /*limits*/, Sentences& say) {
+    if (p.guard_factor && p.probability) {
+        say.emplace_back("guard_factor and probability are both stated; the one follows from the other in DR-08.");
+    }
+    if (p.guard_factor && *p.guard_factor == 0.0) {
+        say.emplace_back("guard_factor is 0; in DR-08 it must be greater than 0.");
+    }
+}
+
+void z540_3(const DecisionRuleParameters& p, const ToleranceLimits& limits, Sentences& say);
+
+void factor_or_ratio(const DecisionRuleParameters& p, const ToleranceLimits& /*limits*/, Sentences& say) {
+    if (!p.guard_factor && !p.test_uncertainty_ratio) {
+        say.emplace_back("DR-10 needs guard_factor (the guard band as a part of U), test_uncertainty_ratio, or both.");
+    }
+}
+
+void factor_or_band(const DecisionRuleParameters& p, const ToleranceLimits& /*limits*/, Sentences& say) {
+    if (p.guard_factor.has_value() == p.guard_band.has_value()) {
+        say.emplace_back("DR-13 needs guard_factor or guard_band, and not both.");
+    }
+}
+
+void nothing(const DecisionRuleParameters& /*p*/, const ToleranceLimits& /*limits*/, Sentences& /*say*/) {}
+
+struct Row {
+    DecisionRule rule;
+    std::string_view id;
+    Uses uses = {};
+    Needs needs = nothing;
+    bool outwards = false;  ///< the guard band may reach beyond the limits
+};
+
+constexpr std::array<Row, 13> k_rules{{
+    {.rule = DecisionRule::simple_acceptance, .id = "DR-01"},
+    {.rule = DecisionRule::simple_acceptance_with_ratio,
+     .id = "DR-02",
+     .uses = {.ratio = true, .largest_U = true, .alternative = true},
+     .needs = ratio_or_largest_U},
+    {.rule = DecisionRule::guard_band_u, .id = "DR-03"},
+    {.rule = DecisionRule::guard_band_factor, .id = "DR-04", .uses = {.factor = true}, .needs = factor},
+    {.rule = DecisionRule::non_binary,
+     .id = "DR-05",
+     .uses = {.factor = true, .band = true},
+     .needs = factor_or_band_or_none},
+    {.rule = DecisionRule::three_way, .id = "DR-06"},
+    {.rule = DecisionRule::specific_risk,
+     .id = "DR-07",
+     .uses = {.probability = Probability::largest_risk},
+     .needs = largest_risk},
+    {.rule = DecisionRule::iso_14253_1,
+     .id = "DR-08",
+     .uses = {.factor = true, .probability = Probability::to_prove},
+     .needs = factor_or_probability},
+    {.rule = DecisionRule::z540_3,
+     .id = "DR-09",
+     .uses = {.ratio = true, .alternative = true, .method = true, .probability = Probability::largest_risk},
+     .needs = z540_3},
+    {.rule = DecisionRule::b89_7_3_1,
+     .id = "DR-10",
+     .uses = {.factor = true, .ratio = true, .alternative = true},
+     .needs = factor_or_ratio,
+     .outwards = true},
+    {.rule = DecisionRule::relaxed, .id = "DR-11"},
+    {.rule = DecisionRule::prescribed, .id = "DR-12"},
+    {.rule = DecisionRule::agreed,
+     .id = "DR-13",
+     .uses = {.factor = true, .band = true},
+     .needs = factor_or_band,
+     .outwards = true},
+}};
+
+constexpr bool is_in_order_of_enumeration() {
+    for (std::size_t i = 0; i < k_rules.size(); ++i) {
+        if (static_cast<std::size_t>(k_rules[i].rule) != i) {
+            return false;
+        }
+    }
+    return true;
+}
+static_assert(is_in_order_of_enumeration());
+
+const Row& row_of(DecisionRule rule) {
+    return k_rules.at(static_cast<std::size_t>(rule));
+}
+const Uses& uses_of(DecisionRule rule) {
+    return row_of(rule).uses;
+}
+bool uses_probability(const Uses& uses) {
+    return uses.probability != Probability::none;
+}
+
+void z540_3(const DecisionRuleParameters& p, const ToleranceLimits& limits, Sentences& say) {
+    if (p.method.empty()) {
+        if (!p.test_uncertainty_ratio) {
+            say.emplace_back(
+                "DR-09 needs method (1 to 6, rds or rp10), or test_uncertainty_ratio where a risk is impracticable.");
+        }
+        if (p.probability && !(p.alternative && uses_probability(uses_of(*p.alternative)))) {
+            say.emplace_back("probability is stated, but without a method no risk is calculated.");
+        }
+        return;
+    }
+    if (!is_method(p.method)) {
+        say.emplace_back("method is \"" + p.method + "\"; it must be 1, 2, 3, 4, 5, 6, rds or rp10.");
+        return;
+    }
+    if (p.test_uncertainty_ratio) {
+        say.emplace_back(
+            "method and test_uncertainty_ratio are both stated; the ratio stands in the place of a method.");
+    }
+    if (rests_on_population(p.method)) {
+        if (!p.population_reliability && !p.population_deviation) {
+            say.emplace_back("Method " + p.method + " of DR-09 needs population_reliability or population_deviation.");
+        }
+    } else if (p.probability && *p.probability != 0.02 && !p.alternative) {
+        say.emplace_back("Method " + p.method +
+                         " of DR-09 has a guard band of its own; a probability other than 0.02 cannot be " +
+                         "kept by it.");
+    }
+    if (rests_on_ratio(p.method) && !limits.two_sided()) {
+        say.emplace_back("Method " + p.method + " of DR-09 needs two limits.");
+    }
 }
 
 /// Collects sentences about one rule.
@@ -77,7 +206,6 @@ private:
     void range(bool fine, const char* key, const std::optional<double>& value, const char* rule);
     void unused();
     void needs();
-    void z540_3();
     void population();
     void alternative();
 
@@ -95,10 +223,7 @@ void Check::range(bool fine, const char* key, const std::optional<double>& value
 }
 
 void Check::ranges() {
-    const auto may_be_outwards = [](DecisionRule rule) {
-        return rule == DecisionRule::agreed || rule == DecisionRule::b89_7_3_1;
-    };
-    const bool outwards = may_be_outwards(rule_) || (p_.alternative && may_be_outwards(*p_.alternative));
+    const bool outwards = row_of(rule_).outwards || (p_.alternative && row_of(*p_.alternative).outwards);
     range(outwards || p_.guard_factor.value_or(0.0) >= 0.0, "guard_factor", p_.guard_factor,
           outwards ? "finite" : "finite and not negative");
     range(outwards || p_.guard_band.value_or(0.0) >= 0.0, "guard_band", p_.guard_band,
@@ -116,20 +241,16 @@ void Check::ranges() {
         return;
     }
     const double probability = *p_.probability;
-    switch (rule_) {
-        case DecisionRule::specific_risk:
+    switch (uses_of(rule_).probability) {
+        case Probability::largest_risk:
             range(probability > 0.0 && probability <= 0.5, "probability", p_.probability,
                   "the largest risk, greater than 0 and not above 0.5");
             break;
-        case DecisionRule::iso_14253_1:
+        case Probability::to_prove:
             range(probability > 0.5 && probability < 1.0, "probability", p_.probability,
                   "the probability to prove, above 0.5 and below 1");
             break;
-        case DecisionRule::z540_3:
-            range(probability > 0.0 && probability <= 0.5, "probability", p_.probability,
-                  "the largest risk, greater than 0 and not above 0.5");
-            break;
-        default:
+        case Probability::none:
             range(probability > 0.0 && probability < 1.0, "probability", p_.probability,
                   "greater than 0 and less than 1");
     }
@@ -145,7 +266,7 @@ void Check::unused() {
     };
     refuse_unused(p_.guard_factor.has_value(), own.factor || other.factor, "guard_factor");
     refuse_unused(p_.guard_band.has_value(), own.band || other.band, "guard_band");
-    refuse_unused(p_.probability.has_value(), own.probability || other.probability, "probability");
+    refuse_unused(p_.probability.has_value(), uses_probability(own) || uses_probability(other), "probability");
     refuse_unused(p_.test_uncertainty_ratio.has_value(), own.ratio, "test_uncertainty_ratio");
     refuse_unused(p_.largest_U.has_value(), own.largest_U, "largest_U");
     refuse_unused(p_.alternative.has_value(), own.alternative, "alternative");
@@ -156,81 +277,7 @@ void Check::needs() {
     if (p_.test_uncertainty_ratio && uses_of(rule_).ratio && !limits_.two_sided()) {
         say("test_uncertainty_ratio is stated, but with one limit alone there is no such ratio.");
     }
-    switch (rule_) {
-        case DecisionRule::simple_acceptance_with_ratio:
-            if (!p_.test_uncertainty_ratio && !p_.largest_U) {
-                say("DR-02 needs test_uncertainty_ratio (the least ratio) or largest_U.");
-            }
-            break;
-        case DecisionRule::guard_band_factor:
-            if (!p_.guard_factor) {
-                say("DR-04 needs guard_factor, the r of w = r·U.");
-            }
-            break;
-        case DecisionRule::non_binary:
-            if (p_.guard_factor && p_.guard_band) {
-                say("guard_factor and guard_band are both stated; DR-05 takes one of them, or none for w = U.");
-            }
-            break;
-        case DecisionRule::specific_risk:
-            if (!p_.probability) {
-                say("DR-07 needs probability, the largest risk that is accepted.");
-            }
-            break;
-        case DecisionRule::iso_14253_1:
-            if (p_.guard_factor && p_.probability) {
-                say("guard_factor and probability are both stated; the one follows from the other in DR-08.");
-            }
-            if (p_.guard_factor && *p_.guard_factor == 0.0) {
-                say("guard_factor is 0; in DR-08 it must be greater than 0.");
-            }
-            break;
-        case DecisionRule::z540_3:
-            z540_3();
-            break;
-        case DecisionRule::b89_7_3_1:
-            if (!p_.guard_factor && !p_.test_uncertainty_ratio) {
-                say("DR-10 needs guard_factor (the guard band as a part of U), test_uncertainty_ratio, or both.");
-            }
-            break;
-        case DecisionRule::agreed:
-            if (p_.guard_factor.has_value() == p_.guard_band.has_value()) {
-                say("DR-13 needs guard_factor or guard_band, and not both.");
-            }
-            break;
-        default:
-            break;
-    }
-}
-
-void Check::z540_3() {
-    if (p_.method.empty()) {
-        if (!p_.test_uncertainty_ratio) {
-            say("DR-09 needs method (1 to 6, rds or rp10), or test_uncertainty_ratio where a risk is impracticable.");
-        }
-        if (p_.probability && !(p_.alternative && uses_of(*p_.alternative).probability)) {
-            say("probability is stated, but without a method no risk is calculated.");
-        }
-        return;
-    }
-    if (!is_method(p_.method)) {
-        say("method is \"" + p_.method + "\"; it must be 1, 2, 3, 4, 5, 6, rds or rp10.");
-        return;
-    }
-    if (p_.test_uncertainty_ratio) {
-        say("method and test_uncertainty_ratio are both stated; the ratio stands in the place of a method.");
-    }
-    if (rests_on_population(p_.method)) {
-        if (!p_.population_reliability && !p_.population_deviation) {
-            say("Method " + p_.method + " of DR-09 needs population_reliability or population_deviation.");
-        }
-    } else if (p_.probability && *p_.probability != 0.02 && !p_.alternative) {
-        say("Method " + p_.method + " of DR-09 has a guard band of its own; a probability other than 0.02 cannot be " +
-            "kept by it.");
-    }
-    if (rests_on_ratio(p_.method) && !limits_.two_sided()) {
-        say("Method " + p_.method + " of DR-09 needs two limits.");
-    }
+    row_of(rule_).needs(p_, limits_, sentences_);
 }
 
 void Check::population() {
@@ -283,17 +330,20 @@ std::vector<std::string> Check::run() {
 }  // namespace
 
 std::string decision_rule_id(DecisionRule rule) {
-    const std::size_t number = static_cast<std::size_t>(rule) + 1;
-    return (number < 10 ? "DR-0" : "DR-") + std::to_string(number);
+    return std::string(row_of(rule).id);
 }
 
 std::optional<DecisionRule> decision_rule_from_id(const std::string& id) {
-    for (std::size_t i = 0; i < k_rules; ++i) {
-        if (const auto rule = static_cast<DecisionRule>(i); decision_rule_id(rule) == id) {
-            return rule;
-        }
+    const auto found = std::ranges::find(k_rules, id, &Row::id);
+    return found == k_rules.end() ? std::nullopt : std::optional(found->rule);
+}
+
+std::vector<std::string_view> decision_rule_ids() {
+    std::vector<std::string_view> ids;
+    for (const Row& row : k_rules) {
+        ids.push_back(row.id);
     }
-    return std::nullopt;
+    return ids;
 }
 
 DecisionRuleParameters parameters_of_alternative(const DecisionRuleParameters& parameters) {
@@ -308,7 +358,7 @@ DecisionRuleParameters parameters_of_alternative(const DecisionRuleParameters& p
     if (!uses.band) {
         others.guard_band.reset();
     }
-    if (!uses.probability) {
+    if (!uses_probability(uses)) {
         others.probability.reset();
     }
     if (!uses.method) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gum/tolerance_limits.h"
@@ -26,6 +27,9 @@ enum class DecisionRule {
 /// "DR-01" … and back; nothing for another text.
 [[nodiscard]] std::string decision_rule_id(DecisionRule rule);
 [[nodiscard]] std::optional<DecisionRule> decision_rule_from_id(const std::string& id);
+
+/// The ids of all rules, in their order.
+[[nodiscard]] std::vector<std::string_view> decision_rule_ids();
 
 /// Parameters of a rule; which ones it needs is said by `check_decision_rule`. w, U_max, s0 and the centre are in the
 /// unit of the value.

@@ -67,7 +67,7 @@ bool is_profile(const std::string& text, const CertificatePlace& place) {
 }
 
 /// A rule that a text keeps or breaks as a whole.
-bool keeps(bool kept, const InputCode& code, const std::string& text, const char* rule, const char* action,
+bool keeps(bool kept, const InputCode& code, const std::string& text, const std::string& rule, const char* action,
            const CertificatePlace& place) {
     if (!kept) {
         place.refuse(code, text::in_quotes(text), rule, action);
@@ -99,7 +99,8 @@ bool has_form(const std::string& text, TextForm form, const CertificatePlace& pl
                          place);
         case TextForm::decision_rule:
             return keeps(gum::decision_rule_from_id(text).has_value(), k_certificate_rule, text,
-                         "a decision rule is one of \"DR-01\" to \"DR-13\"",
+                         "a decision rule is one of " + text::in_quotes(gum::decision_rule_ids().front()) + " to " +
+                             text::in_quotes(gum::decision_rule_ids().back()),
                          "look the rule up in docs/certificate_data.md", place);
         case TextForm::file: {
             const std::optional<std::string> objection = JobFiles::file_name_objection(text);
