@@ -13,6 +13,7 @@
 #include "certificate/text_words.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
+#include "reports/record/record_kinds.h"
 
 namespace gumcert::app {
 
@@ -219,7 +220,9 @@ std::vector<Finding> source_findings(const reports::EvaluationRecord& record) {
 }  // namespace
 
 std::vector<Finding> traceability_findings(const reports::EvaluationRecord& record) {
-    if ((record.kind != "budget" && record.kind != "circle_closure") || !record.certificate) {
+    // The sources of a rotary table are not inputs of a model; those of a comparison are of other laboratories.
+    if (record.kind == reports::k_rotary_table_kind || record.kind == reports::k_comparison_kind ||
+        !record.certificate) {
         return {};
     }
     std::vector<Finding> findings = source_findings(record);

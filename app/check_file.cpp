@@ -6,7 +6,7 @@
 #include "app/read_file.h"
 #include "app/recompute_record.h"
 #include "engine/job/file_source.h"
-#include "engine/job/job_kind.h"
+#include "engine/job/job_kinds.h"
 #include "json/strict_parser.h"
 
 namespace gumcert::app {
@@ -16,10 +16,14 @@ namespace {
 namespace fs = std::filesystem;
 
 FileCheck check_job(const engine::FileSource& files, const std::string& name) {
-    const std::string kind = engine::probable_job_kind(files, name).value_or("rotary_table");
-    FileCheck check{.kind = "job of kind " + kind, .findings = {}};
+    const std::string word = engine::probable_job_kind(files, name).value_or(std::string(engine::k_rotary_table_kind));
+    FileCheck check{.kind = "job of kind " + word, .findings = {}};
     try {
-        check.findings = warnings_of_job(kind, files, name);
+        if (const Kind* const kind = find_kind(program_kinds(), word)) {
+            check.findings = kind->read(files, name);
+        } else {
+            (void)engine::job_kind(files, name);  // tells which kinds there are
+        }
     } catch (const gum::InputError& refused) {
         check.findings = refused.diagnostics();
     }

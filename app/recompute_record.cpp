@@ -246,11 +246,13 @@ std::optional<gum::Diagnostic> not_recomputable(const EvaluationRecord& record, 
 }
 
 EvaluationRecord evaluated_again(const EvaluationRecord& record, const std::string& where, unsigned threads,
-                                 const std::filesystem::path& templates, const gum::Progress& progress) {
+                                 const std::filesystem::path& templates, const gum::Progress& progress,
+                                 std::span<const Kind> kinds) {
     const engine::MemoryFileSource files(files_of(record, where));
     std::string reason;
     try {
-        return evaluate_job(files, record.job_files.front().name, covariance_of(record), threads, templates, progress)
+        return evaluate_job(files, record.job_files.front().name, covariance_of(record), threads, templates, progress,
+                            kinds)
             .record;
     } catch (const gum::DiagnosedError& error) {
         const gum::Diagnostic& first = error.diagnostics().front();
@@ -261,11 +263,12 @@ EvaluationRecord evaluated_again(const EvaluationRecord& record, const std::stri
 }
 
 std::optional<gum::Diagnostic> recompute_record(EvaluationRecord& record, const std::string& where, unsigned threads,
-                                                const std::filesystem::path& templates, const gum::Progress& progress) {
+                                                const std::filesystem::path& templates, const gum::Progress& progress,
+                                                std::span<const Kind> kinds) {
     if (std::optional<gum::Diagnostic> why = not_recomputable(record, where)) {
         return why;
     }
-    EvaluationRecord evaluated = evaluated_again(record, where, threads, templates, progress);
+    EvaluationRecord evaluated = evaluated_again(record, where, threads, templates, progress, kinds);
     std::vector<gum::Diagnostic> found = disagreements(record, evaluated, where);
     if (!found.empty()) {
         throw gum::InputError(std::move(found));

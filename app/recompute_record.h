@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,8 @@ inline constexpr std::size_t k_most_disagreements = 20;
 [[nodiscard]] reports::EvaluationRecord evaluated_again(const reports::EvaluationRecord& record,
                                                         const std::string& where, unsigned threads,
                                                         const std::filesystem::path& templates,
-                                                        const gum::Progress& progress = {});
+                                                        const gum::Progress& progress = {},
+                                                        std::span<const Kind> kinds = program_kinds());
 
 /// Believes nothing that a record says: evaluates its job again and compares.
 /// \param record  becomes the one that its job gives: what is printed from it was computed here
@@ -44,6 +46,7 @@ inline constexpr std::size_t k_most_disagreements = 20;
 [[nodiscard]] std::optional<gum::Diagnostic> recompute_record(reports::EvaluationRecord& record,
                                                               const std::string& where, unsigned threads,
                                                               const std::filesystem::path& templates,
-                                                              const gum::Progress& progress = {});
+                                                              const gum::Progress& progress = {},
+                                                              std::span<const Kind> kinds = program_kinds());
 
 }  // namespace gumcert::app

@@ -5,6 +5,13 @@
 
 #include <CLI/CLI.hpp>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/kinds.h"
+#include "app/output_forms.h"
+#include "text/lists.h"
 
 namespace gumcert::cli {
 
@@ -32,6 +39,32 @@ constexpr const char* k_footer =
 constexpr const char* k_trust_help = "Certificates that are trusted, for signatures: a PEM file, or a folder of them";
 constexpr const char* k_record_help =
     "Record file, or - for standard output; default: the job's name with -record.json";
+
+/// The values of --format.
+std::vector<std::string> form_names() {
+    std::vector<std::string> names;
+    for (const app::OutputForm& form : app::output_forms()) {
+        names.emplace_back(form.name);
+    }
+    return names;
+}
+
+/// "html, pdf, text, dcc (digital certificate, XML), or csv (scores of a comparison)".
+std::string forms_in_words() {
+    std::string words;
+    for (const app::OutputForm& form : app::output_forms()) {
+        words += words.empty() ? "" : &form == &app::output_forms().back() ? ", or " : ", ";
+        words += form.name;
+        words += form.description.empty() ? "" : " (" + std::string(form.description) + ")";
+    }
+    return words;
+}
+
+/// "budget, rotary_table, circle_closure and comparison".
+std::string kinds_in_words() {
+    const std::vector<std::string_view> words = app::words_of(app::program_kinds());
+    return text::all_of({words.begin(), words.end()});
+}
 
 CLI::Option& add_file(CLI::App& command, const std::string& names, std::string& file, const std::string& help) {
     return *command.add_option(names, file, help)->type_name("FILE");
@@ -91,7 +124,9 @@ void add_run(CLI::App& program, Arguments& a) {
     add_covariance_option(command, a.documents);
     command.footer(
         "Example: gumcert run examples/rotary_table/job.json -o /tmp/certificate\n"
-        "Kinds of jobs: budget, rotary_table, circle_closure and comparison, each explained in docs/KIND_job.md.\n"
+        "Kinds of jobs: " +
+        kinds_in_words() +
+        ", each explained in docs/KIND_job.md.\n"
         "Writes record.json, covariance.csv, certificate.html, certificate.pdf and certificate.xml (the digital\n"
         "certificate), all or none; of a comparison record.json, comparison.html, comparison.pdf and\n"
         "comparison.csv. Without certificate data in the job the documents are specimens\n"
@@ -135,12 +170,10 @@ void add_compare(CLI::App& program, Arguments& a) {
 void add_render(CLI::App& program, Arguments& a) {
     CLI::App& command = *program.add_subcommand("render", "Make documents from records");
     command.add_option("RECORD", a.records, "Record files (JSON)")->required();
-    command
-        .add_option("--format", a.format,
-                    "html, pdf, dcc (digital certificate, XML), text, or csv (scores of a comparison)")
+    command.add_option("--format", a.format, forms_in_words())
         ->required()
         ->type_name("FORM")
-        ->check(CLI::IsMember({"html", "pdf", "text", "dcc", "csv"}));
+        ->check(CLI::IsMember(form_names()));
     add_file(command, "-o,--output", a.documents.output,
              "File, or - for standard output; with several records a folder. Default: beside the record");
     add_document_options(command, a.documents);

@@ -119,12 +119,13 @@ void report_withheld(const std::string& where, const std::vector<fs::path>& docu
     }
 }
 
-/// Documents of a record as they stand in a folder: of a comparison a table beside its report, else a digital
-/// certificate beside the printed one.
-std::vector<fs::path> document_files(const reports::EvaluationRecord& record, const fs::path& folder) {
-    return record.kind == "comparison"
-               ? std::vector{folder / "comparison.html", folder / "comparison.pdf", folder / "comparison.csv"}
-               : std::vector{folder / "certificate.html", folder / "certificate.pdf", folder / "certificate.xml"};
+/// Documents of a kind of records as they stand in a folder.
+std::vector<fs::path> document_files(const app::Kind& kind, const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (const std::string& name : app::document_names(kind)) {
+        files.push_back(folder / name);
+    }
+    return files;
 }
 
 /// The same, and where it is names the job: of several jobs in one command nobody knows else which one is meant.
@@ -167,7 +168,7 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
                           static_cast<unsigned>(common.threads), templates_folder(options.share),
                           [&](const std::string& text) { progress(text); });
     const reports::EvaluationRecord& record = evaluation.record;
-    const std::vector<fs::path> documents = document_files(record, folder);
+    const std::vector<fs::path> documents = document_files(app::kind_of(record, app::program_kinds()), folder);
     std::vector<app::OutputFile> files{{folder / "record.json", reports::to_canonical_json(record)}};
     judge_issue(evaluation.record, options.languages, options.share);  // the record is written as it is on every day
     if (!evaluation.covariance.empty()) {
@@ -176,10 +177,10 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
     const bool held_back = withheld(record, options.draft);
     if (!held_back) {
         progress("documents");
-        app::IssuedDocuments issued = app::issue_documents(record, issuer.options());
-        files.push_back({documents[0], std::move(issued.html)});
-        files.push_back({documents[1], std::move(issued.pdf)});
-        files.push_back({documents[2], std::move(record.kind == "comparison" ? issued.csv : issued.dcc)});
+        std::vector<app::IssuedDocument> issued = app::issue_documents(record, issuer.options());
+        for (std::size_t i = 0; i < issued.size(); ++i) {
+            files.push_back({documents[i], std::move(issued[i].bytes)});
+        }
     }
     for (const fs::path& file : app::input_files(job, record)) {
         inputs.push_back(file);
@@ -220,18 +221,6 @@ void require_different(const std::vector<fs::path>& places, const std::string& w
     }
 }
 
-std::string ending_of(const std::string& format) {
-    return format == "text" ? ".txt" : format == "dcc" ? ".xml" : "." + format;
-}
-
-app::DocumentForm form_of(const std::string& format) {
-    return format == "html"  ? app::DocumentForm::html
-           : format == "pdf" ? app::DocumentForm::pdf
-           : format == "dcc" ? app::DocumentForm::dcc
-           : format == "csv" ? app::DocumentForm::csv
-                             : app::DocumentForm::text;
-}
-
 /// What is done with a record that was not evaluated again: nothing is believed, so nothing is issued.
 /// \return whether a draft is to be printed
 bool print_as_unchecked(reports::EvaluationRecord& record, gum::Diagnostic why, const DocumentOptions& options,
@@ -268,9 +257,8 @@ ExitCode render_record(const std::string& name, const std::string& format, const
         report_withheld(name, {file}, common);
         return negative_answer;
     }
-    const app::DocumentForm form = form_of(format);
     const std::string bytes =
-        app::issue_document(record, form, issuer.options(/*with_templates=*/form != app::DocumentForm::csv));
+        app::issue_document(record, format, issuer.options(app::output_form(format).with_templates));
     if (file.empty()) {
         write_to_stdout(bytes);
         return done;
@@ -296,9 +284,10 @@ ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& o
     inputs.insert(inputs.end(), jobs.begin(), jobs.end());
     std::vector<fs::path> outputs;
     for (const fs::path& folder : folders) {
-        for (const char* name : {"record.json", "covariance.csv", "certificate.html", "certificate.pdf",
-                                 "certificate.xml", "comparison.html", "comparison.pdf", "comparison.csv"}) {
-            outputs.push_back(folder / name);
+        outputs.insert(outputs.end(), {folder / "record.json", folder / "covariance.csv"});
+        for (const app::Kind& kind : app::program_kinds()) {
+            const std::vector<fs::path> documents = document_files(kind, folder);
+            outputs.insert(outputs.end(), documents.begin(), documents.end());
         }
     }
     app::require_not_inputs(outputs, inputs);
@@ -381,7 +370,8 @@ ExitCode render_records(const std::vector<std::string>& records, const std::stri
     std::vector<fs::path> files;
     for (const std::string& name : records) {
         const fs::path record(name);
-        const fs::path beside = record.parent_path() / (record.stem().string() + ending_of(format));
+        const fs::path beside =
+            record.parent_path() / (record.stem().string() + std::string(app::output_form(format).ending));
         files.push_back(options.output.empty() ? beside
                         : several              ? fs::path(options.output) / beside.filename()
                                                : fs::path(options.output));

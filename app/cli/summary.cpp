@@ -3,13 +3,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/record_parts.h"
 #include "gum/quantity/unit.h"
 #include "reports/comparison_sections.h"
+#include "reports/record/record_kinds.h"
 #include "text/lists.h"
 
 namespace gumcert::cli {
@@ -234,46 +237,60 @@ void print_methods(const reports::Comparison& comparison) {
     }
 }
 
+void print_comparison(const reports::EvaluationRecord& record) {
+    if (!record.comparison) {
+        return;
+    }
+    if (record.comparison->form == "laboratories") {
+        print_laboratories(*record.comparison, record.printed_coverage);
+    } else {
+        print_methods(*record.comparison);
+    }
+}
+
+void print_rotary_table(const reports::EvaluationRecord& record) {
+    const reports::RotaryTable& rotary = *record.rotary;
+    fmt::print("Set-up of the fixture (value ± U, p = {}):\n", record.printed_coverage);
+    for (const reports::Result& result : record.results) {
+        fmt::print("  {:<4} {:>9} ± {} {}   {}\n", result.name, result.printed.value, result.printed.U,
+                   result.printed.unit, result.description);
+    }
+    fmt::print("\nError motions over {} angles, datum {}:\n", rotary.errors.size(),
+               rotary.datum == "home" ? "home" : "axis average line");
+    for (const reports::RangeRow& range : rotary.ranges) {
+        fmt::print("  {}  range {:>7} ± {} {}\n", range.name, range.printed.value, range.printed.U, range.printed.unit);
+    }
+    fmt::print("\nAdjustment: {} observations, {} parameters, chi-square {} on {} degrees of freedom, p = {}\n",
+               rotary.adjustment.observations, rotary.adjustment.parameters, rotary.adjustment.printed.chi_square,
+               rotary.adjustment.degrees_of_freedom, rotary.adjustment.printed.p_value);
+    std::size_t removed = 0;
+    for (const reports::FlaggedDistance& distance : rotary.flagged) {
+        removed += distance.removed ? 1 : 0;
+    }
+    fmt::print("Outlying distances: {} found, {} left out (listed in the certificate)\n", rotary.flagged.size(),
+               removed);
+    if (rotary.monte_carlo) {
+        fmt::print("\nMonte Carlo: {}\n", rotary.monte_carlo->statement);
+    }
+    print_comparison(record);  // with its reference method, where there is one
+}
+
+/// What is shown of a record of one kind; of others, their results.
+struct Summary {
+    std::string_view kind;
+    void (*print)(const reports::EvaluationRecord& record);
+};
+constexpr std::array<Summary, 2> k_summaries{
+    {{reports::k_rotary_table_kind, print_rotary_table}, {reports::k_comparison_kind, print_comparison}}};
+
 }  // namespace
 
 void print_summary(const reports::EvaluationRecord& record) {
     if (!record.title.empty()) {
         fmt::print("{}\n\n", record.title);
     }
-    if (record.rotary) {
-        const reports::RotaryTable& rotary = *record.rotary;
-        fmt::print("Set-up of the fixture (value ± U, p = {}):\n", record.printed_coverage);
-        for (const reports::Result& result : record.results) {
-            fmt::print("  {:<4} {:>9} ± {} {}   {}\n", result.name, result.printed.value, result.printed.U,
-                       result.printed.unit, result.description);
-        }
-        fmt::print("\nError motions over {} angles, datum {}:\n", rotary.errors.size(),
-                   rotary.datum == "home" ? "home" : "axis average line");
-        for (const reports::RangeRow& range : rotary.ranges) {
-            fmt::print("  {}  range {:>7} ± {} {}\n", range.name, range.printed.value, range.printed.U,
-                       range.printed.unit);
-        }
-        fmt::print("\nAdjustment: {} observations, {} parameters, chi-square {} on {} degrees of freedom, p = {}\n",
-                   rotary.adjustment.observations, rotary.adjustment.parameters, rotary.adjustment.printed.chi_square,
-                   rotary.adjustment.degrees_of_freedom, rotary.adjustment.printed.p_value);
-        std::size_t removed = 0;
-        for (const reports::FlaggedDistance& distance : rotary.flagged) {
-            removed += distance.removed ? 1 : 0;
-        }
-        fmt::print("Outlying distances: {} found, {} left out (listed in the certificate)\n", rotary.flagged.size(),
-                   removed);
-        if (rotary.monte_carlo) {
-            fmt::print("\nMonte Carlo: {}\n", rotary.monte_carlo->statement);
-        }
-    }
-    if (record.kind == "budget" || record.kind == "circle_closure") {
-        print_results(record);
-    }
-    if (record.comparison && record.comparison->form == "laboratories") {
-        print_laboratories(*record.comparison, record.printed_coverage);
-    } else if (record.comparison) {
-        print_methods(*record.comparison);
-    }
+    const auto own = std::ranges::find(k_summaries, record.kind, &Summary::kind);
+    (own != k_summaries.end() ? own->print : print_results)(record);
 }
 
 }  // namespace gumcert::cli

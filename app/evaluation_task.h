@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/certify.h"
+#include "app/covariance_file.h"
+#include "certificate/certificate_data.h"
+#include "certificate/profile.h"
+#include "engine/job/file_source.h"
+#include "gum/quantity/progress.h"
+#include "reports/record/evaluation_record.h"
+
+namespace gumcert::app {
+
+/// Where the covariance file of a record will stand, which decides its name. The name never depends on that of the
+/// record: a job gives the same record wherever it is written.
+enum class CovarianceFile {
+    none,         ///< it will not be written
+    own_folder,   ///< alone in its folder: covariance.csv, .npy or -parts.npy by its form
+    with_others,  ///< beside those of other jobs: covariance-<digest of the files of the job>.csv …
+};
+
+/// The covariance file that is asked for.
+struct CovarianceOutput {
+    CovarianceFile file = CovarianceFile::none;
+    CovarianceForm form = CovarianceForm::automatic;
+
+    // NOLINTNEXTLINE(google-explicit-constructor): a place alone asks for the form that suits the size
+    CovarianceOutput(CovarianceFile place, CovarianceForm as = CovarianceForm::automatic) : file(place), form(as) {}
+    /// Whether a covariance file is to be written at all.
+    [[nodiscard]] bool is_written() const { return file != CovarianceFile::none && form != CovarianceForm::none; }
+    /// Its name in this form, for a job with these files.
+    [[nodiscard]] std::string name(CovarianceForm written, const std::vector<reports::InputFile>& files) const;
+};
+
+struct Evaluation {
+    reports::EvaluationRecord record;
+    std::string covariance;       ///< contents of the file that the record names; empty: there is none
+    std::string covariance_file;  ///< its name; empty where `covariance` is
+    bool negative = false;        ///< evaluated, and the answer is no: not validated where validation was demanded
+    bool blocked = false;         ///< critical findings block the issue of the certificate
+};
+
+/// What the evaluation of a job is given, whatever its kind.
+struct EvaluationTask {
+    const engine::ReadOnceSource& files;
+    const std::string& job_file;  ///< name in `files`
+    const CovarianceOutput& covariance;
+    unsigned threads = 0;  ///< of Monte Carlo; 0: as many as the machine has
+    const std::filesystem::path& templates;
+    const gum::Progress& progress;
+
+    /// The files of the job as its record states and holds them: the bytes that were parsed, up to 8 MiB of one file and
+    /// 16 MiB of all.
+    /// \param names  as the reader of the job lists them, the job first
+    [[nodiscard]] std::vector<reports::InputFile> held_files(const std::vector<std::string>& names) const;
+
+    /// The profile that certificate data ask for: found before the evaluation, which may take long.
+    /// \throws gum::InputError  GC-CERT-0300 for a profile that is not in the folder
+    [[nodiscard]] std::optional<certificate::Profile> profile_of(
+        const std::optional<certificate::CertificateData>& data) const;
+};
+
+/// Certifies the record of an evaluation where the job states certificate data; else nothing.
+void make_certificate(Evaluation& evaluation, const std::optional<certificate::CertificateData>& data,
+                      const std::optional<certificate::Profile>& profile, const CapabilityInputs& inputs);
+
+}  // namespace gumcert::app

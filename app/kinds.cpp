@@ -1,0 +1,170 @@
+#include "app/kinds.h"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "app/budget_record.h"
+#include "app/certificate_inputs.h"
+#include "app/circle_closure_record.h"
+#include "app/document_units.h"
+#include "app/evaluate_circle_closure.h"
+#include "app/evaluate_comparison.h"
+#include "app/evaluate_rotary_table.h"
+#include "app/rotary_table_record.h"
+#include "engine/job/budget_job.h"
+#include "engine/job/circle_closure_job.h"
+#include "engine/job/comparison_job.h"
+#include "engine/job/job_kinds.h"
+#include "engine/job/rotary_table_job.h"
+#include "gum/budget/evaluate_budget.h"
+#include "gum/budget/reported_covariance.h"
+
+namespace gumcert::app {
+
+namespace {
+
+// Covariances of more results than this stand in a file of their own; of more than the second number, nowhere.
+constexpr std::size_t k_most_results_in_record = 100;
+constexpr std::size_t k_most_correlated_results = 2000;
+
+Evaluation evaluate_budget_job(const EvaluationTask& task) {
+    const engine::BudgetJob job = engine::read_budget_job(task.files, task.job_file);
+    const std::optional<certificate::Profile> profile = task.profile_of(job.certificate);
+    gum::BudgetResult result = gum::evaluate_budget(job, task.threads, task.progress);
+    const std::size_t results = result.points.size() * result.output_names.size();
+    Eigen::MatrixXd covariance;
+    if (results > 1 && results <= k_most_correlated_results) {
+        covariance = gum::reported_covariance(job, result);
+        gum::note_covariance(job, covariance, result);
+    } else if (results > 1) {
+        result.notes.push_back({.code = "GC-BUDGET-0040",
+                                .where = "covariance of the results",
+                                .what = std::to_string(results) + " results",
+                                .rule = "it is written for up to 2000 results",
+                                .action = "Split the table of points where the covariance between points is needed.",
+                                .severity = gum::Severity::note});
+    }
+    Evaluation evaluation;
+    const std::vector<reports::InputFile> files = task.held_files(job.files);
+    if (results > k_most_results_in_record && covariance.size() > 0 && task.covariance.is_written()) {
+        evaluation.covariance = budget_covariance_csv(job, result, covariance);
+        evaluation.covariance_file = task.covariance.name(CovarianceForm::csv, files);
+    }
+    evaluation.record = budget_record(job, result, files, covariance, evaluation.covariance_file);
+    evaluation.negative = result.validation_failed;
+    if (job.certificate) {
+        make_certificate(evaluation, job.certificate, profile, capability_inputs(job, result, task.threads));
+    }
+    return evaluation;
+}
+
+Evaluation evaluate_rotary_table_job(const EvaluationTask& task) {
+    engine::RotaryTableJob job = engine::read_rotary_table_job(task.files, task.job_file);
+    const std::optional<certificate::Profile> profile = task.profile_of(job.certificate);
+    const RotaryTableResult result = evaluate_rotary_table(job, task.threads, task.progress);
+    Evaluation evaluation;
+    const std::vector<reports::InputFile> files = task.held_files(job.files);
+    if (task.covariance.is_written()) {
+        const std::vector<gum::OutputQuantity>& quantities = result.solution.quantities.outputs;
+        const CovarianceForm form = chosen_form(task.covariance.form, quantities.size());
+        std::vector<double> units;
+        for (const gum::OutputQuantity& quantity : quantities) {
+            units.push_back(unit_of(quantity).si);
+        }
+        evaluation.covariance = covariance_contents(result.reported.covariance,
+                                                    covariance_order(job, result.solution.quantities), units, form);
+        evaluation.covariance_file = task.covariance.name(form, files);
+    }
+    evaluation.record = rotary_table_record(job, result, files, evaluation.covariance_file);
+    evaluation.negative = result.validation_failed;
+    make_certificate(evaluation, job.certificate, profile, {});
+    return evaluation;
+}
+
+Evaluation evaluate_circle_closure_job(const EvaluationTask& task) {
+    const engine::CircleClosureJob job = engine::read_circle_closure_job(task.files, task.job_file);
+    const std::optional<certificate::Profile> profile = task.profile_of(job.certificate);
+    const CircleClosureResult result = evaluate_circle_closure(job, task.threads, task.progress);
+    Evaluation evaluation;
+    const std::vector<reports::InputFile> files = task.held_files(job.files);
+    const bool is_large = circle_closure_result_names(job).size() > k_most_results_in_record;
+    if (is_large && task.covariance.is_written()) {
+        evaluation.covariance = circle_closure_covariance_csv(job, result);
+        evaluation.covariance_file = task.covariance.name(CovarianceForm::csv, files);
+    }
+    evaluation.record = circle_closure_record(job, result, files, evaluation.covariance_file);
+    evaluation.negative = result.validation_failed;
+    if (job.certificate) {
+        make_certificate(evaluation, job.certificate, profile, circle_closure_capability_inputs(job, result));
+    }
+    return evaluation;
+}
+
+Evaluation evaluate_comparison_job(const EvaluationTask& task) {
+    const engine::ComparisonJob job = engine::read_comparison_job(task.files, task.job_file);
+    Evaluation evaluation;
+    evaluation.record = evaluate_comparison(job, task.held_files(job.files), task.progress);
+    evaluation.negative = !evaluation.record.comparison->items_without_result.empty();
+    return evaluation;
+}
+
+constexpr std::array<std::string_view, 3> k_certificate_forms{"html", "pdf", "dcc"};
+constexpr std::array<std::string_view, 3> k_comparison_forms{"html", "pdf", "csv"};
+
+using engine::FileSource;
+
+const std::array<Kind, 4> k_kinds{{
+    {.word = engine::k_budget_kind,
+     .read = [](const FileSource& files,
+                const std::string& job) { return engine::read_budget_job(files, job).warnings; },
+     .evaluate = evaluate_budget_job,
+     .document = "certificate",
+     .forms = k_certificate_forms},
+    {.word = engine::k_rotary_table_kind,
+     .read = [](const FileSource& files,
+                const std::string& job) { return engine::read_rotary_table_job(files, job).warnings; },
+     .evaluate = evaluate_rotary_table_job,
+     .document = "certificate",
+     .forms = k_certificate_forms},
+    {.word = engine::k_circle_closure_kind,
+     .read = [](const FileSource& files,
+                const std::string& job) { return engine::read_circle_closure_job(files, job).warnings; },
+     .evaluate = evaluate_circle_closure_job,
+     .document = "certificate",
+     .forms = k_certificate_forms},
+    {.word = engine::k_comparison_kind,
+     .read = [](const FileSource& files,
+                const std::string& job) { return engine::read_comparison_job(files, job).warnings; },
+     .evaluate = evaluate_comparison_job,
+     .document = "comparison",
+     .forms = k_comparison_forms},
+}};
+
+}  // namespace
+
+std::span<const Kind> program_kinds() {
+    return k_kinds;
+}
+
+const Kind* find_kind(std::span<const Kind> kinds, std::string_view word) {
+    const auto found = std::ranges::find(kinds, word, &Kind::word);
+    return found == kinds.end() ? nullptr : &*found;
+}
+
+const Kind& kind_of(const reports::EvaluationRecord& record, std::span<const Kind> kinds) {
+    const Kind* const found = find_kind(kinds, record.kind);
+    return found != nullptr ? *found : kinds.front();
+}
+
+std::vector<std::string_view> words_of(std::span<const Kind> kinds) {
+    std::vector<std::string_view> words;
+    for (const Kind& kind : kinds) {
+        words.push_back(kind.word);
+    }
+    return words;
+}
+
+}  // namespace gumcert::app

@@ -1,0 +1,112 @@
+#include "app/output_forms.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "gum/quantity/diagnostic.h"
+#include "reports/comparison_csv.h"
+#include "reports/dcc/dcc_document.h"
+
+namespace gumcert::app {
+
+namespace {
+
+using reports::EvaluationRecord;
+
+constexpr std::string_view k_digital_certificate = "dcc";
+
+bool any_record(const EvaluationRecord& /*record*/, std::span<const Kind> /*kinds*/) {
+    return true;
+}
+
+bool holds_comparison(const EvaluationRecord& record, std::span<const Kind> /*kinds*/) {
+    return record.comparison.has_value();
+}
+
+std::string pdf(Issue& issue) {
+    const IssueOptions& options = issue.options();
+    const std::string& attached =
+        is_certificate(issue.record(), options.kinds) ? issue.digital_certificate() : std::string();
+    std::string pdf = reports::render_pdf(issue.record(), options.assets, attached, options.worker);
+    if (options.signer == nullptr) {
+        return pdf;
+    }
+    signing::require_a_chain(*options.signer, options.signing_time);
+    return signing::sign_pdf(pdf, *options.signer, options.signing_time);
+}
+
+constexpr std::array<OutputForm, 5> k_forms{{
+    {.name = "html",
+     .ending = ".html",
+     .media_type = "text/html",
+     .description = "",
+     .applies_to = any_record,
+     .render = [](Issue& issue) { return reports::render_html(issue.record(), issue.options().assets); }},
+    {.name = "pdf",
+     .ending = ".pdf",
+     .media_type = "application/pdf",
+     .description = "",
+     .applies_to = any_record,
+     .render = pdf,
+     .signable = true},
+    {.name = "text",
+     .ending = ".txt",
+     .media_type = "text/plain",
+     .description = "",
+     .applies_to = any_record,
+     .render = [](Issue& issue) { return reports::render_text(issue.record(), issue.options().assets); }},
+    {.name = k_digital_certificate,
+     .ending = ".xml",
+     .media_type = "application/xml",
+     .description = "digital certificate, XML",
+     .applies_to = is_certificate,
+     .render = [](Issue& issue) { return issue.digital_certificate(); },
+     .signable = true},
+    {.name = "csv",
+     .ending = ".csv",
+     .media_type = "text/csv",
+     .description = "scores of a comparison",
+     .applies_to = holds_comparison,
+     .render = [](Issue& issue) { return reports::comparison_csv(issue.record()); },
+     .with_templates = false},
+}};
+
+}  // namespace
+
+const std::string& Issue::digital_certificate() {
+    if (!is_certificate(record_, options_.kinds)) {
+        throw gum::InputError(
+            gum::Diagnostic{.code = "GC-REPORT-0041",
+                            .where = "record",
+                            .what = "a comparison has no digital calibration certificate",
+                            .rule = "it judges results, it does not calibrate",
+                            .action = "use --format html, pdf, text or csv; its record (JSON) is what programs read"});
+    }
+    if (digital_certificate_.empty()) {
+        digital_certificate_ = reports::render_dcc(record_, options_.assets);
+        if (options_.signer != nullptr) {
+            signing::require_a_chain(*options_.signer, options_.signing_time);
+            digital_certificate_ = signing::sign_dcc(digital_certificate_, *options_.signer, options_.signing_time);
+        }
+    }
+    return digital_certificate_;
+}
+
+std::span<const OutputForm> output_forms() {
+    return k_forms;
+}
+
+const OutputForm& output_form(std::string_view name) {
+    const auto found = std::ranges::find(k_forms, name, &OutputForm::name);
+    if (found == k_forms.end()) {
+        throw std::invalid_argument("a form of documents that there is not: " + std::string(name));
+    }
+    return *found;
+}
+
+bool is_certificate(const reports::EvaluationRecord& record, std::span<const Kind> kinds) {
+    return std::ranges::find(kind_of(record, kinds).forms, k_digital_certificate) != kind_of(record, kinds).forms.end();
+}
+
+}  // namespace gumcert::app

@@ -1,0 +1,86 @@
+#include "app/output_forms.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "app/issue_documents.h"
+#include "tests/unit/reports/certified_sample.h"
+#include "tests/unit/reports/document_text.h"
+
+namespace gumcert::app {
+namespace {
+
+using reports::EvaluationRecord;
+
+IssueOptions options_without_signer() {
+    IssueOptions options;
+    options.assets = reports::assets();
+    return options;
+}
+
+EvaluationRecord record_of_kind(const std::string& kind) {
+    EvaluationRecord record;
+    record.kind = kind;
+    return record;
+}
+
+TEST(OutputForms, HaveANameAndAnEndingOfTheirOwn) {
+    std::set<std::string_view> names;
+    std::set<std::string_view> endings;
+    for (const OutputForm& form : output_forms()) {
+        EXPECT_TRUE(names.insert(form.name).second) << form.name;
+        EXPECT_TRUE(endings.insert(form.ending).second) << form.name;
+        EXPECT_TRUE(form.ending.starts_with('.'));
+        EXPECT_NE(form.media_type.find('/'), std::string_view::npos);
+        EXPECT_EQ(&output_form(form.name), &form);
+    }
+    EXPECT_THAT(names, testing::ElementsAre("csv", "dcc", "html", "pdf", "text"));
+    EXPECT_THROW((void)output_form("odt"), std::invalid_argument);
+}
+
+TEST(OutputForms, ThatCarryASignatureAreThePdfAndTheDigitalCertificate) {
+    for (const OutputForm& form : output_forms()) {
+        EXPECT_EQ(form.signable, form.name == "pdf" || form.name == "dcc") << form.name;
+    }
+}
+
+TEST(OutputForms, OfEveryKindAreInTheTable) {
+    for (const Kind& kind : program_kinds()) {
+        for (const std::string_view form : kind.forms) {
+            EXPECT_NO_THROW((void)output_form(form)) << kind.word;
+        }
+    }
+}
+
+TEST(OutputForms, OfAComparisonHaveATableInPlaceOfADigitalCertificate) {
+    EvaluationRecord comparison = record_of_kind("comparison");
+    comparison.comparison.emplace();
+    EXPECT_FALSE(output_form("dcc").applies_to(comparison, program_kinds()));
+    EXPECT_TRUE(output_form("csv").applies_to(comparison, program_kinds()));
+    EXPECT_TRUE(output_form("pdf").applies_to(comparison, program_kinds()));
+    const EvaluationRecord budget = record_of_kind("budget");
+    EXPECT_TRUE(output_form("dcc").applies_to(budget, program_kinds()));
+    EXPECT_FALSE(output_form("csv").applies_to(budget, program_kinds()));
+}
+
+TEST(OutputForms, RefuseWhatTheyDoNotApplyTo) {
+    const IssueOptions options = options_without_signer();
+    const auto code_of = [&](const EvaluationRecord& record, const char* form) -> std::string {
+        try {
+            (void)issue_document(record, form, options);
+        } catch (const gum::InputError& refused) {
+            return refused.diagnostics().front().code;
+        }
+        return "";
+    };
+    EXPECT_EQ(code_of(record_of_kind("comparison"), "dcc"), "GC-REPORT-0041");
+    EXPECT_EQ(code_of(record_of_kind("budget"), "csv"), "GC-REPORT-0040");
+    EXPECT_EQ(code_of(test::certified_budget_record(), "text"), "");
+}
+
+}  // namespace
+}  // namespace gumcert::app
