@@ -6,10 +6,10 @@
 #include "app/record_parts.h"
 #include "app/shared_sources.h"
 #include "gum/argument_check.h"
+#include "gum/comparison/random_effects.h"
+#include "gum/comparison/robust_statistics.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
-#include "gum/random_effects.h"
-#include "gum/robust_statistics.h"
 #include "text/lists.h"
 
 namespace gumcert::app {

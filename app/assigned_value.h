@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "app/laboratory_data.h"
-#include "gum/consensus_spread.h"
-#include "gum/reference_value.h"
+#include "gum/comparison/consensus_spread.h"
+#include "gum/comparison/reference_value.h"
 
 namespace gumcert::app {
 

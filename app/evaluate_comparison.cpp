@@ -7,7 +7,7 @@
 #include "app/laboratory_estimates.h"
 #include "app/laboratory_notes.h"
 #include "app/record_parts.h"
-#include "gum/proficiency_scheme.h"
+#include "gum/comparison/proficiency_scheme.h"
 #include "gum/quantity/progress.h"
 
 namespace gumcert::app {

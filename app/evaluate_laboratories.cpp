@@ -9,7 +9,7 @@
 #include "app/laboratory_scores.h"
 #include "app/laboratory_summary.h"
 #include "app/shared_sources.h"
-#include "gum/comparison.h"
+#include "gum/comparison/scores.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/progress.h"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/job/comparison_job.h"
+#include "gum/comparison/reference_value.h"
 #include "gum/quantity/progress.h"
-#include "gum/reference_value.h"
 #include "reports/record/comparison_evaluation.h"
 
 namespace gumcert::app {

@@ -7,12 +7,12 @@
 
 #include "app/comparison_print.h"
 #include "app/record_parts.h"
-#include "gum/comparison.h"
-#include "gum/consensus_spread.h"
+#include "gum/comparison/consensus_spread.h"
+#include "gum/comparison/random_effects.h"
+#include "gum/comparison/robust_statistics.h"
+#include "gum/comparison/scores.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
-#include "gum/random_effects.h"
-#include "gum/robust_statistics.h"
 #include "gum/rounding.h"
 
 namespace gumcert::app {

@@ -8,12 +8,12 @@
 #include "app/laboratory_estimates.h"
 #include "app/record_parts.h"
 #include "certificate/statement_of_uncertainty.h"
-#include "gum/comparison.h"
-#include "gum/consensus_spread.h"
+#include "gum/comparison/consensus_spread.h"
+#include "gum/comparison/proficiency_scheme.h"
+#include "gum/comparison/robust_statistics.h"
+#include "gum/comparison/scores.h"
 #include "gum/coverage.h"
-#include "gum/proficiency_scheme.h"
 #include "gum/quantity/diagnostic.h"
-#include "gum/robust_statistics.h"
 #include "gum/rounding.h"
 
 namespace gumcert::app {

@@ -7,7 +7,7 @@
 #include "app/comparison_print.h"
 #include "app/laboratory_covariance.h"
 #include "app/record_parts.h"
-#include "gum/comparison.h"
+#include "gum/comparison/scores.h"
 #include "gum/rounding.h"
 
 namespace gumcert::app {

@@ -8,11 +8,11 @@
 #include <set>
 
 #include "app/comparison_print.h"
-#include "gum/agreement.h"
-#include "gum/comparison.h"
+#include "gum/comparison/agreement.h"
+#include "gum/comparison/robust_statistics.h"
+#include "gum/comparison/scores.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
-#include "gum/robust_statistics.h"
 
 namespace gumcert::app {
 

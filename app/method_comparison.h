@@ -38,7 +38,7 @@ struct MethodComparison {
 /// Fills `points`, `summary` and the remarks that follow from the numbers; the rest of the record is the caller's.
 ///
 /// Directions come in the order of the points, then "all" where there is more than one direction, or one without name.
-/// Differences are judged with their full covariance, V + V_ref − C − Cᵀ (gum/agreement.h).
+/// Differences are judged with their full covariance, V + V_ref − C − Cᵀ (gum/comparison/agreement.h).
 /// \throws InputError, NoResultError
 void compare_methods(reports::Comparison& record, const MethodComparison& comparison);
 

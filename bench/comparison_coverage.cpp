@@ -18,13 +18,13 @@
 #include <string>
 #include <vector>
 
-#include "gum/agreement.h"
-#include "gum/comparison.h"
-#include "gum/consensus_spread.h"
+#include "gum/comparison/agreement.h"
+#include "gum/comparison/consensus_spread.h"
+#include "gum/comparison/random_effects.h"
+#include "gum/comparison/reference_value.h"
+#include "gum/comparison/robust_statistics.h"
+#include "gum/comparison/scores.h"
 #include "gum/coverage.h"
-#include "gum/random_effects.h"
-#include "gum/reference_value.h"
-#include "gum/robust_statistics.h"
 
 namespace {
 

@@ -105,7 +105,7 @@ AssignedValueRequest read_object(const ComparisonReading& reading, const JsonObj
                                   .low_open = true,
                                   .high_open = true,
                                   .hint = "state the probability of failing a consistent set, 0.05 is usual"};
-    // The search for the subset rests on a critical value that holds up to here (gum/reference_value.h).
+    // The search for the subset rests on a critical value that holds up to here (gum/comparison/reference_value.h).
     constexpr NumberRange k_alpha_of_subset{.low = 0.0, .high = 0.3, .low_open = true, .hint = k_alpha.hint};
     AssignedValueRequest request;
     request.method = method;

@@ -15,13 +15,13 @@
 #include <utility>
 #include <vector>
 
-#include "gum/agreement.h"
-#include "gum/consensus_spread.h"
+#include "gum/comparison/agreement.h"
+#include "gum/comparison/consensus_spread.h"
+#include "gum/comparison/random_effects.h"
+#include "gum/comparison/reference_value.h"
+#include "gum/comparison/robust_statistics.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
-#include "gum/random_effects.h"
-#include "gum/reference_value.h"
-#include "gum/robust_statistics.h"
 
 namespace gumcert::gum {
 namespace {

@@ -1,5 +1,5 @@
 // Checks of the items and the standard deviation of proficiency tests against published numbers.
-#include "gum/proficiency_scheme.h"
+#include "gum/comparison/proficiency_scheme.h"
 
 #include <gtest/gtest.h>
 

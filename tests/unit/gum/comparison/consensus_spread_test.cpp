@@ -1,4 +1,4 @@
-#include "gum/consensus_spread.h"
+#include "gum/comparison/consensus_spread.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <limits>
 #include <vector>
 
+#include "gum/comparison/random_effects.h"
+#include "gum/comparison/robust_statistics.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
-#include "gum/random_effects.h"
-#include "gum/robust_statistics.h"
 #include "tests/unit/gum/printed.h"
 
 namespace gumcert::gum {

@@ -1,5 +1,5 @@
 // Means of results that differ more than their uncertainties explain: published figures, limits, refusals.
-#include "gum/random_effects.h"
+#include "gum/comparison/random_effects.h"
 
 #include <gtest/gtest.h>
 

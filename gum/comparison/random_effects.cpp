@@ -1,4 +1,4 @@
-#include "gum/random_effects.h"
+#include "gum/comparison/random_effects.h"
 
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "gum/argument_check.h"
-#include "gum/correlated_results.h"
+#include "gum/comparison/correlated_results.h"
 #include "gum/quantity/diagnostic.h"
 #include "text/numbers.h"
 

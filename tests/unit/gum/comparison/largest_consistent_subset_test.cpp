@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "gum/comparison/reference_value.h"
 #include "gum/quantity/diagnostic.h"
-#include "gum/reference_value.h"
 #include "printed.h"
 
 namespace gumcert::gum {

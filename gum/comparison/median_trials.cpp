@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "gum/argument_check.h"
-#include "gum/correlated_results.h"
+#include "gum/comparison/correlated_results.h"
+#include "gum/comparison/reference_value.h"
 #include "gum/monte_carlo_statistics.h"
 #include "gum/random_draws.h"
-#include "gum/reference_value.h"
 #include "gum/worker_threads.h"
 
 namespace gumcert::gum {

@@ -1,6 +1,6 @@
 // Weighted mean, consistency test, degrees of equivalence: published and independently computed figures, and what is
 // refused.
-#include "gum/reference_value.h"
+#include "gum/comparison/reference_value.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "gum/argument_check.h"
+#include "gum/comparison/random_effects.h"
 #include "gum/quantity/diagnostic.h"
-#include "gum/random_effects.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {

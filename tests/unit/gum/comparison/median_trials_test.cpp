@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "gum/comparison/reference_value.h"
 #include "gum/quantity/diagnostic.h"
-#include "gum/reference_value.h"
 #include "printed.h"
 
 namespace gumcert::gum {

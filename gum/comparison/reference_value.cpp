@@ -1,4 +1,4 @@
-#include "gum/reference_value.h"
+#include "gum/comparison/reference_value.h"
 
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "gum/argument_check.h"
-#include "gum/correlated_results.h"
+#include "gum/comparison/correlated_results.h"
 #include "gum/coverage.h"
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "gum/argument_check.h"
-#include "gum/correlated_results.h"
-#include "gum/reference_value.h"
+#include "gum/comparison/correlated_results.h"
+#include "gum/comparison/reference_value.h"
 
 namespace gumcert::gum {
 namespace {

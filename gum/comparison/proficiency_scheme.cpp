@@ -1,4 +1,4 @@
-#include "gum/proficiency_scheme.h"
+#include "gum/comparison/proficiency_scheme.h"
 
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>

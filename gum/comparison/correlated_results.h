@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 
-#include "gum/reference_value.h"
+#include "gum/comparison/reference_value.h"
 
 namespace gumcert::gum {
 

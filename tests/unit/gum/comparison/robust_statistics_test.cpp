@@ -1,5 +1,5 @@
 // Robust statistics against published numbers, brute force and their own properties.
-#include "gum/robust_statistics.h"
+#include "gum/comparison/robust_statistics.h"
 
 #include <gtest/gtest.h>
 

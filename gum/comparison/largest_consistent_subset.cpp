@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "gum/argument_check.h"
-#include "gum/correlated_results.h"
+#include "gum/comparison/correlated_results.h"
+#include "gum/comparison/reference_value.h"
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/special_values.h"
-#include "gum/reference_value.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "gum/reference_value.h"
+#include "gum/comparison/reference_value.h"
 
 namespace gumcert::gum {
 

@@ -1,4 +1,4 @@
-#include "gum/agreement.h"
+#include "gum/comparison/agreement.h"
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "gum/argument_check.h"
-#include "gum/comparison.h"
+#include "gum/comparison/scores.h"
 #include "gum/coverage.h"
 #include "gum/propagation.h"
 #include "gum/quantity/dense_factors.h"

@@ -1,4 +1,4 @@
-#include "gum/comparison.h"
+#include "gum/comparison/scores.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "gum/robust_statistics.h"
+#include "gum/comparison/robust_statistics.h"
 
 #include <algorithm>
 #include <bit>

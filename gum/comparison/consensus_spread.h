@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "gum/reference_value.h"
+#include "gum/comparison/reference_value.h"
 
 namespace gumcert::gum {
 

@@ -1,4 +1,4 @@
-#include "gum/consensus_spread.h"
+#include "gum/comparison/consensus_spread.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,9 @@
 #include <string>
 
 #include "gum/argument_check.h"
+#include "gum/comparison/robust_statistics.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
-#include "gum/robust_statistics.h"
 
 namespace gumcert::gum {
 namespace {

@@ -1,4 +1,4 @@
-#include "gum/agreement.h"
+#include "gum/comparison/agreement.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "gum/comparison.h"
+#include "gum/comparison/scores.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/unit/gum/printed.h"
