@@ -72,7 +72,7 @@ void take_off_mean(MethodSide& side, double coverage_probability) {
     side.covariance = 0.5 * (V + V.transpose());
     for (Index i = 0; i < n; ++i) {
         const auto at = static_cast<std::size_t>(i);
-        engine::ResultUncertainty& u = side.uncertainty[at];
+        gum::ResultUncertainty& u = side.uncertainty[at];
         side.value[at] = x(i);
         u.u = std::sqrt(std::max(side.covariance(i, i), 0.0));
         u.k = gum::coverage_factor(coverage_probability, u.degrees_of_freedom);

@@ -3,11 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "app/laboratory_covariance.h"
-#include "app/laboratory_estimates.h"
-#include "app/laboratory_notes.h"
 #include "app/record_parts.h"
+#include "gum/comparison/laboratory_covariance.h"
 #include "gum/comparison/proficiency_scheme.h"
+#include "gum/comparison/reference_estimates.h"
 #include "gum/quantity/progress.h"
 
 namespace gumcert::app {
@@ -22,19 +21,14 @@ nlohmann::json options_of(const engine::ComparisonJob& job) {
     return {{"form", "laboratories"},
             {"assigned_value_criterion", gum::k_assigned_value_criterion},
             {"metrological_compatibility_kappa", 2.0},
-            {"most_laboratories_in_pairs", k_most_laboratories_in_pairs},
-            {"most_results_of_pair_count", k_most_results_of_pair_count},
-            {"most_correlated_laboratories", k_most_correlated_laboratories},
+            {"most_laboratories_in_pairs", gum::k_most_laboratories_in_pairs},
+            {"most_results_of_pair_count", gum::k_most_results_of_pair_count},
+            {"most_correlated_laboratories", gum::k_most_correlated_laboratories},
             {"youden_ellipse_probability", 0.95}};
 }
 
 /// A job of this kind may carry certificate data by mistake.
-std::vector<gum::Diagnostic> notes_on(const engine::ComparisonJob& job, const reports::Comparison& comparison,
-                                      std::vector<gum::Diagnostic> notes) {
-    if (!job.methods) {
-        const std::vector<gum::Diagnostic> of_items = laboratory_diagnostics(comparison);
-        notes.insert(notes.end(), of_items.begin(), of_items.end());
-    }
+std::vector<gum::Diagnostic> notes_on(const engine::ComparisonJob& job, std::vector<gum::Diagnostic> notes) {
     if (job.certificate) {
         notes.push_back({.code = "GC-COMPARE-0125",
                          .where = "job, certificate",
@@ -60,7 +54,7 @@ reports::EvaluationRecord evaluate_comparison(const engine::ComparisonJob& job,
         comparison.issuer = reports::ComparisonIssuer{
             .laboratory = data.laboratory.name, .number = data.number, .issued = data.dates.issued};
     }
-    const std::vector<gum::Diagnostic> notes = notes_on(job, comparison, std::move(found));
+    const std::vector<gum::Diagnostic> notes = notes_on(job, std::move(found));
     reports::EvaluationRecord record = record_head(
         "comparison", {job.title, job.coverage_probability, job.document, job.warnings, notes}, options_of(job), files);
     record.comparison = std::move(comparison);

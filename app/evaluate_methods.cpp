@@ -7,11 +7,11 @@
 #include "app/compared_job_side.h"
 #include "app/comparison_print.h"
 #include "app/evaluate_comparison.h"
-#include "app/method_comparison.h"
 #include "app/method_correlation.h"
+#include "app/method_record.h"
 #include "app/method_side.h"
+#include "app/name_spelling.h"
 #include "app/record_parts.h"
-#include "app/shared_sources.h"
 #include "gum/rounding.h"
 
 namespace gumcert::app {
@@ -46,12 +46,13 @@ MethodSide side_of(const ComparisonJob& job, const MethodComparisonRequest& requ
     return stated;
 }
 
-MethodComparison method_comparison(const ComparisonJob& job, const MethodSide& method, const MethodSide& reference) {
+gum::MethodComparison method_comparison(const ComparisonJob& job, const MethodSide& method,
+                                        const MethodSide& reference) {
     const MethodComparisonRequest& request = *job.methods;
-    MethodComparison comparison;
+    gum::MethodComparison comparison;
     for (std::size_t i = 0; i < request.points.size(); ++i) {
-        const engine::ResultUncertainty& of_method = method.uncertainty[i];
-        const engine::ResultUncertainty& of_reference = reference.uncertainty[i];
+        const gum::ResultUncertainty& of_method = method.uncertainty[i];
+        const gum::ResultUncertainty& of_reference = reference.uncertainty[i];
         comparison.points.push_back({.name = request.points[i].name,
                                      .direction = request.points[i].direction,
                                      .position = request.points[i].position,
@@ -72,15 +73,14 @@ MethodComparison method_comparison(const ComparisonJob& job, const MethodSide& m
     comparison.bias_against_position = request.bias_against_position;
     comparison.audited_factor = request.laboratory.audited_factor;
     comparison.reference_audited_factor = request.reference.audited_factor;
-    comparison.printed_unit = request.unit.text();
     return comparison;
 }
 
 std::set<std::string> source_names(const std::vector<const MethodSide*>& sides) {
     std::set<std::string> names;
     for (const MethodSide* side : sides) {
-        for (const std::vector<engine::UncertaintySource>& of_point : side->sources.all) {
-            for (const engine::UncertaintySource& source : of_point) {
+        for (const std::vector<gum::UncertaintySource>& of_point : side->sources.all) {
+            for (const gum::UncertaintySource& source : of_point) {
                 names.insert(source.source);
             }
         }
@@ -135,7 +135,7 @@ reports::Comparison evaluate_methods(const ComparisonJob& job, std::vector<gum::
                                     " compared angles was taken off both sides, with its covariance: the zero of a "
                                     "deviation of an angle is a convention, and so is a constant difference.");
     }
-    MethodComparison comparison = method_comparison(job, method, reference);
+    gum::MethodComparison comparison = method_comparison(job, method, reference);
     comparison.mean_taken_off = takes_mean_off;
 
     reports::Comparison record;
@@ -157,7 +157,7 @@ reports::Comparison evaluate_methods(const ComparisonJob& job, std::vector<gum::
         *notes = similar_source_names(source_names({&method, &reference}), job.different_sources);
     }
     add_correlation(job, method, reference, comparison, record);
-    compare_methods(record, comparison);
+    add_method_comparison(comparison, request.unit.text(), record);
     add_capability(request.laboratory, record);
     return record;
 }

@@ -1,11 +1,11 @@
 #include "app/laboratory_notes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <set>
 
 #include "app/comparison_print.h"
-#include "app/laboratory_estimates.h"
 #include "app/record_parts.h"
 #include "gum/rounding.h"
 #include "text/lists.h"
@@ -16,7 +16,6 @@ namespace gumcert::app {
 namespace {
 
 using reports::ComparisonItemEvaluation;
-using reports::ComparisonPoint;
 
 std::string place_of(const ComparisonItemEvaluation& item) {
     const std::string place = item.id.empty() ? "comparison" : "item \"" + item.id + "\"";
@@ -30,39 +29,42 @@ std::string in_percent(double probability) {
     return gum::round_significant(100.0 * probability, 4) + " %";
 }
 
+/// The numbers of a comparison, and their texts in its record.
+struct Evaluated {
+    const engine::ComparisonJob& job;
+    const gum::LaboratoryComparison& comparison;
+    const reports::Comparison& record;
+};
+
 /// A message about those items that something holds for; nothing where it holds for none.
 class ItemMessages {
 public:
-    explicit ItemMessages(const reports::Comparison& comparison) : comparison_(comparison) {}
+    explicit ItemMessages(const Evaluated& evaluated) : evaluated_(evaluated) {}
 
     /// \param what  of the first of them; how many others there are is added
-    void add(gum::Diagnostic message, const std::function<bool(const ComparisonItemEvaluation&)>& holds,
+    void add(gum::Diagnostic message, const std::function<bool(const gum::ItemResult&)>& holds,
              const std::function<std::string(const ComparisonItemEvaluation&)>& what) {
-        const ComparisonItemEvaluation* first = nullptr;
-        std::size_t count = 0;
-        for (const ComparisonItemEvaluation& item : comparison_.items) {
-            if (holds(item)) {
-                first = first == nullptr ? &item : first;
-                ++count;
-            }
-        }
-        if (first == nullptr) {
+        const std::vector<gum::ItemResult>& items = evaluated_.comparison.items;
+        const auto first = std::find_if(items.begin(), items.end(), holds);
+        if (first == items.end()) {
             return;
         }
-        message.where = place_of(*first);
-        message.what = what(*first);
-        if (count > 1) {
+        const ComparisonItemEvaluation& recorded =
+            evaluated_.record.items[static_cast<std::size_t>(first - items.begin())];
+        message.where = place_of(recorded);
+        message.what = what(recorded);
+        if (const auto count = std::count_if(first, items.end(), holds); count > 1) {
             message.what += ", and " + std::to_string(count - 1) + (count > 2 ? " more like it" : " other like it") +
-                            " among " + std::to_string(comparison_.items.size());
+                            " among " + std::to_string(items.size());
         }
         messages_.push_back(std::move(message));
     }
 
     [[nodiscard]] std::vector<gum::Diagnostic> take() { return std::move(messages_); }
-    [[nodiscard]] const reports::Comparison& comparison() const { return comparison_; }
+    [[nodiscard]] const gum::LaboratoryComparison& comparison() const { return evaluated_.comparison; }
 
 private:
-    const reports::Comparison& comparison_;
+    const Evaluated& evaluated_;
     std::vector<gum::Diagnostic> messages_;
 };
 
@@ -72,8 +74,8 @@ std::string with_unit(const std::string& number, const ComparisonItemEvaluation&
     return unit.empty() ? number : number + " " + unit;
 }
 
-bool inconsistent(const ComparisonItemEvaluation& item) {
-    return item.consistency && !item.consistency->consistent;
+bool inconsistent(const gum::ItemResult& item) {
+    return item.consistency && !item.consistency->test.consistent;
 }
 
 std::string test_text(const ComparisonItemEvaluation& item) {
@@ -95,7 +97,9 @@ void add_consistency(ItemMessages& messages) {
         .severity = gum::Severity::warning};
     messages.add(
         warning,
-        [](const ComparisonItemEvaluation& item) { return item.method == "weighted_mean" && inconsistent(item); },
+        [](const gum::ItemResult& item) {
+            return item.method == gum::AssignedValueMethod::weighted_mean && inconsistent(item);
+        },
         test_text);
     gum::Diagnostic note = warning;
     note.rule = "the assigned value does not rest on this consistency";
@@ -103,7 +107,10 @@ void add_consistency(ItemMessages& messages) {
         "At least one value or one uncertainty is wrong, and small scores clear nobody: look for the cause, beginning "
         "with the results of large scores.";
     messages.add(
-        note, [](const ComparisonItemEvaluation& item) { return item.method != "weighted_mean" && inconsistent(item); },
+        note,
+        [](const gum::ItemResult& item) {
+            return item.method != gum::AssignedValueMethod::weighted_mean && inconsistent(item);
+        },
         test_text);
 }
 
@@ -116,7 +123,7 @@ void add_checks_of_items(ItemMessages& messages) {
          .action = "Its standard uncertainty is in u(X). Where that makes the scores meaningless, take items that "
                    "are more alike.",
          .severity = gum::Severity::warning},
-        [](const ComparisonItemEvaluation& item) { return item.homogeneity && !item.homogeneity->sufficient_expanded; },
+        [](const gum::ItemResult& item) { return item.homogeneity && !item.homogeneity->sufficient_expanded; },
         [](const ComparisonItemEvaluation& item) {
             return "the items differ by s_s = " + with_unit(item.homogeneity->printed.s_s, item) +
                    ", the expanded limit is " + with_unit(item.homogeneity->printed.expanded_limit, item);
@@ -129,16 +136,16 @@ void add_checks_of_items(ItemMessages& messages) {
          .action = "A drift of this size, in either direction, is in u(X) with difference/√3. Where it is known "
                    "which way it went, correct for it.",
          .severity = gum::Severity::warning},
-        [](const ComparisonItemEvaluation& item) { return item.stability && !item.stability->stable_expanded; },
+        [](const gum::ItemResult& item) { return item.stability && !item.stability->stable_expanded; },
         [](const ComparisonItemEvaluation& item) {
             return "the items changed by " + with_unit(item.stability->printed.difference, item) +
                    ", the expanded limit is " + with_unit(item.stability->printed.expanded_limit, item);
         });
 }
 
-bool comparison_has_inconclusive(const reports::Comparison& comparison, const ComparisonItemEvaluation& item) {
-    return std::any_of(comparison.points.begin(), comparison.points.end(), [&](const ComparisonPoint& point) {
-        return point.item == item.id && point.round == item.round && point.signal == "inconclusive";
+bool has_inconclusive(const gum::LaboratoryComparison& comparison, const gum::ItemResult& item) {
+    return std::any_of(comparison.results.begin(), comparison.results.end(), [&](const gum::ScoredResult& result) {
+        return result.item == item.item && result.round == item.round && result.verdict == gum::Verdict::inconclusive;
     });
 }
 
@@ -152,9 +159,7 @@ void add_assigned_value(ItemMessages& messages) {
              "Take an assigned value with a smaller uncertainty: a reference laboratory, a reference material, or "
              "more results.",
          .severity = gum::Severity::warning},
-        [&](const ComparisonItemEvaluation& item) {
-            return item.u && comparison_has_inconclusive(messages.comparison(), item);
-        },
+        [&](const gum::ItemResult& item) { return item.u && has_inconclusive(messages.comparison(), item); },
         [](const ComparisonItemEvaluation& item) {
             return "the assigned value, " + item.printed.value +
                    (item.printed.U.empty() ? "" : " with U = " + with_unit(item.printed.U, item)) +
@@ -167,7 +172,7 @@ void add_assigned_value(ItemMessages& messages) {
          .rule = "z is used up to 0.3, z' above (ISO 13528:2022, clause 9)",
          .action = "",
          .severity = gum::Severity::note},
-        [](const ComparisonItemEvaluation& item) { return !item.criterion_met.value_or(true); },
+        [](const gum::ItemResult& item) { return !item.criterion_met; },
         [](const ComparisonItemEvaluation& item) {
             return "u(X) is " + item.printed.criterion + " sigma_pt: z' decides";
         });
@@ -179,7 +184,7 @@ void add_assigned_value(ItemMessages& messages) {
          .action = "Find out why before scores are issued: a bias that the laboratories share, or the "
                    "reference value.",
          .severity = gum::Severity::warning},
-        [](const ComparisonItemEvaluation& item) { return item.consensus && !item.consensus->consistent; },
+        [](const gum::ItemResult& item) { return item.consensus && !item.consensus->consistent; },
         [](const ComparisonItemEvaluation& item) {
             return "the consensus differs from the independent reference value by " +
                    with_unit(item.consensus->printed.difference, item) + ", " + item.consensus->printed.ratio +
@@ -192,7 +197,7 @@ void add_assigned_value(ItemMessages& messages) {
          .rule = "an uncertainty of the assigned value is needed for E_n, zeta and z'",
          .action = "Ask for results with more digits, or give an assigned value.",
          .severity = gum::Severity::warning},
-        [](const ComparisonItemEvaluation& item) { return !item.u; },
+        [](const gum::ItemResult& item) { return !item.u; },
         [](const ComparisonItemEvaluation&) {
             return std::string(
                 "more than half of the results are equal: no uncertainty of the assigned value "
@@ -205,9 +210,9 @@ void add_assigned_value(ItemMessages& messages) {
          .rule = "correlations that are strong against the ratio of two uncertainties lead to it",
          .action = "Make sure of the correlations: the assigned value depends on them strongly.",
          .severity = gum::Severity::warning},
-        [](const ComparisonItemEvaluation& item) {
+        [](const gum::ItemResult& item) {
             return std::any_of(item.weights.begin(), item.weights.end(),
-                               [](const reports::ResultWeight& weight) { return weight.weight < 0.0; });
+                               [](const gum::ItemResult::Weight& weight) { return weight.weight < 0.0; });
         },
         [](const ComparisonItemEvaluation& item) {
             const auto weight = std::min_element(item.weights.begin(), item.weights.end(),
@@ -216,53 +221,53 @@ void add_assigned_value(ItemMessages& messages) {
         });
 }
 
-bool any_item(const reports::Comparison& comparison,
-              const std::function<bool(const ComparisonItemEvaluation&)>& holds) {
+bool any_item(const gum::LaboratoryComparison& comparison, const std::function<bool(const gum::ItemResult&)>& holds) {
     return std::any_of(comparison.items.begin(), comparison.items.end(), holds);
 }
 
-std::size_t count_points(const reports::Comparison& comparison,
-                         const std::function<bool(const ComparisonPoint&)>& holds) {
-    return static_cast<std::size_t>(std::count_if(comparison.points.begin(), comparison.points.end(), holds));
+std::size_t count_results(const gum::LaboratoryComparison& comparison,
+                          const std::function<bool(const gum::ScoredResult&)>& holds) {
+    return static_cast<std::size_t>(std::count_if(comparison.results.begin(), comparison.results.end(), holds));
 }
 
-bool is_robust(const ComparisonItemEvaluation& item) {
-    return item.method == "median" || item.method == "algorithm_a" || item.method == "q_hampel";
+bool is_robust(const gum::ItemResult& item) {
+    return item.method == gum::AssignedValueMethod::median || item.method == gum::AssignedValueMethod::algorithm_a ||
+           item.method == gum::AssignedValueMethod::q_hampel;
 }
 
 /// What the test of all results said before some of them were left out.
-std::string subset_remark(const EvaluatedItem& item, const ComparisonItemEvaluation& evaluation) {
-    const gum::ConsistencyTest all =
-        gum::consistency_test(item.data->at(item.data->contributing), item.data->item->assigned_value.alpha);
+std::string subset_remark(const gum::ItemResult& item, const ComparisonItemEvaluation& recorded) {
+    const gum::ConsistencyTest& all = *item.consistency_of_all;
     std::string remark =
-        "All " + std::to_string(item.data->contributing.size()) + " results together are not consistent: chi-square " +
-        gum::round_significant(all.chi_square, 4) + " on " +
+        "All " + std::to_string(item.contributing + item.not_consistent.size()) +
+        " results together are not consistent: chi-square " + gum::round_significant(all.chi_square, 4) + " on " +
         text::count_of(static_cast<std::int64_t>(all.degrees_of_freedom), "degree") +
         " of freedom, p = " + printed_probability(all.p_value) + ". The largest consistent subset leaves out ";
-    remark += text::listed(evaluation.not_consistent) +
+    remark += text::listed(recorded.not_consistent) +
               ". Being left out says that a result does not fit the others, not that it is wrong.";
-    if (!item.assigned.subset_unique) {
+    if (!item.subset_unique) {
         remark += " Another subset of the same size fits as well: the choice between them is arbitrary.";
     }
     return remark;
 }
 
 /// What U(X) covers, and what U of the results mean in E_n.
-void add_remarks_on_coverage(const engine::ComparisonJob& job, const reports::Comparison& comparison,
-                             std::vector<std::string>& remarks) {
-    if (any_item(comparison, [](const ComparisonItemEvaluation& item) { return item.U_rests_on == "scatter"; })) {
+void add_remarks_on_coverage(const Evaluated& evaluated, std::vector<std::string>& remarks) {
+    const auto& [job, comparison, record] = evaluated;
+    if (any_item(comparison,
+                 [](const gum::ItemResult& item) { return item.expanded_by == gum::ExpandedBy::scatter; })) {
         remarks.emplace_back(
             "U(X) comes from the scatter of the results, with the t-distribution for their number: it covers also "
             "where "
             "laboratories differ by more than they state.");
     }
-    if (count_points(comparison, [](const ComparisonPoint& point) { return point.u_others.has_value(); }) > 0) {
+    if (count_results(comparison, [](const gum::ScoredResult& result) { return result.scatter.has_value(); }) > 0) {
         remarks.emplace_back(
             "In En of a laboratory the uncertainty of the assigned value is what the scatter of all other results "
             "says: "
             "a result that lies far away does not widen the limit that it is held against.");
     }
-    for (const ComparisonItemEvaluation& item : comparison.items) {
+    for (const ComparisonItemEvaluation& item : record.items) {
         if (item.coverage_with_scatter) {
             remarks.emplace_back(
                 "A U(X) that comes from the stated uncertainties alone covers what it claims only where these explain "
@@ -275,23 +280,24 @@ void add_remarks_on_coverage(const engine::ComparisonJob& job, const reports::Co
             break;
         }
     }
-    if (any_item(comparison, [](const ComparisonItemEvaluation& item) {
-            return item.U_rests_on == "uncertainties" && item.nu && !item.weights.empty();
+    if (any_item(comparison, [](const gum::ItemResult& item) {
+            return item.expanded_by == gum::ExpandedBy::uncertainties && std::isfinite(item.degrees_of_freedom) &&
+                   !item.weights.empty();
         })) {
         remarks.emplace_back(
             "Weights that come from uncertainties with few degrees of freedom are uncertain themselves: U(X) of a "
             "weighted mean then covers less than it claims.");
     }
-    const bool by_default = std::any_of(job.items.begin(), job.items.end(), [](const engine::ComparisonItem& item) {
-        return item.assigned_value.by_default;
-    });
+    const bool by_default = std::any_of(job.items.begin(), job.items.end(),
+                                        [](const gum::ComparisonItem& item) { return item.assigned_value.by_default; });
     if (by_default) {
         remarks.emplace_back("The job names no way to the assigned value; the default was taken.");
     }
     std::vector<std::string> converted;
-    for (const ComparisonPoint& point : comparison.points) {
-        if (point.U_of_scores && std::find(converted.begin(), converted.end(), point.participant) == converted.end()) {
-            converted.push_back(point.participant);
+    for (const gum::ScoredResult& result : comparison.results) {
+        const std::string& id = job.participants[result.participant].id;
+        if (result.of_scores && std::find(converted.begin(), converted.end(), id) == converted.end()) {
+            converted.push_back(id);
         }
     }
     if (!converted.empty()) {
@@ -306,39 +312,37 @@ void add_remarks_on_coverage(const engine::ComparisonJob& job, const reports::Co
     }
 }
 
-void add_remarks_on_value(const engine::ComparisonJob& job, const reports::Comparison& comparison,
-                          const std::vector<EvaluatedItem>& items, std::vector<std::string>& remarks) {
-    constexpr std::int64_t k_few_for_robust = 12;
+void add_remarks_on_value(const Evaluated& evaluated, std::vector<std::string>& remarks) {
+    const auto& [job, comparison, record] = evaluated;
+    constexpr std::size_t k_few_for_robust = 12;
     constexpr std::size_t k_most_subset_remarks = 10;
-    if (std::any_of(items.begin(), items.end(),
-                    [](const EvaluatedItem& item) { return !item.assigned.correlation_known; })) {
+    if (any_item(comparison, [](const gum::ItemResult& item) { return !item.correlation_known; })) {
         remarks.emplace_back(
             "A robust assigned value is not linear in the results: its covariance with a result that it is made of is "
             "taken as that of their mean, which is exact for normal results of equal uncertainty.");
     }
-    add_remarks_on_coverage(job, comparison, remarks);
-    if (any_item(comparison, [](const ComparisonItemEvaluation& item) {
-            return is_robust(item) && item.contributing < k_few_for_robust;
-        })) {
+    add_remarks_on_coverage(evaluated, remarks);
+    if (any_item(comparison,
+                 [](const gum::ItemResult& item) { return is_robust(item) && item.contributing < k_few_for_robust; })) {
         remarks.emplace_back(
             "Fewer than 12 results: the scale of a robust assigned value is rough, and its coverage factor large for "
             "it.");
     }
     std::size_t subsets = 0;
-    for (std::size_t i = 0; i < items.size(); ++i) {
-        if (!items[i].assigned.not_consistent.empty() && subsets++ < k_most_subset_remarks) {
-            const std::string prefix = items.size() > 1 ? place_of(comparison.items[i]) + ": " : "";
-            remarks.push_back(prefix + subset_remark(items[i], comparison.items[i]));
+    for (std::size_t i = 0; i < record.items.size(); ++i) {
+        if (!comparison.items[i].not_consistent.empty() && subsets++ < k_most_subset_remarks) {
+            const std::string prefix = record.items.size() > 1 ? place_of(record.items[i]) + ": " : "";
+            remarks.push_back(prefix + subset_remark(comparison.items[i], record.items[i]));
         }
     }
-    if (any_item(comparison, [](const ComparisonItemEvaluation& item) { return item.homogeneity.has_value(); })) {
+    if (any_item(comparison, [](const gum::ItemResult& item) { return item.homogeneity.has_value(); })) {
         remarks.emplace_back(
             "The standard deviation between items, s_s, is in u(X): the item of a laboratory need not be the mean "
             "one.");
     }
 }
 
-void add_remarks_on_correlation(const engine::ComparisonJob& job, const reports::Comparison& comparison,
+void add_remarks_on_correlation(const engine::ComparisonJob& job, const gum::LaboratoryComparison& comparison,
                                 std::vector<std::string>& remarks) {
     if (!comparison.shared_sources.empty()) {
         remarks.emplace_back(
@@ -349,7 +353,7 @@ void add_remarks_on_correlation(const engine::ComparisonJob& job, const reports:
         remarks.push_back(
             "Taken as not shared although several results may name it: " + text::listed(job.independent_sources) + ".");
     }
-    if (count_points(comparison, [](const ComparisonPoint& point) { return point.En_worst.has_value(); }) > 0) {
+    if (count_results(comparison, [](const gum::ScoredResult& result) { return result.en_worst.has_value(); }) > 0) {
         remarks.emplace_back(
             "Laboratories of one group may share effects, and the job states no correlation for the group. En is given "
             "for none, and beside it for the worst that is plausible: that the smaller uncertainty is shared whole.");
@@ -362,16 +366,12 @@ void add_remarks_on_correlation(const engine::ComparisonJob& job, const reports:
 }
 
 /// What was found between the assigned value and the results, and what the budgets do not tell.
-void add_remarks_on_sources(const std::vector<EvaluatedItem>& items, std::vector<std::string>& remarks) {
+void add_remarks_on_sources(const gum::LaboratoryComparison& comparison, std::vector<std::string>& remarks) {
     std::set<std::string> ambiguous;
-    bool shared_with_value = false;
-    for (const EvaluatedItem& item : items) {
-        ambiguous.insert(item.data->ambiguous_sources.begin(), item.data->ambiguous_sources.end());
-        ambiguous.insert(item.assigned.ambiguous_sources.begin(), item.assigned.ambiguous_sources.end());
-        const bool given = item.data->item->assigned_value.method == engine::AssignedValueMethod::given;
-        shared_with_value = shared_with_value || (given && !item.assigned.covariance.isZero(0.0));
+    for (const gum::ItemResult& item : comparison.items) {
+        ambiguous.insert(item.ambiguous_sources.begin(), item.ambiguous_sources.end());
     }
-    if (shared_with_value) {
+    if (any_item(comparison, [](const gum::ItemResult& item) { return item.shares_sources; })) {
         remarks.emplace_back(
             "The assigned value and some results name the same source of uncertainty: they are taken as correlated "
             "through it, with the covariance of what both state for the source.");
@@ -384,11 +384,11 @@ void add_remarks_on_sources(const std::vector<EvaluatedItem>& items, std::vector
     }
 }
 
-void add_remarks_on_uncertainties(const reports::Comparison& comparison, std::vector<std::string>& remarks) {
+void add_remarks_on_uncertainties(const gum::LaboratoryComparison& comparison, std::vector<std::string>& remarks) {
     constexpr double k_suspicious_ratio = 2.0;
-    const std::size_t large = count_points(comparison, [](const ComparisonPoint& point) {
+    const std::size_t large = count_results(comparison, [](const gum::ScoredResult& point) {
         return point.U_over_median.value_or(0.0) > k_suspicious_ratio ||
-               point.U_over_CMC.value_or(0.0) > k_suspicious_ratio;
+               point.U_over_cmc.value_or(0.0) > k_suspicious_ratio;
     });
     if (large > 0) {
         remarks.push_back(
@@ -396,26 +396,26 @@ void add_remarks_on_uncertainties(const reports::Comparison& comparison, std::ve
             " more than twice the U of the others or of the laboratory's own capability. |En| at or below 1 "
             "says little then: an uncertainty that is stated too large always passes.");
     }
-    const std::size_t small =
-        count_points(comparison, [](const ComparisonPoint& point) { return point.realism == "small"; });
+    const std::size_t small = count_results(
+        comparison, [](const gum::ScoredResult& point) { return point.realism == gum::UncertaintyRealism::small; });
     if (small > 0) {
         remarks.push_back(std::to_string(small) + (small > 1 ? " results state" : " result states") +
                           " a standard uncertainty below that of the assigned value.");
     }
-    const std::size_t inconclusive =
-        count_points(comparison, [](const ComparisonPoint& point) { return point.signal == "inconclusive"; });
+    const std::size_t inconclusive = count_results(
+        comparison, [](const gum::ScoredResult& point) { return point.verdict == gum::Verdict::inconclusive; });
     if (inconclusive > 0) {
         remarks.push_back("The assigned value is less certain than " + std::to_string(inconclusive) +
                           (inconclusive > 1 ? " results claim to be: small scores clear none of them."
                                             : " result claims to be: a small score does not clear it."));
     }
-    if (count_points(comparison, [](const ComparisonPoint& point) { return point.En_audited.has_value(); }) > 0) {
+    if (count_results(comparison, [](const gum::ScoredResult& point) { return point.en_audited.has_value(); }) > 0) {
         remarks.emplace_back(
             "En with findings corrected takes the corrected uncertainty of the laboratory, and of the reference "
             "laboratory; the value assigned from other results stays as it is.");
     }
     const std::size_t without_score =
-        count_points(comparison, [](const ComparisonPoint& point) { return point.U_D && !point.En; });
+        count_results(comparison, [](const gum::ScoredResult& point) { return point.U_difference && !point.en; });
     if (without_score > 0) {
         remarks.push_back(std::to_string(without_score) + (without_score > 1 ? " results have" : " result has") +
                           " no En and no zeta: the uncertainty of the difference from the assigned value comes out as "
@@ -423,37 +423,41 @@ void add_remarks_on_uncertainties(const reports::Comparison& comparison, std::ve
     }
 }
 
-void add_remarks_on_what_is_left_out(const reports::Comparison& comparison, const LeftOut& left_out,
-                                     std::vector<std::string>& remarks) {
-    if (left_out.pairs) {
+void add_remarks_on_what_is_left_out(const gum::LaboratoryComparison& comparison, std::vector<std::string>& remarks) {
+    if (comparison.pairs_left_out) {
         remarks.push_back("Bilateral degrees of equivalence are left out: more than " +
-                          std::to_string(k_most_pairs_in_record) + " pairs in all items together.");
-    } else if (any_item(comparison, [](const ComparisonItemEvaluation& item) {
-                   return item.results > static_cast<std::int64_t>(k_most_laboratories_in_pairs) && item.pairs.empty();
+                          std::to_string(gum::k_most_pairs) + " pairs in all items together.");
+    } else if (any_item(comparison, [](const gum::ItemResult& item) {
+                   return item.results > gum::k_most_laboratories_in_pairs && item.pairs.empty();
                })) {
         remarks.emplace_back("Bilateral degrees of equivalence are listed for up to 40 laboratories.");
     }
-    if (left_out.vectors > 0) {
-        remarks.push_back(std::to_string(left_out.vectors) + (left_out.vectors > 1 ? " vectors have" : " vector has") +
+    if (comparison.singular_vectors > 0) {
+        remarks.push_back(std::to_string(comparison.singular_vectors) +
+                          (comparison.singular_vectors > 1 ? " vectors have" : " vector has") +
                           " no En: their covariance is singular, so that a part of the difference has no uncertainty.");
     }
 }
 
 }  // namespace
 
-std::vector<std::string> laboratory_remarks(const engine::ComparisonJob& job, const reports::Comparison& comparison,
-                                            const std::vector<EvaluatedItem>& items, const LeftOut& left_out) {
+std::vector<std::string> laboratory_remarks(const engine::ComparisonJob& job,
+                                            const gum::LaboratoryComparison& comparison,
+                                            const reports::Comparison& record) {
     std::vector<std::string> remarks;
-    add_remarks_on_value(job, comparison, items, remarks);
+    add_remarks_on_value({job, comparison, record}, remarks);
     add_remarks_on_correlation(job, comparison, remarks);
-    add_remarks_on_sources(items, remarks);
+    add_remarks_on_sources(comparison, remarks);
     add_remarks_on_uncertainties(comparison, remarks);
-    add_remarks_on_what_is_left_out(comparison, left_out, remarks);
+    add_remarks_on_what_is_left_out(comparison, remarks);
     return remarks;
 }
 
-std::vector<gum::Diagnostic> laboratory_diagnostics(const reports::Comparison& comparison) {
-    ItemMessages messages(comparison);
+std::vector<gum::Diagnostic> laboratory_diagnostics(const engine::ComparisonJob& job,
+                                                    const gum::LaboratoryComparison& comparison,
+                                                    const reports::Comparison& record) {
+    const Evaluated evaluated{job, comparison, record};
+    ItemMessages messages(evaluated);
     add_consistency(messages);
     add_assigned_value(messages);
     add_checks_of_items(messages);

@@ -1,30 +1,27 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
-#include "app/laboratory_summary.h"
+#include "engine/job/comparison_job.h"
+#include "gum/comparison/laboratory_comparison.h"
 #include "gum/quantity/diagnostic.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
 
-/// What a record leaves out, beside what can be seen in it.
-struct LeftOut {
-    std::size_t vectors = 0;  ///< with a singular covariance
-    bool pairs = false;       ///< too many of all items together
-};
-
-/// What the numbers of a comparison between laboratories can and cannot tell: sentences for its report.
+/// What the numbers of a comparison between laboratories can and cannot tell: sentences for its report. What they say
+/// follows from the numbers; the texts of numbers in them are those of the record.
 [[nodiscard]] std::vector<std::string> laboratory_remarks(const engine::ComparisonJob& job,
-                                                          const reports::Comparison& comparison,
-                                                          const std::vector<EvaluatedItem>& items,
-                                                          const LeftOut& left_out);
+                                                          const gum::LaboratoryComparison& comparison,
+                                                          const reports::Comparison& record);
 
 /// Warnings and notes that follow from the numbers, one of each kind however many items it concerns:
 /// GC-COMPARE-0120 results that are not consistent, -0121 z' in place of z, -0122 homogeneity, -0123 stability, -0124
-/// consensus against the independent value, -0126 assigned value without uncertainty, -0127 negative weights.
-[[nodiscard]] std::vector<gum::Diagnostic> laboratory_diagnostics(const reports::Comparison& comparison);
+/// consensus against the independent value, -0126 assigned value without uncertainty, -0127 negative weights, -0128 an
+/// assigned value too uncertain to clear some results.
+[[nodiscard]] std::vector<gum::Diagnostic> laboratory_diagnostics(const engine::ComparisonJob& job,
+                                                                  const gum::LaboratoryComparison& comparison,
+                                                                  const reports::Comparison& record);
 
 }  // namespace gumcert::app

@@ -1,12 +1,12 @@
 #include "app/method_correlation.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/comparison_print.h"
-#include "app/record_parts.h"
-#include "app/shared_sources.h"
+#include "gum/comparison/method_correlation.h"
+#include "gum/comparison/shared_sources.h"
 #include "gum/quantity/diagnostic.h"
 #include "text/lists.h"
 
@@ -18,21 +18,6 @@ using engine::ComparisonJob;
 using engine::MethodComparisonRequest;
 using engine::MethodCorrelation;
 
-// Below it an eigenvalue of a correlation matrix of m quantities is rounding: m times this.
-constexpr double k_rounding = 1e-10;
-
-/// Whether values of covariances V and W can have the covariance C with each other.
-bool is_possible(const Eigen::MatrixXd& V, const Eigen::MatrixXd& W, const Eigen::MatrixXd& C) {
-    const Eigen::Index m = V.rows();
-    Eigen::MatrixXd joint(2 * m, 2 * m);
-    joint << V, C, C.transpose(), W;
-    const Eigen::VectorXd scale =
-        joint.diagonal().unaryExpr([](double variance) { return variance > 0.0 ? 1.0 / std::sqrt(variance) : 0.0; });
-    joint = scale.asDiagonal() * joint * scale.asDiagonal();
-    joint.diagonal().array() += k_rounding * static_cast<double>(2 * m);
-    return Eigen::LLT<Eigen::MatrixXd>(joint).info() == Eigen::Success;
-}
-
 /// One entry a source, at the point where it ties both methods most. None where a side has no budget.
 std::vector<reports::SharedSource> found_sources(const MethodComparisonRequest& request, const MethodSide& method,
                                                  const MethodSide& reference,
@@ -41,8 +26,8 @@ std::vector<reports::SharedSource> found_sources(const MethodComparisonRequest& 
     std::vector<reports::SharedSource> found;
     const std::size_t points = std::min(method.sources.all.size(), reference.sources.all.size());
     for (std::size_t i = 0; i < points; ++i) {
-        for (const SourceCovariance& shared :
-             shared_covariance(method.sources.all[i], reference.sources.all[i], independent)) {
+        for (const gum::SourceCovariance& shared :
+             gum::shared_covariance(method.sources.all[i], reference.sources.all[i], independent)) {
             auto entry = std::find_if(found.begin(), found.end(), [&](const reports::SharedSource& other) {
                 return other.source == shared.source;
             });
@@ -91,7 +76,7 @@ std::vector<std::string> sources_in_both(const MethodComparisonRequest& request,
 }
 
 void add_shared_sources(const ComparisonJob& job, const MethodSide& method, const MethodSide& reference,
-                        MethodComparison& comparison, reports::Comparison& record) {
+                        gum::MethodComparison& comparison, reports::Comparison& record) {
     const MethodComparisonRequest& request = *job.methods;
     std::vector<std::string> ambiguous;
     record.shared_sources = found_sources(request, method, reference, job.independent_sources, ambiguous);
@@ -105,9 +90,9 @@ void add_shared_sources(const ComparisonJob& job, const MethodSide& method, cons
             "is taken as zero.");
     } else {
         comparison.cross_covariance =
-            cross_covariance_of_sources(method.sources, reference.sources, job.independent_sources);
-        if (ambiguous.empty() &&
-            !is_possible(comparison.covariance, comparison.reference_covariance, comparison.cross_covariance)) {
+            gum::cross_covariance_of_sources(method.sources, reference.sources, job.independent_sources);
+        if (ambiguous.empty() && !gum::is_possible_covariance(comparison.covariance, comparison.reference_covariance,
+                                                              comparison.cross_covariance)) {
             refuse_shared_sources(names);
         }
         record.remarks.push_back("Both budgets name " + text::listed(names) +
@@ -133,45 +118,25 @@ void add_shared_sources(const ComparisonJob& job, const MethodSide& method, cons
 
 }  // namespace
 
-Eigen::MatrixXd covariance_of_stated_correlation(double r, const MethodComparison& comparison,
+Eigen::MatrixXd covariance_of_stated_correlation(double r, const gum::MethodComparison& comparison,
                                                  const std::vector<std::string>& may_share, const std::string& where,
                                                  std::vector<std::string>& remarks) {
-    Eigen::MatrixXd common = r * comparison.covariance.diagonal().cwiseSqrt() *
-                             comparison.reference_covariance.diagonal().cwiseSqrt().transpose();
-    bool all_share = true;
-    for (Eigen::Index i = 0; i < common.rows(); ++i) {
-        for (Eigen::Index j = 0; j < common.cols(); ++j) {
-            if (may_share[static_cast<std::size_t>(i)] != may_share[static_cast<std::size_t>(j)]) {
-                common(i, j) = 0.0;
-                all_share = false;
-            }
-        }
-    }
-    const Eigen::MatrixXd apart = common.diagonal().asDiagonal();
-    const std::string stated = "The stated correlation " + printed_as_stated(r) + " of both methods ";
-    if (is_possible(comparison.covariance, comparison.reference_covariance, apart)) {
-        remarks.push_back(stated +
+    gum::StatedCorrelation stated = gum::stated_correlation(r, comparison, may_share, where);
+    const std::string begin = "The stated correlation " + printed_as_stated(r) + " of both methods ";
+    if (stated.from == gum::CorrelationFrom::each_point) {
+        remarks.push_back(begin +
                           "is taken to hold at equal points; different points of the two methods are taken as "
                           "not correlated with each other.");
-        return apart;
-    }
-    if (is_possible(comparison.covariance, comparison.reference_covariance, common)) {
-        remarks.push_back(stated + "is taken to come from an effect that all points " +
-                          (all_share ? "" : "of a direction ") +
+    } else {
+        remarks.push_back(begin + "is taken to come from an effect that all points " +
+                          (stated.from == gum::CorrelationFrom::all_points ? "" : "of a direction ") +
                           "share: the points of the methods share so much that it cannot hold at equal points alone.");
-        return common;
     }
-    throw gum::InputError(gum::Diagnostic{
-        .code = "GC-COMPARE-0204",
-        .where = where,
-        .what = "the value is " + printed_as_stated(r) +
-                ", and neither an effect of each point apart nor one that all points share can have that correlation",
-        .rule = "the covariance matrix of both methods together is positive semi-definite",
-        .action = "State a smaller correlation, or \"unknown\", or give budgets that name the shared sources."});
+    return std::move(stated.covariance);
 }
 
 void add_correlation(const ComparisonJob& job, const MethodSide& method, const MethodSide& reference,
-                     MethodComparison& comparison, reports::Comparison& record) {
+                     gum::MethodComparison& comparison, reports::Comparison& record) {
     const MethodComparisonRequest& request = *job.methods;
     switch (request.correlation) {
         case MethodCorrelation::none:

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/budget_record.h"
+#include "app/budget_sources.h"
 #include "gum/budget/budget_covariance.h"
 #include "gum/budget/evaluate_budget.h"
 #include "gum/quantity/diagnostic.h"
@@ -23,7 +24,7 @@ std::string place_of(const MethodBudget& budget, std::size_t i) {
         gum::Diagnostic{.code = code, .where = place_of(budget, i), .what = what, .rule = rule, .action = action});
 }
 
-engine::ResultUncertainty uncertainty_at(const MethodBudget& budget, std::size_t i,
+gum::ResultUncertainty uncertainty_at(const MethodBudget& budget, std::size_t i,
                                          const gum::BudgetOutputResult& output, const gum::Unit& unit) {
     if (!output.expanded_uncertainty || !output.coverage_factor) {
         refuse_point(budget, i, "GC-COMPARE-0205", "no expanded uncertainty can be stated: " + output.coverage_note,

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "app/shared_sources.h"
 #include "engine/job/budget_job.h"
 #include "engine/job/comparison_job.h"
+#include "gum/comparison/shared_sources.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -15,10 +15,10 @@ namespace gumcert::app {
 /// One method at all points of a comparison, in the unit of the comparison.
 struct MethodSide {
     std::vector<double> value;
-    std::vector<engine::ResultUncertainty> uncertainty;
+    std::vector<gum::ResultUncertainty> uncertainty;
     Eigen::MatrixXd covariance;              ///< m×m
     std::vector<reports::BudgetRow> budget;  ///< at the point with the largest uncertainty; empty without one
-    PointSources sources;                    ///< of its budget; empty without one
+    gum::PointSources sources;               ///< of its budget; empty without one
     std::vector<std::string> remarks;
 };
 

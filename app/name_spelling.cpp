@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 
 #include "gum/expression/name.h"
 #include "text/utf8.h"
@@ -118,6 +119,35 @@ std::string without_spelling(std::string_view name) {
         }
     }
     return plain;
+}
+
+std::vector<gum::Diagnostic> similar_source_names(const std::set<std::string>& names,
+                                                  const std::vector<std::string>& different) {
+    std::map<std::string, std::vector<std::string>> alike;
+    for (const std::string& name : names) {
+        if (std::find(different.begin(), different.end(), name) == different.end()) {
+            alike[without_spelling(name)].push_back(name);
+        }
+    }
+    std::vector<gum::Diagnostic> questions;
+    for (const auto& [plain, spelled] : alike) {
+        if (spelled.size() < 2 || plain.empty()) {
+            continue;
+        }
+        std::string list;
+        for (const std::string& name : spelled) {
+            list += (list.empty() ? "\"" : ", \"") + name + '"';
+        }
+        questions.push_back(
+            {.code = "GC-COMPARE-0129",
+             .where = "sources",
+             .what = "the names " + list + " are taken as different sources of uncertainty; are they the same?",
+             .rule =
+                 "results share a source where they name it alike, and a covariance that is left out hides failures",
+             .action = "Spell the source alike everywhere, or list the names in \"different_sources\".",
+             .severity = gum::Severity::warning});
+    }
+    return questions;
 }
 
 }  // namespace gumcert::app

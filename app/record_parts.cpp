@@ -40,24 +40,6 @@ std::optional<double> finite_or_none(double value) {
     return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
 
-void at_place(const std::string& where, const std::function<void()>& work) {
-    const auto placed = [&](std::vector<gum::Diagnostic> problems) {
-        for (gum::Diagnostic& problem : problems) {
-            if (!problem.where.starts_with(where)) {
-                problem.where = where + ", " + problem.where;
-            }
-        }
-        return problems;
-    };
-    try {
-        work();
-    } catch (const gum::InputError& refused) {
-        throw gum::InputError(placed(refused.diagnostics()));
-    } catch (const gum::NoResultError& failed) {
-        throw gum::NoResultError(placed(failed.diagnostics()));
-    }
-}
-
 nlohmann::json monte_carlo_json(const std::optional<gum::MonteCarloRequest>& asked) {
     if (!asked) {
         return nullptr;

@@ -37,9 +37,6 @@ struct JobHead {
 /// Degrees of freedom as a record holds them: none stands for infinite, or for none that can be stated.
 [[nodiscard]] std::optional<double> finite_or_none(double value);
 
-/// Does some work on a part of a job; what gum refuses is told with its place.
-void at_place(const std::string& where, const std::function<void()>& work);
-
 /// How many trials a result of Monte Carlo rests on.
 struct TrialsDone {
     std::uint64_t trials = 0;

@@ -8,9 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "app/comparison_print.h"
 #include "app/document_units.h"
-#include "app/method_comparison.h"
 #include "app/method_correlation.h"
+#include "app/method_record.h"
 #include "app/method_side.h"
 #include "app/record_parts.h"
 #include "engine/job/reference_budget.h"
@@ -133,16 +134,15 @@ std::string word_of(ReferenceCorrelation correlation) {
     return "unknown";
 }
 
-MethodComparison method_comparison(const RotaryTableJob& job, const QuantityUncertainty& displacement,
-                                   const std::vector<ReferencePoint>& points, const MethodSide& side) {
-    MethodComparison comparison;
+gum::MethodComparison method_comparison(const RotaryTableJob& job, const QuantityUncertainty& displacement,
+                                        const std::vector<ReferencePoint>& points, const MethodSide& side) {
+    gum::MethodComparison comparison;
     comparison.coverage_probability = job.coverage_probability;
-    comparison.printed_unit = "um";
     comparison.reference_covariance = side.covariance;
     std::vector<Eigen::Index> rows;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const ReferencePoint& at = points[i];
-        const engine::ResultUncertainty& of_reference = side.uncertainty[i];
+        const gum::ResultUncertainty& of_reference = side.uncertainty[i];
         rows.push_back(static_cast<Eigen::Index>(3 * at.angle + at.direction));
         const Reported table = reported(displacement.budget, rows.back(), k_um);
         comparison.points.push_back({.direction = k_directions[at.direction],
@@ -162,12 +162,18 @@ MethodComparison method_comparison(const RotaryTableJob& job, const QuantityUnce
     comparison.covariance = displacement.covariance.of(rows) / (gum::k_micrometre * gum::k_micrometre);
     comparison.correlation_unknown = job.reference->correlation == ReferenceCorrelation::unknown;
     comparison.reference_audited_factor = job.reference->audited_factor;
-    for (std::size_t d = 0; d < k_directions.size(); ++d) {
-        if (job.reference->published_mean_abs_En[d]) {
-            comparison.published_mean_abs_En[k_directions[d]] = *job.reference->published_mean_abs_En[d];
+    return comparison;
+}
+
+void add_published(const ReferenceMethod& reference, reports::Comparison& record) {
+    for (reports::ComparisonSummary& row : record.summary) {
+        for (std::size_t d = 0; d < k_directions.size(); ++d) {
+            if (row.direction == k_directions[d]) {
+                row.published_mean_abs_En = reference.published_mean_abs_En[d];
+                row.printed.published_mean_abs_En = printed_as_stated(row.published_mean_abs_En);
+            }
         }
     }
-    return comparison;
 }
 
 }  // namespace
@@ -195,7 +201,7 @@ reports::Comparison reference_comparison(const RotaryTableJob& job, const Quanti
         "respect to the axis average line; the readings are compared as they stand.");
     record.remarks.insert(record.remarks.end(), side.remarks.begin(), side.remarks.end());
 
-    MethodComparison comparison = method_comparison(job, displacement, points, side);
+    gum::MethodComparison comparison = method_comparison(job, displacement, points, side);
     if (reference.correlation == ReferenceCorrelation::given) {
         record.correlation_given = reference.r;
         std::vector<std::string> directions;  // the indicator is set up anew for each
@@ -205,7 +211,8 @@ reports::Comparison reference_comparison(const RotaryTableJob& job, const Quanti
         comparison.cross_covariance = covariance_of_stated_correlation(reference.r, comparison, directions,
                                                                        "reference_method/correlation", record.remarks);
     }
-    compare_methods(record, comparison);
+    add_method_comparison(comparison, "um", record);
+    add_published(reference, record);
     return record;
 }
 

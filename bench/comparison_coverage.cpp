@@ -3,7 +3,7 @@
 //   comparison_coverage coverage RUNS SEED    share of X ± U that cover the true value, by method, number of results
 //   and τ comparison_coverage false_alarms RUNS SEED   share of results with |E_n| > 1 where all uncertainties are
 //   right comparison_coverage verdicts RUNS SEED    share of comparisons of methods that are validated, by points and
-//   true scale comparison_coverage factors RUNS SEED     the factors of gum/consensus_spread.cpp
+//   true scale comparison_coverage factors RUNS SEED     the factors of gum/comparison/consensus_spread.cpp
 //
 // Writes CSV to stdout; same arguments, same bytes. scripts/comparison_coverage runs it and draws the figures.
 

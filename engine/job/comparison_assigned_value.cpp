@@ -14,21 +14,15 @@ namespace gumcert::engine {
 namespace {
 
 using nlohmann::json;
-using Method = AssignedValueMethod;
+using Method = gum::AssignedValueMethod;
 
-constexpr std::array<std::pair<std::string_view, Method>, 12> k_methods{
-    {{"reference", Method::reference},
-     {"given", Method::given},
-     {"weighted_mean", Method::weighted_mean},
-     {"arithmetic_mean", Method::arithmetic_mean},
-     {"median", Method::median},
-     {"algorithm_a", Method::algorithm_a},
-     {"q_hampel", Method::q_hampel},
-     {"largest_consistent_subset", Method::largest_consistent_subset},
-     {"dersimonian_laird", Method::dersimonian_laird},
-     {"mandel_paule", Method::mandel_paule},
-     {"vangel_rukhin", Method::vangel_rukhin},
-     {"power_moderated_mean", Method::power_moderated_mean}}};
+constexpr auto k_methods = [] {
+    std::array<std::pair<std::string_view, Method>, gum::k_assigned_value_words.size()> methods{};
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+        methods[i] = {gum::k_assigned_value_words[i], static_cast<Method>(i)};
+    }
+    return methods;
+}();
 
 /// A key that belongs to one method only.
 struct KeyOfMethod {
@@ -76,7 +70,7 @@ void warn_of_unused_keys(const ComparisonReading& reading, const JsonObject& obj
     }
 }
 
-void read_given(const ComparisonReading& reading, const JsonObject& object, AssignedValueRequest& request) {
+void read_given(const ComparisonReading& reading, const JsonObject& object, gum::AssignedValueRequest& request) {
     request.value = object.required_number("value", compared_value()).value_or(0.0);
     request.uncertainty = read_uncertainty(reading, object);
     if (!states_uncertainty(object)) {
@@ -89,7 +83,7 @@ void read_given(const ComparisonReading& reading, const JsonObject& object, Assi
         read_sources(reading, object, request.uncertainty ? std::optional{request.uncertainty->u} : std::nullopt);
 }
 
-void read_median(const JsonObject& object, AssignedValueRequest& request) {
+void read_median(const JsonObject& object, gum::AssignedValueRequest& request) {
     constexpr std::array<std::pair<std::string_view, bool>, 2> k_uncertainties{{{"robust", false}, {"trials", true}}};
     constexpr NumberRange k_trials{.low = 1000.0, .high = 1e7, .hint = "100000 trials are usual"};
     request.median_by_trials = object.optional_choice("uncertainty", k_uncertainties).value_or(false);
@@ -98,7 +92,7 @@ void read_median(const JsonObject& object, AssignedValueRequest& request) {
         static_cast<std::uint64_t>(object.optional_integer("seed", between(0.0, k_largest_seed, "")).value_or(1));
 }
 
-AssignedValueRequest read_object(const ComparisonReading& reading, const JsonObject& object, Method method) {
+gum::AssignedValueRequest read_object(const ComparisonReading& reading, const JsonObject& object, Method method) {
     constexpr std::array<std::pair<std::string_view, bool>, 2> k_constants{{{"published", false}, {"exact", true}}};
     constexpr NumberRange k_alpha{.low = 0.0,
                                   .high = 0.5,
@@ -107,7 +101,7 @@ AssignedValueRequest read_object(const ComparisonReading& reading, const JsonObj
                                   .hint = "state the probability of failing a consistent set, 0.05 is usual"};
     // The search for the subset rests on a critical value that holds up to here (gum/comparison/reference_value.h).
     constexpr NumberRange k_alpha_of_subset{.low = 0.0, .high = 0.3, .low_open = true, .hint = k_alpha.hint};
-    AssignedValueRequest request;
+    gum::AssignedValueRequest request;
     request.method = method;
     request.by_default = false;
     request.where = object.where();
@@ -135,17 +129,8 @@ AssignedValueRequest read_object(const ComparisonReading& reading, const JsonObj
 
 }  // namespace
 
-std::span<const std::string_view> assigned_value_words() {
-    static const std::array<std::string_view, k_methods.size()> k_words = [] {
-        std::array<std::string_view, k_methods.size()> words{};
-        std::transform(k_methods.begin(), k_methods.end(), words.begin(),
-                       [](const auto& entry) { return entry.first; });
-        return words;
-    }();
-    return k_words;
-}
-
-std::optional<AssignedValueRequest> read_assigned_value(const ComparisonReading& reading, const JsonObject& object) {
+std::optional<gum::AssignedValueRequest> read_assigned_value(const ComparisonReading& reading,
+                                                             const JsonObject& object) {
     const json* value = object.find("assigned_value");
     if (value == nullptr) {
         return std::nullopt;
@@ -155,7 +140,7 @@ std::optional<AssignedValueRequest> read_assigned_value(const ComparisonReading&
         if (!assigned->has("method") && !assigned->has("value")) {
             assigned->refuse(k_assigned_value_incomplete, "", "an assigned value without \"method\" or \"value\"",
                              "the assigned value is given, or follows from the results by a method",
-                             "add \"method\": " + text::any_of(assigned_value_words()));
+                             "add \"method\": " + text::any_of(gum::k_assigned_value_words));
             return std::nullopt;
         }
         const auto method =
@@ -165,7 +150,7 @@ std::optional<AssignedValueRequest> read_assigned_value(const ComparisonReading&
     if (!value->is_string()) {
         object.refuse(k_wrong_type, "assigned_value", described(*value), "must be a word or an object",
                       value->is_number() ? "write {\"value\": " + described(*value) + ", \"U\": …, \"k\": …}"
-                                         : "choose " + text::any_of(assigned_value_words()));
+                                         : "choose " + text::any_of(gum::k_assigned_value_words));
         return std::nullopt;
     }
     const auto method = object.optional_choice("assigned_value", k_methods);
@@ -176,7 +161,7 @@ std::optional<AssignedValueRequest> read_assigned_value(const ComparisonReading&
         refuse_word_alone(object, *method);
         return std::nullopt;
     }
-    AssignedValueRequest request;
+    gum::AssignedValueRequest request;
     request.method = *method;
     request.by_default = false;
     request.where = object.where("assigned_value");

@@ -13,14 +13,14 @@ namespace gumcert::engine {
 
 namespace {
 
-using Method = AssignedValueMethod;
+using Method = gum::AssignedValueMethod;
 
 bool is_consensus(Method method) {
     return method != Method::reference && method != Method::given;
 }
 
 /// Methods that weight results by their stated uncertainties.
-bool needs_uncertainty(const AssignedValueRequest& request) {
+bool needs_uncertainty(const gum::AssignedValueRequest& request) {
     switch (request.method) {
         case Method::weighted_mean:
         case Method::largest_consistent_subset:
@@ -138,7 +138,7 @@ private:
     }
 
     void check_replicates(std::size_t item) {
-        const ComparisonItem& of = job_.items[item];
+        const gum::ComparisonItem& of = job_.items[item];
         if ((of.homogeneity || of.stability) && !of.sigma_pt && !of.delta_E) {
             refuse_replicates(where_of(item, of.homogeneity ? "homogeneity" : "stability"),
                               "homogeneity or stability is to be checked, and neither sigma_pt nor delta_E is stated",
@@ -158,7 +158,7 @@ private:
     }
 
     void check_item(std::size_t item) {
-        const AssignedValueRequest& request = job_.items[item].assigned_value;
+        const gum::AssignedValueRequest& request = job_.items[item].assigned_value;
         check_replicates(item);
         if (request.method == Method::reference) {
             check_reference(item, request);
@@ -184,7 +184,7 @@ private:
         }
     }
 
-    void check_reference(std::size_t item, const AssignedValueRequest& request) {
+    void check_reference(std::size_t item, const gum::AssignedValueRequest& request) {
         if (request.participant.empty()) {
             return;  // told where the assigned value was read
         }
@@ -251,7 +251,7 @@ private:
                 item, round, participants_.problems_of(results.front()), code, job_.results[results.front()].where,
                 what + " is stated by " + names + place_of(item, round) + ", and the assigned value is " +
                     text::in_quotes(
-                        assigned_value_words()[static_cast<std::size_t>(job_.items[item].assigned_value.method)]),
+                        gum::k_assigned_value_words[static_cast<std::size_t>(job_.items[item].assigned_value.method)]),
                 rule, action);
         }
     }

@@ -110,7 +110,7 @@ private:
             return;
         }
         std::set<std::string> known;
-        for (const ComparisonParticipant& participant : reading_.job.participants) {
+        for (const gum::ComparisonParticipant& participant : reading_.job.participants) {
             known.insert(participant.group);
         }
         for (const std::string& name : keys_in_order(reading_.document, "/groups")) {
@@ -150,7 +150,7 @@ private:
     }
 
     void check_clusters() {
-        const std::vector<ComparisonParticipant>& participants = reading_.job.participants;
+        const std::vector<gum::ComparisonParticipant>& participants = reading_.job.participants;
         parent_.resize(participants.size());
         std::iota(parent_.begin(), parent_.end(), std::size_t{0});
         std::map<std::string, std::size_t> first_of_group;
@@ -160,7 +160,7 @@ private:
                 parent_[root_of(i)] = root_of(entry->second);
             }
         }
-        for (const ParticipantCorrelation& pair : reading_.job.correlations) {
+        for (const gum::ParticipantCorrelation& pair : reading_.job.correlations) {
             parent_[root_of(pair.first)] = root_of(pair.second);
         }
         std::map<std::size_t, std::vector<std::size_t>> clusters;
@@ -168,7 +168,7 @@ private:
             clusters[root_of(i)].push_back(i);
         }
         std::set<std::size_t> with_pairs;
-        for (const ParticipantCorrelation& pair : reading_.job.correlations) {
+        for (const gum::ParticipantCorrelation& pair : reading_.job.correlations) {
             with_pairs.insert(root_of(pair.first));
         }
         for (const auto& [root, members] : clusters) {
@@ -205,7 +205,7 @@ private:
     }
 
     void check_cluster(const std::vector<std::size_t>& members) {
-        const std::vector<ComparisonParticipant>& participants = reading_.job.participants;
+        const std::vector<gum::ComparisonParticipant>& participants = reading_.job.participants;
         if (members.size() > k_most_in_matrix) {
             reading_.problems.refuse(
                 k_too_many_correlated, where("/correlations"),
@@ -350,7 +350,7 @@ void read_vectors(const ComparisonReading& reading, const JsonObject& root, cons
     }
     std::set<std::string> names;
     for_each_object(reading, *array, "/vectors", k_vector_keys, {}, [&](const JsonObject& object) {
-        ComparisonVector vector;
+        gum::ComparisonVector vector;
         const auto name = object.required_name("name");
         if (name && !names.insert(*name).second) {
             object.refuse(k_repeated_id, "name", "the vector " + text::in_quotes(*name) + " occurs twice",

@@ -90,7 +90,7 @@ private:
 
     void take(Eigen::MatrixXd matrix, ComparisonSide& side) const {
         for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-            std::optional<ResultUncertainty> uncertainty = points_[static_cast<std::size_t>(i)].uncertainty;
+            std::optional<gum::ResultUncertainty> uncertainty = points_[static_cast<std::size_t>(i)].uncertainty;
             if (!uncertainty) {
                 uncertainty = of_standard_uncertainty(std::sqrt(matrix(i, i)), coverage_probability_);
             }

@@ -17,8 +17,8 @@ using nlohmann::json;
 constexpr std::size_t k_usual_items_to_check = 10;
 
 /// σ_pt as an object: exactly one of its three forms.
-std::optional<SigmaPtRequest> read_sigma_object(const JsonObject& object) {
-    SigmaPtRequest request;
+std::optional<gum::SigmaPtRequest> read_sigma_object(const JsonObject& object) {
+    gum::SigmaPtRequest request;
     const bool has_precision = object.has("reproducibility") || object.has("repeatability") || object.has("replicates");
     const int forms =
         (object.has("percent") ? 1 : 0) + (object.has("mass_fraction_per_unit") ? 1 : 0) + (has_precision ? 1 : 0);
@@ -30,21 +30,21 @@ std::optional<SigmaPtRequest> read_sigma_object(const JsonObject& object) {
         return std::nullopt;
     }
     if (object.has("percent")) {
-        request.method = SigmaPtMethod::percent_of_assigned;
+        request.method = gum::SigmaPtMethod::percent_of_assigned;
         const auto percent =
             object.required_number("percent", {.low = 1e-12, .high = 1e6, .unit = "%", .hint = "state a percentage"});
         request.value = percent.value_or(1.0);
         return percent ? std::optional{request} : std::nullopt;
     }
     if (object.has("mass_fraction_per_unit")) {
-        request.method = SigmaPtMethod::mass_fraction;
+        request.method = gum::SigmaPtMethod::mass_fraction;
         const auto fraction = object.required_number(
             "mass_fraction_per_unit",
             {.low = 1e-30, .high = 1.0, .hint = "state the mass fraction that 1 of the unit is: 1e-6 for mg/kg"});
         request.mass_fraction_per_unit = fraction.value_or(1.0);
         return fraction ? std::optional{request} : std::nullopt;
     }
-    request.method = SigmaPtMethod::precision;
+    request.method = gum::SigmaPtMethod::precision;
     const auto reproducibility = object.required_number(
         "reproducibility", {.low = k_least_compared_u,
                             .high = k_largest_compared,
@@ -68,26 +68,27 @@ std::optional<SigmaPtRequest> read_sigma_object(const JsonObject& object) {
     return request;
 }
 
-std::optional<SigmaPtRequest> read_sigma_pt(const JsonObject& object) {
+std::optional<gum::SigmaPtRequest> read_sigma_pt(const JsonObject& object) {
     const json* value = object.find("sigma_pt");
     if (value == nullptr) {
         return std::nullopt;
     }
     if (value->is_string()) {
-        constexpr std::array<std::pair<std::string_view, SigmaPtMethod>, 2> k_words{
-            {{"robust", SigmaPtMethod::robust}, {"standard_deviation", SigmaPtMethod::standard_deviation}}};
+        constexpr std::array<std::pair<std::string_view, gum::SigmaPtMethod>, 2> k_words{
+            {{"robust", gum::SigmaPtMethod::robust}, {"standard_deviation", gum::SigmaPtMethod::standard_deviation}}};
         const auto method = object.optional_choice("sigma_pt", k_words);
-        return method ? std::optional{SigmaPtRequest{.method = *method}} : std::nullopt;
+        return method ? std::optional{gum::SigmaPtRequest{.method = *method}} : std::nullopt;
     }
     if (value->is_object()) {
         const auto sigma = object.optional_object("sigma_pt", k_sigma_keys);
         return read_sigma_object(*sigma);
     }
     const auto number = read_positive(object, "sigma_pt", "state the standard deviation that results are scored with");
-    return number ? std::optional{SigmaPtRequest{.method = SigmaPtMethod::given, .value = *number}} : std::nullopt;
+    return number ? std::optional{gum::SigmaPtRequest{.method = gum::SigmaPtMethod::given, .value = *number}}
+                  : std::nullopt;
 }
 
-void read_replicates(const ComparisonReading& reading, const JsonObject& object, ComparisonItem& item) {
+void read_replicates(const ComparisonReading& reading, const JsonObject& object, gum::ComparisonItem& item) {
     if (object.has("homogeneity")) {
         item.homogeneity = read_rows(reading, object, "homogeneity", 2, 2);
         if (item.homogeneity && item.homogeneity->rows() < static_cast<Eigen::Index>(k_usual_items_to_check)) {
@@ -104,7 +105,7 @@ void read_replicates(const ComparisonReading& reading, const JsonObject& object,
 
 }  // namespace
 
-void read_item_keys(const ComparisonReading& reading, const JsonObject& object, ComparisonItem& item) {
+void read_item_keys(const ComparisonReading& reading, const JsonObject& object, gum::ComparisonItem& item) {
     if (object.has("unit")) {
         if (auto unit = read_unit(object, "unit", reading.problems)) {
             item.unit = std::move(*unit);
@@ -138,10 +139,10 @@ void read_item_keys(const ComparisonReading& reading, const JsonObject& object, 
     }
 }
 
-void read_items(const ComparisonReading& reading, const json& array, const ComparisonItem& defaults,
+void read_items(const ComparisonReading& reading, const json& array, const gum::ComparisonItem& defaults,
                 LabelIndex& labels) {
     for_each_object(reading, array, "/items", k_listed_item_keys, {}, [&](const JsonObject& object) {
-        ComparisonItem item = defaults;
+        gum::ComparisonItem item = defaults;
         const auto id = required_label(object, "id", reading.problems);
         item.name = object.optional_name("name", 1000).value_or(id.value_or(""));
         read_item_keys(reading, object, item);

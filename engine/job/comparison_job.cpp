@@ -132,10 +132,10 @@ private:
     /// A way to the assigned value where the job states none: one whose uncertainty holds also where laboratories
     /// differ by more than they state, as far as the results allow it.
     static void choose_assigned_value(ComparisonJob& job) {
-        for (ComparisonItem& item : job.items) {
+        for (gum::ComparisonItem& item : job.items) {
             if (item.assigned_value.by_default) {
-                item.assigned_value.method =
-                    states_correlation(job) ? AssignedValueMethod::weighted_mean : AssignedValueMethod::mandel_paule;
+                item.assigned_value.method = states_correlation(job) ? gum::AssignedValueMethod::weighted_mean
+                                                                     : gum::AssignedValueMethod::mandel_paule;
             }
         }
     }

@@ -48,6 +48,7 @@ std::optional<std::string_view> view(const std::optional<std::string>& text) {
 }  // namespace
 
 void ParticipantsReader::read() {
+    reading_.job.rounds.clear();  // also tables of results name them
     std::size_t refused = reading_.problems.refusals();
     read_items();
     items_are_read_ = reading_.problems.refusals() == refused;
@@ -142,7 +143,7 @@ void ParticipantsReader::read_participants() {
 void ParticipantsReader::read_participant(const JsonObject& object) {
     const bool with_results = !root_.has("results");
     const Place place{object.where(), &reading_.problems};
-    ComparisonParticipant stated;
+    gum::ComparisonParticipant stated;
     const auto id = required_label(object, "id", reading_.problems);
     stated.name = object.optional_name("name", 1000).value_or("");
     stated.group = optional_label(object, "group", reading_.problems).value_or("");
@@ -214,14 +215,15 @@ std::optional<std::size_t> ParticipantsReader::participant_of(std::string_view i
         return std::nullopt;
     }
     const std::size_t position = participants_.add(id).first;
-    ComparisonParticipant& participant = reading_.job.participants.emplace_back();
+    gum::ComparisonParticipant& participant = reading_.job.participants.emplace_back();
     participant.id = std::string(id);
     participant.name = participant.id;
     return position;
 }
 
-void ParticipantsReader::describe(std::size_t participant, const ComparisonParticipant& stated, const Place& place) {
-    ComparisonParticipant& known = reading_.job.participants[participant];
+void ParticipantsReader::describe(std::size_t participant, const gum::ComparisonParticipant& stated,
+                                  const Place& place) {
+    gum::ComparisonParticipant& known = reading_.job.participants[participant];
     const auto take = [&](std::string& text, const std::string& other, std::string_view key, bool is_open) {
         if (other.empty() || text == other) {
             return;
@@ -282,10 +284,10 @@ std::optional<std::size_t> ParticipantsReader::position_of(Labels& labels, const
 
 std::optional<std::size_t> ParticipantsReader::item_of(const std::optional<std::string_view>& label,
                                                        const Place& place) {
-    std::vector<ComparisonItem>& items = reading_.job.items;
+    std::vector<gum::ComparisonItem>& items = reading_.job.items;
     const auto position = position_of(items_, label, place);
     if (position && *position == items.size()) {
-        ComparisonItem& item = items.emplace_back(defaults_);
+        gum::ComparisonItem& item = items.emplace_back(defaults_);
         item.id = std::string(label.value_or(std::string_view{}));
         item.name = item.id;
     }
@@ -374,7 +376,7 @@ void ParticipantsReader::read_row(const CsvTable& table, std::size_t row, bool w
         participant = participant_of(*id, with_participants, place_of(c_participant));
     }
     if (participant && with_participants) {
-        ComparisonParticipant stated;
+        gum::ComparisonParticipant stated;
         stated.name = std::string(text_of(table, row, c_name).value_or(""));
         stated.group = std::string(text_of(table, row, c_group).value_or(""));
         stated.cmc_U = table.number_if_any(row, c_cmc, compared_uncertainty());
@@ -526,7 +528,7 @@ void ParticipantsReader::read_audited(const JsonObject& object, ComparisonResult
                         "E_n is formed again with the corrected uncertainty", "add \"u\", or \"U\" and \"k\"");
     }
     if (finding && uncertainty) {
-        result.audited = AuditedUncertainty{*uncertainty, *finding};
+        result.audited = gum::AuditedUncertainty{*uncertainty, *finding};
     }
 }
 

@@ -94,7 +94,7 @@ private:
     [[nodiscard]] std::optional<std::size_t> item_of(const std::optional<std::string_view>& label, const Place& place);
     [[nodiscard]] std::optional<std::size_t> round_of(const std::optional<std::string_view>& label, const Place& place);
     /// Takes over what one row or entry says of a participant beside its result.
-    void describe(std::size_t participant, const ComparisonParticipant& stated, const Place& place);
+    void describe(std::size_t participant, const gum::ComparisonParticipant& stated, const Place& place);
     /// \return false when the participant has a result for this item and round already
     bool is_first(const Address& address, const Place& place);
 
@@ -106,7 +106,7 @@ private:
 
     const ComparisonReading& reading_;
     const JsonObject& root_;
-    ComparisonItem defaults_;
+    gum::ComparisonItem defaults_;
     bool items_are_read_ = false;  ///< nothing of them was refused
     LabelIndex participants_;
     Labels items_{.code = &k_unknown_item, .noun = "item", .which = "of which item it is"};

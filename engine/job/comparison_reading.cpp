@@ -69,8 +69,8 @@ std::optional<UncertaintyObjection> objection(const StatedUncertainty& stated) {
 /// U = t_p(ν) u where u is stated, u = U/k else.
 /// \param stated  without objection, its numbers read
 /// \return nothing when no coverage factor exists for its degrees of freedom
-std::optional<ResultUncertainty> evaluate(const StatedUncertainty& stated, double coverage_probability) {
-    ResultUncertainty uncertainty;
+std::optional<gum::ResultUncertainty> evaluate(const StatedUncertainty& stated, double coverage_probability) {
+    gum::ResultUncertainty uncertainty;
     uncertainty.degrees_of_freedom = stated.nu.value_or(uncertainty.degrees_of_freedom);
     uncertainty.stated_as_expanded = stated.has_U;
     if (stated.has_U) {
@@ -92,8 +92,8 @@ std::optional<ResultUncertainty> evaluate(const StatedUncertainty& stated, doubl
 
 /// \param where  tells the place of a key
 template <typename Where>
-std::optional<ResultUncertainty> evaluate(const StatedUncertainty& stated, double coverage_probability,
-                                          ProblemList& problems, const Where& where) {
+std::optional<gum::ResultUncertainty> evaluate(const StatedUncertainty& stated, double coverage_probability,
+                                               ProblemList& problems, const Where& where) {
     if (!stated.is_stated()) {
         return std::nullopt;
     }
@@ -248,11 +248,11 @@ bool states_uncertainty(const JsonObject& object) {
     return object.has("u") || object.has("U") || object.has("k");
 }
 
-std::optional<ResultUncertainty> of_standard_uncertainty(double u, double coverage_probability) {
+std::optional<gum::ResultUncertainty> of_standard_uncertainty(double u, double coverage_probability) {
     return evaluate({.u = u, .has_u = true}, coverage_probability);
 }
 
-std::optional<ResultUncertainty> read_uncertainty(const ComparisonReading& reading, const JsonObject& object) {
+std::optional<gum::ResultUncertainty> read_uncertainty(const ComparisonReading& reading, const JsonObject& object) {
     StatedUncertainty stated;
     stated.has_u = object.has("u");
     stated.has_U = object.has("U");
@@ -293,9 +293,9 @@ bool check_uncertainty_columns(const CsvTable& table, const UncertaintyColumns& 
     return true;
 }
 
-std::optional<ResultUncertainty> read_uncertainty(const CsvTable& table, std::size_t row,
-                                                  const UncertaintyColumns& columns, double coverage_probability,
-                                                  ProblemList& problems) {
+std::optional<gum::ResultUncertainty> read_uncertainty(const CsvTable& table, std::size_t row,
+                                                       const UncertaintyColumns& columns, double coverage_probability,
+                                                       ProblemList& problems) {
     StatedUncertainty stated;
     stated.has_u = is_stated(table, row, columns.u);
     stated.has_U = is_stated(table, row, columns.U);
@@ -368,9 +368,9 @@ std::optional<double> read_positive(const JsonObject& object, std::string_view k
 
 // ---- sources --------------------------------------------------------------------------------------------------------
 
-std::vector<UncertaintySource> read_sources(const ComparisonReading& reading, const JsonObject& object,
-                                            const std::optional<double>& u) {
-    std::vector<UncertaintySource> sources;
+std::vector<gum::UncertaintySource> read_sources(const ComparisonReading& reading, const JsonObject& object,
+                                                 const std::optional<double>& u) {
+    std::vector<gum::UncertaintySource> sources;
     const json* array = object.optional_array("sources");
     if (array == nullptr) {
         return sources;

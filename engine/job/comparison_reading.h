@@ -121,12 +121,12 @@ void for_each_object(const ComparisonReading& reading, const nlohmann::json& arr
 
 /// The keys u | U with k, and nu, of an object.
 /// \return nothing when none is stated or it was refused
-[[nodiscard]] std::optional<ResultUncertainty> read_uncertainty(const ComparisonReading& reading,
-                                                                const JsonObject& object);
+[[nodiscard]] std::optional<gum::ResultUncertainty> read_uncertainty(const ComparisonReading& reading,
+                                                                     const JsonObject& object);
 
 /// A standard uncertainty of infinite degrees of freedom.
 /// \return nothing beyond what is computed with
-[[nodiscard]] std::optional<ResultUncertainty> of_standard_uncertainty(double u, double coverage_probability);
+[[nodiscard]] std::optional<gum::ResultUncertainty> of_standard_uncertainty(double u, double coverage_probability);
 
 /// Columns of a table that state uncertainties: positions as CsvTable knows them.
 struct UncertaintyColumns {
@@ -135,9 +135,10 @@ struct UncertaintyColumns {
 /// Refuses columns that no row can use: a bare uncertainty, U without k.
 /// \return true when there was nothing to refuse
 bool check_uncertainty_columns(const CsvTable& table, const UncertaintyColumns& columns, ProblemList& problems);
-[[nodiscard]] std::optional<ResultUncertainty> read_uncertainty(const CsvTable& table, std::size_t row,
-                                                                const UncertaintyColumns& columns,
-                                                                double coverage_probability, ProblemList& problems);
+[[nodiscard]] std::optional<gum::ResultUncertainty> read_uncertainty(const CsvTable& table, std::size_t row,
+                                                                     const UncertaintyColumns& columns,
+                                                                     double coverage_probability,
+                                                                     ProblemList& problems);
 
 /// Whether a table has a column, and the row a text in it.
 [[nodiscard]] inline bool is_stated(const CsvTable& table, std::size_t row, std::size_t column) {
@@ -157,8 +158,9 @@ bool check_uncertainty_columns(const CsvTable& table, const UncertaintyColumns& 
 
 /// The key `sources`, signed parts of an uncertainty.
 /// \param u  of the whole; nothing: not known here
-[[nodiscard]] std::vector<UncertaintySource> read_sources(const ComparisonReading& reading, const JsonObject& object,
-                                                          const std::optional<double>& u);
+[[nodiscard]] std::vector<gum::UncertaintySource> read_sources(const ComparisonReading& reading,
+                                                               const JsonObject& object,
+                                                               const std::optional<double>& u);
 
 /// Rows of numbers, all of one length.
 /// \return nothing when it was refused

@@ -17,7 +17,7 @@ namespace gumcert::engine {
 struct SidePoint {
     MethodPoint point;
     double value = 0.0;
-    std::optional<ResultUncertainty> uncertainty;
+    std::optional<gum::ResultUncertainty> uncertainty;
     std::optional<double> u_common;
     std::string where;
 };

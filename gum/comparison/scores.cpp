@@ -73,15 +73,25 @@ double settled_score(double value, double reference, double scale) {
 }
 
 ComparisonScore score(const ComparedValue& laboratory, const ComparedValue& reference, double correlation) {
-    ComparisonScore result;
-    result.difference = difference_of(laboratory.value, reference.value);
-    result.u_difference = difference_uncertainty_for_score(laboratory.standard_uncertainty,
-                                                           reference.standard_uncertainty, correlation, "u");
-    result.U_difference = difference_uncertainty_for_score(laboratory.expanded_uncertainty,
-                                                           reference.expanded_uncertainty, correlation, "U");
-    result.en = settled_score(laboratory.value, reference.value, result.U_difference);
-    result.zeta = settled_score(laboratory.value, reference.value, result.u_difference);
-    return result;
+    static_cast<void>(difference_of(laboratory.value, reference.value));  // told before the uncertainties
+    const double u = difference_uncertainty_for_score(laboratory.standard_uncertainty, reference.standard_uncertainty,
+                                                      correlation, "u");
+    const double U = difference_uncertainty_for_score(laboratory.expanded_uncertainty, reference.expanded_uncertainty,
+                                                      correlation, "U");
+    return *score_of_difference(laboratory.value, reference.value, u, U);
+}
+
+std::optional<ComparisonScore> score_of_difference(double value, double reference, double u_difference,
+                                                   double U_difference) {
+    const double difference = difference_of(value, reference);
+    if (!(u_difference > 0.0) || !(U_difference > 0.0)) {
+        return std::nullopt;
+    }
+    return ComparisonScore{.difference = difference,
+                           .u_difference = u_difference,
+                           .U_difference = U_difference,
+                           .en = settled_score(value, reference, U_difference),
+                           .zeta = settled_score(value, reference, u_difference)};
 }
 
 std::optional<double> worst_plausible_en(const ComparedValue& laboratory, const ComparedValue& reference) {

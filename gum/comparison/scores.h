@@ -48,6 +48,12 @@ struct ComparisonScore {
 [[nodiscard]] ComparisonScore score(const ComparedValue& laboratory, const ComparedValue& reference,
                                     double correlation = 0.0);
 
+/// E_n and ζ of a difference whose uncertainties are known: the one place that forms them, settled.
+/// \return nothing where an uncertainty of the difference is not greater than 0: no score exists then
+/// \throws InputError  for a number that is not finite
+[[nodiscard]] std::optional<ComparisonScore> score_of_difference(double value, double reference, double u_difference,
+                                                                 double U_difference);
+
 /// E_n with all that the smaller uncertainty can hold in common: r = min(U_x, U_X) / max(U_x, U_X), the correlation
 /// where the whole of the smaller uncertainty comes from a source that both sides share with unit sensitivity. Where
 /// both methods may share a standard and nobody knows, E_n lies between this one and that for r = 0.
@@ -89,6 +95,12 @@ inline constexpr double k_same_coverage_factor = 0.025;
 enum class Signal { none, warning, action };
 [[nodiscard]] Signal signal_of_z(double score);
 [[nodiscard]] Signal signal_of_en(double score);
+
+/// Counts and sizes of |E_n|.
+struct EnVariant {
+    std::size_t count_above_1 = 0;
+    double mean_absolute_en = 0.0, largest_absolute_en = 0.0;
+};
 
 /// Companion numbers of the scores of several points.
 struct ComparisonSummary {

@@ -8,7 +8,7 @@
 
 namespace gumcert::engine::fuzz {
 
-inline void demand_consistent(const ResultUncertainty& uncertainty) {
+inline void demand_consistent(const gum::ResultUncertainty& uncertainty) {
     demand(uncertainty.u >= 1e-60 && uncertainty.u <= 1e60 && uncertainty.U >= 1e-60 && uncertainty.U <= 1e60 &&
                uncertainty.k > 0.0 && uncertainty.degrees_of_freedom > 0.0,
            "an uncertainty");
@@ -36,11 +36,11 @@ inline void demand_consistent_laboratories(const ComparisonJob& job) {
                    missing.round < job.rounds.size(),
                "a missing result");
     }
-    for (const ParticipantCorrelation& pair : job.correlations) {
+    for (const gum::ParticipantCorrelation& pair : job.correlations) {
         demand(pair.first < pair.second && pair.second < job.participants.size() && std::abs(pair.r) <= 1.0,
                "a correlation");
     }
-    for (const ComparisonVector& vector : job.vectors) {
+    for (const gum::ComparisonVector& vector : job.vectors) {
         const auto n = static_cast<Eigen::Index>(vector.items.size());
         demand(n >= 2 && vector.correlation.rows() == n && vector.reference_correlation.cols() == n, "a vector");
     }

@@ -23,7 +23,6 @@ SOURCES = (
     "certificate/symbol_gate.cpp",
     "certificate/uncertainty_gate.cpp",
     "app/adjustment_record.cpp",
-    "app/assigned_value.cpp",
     "app/budget_findings.cpp",
     "app/budget_record.cpp",
     "app/certified_scope.cpp",
@@ -32,9 +31,6 @@ SOURCES = (
     "app/compared_job_side.cpp",
     "app/environment_findings.cpp",
     "app/evaluate_laboratories.cpp",
-    "app/laboratory_covariance.cpp",
-    "app/laboratory_data.cpp",
-    "app/laboratory_item.cpp",
     "app/laboratory_notes.cpp",
     "app/location_errors.cpp",
     "app/rotary_findings.cpp",
@@ -48,6 +44,10 @@ SOURCES = (
     "gum/budget/fit_scatter.cpp",
     "gum/budget/reported_covariance.cpp",
     "gum/budget/zero_uncertainty.cpp",
+    "gum/comparison/assigned_value.cpp",
+    "gum/comparison/item_result.cpp",
+    "gum/comparison/laboratory_covariance.cpp",
+    "gum/comparison/laboratory_data.cpp",
 )
 
 # Literals of these sources that are no sentences of a record, or end the program in place of a record.

@@ -282,7 +282,7 @@ TEST(ComparedJobSide, TakesTheMeanOffWithItsCovariance) {
     MethodSide side;
     side.value = {1.0, 2.0, 6.0};
     side.uncertainty.resize(3);
-    for (engine::ResultUncertainty& u : side.uncertainty) {
+    for (gum::ResultUncertainty& u : side.uncertainty) {
         u = {.u = 0.5, .U = 1.0, .k = 2.0, .degrees_of_freedom = 8.0};
     }
     side.covariance = 0.25 * Eigen::Matrix3d::Identity();

@@ -16,17 +16,16 @@
 #include <vector>
 
 #include "app/evaluate_comparison.h"
-#include "app/laboratory_notes.h"
-#include "app/shared_sources.h"
+#include "app/name_spelling.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::app {
 namespace {
 
-using engine::AssignedValueMethod;
 using engine::ComparisonJob;
 using engine::ComparisonResult;
-using engine::ResultUncertainty;
+using gum::AssignedValueMethod;
+using gum::ResultUncertainty;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -35,16 +34,16 @@ ResultUncertainty u_and_k(double u, double k = 2.0) {
     return {.u = u, .U = k * u, .k = k, .stated_as_expanded = true};
 }
 
-engine::AssignedValueRequest given(double value, std::optional<ResultUncertainty> uncertainty) {
-    engine::AssignedValueRequest request;
+gum::AssignedValueRequest given(double value, std::optional<ResultUncertainty> uncertainty) {
+    gum::AssignedValueRequest request;
     request.method = AssignedValueMethod::given;
     request.value = value;
     request.uncertainty = uncertainty;
     return request;
 }
 
-engine::ComparisonItem item_in(const std::string& id, const std::string& unit) {
-    engine::ComparisonItem item;
+gum::ComparisonItem item_in(const std::string& id, const std::string& unit) {
+    gum::ComparisonItem item;
     item.id = id;
     item.unit = gum::Unit::parse(unit);
     return item;
@@ -91,6 +90,12 @@ reports::Comparison evaluated(const ComparisonJob& job) {
     return evaluate_laboratories(job, {});
 }
 
+std::vector<gum::Diagnostic> messages_of(const ComparisonJob& job) {
+    std::vector<gum::Diagnostic> notes;
+    (void)evaluate_laboratories(job, {}, &notes);
+    return notes;
+}
+
 /// What is refused, or has no result, as its first message.
 gum::Diagnostic refusal(const ComparisonJob& job) {
     try {
@@ -120,7 +125,8 @@ std::vector<std::string> printed_En(const reports::Comparison& comparison) {
 }
 
 TEST(EvaluateLaboratories, KeyComparisonByWeightedMean) {
-    const reports::Comparison comparison = evaluated(key_comparison());
+    const ComparisonJob job = key_comparison();
+    const reports::Comparison comparison = evaluated(job);
     ASSERT_EQ(comparison.items.size(), 1U);
     const reports::ComparisonItemEvaluation& item = comparison.items.front();
     EXPECT_EQ(item.method, "weighted_mean");
@@ -153,7 +159,7 @@ TEST(EvaluateLaboratories, KeyComparisonByWeightedMean) {
         weights += weight.weight;
     }
     EXPECT_NEAR(weights, 1.0, 1e-14);
-    const std::vector<gum::Diagnostic> messages = laboratory_diagnostics(comparison);
+    const std::vector<gum::Diagnostic> messages = messages_of(job);
     ASSERT_FALSE(messages.empty());
     EXPECT_EQ(messages.front().code, "GC-COMPARE-0120");
     EXPECT_EQ(messages.front().severity, gum::Severity::warning);
@@ -183,7 +189,7 @@ TEST(EvaluateLaboratories, KeyComparisonByLargestConsistentSubset) {
     EXPECT_NEAR(*comparison.points[4].correlation, 0.0, 1e-15) << "outside: the plus sign";
     EXPECT_GT(*comparison.points[0].correlation, 0.5) << "inside: the minus sign";
     EXPECT_THAT(comparison.remarks, testing::Contains(HasSubstr("19.11")));
-    EXPECT_THAT(laboratory_diagnostics(comparison), IsEmpty());
+    EXPECT_THAT(messages_of(job), IsEmpty());
 }
 
 TEST(EvaluateLaboratories, EstimatesStandSideBySide) {
@@ -211,7 +217,7 @@ TEST(EvaluateLaboratories, EstimatesStandSideBySide) {
 TEST(EvaluateLaboratories, AlgorithmAWithRobustSigma) {
     ComparisonJob job = twelve_results();
     job.items[0].assigned_value.method = AssignedValueMethod::algorithm_a;
-    job.items[0].sigma_pt.emplace().method = engine::SigmaPtMethod::robust;
+    job.items[0].sigma_pt.emplace().method = gum::SigmaPtMethod::robust;
     const reports::Comparison comparison = evaluated(job);
     const reports::ComparisonItemEvaluation& item = comparison.items.front();
     EXPECT_NEAR(item.value, 20.317012, 5e-7);
@@ -231,7 +237,7 @@ TEST(EvaluateLaboratories, AlgorithmAWithRobustSigma) {
     EXPECT_EQ(eighth.printed.z, "5.77");
     EXPECT_TRUE(comparison.summary.empty()) << "no En, nothing to sum up";
     EXPECT_FALSE(item.consistency);
-    EXPECT_EQ(laboratory_diagnostics(comparison).front().code, "GC-COMPARE-0121");
+    EXPECT_EQ(messages_of(job).front().code, "GC-COMPARE-0121");
 }
 
 TEST(EvaluateLaboratories, AuditedUncertainty) {
@@ -241,7 +247,7 @@ TEST(EvaluateLaboratories, AuditedUncertainty) {
     job.items = {item_in("table", "um")};
     job.items[0].assigned_value = given(100.0, u_and_k(2.5));
     add_result(job, add_participant(job, "A"), 118.0, u_and_k(10.0)).audited =
-        engine::AuditedUncertainty{u_and_k(10.0 / std::sqrt(3.0)), "MPE is a limit"};
+        gum::AuditedUncertainty{u_and_k(10.0 / std::sqrt(3.0)), "MPE is a limit"};
     add_result(job, add_participant(job, "B"), 101.0, u_and_k(2.5));
     job.participants[0].cmc_U = 5.0;
     const reports::Comparison comparison = evaluated(job);
@@ -379,7 +385,7 @@ TEST(EvaluateLaboratories, LeaveOneOutIdentity) {
 
 TEST(EvaluateLaboratories, ItemsThatDifferAndDrift) {
     ComparisonJob job = key_comparison();
-    job.items[0].sigma_pt = {.method = engine::SigmaPtMethod::given, .value = 0.3};
+    job.items[0].sigma_pt = {.method = gum::SigmaPtMethod::given, .value = 0.3};
     Eigen::MatrixXd homogeneity(10, 2);
     homogeneity << 10.02, 10.06, 9.95, 9.91, 10.11, 10.07, 9.99, 10.03, 10.08, 10.02, 9.93, 9.97, 10.05, 10.01, 9.96,
         10.02, 10.10, 10.06, 9.98, 9.94;
@@ -402,7 +408,7 @@ TEST(EvaluateLaboratories, ItemsThatDifferAndDrift) {
     EXPECT_NEAR(*item.u_characterisation, 0.058277151741435856, 1e-12);
     // The correlation with the results is that of the characterisation alone.
     EXPECT_NEAR(*comparison.points[0].u_D, std::sqrt(0.01 + u * u - 2.0 * std::pow(0.058277151741435856, 2)), 1e-12);
-    EXPECT_EQ(laboratory_diagnostics(comparison).back().code, "GC-COMPARE-0123");
+    EXPECT_EQ(messages_of(job).back().code, "GC-COMPARE-0123");
 
     job.items[0].sigma_pt.reset();
     EXPECT_EQ(refusal(job).code, "GC-COMPARE-0104");
@@ -414,23 +420,21 @@ TEST(EvaluateLaboratories, ItemsThatDifferAndDrift) {
 
 TEST(EvaluateLaboratories, StandardDeviationForAssessment) {
     ComparisonJob job = key_comparison();
-    const auto sigma = [&](const engine::SigmaPtRequest& request) {
+    const auto sigma = [&](const gum::SigmaPtRequest& request) {
         job.items[0].sigma_pt = request;
         return *evaluated(job).items[0].sigma_pt;
     };
-    EXPECT_DOUBLE_EQ(sigma({.method = engine::SigmaPtMethod::given, .value = 0.25}), 0.25);
-    EXPECT_NEAR(sigma({.method = engine::SigmaPtMethod::percent_of_assigned, .value = 2.0}), 0.02 * 12.372358490566038,
+    EXPECT_DOUBLE_EQ(sigma({.method = gum::SigmaPtMethod::given, .value = 0.25}), 0.25);
+    EXPECT_NEAR(sigma({.method = gum::SigmaPtMethod::percent_of_assigned, .value = 2.0}), 0.02 * 12.372358490566038,
                 1e-14);
-    EXPECT_NEAR(sigma({.method = engine::SigmaPtMethod::precision,
-                       .reproducibility = 0.5,
-                       .repeatability = 0.3,
-                       .replicates = 3}),
-                std::sqrt(0.25 - 0.09 * 2.0 / 3.0), 1e-14);
+    EXPECT_NEAR(
+        sigma({.method = gum::SigmaPtMethod::precision, .reproducibility = 0.5, .repeatability = 0.3, .replicates = 3}),
+        std::sqrt(0.25 - 0.09 * 2.0 / 3.0), 1e-14);
     // 0.02 c^0.8495 at c = 12.37 · 1e-6 g/g.
-    EXPECT_NEAR(sigma({.method = engine::SigmaPtMethod::mass_fraction, .mass_fraction_per_unit = 1e-6}),
+    EXPECT_NEAR(sigma({.method = gum::SigmaPtMethod::mass_fraction, .mass_fraction_per_unit = 1e-6}),
                 0.02 * std::pow(12.372358490566038e-6, 0.8495) / 1e-6, 1e-10);
-    EXPECT_NEAR(sigma({.method = engine::SigmaPtMethod::standard_deviation}), 0.3145790838565078, 1e-12);
-    job.items[0].sigma_pt = {.method = engine::SigmaPtMethod::given, .value = 0.2};
+    EXPECT_NEAR(sigma({.method = gum::SigmaPtMethod::standard_deviation}), 0.3145790838565078, 1e-12);
+    job.items[0].sigma_pt = {.method = gum::SigmaPtMethod::given, .value = 0.2};
     const reports::Comparison at_limit = evaluated(job);
     EXPECT_EQ(at_limit.items[0].score, "z") << "u(X)/σ_pt = 0.291";
     EXPECT_TRUE(at_limit.points[0].z_prime) << "both are kept";
@@ -454,7 +458,7 @@ TEST(EvaluateLaboratories, EqualResults) {
     for (std::size_t p = 0; p < 5; ++p) {
         add_result(job, p, 2.0, std::nullopt, 1);
     }
-    for (engine::ComparisonItem& item : job.items) {
+    for (gum::ComparisonItem& item : job.items) {
         item.assigned_value.method = AssignedValueMethod::algorithm_a;
     }
     try {
@@ -467,16 +471,16 @@ TEST(EvaluateLaboratories, EqualResults) {
         EXPECT_THAT(refused.diagnostics()[1].where, HasSubstr("item \"second\""));
     }
     // The median exists; its uncertainty does not.
-    for (engine::ComparisonItem& item : job.items) {
+    for (gum::ComparisonItem& item : job.items) {
         item.assigned_value.method = AssignedValueMethod::median;
-        item.sigma_pt = {.method = engine::SigmaPtMethod::given, .value = 0.1};
+        item.sigma_pt = {.method = gum::SigmaPtMethod::given, .value = 0.1};
     }
     const reports::Comparison comparison = evaluated(job);
     EXPECT_FALSE(comparison.items[0].u);
     EXPECT_FALSE(comparison.items[0].criterion_met) << "nothing is met that cannot be formed";
     EXPECT_EQ(comparison.items[0].printed.U, "");
     EXPECT_NEAR(*comparison.points[4].z, 2.0, 1e-12);
-    EXPECT_EQ(laboratory_diagnostics(comparison).front().code, "GC-COMPARE-0126");
+    EXPECT_EQ(messages_of(job).front().code, "GC-COMPARE-0126");
 }
 
 TEST(EvaluateLaboratories, Refusals) {
@@ -548,7 +552,7 @@ TEST(EvaluateLaboratories, SeveralItemsAndRounds) {
     ComparisonJob job;
     job.rounds = {"spring", "autumn"};
     job.items = {item_in("first", "mm"), item_in("second", "mm")};
-    for (engine::ComparisonItem& item : job.items) {
+    for (gum::ComparisonItem& item : job.items) {
         item.assigned_value = given(0.0, u_and_k(0.5));
     }
     const std::array<double, 5> first{0.2, -0.4, 1.0, 0.1, 3.0};
@@ -622,7 +626,7 @@ TEST(EvaluateLaboratories, ScoresExactlyAtTheirLimits) {
     // 10.2 − 10 over 0.1 is 2, which double precision makes 1.999999999999993; 10.3 − 10 makes 3.000000000000007.
     ComparisonJob z = job_of({10.2, 9.8, 10.3, 9.7, 10.19}, {});
     z.items[0].assigned_value = given(10.0, u_and_k(0.01));
-    z.items[0].sigma_pt = {.method = engine::SigmaPtMethod::given, .value = 0.1};
+    z.items[0].sigma_pt = {.method = gum::SigmaPtMethod::given, .value = 0.1};
     const std::array<std::string, 5> of_z{"none", "none", "action", "action", "none"};
     const reports::Comparison by_z = evaluated(z);
     for (std::size_t i = 0; i < of_z.size(); ++i) {
@@ -652,7 +656,7 @@ TEST(EvaluateLaboratories, ScoresExactlyAtTheirLimits) {
 
 TEST(EvaluateLaboratories, CriterionAtItsLimit) {
     ComparisonJob job = job_of({10.2, 9.8}, {});
-    job.items[0].sigma_pt = {.method = engine::SigmaPtMethod::given, .value = 0.7};
+    job.items[0].sigma_pt = {.method = gum::SigmaPtMethod::given, .value = 0.7};
     for (const double u : {0.21, 0.21000000000000002}) {
         job.items[0].assigned_value = given(10.0, u_and_k(u));
         EXPECT_EQ(evaluated(job).items[0].score, "z") << u;
@@ -667,8 +671,8 @@ TEST(EvaluateLaboratories, AuditOfTheReferenceLaboratory) {
     ComparisonJob job = job_of({10.0, 10.3, 9.9}, {0.1, 0.1, 0.1});
     job.items[0].assigned_value.method = AssignedValueMethod::reference;
     job.items[0].assigned_value.participant = "L1";
-    job.results[0].audited = engine::AuditedUncertainty{u_and_k(0.05), "resolution counted twice"};
-    job.results[1].audited = engine::AuditedUncertainty{u_and_k(0.2), "drift missing"};
+    job.results[0].audited = gum::AuditedUncertainty{u_and_k(0.05), "resolution counted twice"};
+    job.results[1].audited = gum::AuditedUncertainty{u_and_k(0.2), "drift missing"};
     const reports::Comparison comparison = evaluated(job);
     EXPECT_NEAR(*comparison.points[1].En_audited, 0.3 / std::sqrt(0.4 * 0.4 + 0.1 * 0.1), 1e-12);
     EXPECT_NEAR(*comparison.points[2].En_audited, -0.1 / std::sqrt(0.2 * 0.2 + 0.1 * 0.1), 1e-12);
@@ -682,7 +686,7 @@ TEST(EvaluateLaboratories, EqualResultsHaveNoStandardDeviation) {
     const reports::Comparison comparison = evaluated(job);
     EXPECT_FALSE(comparison.items[0].u) << "0 would say that the value is exactly known";
     EXPECT_FALSE(comparison.points[0].En);
-    EXPECT_EQ(laboratory_diagnostics(comparison).front().code, "GC-COMPARE-0126");
+    EXPECT_EQ(messages_of(job).front().code, "GC-COMPARE-0126");
     // The standard deviation of seven equal numbers is 0, not the rounding of their mean.
     ComparisonJob large = job_of(std::vector<double>(7, 1000000.1), {});
     large.items[0].assigned_value.method = AssignedValueMethod::median;
@@ -759,7 +763,7 @@ TEST(EvaluateLaboratories, WhatIsLeftOutIsSaid) {
     vectors.items.push_back(item_in("second", "mm"));
     add_result(vectors, 0, 10.1, u_and_k(0.1), 1);
     add_result(vectors, 1, 10.2, u_and_k(0.1), 1);
-    for (engine::ComparisonItem& item : vectors.items) {
+    for (gum::ComparisonItem& item : vectors.items) {
         item.assigned_value = given(10.0, u_and_k(0.1));
     }
     vectors.vectors = {{.name = "both",
@@ -826,7 +830,7 @@ TEST(EvaluateLaboratories, ConsensusAgainstAnIndependentValue) {
     EXPECT_NEAR(comparison.items[0].consensus->ratio, 0.372358490566038 / std::hypot(0.058277151741435856, 0.05),
                 1e-10);
     EXPECT_FALSE(comparison.items[0].consensus->consistent);
-    const std::vector<gum::Diagnostic> messages = laboratory_diagnostics(comparison);
+    const std::vector<gum::Diagnostic> messages = messages_of(job);
     EXPECT_TRUE(std::any_of(messages.begin(), messages.end(),
                             [](const gum::Diagnostic& message) { return message.code == "GC-COMPARE-0124"; }));
 }
@@ -883,8 +887,8 @@ TEST(WhatScoresSay, ASignalOfAnyScoreIsTheSignal) {
     // z is small, and the laboratory claims more than it can: E_n = 0.3/√(0.1² + 0.02²).
     ComparisonJob job = job_of({10.3, 10.0, 10.05}, {0.05, 0.05, 0.05});
     job.items[0].assigned_value = given(10.0, u_and_k(0.01));
-    job.items[0].sigma_pt = {.method = engine::SigmaPtMethod::given, .value = 0.5};
-    job.results[2].audited = engine::AuditedUncertainty{u_and_k(0.01), "counted twice"};
+    job.items[0].sigma_pt = {.method = gum::SigmaPtMethod::given, .value = 0.5};
+    job.results[2].audited = gum::AuditedUncertainty{u_and_k(0.01), "counted twice"};
     const reports::Comparison comparison = evaluated(job);
     EXPECT_EQ(comparison.items[0].score, "z");
     EXPECT_EQ(comparison.points[0].signal, "action");
@@ -903,7 +907,7 @@ TEST(WhatScoresSay, AReferenceThatIsWorseClearsNobody) {
     EXPECT_EQ(comparison.points[1].signal, "none");
     EXPECT_EQ(comparison.participants[0].inconclusive, 1);
     bool told = false;
-    for (const gum::Diagnostic& message : laboratory_diagnostics(comparison)) {
+    for (const gum::Diagnostic& message : messages_of(job)) {
         told = told || message.code == "GC-COMPARE-0128";
     }
     EXPECT_TRUE(told);

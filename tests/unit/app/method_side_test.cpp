@@ -75,7 +75,7 @@ engine::ComparisonJob laboratories(const BudgetJob& budget) {
         engine::ComparisonResult result;
         result.participant = job.participants.size();
         result.value = 11.0;
-        result.uncertainty = engine::ResultUncertainty{.u = 5.0, .U = 10.0, .k = 2.0};
+        result.uncertainty = gum::ResultUncertainty{.u = 5.0, .U = 10.0, .k = 2.0};
         job.participants.push_back({.id = id, .name = id, .group = "", .cmc_U = std::nullopt});
         job.results.push_back(result);
     }

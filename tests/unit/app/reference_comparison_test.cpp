@@ -237,6 +237,7 @@ TEST(ReferenceComparison, HandsOnPublishedFiguresAndFindings) {
     EXPECT_EQ(comparison.published_source, "a paper");
     EXPECT_EQ(comparison.audit_finding, "bound taken as a standard uncertainty");
     EXPECT_EQ(row(comparison, "x").published_mean_abs_En, 0.77);
+    EXPECT_EQ(row(comparison, "x").printed.published_mean_abs_En, "0.77");
     ASSERT_TRUE(comparison.points[0].En_audited);
     EXPECT_NEAR(*comparison.points[0].En_audited, 0.5 / (k_factor * std::sqrt(0.09 + 0.04)), 1e-9);
 }

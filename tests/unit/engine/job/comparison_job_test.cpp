@@ -33,7 +33,7 @@ TEST(ComparisonJob, ReadsLaboratoriesWithTheirResults) {
     ASSERT_EQ(job.items.size(), 1U);
     EXPECT_EQ(job.items[0].unit.text(), "mg/kg");
     EXPECT_EQ(job.items[0].id, "");
-    EXPECT_EQ(job.items[0].assigned_value.method, AssignedValueMethod::mandel_paule);
+    EXPECT_EQ(job.items[0].assigned_value.method, gum::AssignedValueMethod::mandel_paule);
     EXPECT_THAT(job.rounds, ElementsAre(""));
     ASSERT_EQ(job.results.size(), 3U);
     EXPECT_EQ(job.results[0].value, 10.1);
@@ -97,14 +97,14 @@ TEST(ComparisonJob, ReadsATableOfSeveralItemsAndRounds) {
     EXPECT_EQ(job.missing[0].reason, "broken sample");
     EXPECT_EQ(job.items[0].name, "mercury");
     EXPECT_EQ(job.items[0].unit.text(), "mg/kg");
-    EXPECT_EQ(job.items[0].assigned_value.method, AssignedValueMethod::given);
+    EXPECT_EQ(job.items[0].assigned_value.method, gum::AssignedValueMethod::given);
     EXPECT_EQ(job.items[0].assigned_value.value, 0.044);
     EXPECT_EQ(job.items[0].assigned_value.uncertainty->u, 0.0041);
     EXPECT_EQ(job.items[0].assigned_value.traceability, "to the SI");
     EXPECT_EQ(job.items[0].sigma_pt->value, 0.0066);
     EXPECT_EQ(job.items[0].delta_E, 0.02);
     EXPECT_EQ(job.items[1].unit.text(), "ug/kg");
-    EXPECT_EQ(job.items[1].assigned_value.method, AssignedValueMethod::algorithm_a);
+    EXPECT_EQ(job.items[1].assigned_value.method, gum::AssignedValueMethod::algorithm_a);
     EXPECT_FALSE(job.items[1].sigma_pt);
     // Two items: their Youden plot needs no asking.
     EXPECT_THAT(job.youden, ElementsAre(std::pair<std::size_t, std::size_t>{0, 1}));
@@ -120,7 +120,7 @@ TEST(ComparisonJob, MakesItemsAndRoundsOfTheResults) {
     EXPECT_EQ(job.items[0].id, "Z");
     EXPECT_EQ(job.items[1].id, "Y");
     EXPECT_EQ(job.items[1].unit.text(), "mm");
-    EXPECT_EQ(job.items[1].sigma_pt->method, SigmaPtMethod::percent_of_assigned);
+    EXPECT_EQ(job.items[1].sigma_pt->method, gum::SigmaPtMethod::percent_of_assigned);
     EXPECT_THAT(job.rounds, ElementsAre("2", "1"));
 }
 
@@ -146,15 +146,15 @@ TEST(ComparisonJob, ReadsEveryWayToStateTheAssignedValue) {
     const auto method_of = [](const std::string& value) {
         return read_comparison(k_three_laboratories + ", \"assigned_value\": " + value).items[0].assigned_value;
     };
-    for (const std::string_view word : assigned_value_words()) {
+    for (const std::string_view word : gum::k_assigned_value_words) {
         if (word == "reference" || word == "given" || word == "vangel_rukhin") {
             continue;
         }
-        const AssignedValueRequest request = method_of("\"" + std::string(word) + "\"");
-        EXPECT_EQ(assigned_value_words()[static_cast<std::size_t>(request.method)], word);
+        const gum::AssignedValueRequest request = method_of("\"" + std::string(word) + "\"");
+        EXPECT_EQ(gum::k_assigned_value_words[static_cast<std::size_t>(request.method)], word);
     }
     EXPECT_EQ(method_of(R"({"method": "reference", "participant": "B"})").participant, "B");
-    const AssignedValueRequest trials =
+    const gum::AssignedValueRequest trials =
         method_of(R"({"method": "median", "uncertainty": "trials", "trials": 2e4, "seed": 7, "alpha": 0.1})");
     EXPECT_TRUE(trials.median_by_trials);
     EXPECT_EQ(trials.trials, 20000U);
@@ -162,7 +162,7 @@ TEST(ComparisonJob, ReadsEveryWayToStateTheAssignedValue) {
     EXPECT_EQ(trials.alpha, 0.1);
     EXPECT_TRUE(method_of(R"({"method": "algorithm_a", "constants": "exact"})").exact_constants);
     EXPECT_EQ(method_of(R"({"method": "power_moderated_mean", "power": 1.5})").power, 1.5);
-    const AssignedValueRequest given =
+    const gum::AssignedValueRequest given =
         method_of(R"({"method": "given", "value": 3, "u": 0.5, "sources": [{"source": "S", "u": -0.3}]})");
     EXPECT_EQ(given.value, 3.0);
     ASSERT_EQ(given.sources.size(), 1U);
@@ -174,12 +174,13 @@ TEST(ComparisonJob, ReadsSigmaPtReplicatesAndReferenceValue) {
     const auto item = [](const std::string& keys) {
         return read_comparison(k_three_laboratories + ", " + keys).items[0];
     };
-    EXPECT_EQ(item(R"("sigma_pt": "robust")").sigma_pt->method, SigmaPtMethod::robust);
+    EXPECT_EQ(item(R"("sigma_pt": "robust")").sigma_pt->method, gum::SigmaPtMethod::robust);
     EXPECT_EQ(item(R"("sigma_pt": {"mass_fraction_per_unit": 1e-6})").sigma_pt->mass_fraction_per_unit, 1e-6);
     const auto precision = item(R"("sigma_pt": {"reproducibility": 3, "repeatability": 1, "replicates": 2})").sigma_pt;
-    EXPECT_EQ(precision->method, SigmaPtMethod::precision);
+    EXPECT_EQ(precision->method, gum::SigmaPtMethod::precision);
     EXPECT_EQ(precision->replicates, 2U);
-    const ComparisonItem checked = item(R"("delta_E": 1, "homogeneity": [[1, 2], [3, 4], [5, 6]], "stability": [[7, 8]],
+    const gum::ComparisonItem checked =
+        item(R"("delta_E": 1, "homogeneity": [[1, 2], [3, 4], [5, 6]], "stability": [[7, 8]],
         "kernel_bandwidth": 0.5, "reference_value": {"value": 4, "U": 0.6, "k": 2})");
     EXPECT_EQ((*checked.homogeneity)(2, 1), 6.0);
     EXPECT_EQ((*checked.stability)(0, 1), 8.0);

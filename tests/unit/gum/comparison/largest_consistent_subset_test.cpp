@@ -10,7 +10,7 @@
 
 #include "gum/comparison/reference_value.h"
 #include "gum/quantity/diagnostic.h"
-#include "printed.h"
+#include "tests/unit/gum/printed.h"
 
 namespace gumcert::gum {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
-#include "printed.h"
+#include "tests/unit/gum/printed.h"
 
 namespace gumcert::gum {
 namespace {

@@ -1,0 +1,293 @@
+#include "gum/comparison/method_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "gum/argument_check.h"
+#include "gum/comparison/agreement.h"
+#include "gum/comparison/refusal_place.h"
+#include "gum/comparison/scores.h"
+#include "gum/coverage.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/quantity/special_values.h"
+#include "text/numbers.h"
+
+namespace gumcert::gum {
+
+namespace {
+
+using Eigen::Index;
+
+constexpr double k_rounding_of_correlation = 1e-9;
+
+/// The differences of all points, and what both sides contribute to their uncertainty.
+struct Differences {
+    MethodDifferences all;
+    std::vector<ComparedValue> method, reference;
+    std::vector<double> correlation;                     ///< of both values at a point
+    std::vector<EnUncertainty> of_method, of_reference;  ///< expanded uncertainties as E_n takes them
+};
+
+std::string place_of(const ComparedPoint& point, std::size_t i) {
+    std::string place = "point " + (point.name.empty() ? std::to_string(i + 1) : point.name);
+    if (point.name.empty() && point.angle_deg) {
+        place = "point at " + text::shortest(*point.angle_deg) + "°";
+    }
+    return point.direction.empty() ? place : place + ", direction " + point.direction;
+}
+
+void require_sizes(const MethodComparison& comparison) {
+    const auto m = static_cast<Index>(comparison.points.size());
+    const auto fits = [&](const Eigen::MatrixXd& matrix) { return matrix.rows() == m && matrix.cols() == m; };
+    if (m == 0 || !fits(comparison.covariance) || !fits(comparison.reference_covariance) ||
+        (comparison.cross_covariance.size() > 0 && !fits(comparison.cross_covariance))) {
+        refuse("GC-COMPARE-0201", "comparison of methods",
+               std::to_string(m) + " points and a covariance of " + std::to_string(comparison.covariance.rows()) +
+                   " and " + std::to_string(comparison.reference_covariance.rows()),
+               "every point has its row in the covariance of both methods",
+               "Give at least 1 point and all covariances.");
+    }
+}
+
+double correlation_of(const MethodComparison& comparison, std::size_t i) {
+    const auto at = static_cast<Index>(i);
+    const ComparedPoint& point = comparison.points[i];
+    if (comparison.cross_covariance.size() == 0 || comparison.cross_covariance(at, at) == 0.0) {
+        return 0.0;
+    }
+    const double r = comparison.cross_covariance(at, at) / (point.u * point.reference_u);
+    if (!(std::abs(r) <= 1.0 + k_rounding_of_correlation)) {
+        refuse("GC-COMPARE-0202", place_of(point, i),
+               "the covariance of both methods is " + text::shortest(comparison.cross_covariance(at, at)) +
+                   ", with standard uncertainties " + text::shortest(point.u) + " and " +
+                   text::shortest(point.reference_u),
+               "a correlation coefficient lies between -1 and 1",
+               "State the same uncertainty of a shared source in both budgets, or list it in \"independent_sources\".");
+    }
+    return std::clamp(r, -1.0, 1.0);
+}
+
+Differences differences_of(const MethodComparison& comparison) {
+    const auto m = static_cast<Index>(comparison.points.size());
+    Differences differences;
+    MethodDifferences& all = differences.all;
+    all.d.resize(m);
+    all.U.resize(m);
+    all.U_method.resize(m);
+    all.U_reference.resize(m);
+    all.covariance = comparison.covariance + comparison.reference_covariance;
+    if (comparison.cross_covariance.size() > 0) {
+        all.covariance -= comparison.cross_covariance + comparison.cross_covariance.transpose();
+    }
+    for (std::size_t i = 0; i < comparison.points.size(); ++i) {
+        const ComparedPoint& point = comparison.points[i];
+        const auto at = static_cast<Index>(i);
+        const double p = comparison.coverage_probability;
+        const EnUncertainty of_method = en_uncertainty(point.u, point.U, point.k, point.nu.value_or(k_infinity), p);
+        const EnUncertainty of_reference = en_uncertainty(point.reference_u, point.reference_U, point.reference_k,
+                                                          point.reference_nu.value_or(k_infinity), p);
+        differences.of_method.push_back(of_method);
+        differences.of_reference.push_back(of_reference);
+        differences.method.push_back({point.value, point.u, of_method.U});
+        differences.reference.push_back({point.reference_value, point.reference_u, of_reference.U});
+        differences.correlation.push_back(correlation_of(comparison, i));
+        ComparisonScore at_point;
+        at_place(place_of(point, i), [&] {
+            at_point = score(differences.method.back(), differences.reference.back(), differences.correlation.back());
+        });
+        // A settled E_n of 1 is one in every number that is computed from the differences.
+        const bool at_limit = std::abs(at_point.en) == 1.0;
+        all.d(at) = at_limit ? std::copysign(at_point.U_difference, at_point.en) : at_point.difference;
+        all.U(at) = at_point.U_difference;
+        all.U_method(at) = of_method.U;
+        all.U_reference(at) = of_reference.U;
+        all.covariance(at, at) = at_point.u_difference * at_point.u_difference;
+    }
+    all.method_covariance = comparison.covariance;
+    all.reference_covariance = comparison.reference_covariance;
+    return differences;
+}
+
+/// E_n for the worst plausible correlation; infinite where no finite number bounds it.
+double worst_en(const ComparedValue& method, const ComparedValue& reference) {
+    const std::optional<double> worst = worst_plausible_en(method, reference);
+    const double difference = method.value - reference.value;
+    return worst ? *worst : difference == 0.0 ? 0.0 : std::copysign(k_infinity, difference);
+}
+
+double audited_en(const MethodComparison& comparison, const Differences& differences, std::size_t i) {
+    const auto corrected = [](ComparedValue value, double factor) {
+        value.standard_uncertainty *= factor;
+        value.expanded_uncertainty *= factor;
+        return value;
+    };
+    return score(corrected(differences.method[i], comparison.audited_factor),
+                 corrected(differences.reference[i], comparison.reference_audited_factor), differences.correlation[i])
+        .en;
+}
+
+MethodScore score_at(const MethodComparison& comparison, const Differences& differences, std::size_t i) {
+    const auto at = static_cast<Index>(i);
+    const auto if_converted = [](const EnUncertainty& taken) {
+        return taken.converted ? std::optional(taken) : std::nullopt;
+    };
+    MethodScore score;
+    score.difference = differences.all.d(at);
+    score.u_difference = std::sqrt(differences.all.covariance(at, at));
+    score.U_difference = differences.all.U(at);
+    score.en = score.difference / score.U_difference;
+    score.zeta = score.difference / score.u_difference;
+    score.correlation = differences.correlation[i];
+    score.of_scores = if_converted(differences.of_method[i]);
+    score.reference_of_scores = if_converted(differences.of_reference[i]);
+    if (comparison.correlation_unknown) {
+        score.en_worst = worst_en(differences.method[i], differences.reference[i]);
+    }
+    if (comparison.is_audited()) {
+        score.en_audited = audited_en(comparison, differences, i);
+    }
+    return score;
+}
+
+// ---- summary of a direction -----------------------------------------------------------------------------------------
+
+/// Directions in the order of the points, then all of them together.
+std::vector<MethodSummary> rows_of(const MethodComparison& comparison) {
+    std::vector<MethodSummary> rows;
+    MethodSummary all{.direction = "all", .points = {}, .agreement = {}};
+    bool has_unnamed = false;
+    for (std::size_t i = 0; i < comparison.points.size(); ++i) {
+        const std::string& direction = comparison.points[i].direction;
+        all.points.push_back(static_cast<Index>(i));
+        if (direction == "all") {
+            refuse("GC-COMPARE-0203", place_of(comparison.points[i], i), "the direction is called \"all\"",
+                   "\"all\" stands for all directions together", "Give the direction another name.");
+        }
+        if (direction.empty()) {
+            has_unnamed = true;
+            continue;
+        }
+        auto row =
+            std::find_if(rows.begin(), rows.end(), [&](const MethodSummary& r) { return r.direction == direction; });
+        if (row == rows.end()) {
+            rows.push_back({.direction = direction, .points = {}, .agreement = {}});
+            row = std::prev(rows.end());
+        }
+        row->points.push_back(static_cast<Index>(i));
+    }
+    if (has_unnamed || rows.size() > 1) {
+        rows.push_back(std::move(all));
+    }
+    return rows;
+}
+
+MethodDifferences selected(const MethodDifferences& all, const std::vector<Index>& points) {
+    MethodDifferences chosen;
+    chosen.d = all.d(points);
+    chosen.covariance = all.covariance(points, points);
+    chosen.U = all.U(points);
+    chosen.U_method = all.U_method(points);
+    chosen.U_reference = all.U_reference(points);
+    chosen.method_covariance = all.method_covariance(points, points);
+    chosen.reference_covariance = all.reference_covariance(points, points);
+    return chosen;
+}
+
+/// \param number  of E_n, one a point
+std::optional<EnVariant> variant_of(const std::vector<MethodScore>& scores, const std::vector<Index>& points,
+                                    std::optional<double> MethodScore::*number) {
+    double sum = 0.0;
+    EnVariant variant;
+    for (const Index i : points) {
+        const std::optional<double>& en = scores[static_cast<std::size_t>(i)].*number;
+        if (!en) {
+            return std::nullopt;
+        }
+        sum += std::abs(*en);
+        variant.largest_absolute_en = std::max(variant.largest_absolute_en, std::abs(*en));
+        variant.count_above_1 += std::abs(*en) > 1.0 ? 1U : 0U;
+    }
+    variant.mean_absolute_en = sum / static_cast<double>(points.size());
+    return variant;
+}
+
+/// The differences as a line is fitted to them. Where the mean was taken off, their covariance is singular in its
+/// direction: a variance there, as large as that of a point, leaves the slope as it is and makes the constant 0.
+MethodDifferences for_bias_line(const MethodComparison& comparison, MethodDifferences differences) {
+    if (comparison.mean_taken_off) {
+        const auto n = static_cast<double>(differences.covariance.rows());
+        differences.covariance.array() += differences.covariance.trace() / (n * n);
+    }
+    return differences;
+}
+
+std::optional<MethodBias> bias_of(const MethodComparison& comparison, const MethodDifferences& differences,
+                                  const std::vector<Index>& points) {
+    Eigen::VectorXd t(differences.d.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const ComparedPoint& point = comparison.points[static_cast<std::size_t>(points[i])];
+        if (comparison.bias_against_position && !point.position) {
+            return std::nullopt;
+        }
+        t(static_cast<Index>(i)) = comparison.bias_against_position ? *point.position : point.reference_value;
+    }
+    const std::optional<BiasLine> line = bias_line(for_bias_line(comparison, differences), t);
+    if (!line) {
+        return std::nullopt;
+    }
+    const double k = coverage_factor(comparison.coverage_probability, k_infinity);
+    return MethodBias{.line = *line,
+                      .U_constant = k * line->u_constant,
+                      .U_slope = k * line->u_slope,
+                      .against_position = comparison.bias_against_position,
+                      .span = t.maxCoeff() - t.minCoeff()};
+}
+
+/// Slope of the bias line that the uncertainty of the reference values alone makes: their errors stand in t, and with
+/// the other sign in D. Expected value of Σ (t − t̄)(D − D̄) from the covariance of both, over Σ (t − t̄)²; what all
+/// points share moves t̄ and turns nothing. To first order, for equal weights.
+double slope_of_noise(const MethodComparison& comparison, const std::vector<Index>& points) {
+    if (comparison.bias_against_position || points.empty()) {
+        return 0.0;
+    }
+    const auto n = static_cast<double>(points.size());
+    Eigen::VectorXd t(static_cast<Index>(points.size()));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        t(static_cast<Index>(i)) = comparison.points[static_cast<std::size_t>(points[i])].reference_value;
+    }
+    Eigen::MatrixXd covariance = -comparison.reference_covariance(points, points);
+    if (comparison.cross_covariance.size() > 0) {
+        covariance += comparison.cross_covariance(points, points);
+    }
+    const double spread = (t.array() - t.mean()).square().sum();
+    return spread > 0.0 ? (covariance.trace() - covariance.sum() / n) / spread : 0.0;
+}
+
+}  // namespace
+
+MethodResult compare_methods(const MethodComparison& comparison) {
+    require_sizes(comparison);
+    const Differences differences = differences_of(comparison);
+    const double p = en_coverage_probability(comparison.coverage_probability);
+    MethodResult result{.score_probability = p, .scores = {}, .summaries = rows_of(comparison)};
+    for (std::size_t i = 0; i < comparison.points.size(); ++i) {
+        result.scores.push_back(score_at(comparison, differences, i));
+    }
+    for (MethodSummary& row : result.summaries) {
+        const MethodDifferences chosen = selected(differences.all, row.points);
+        row.agreement = agreement(chosen, p);
+        row.worst = variant_of(result.scores, row.points, &MethodScore::en_worst);
+        row.audited = variant_of(result.scores, row.points, &MethodScore::en_audited);
+        row.verdict =
+            agreement_verdict(row.agreement, row.worst ? std::optional(row.worst->largest_absolute_en) : std::nullopt);
+        // Directions of their own have no line in common.
+        if (row.direction != "all" || result.summaries.size() == 1) {
+            row.bias = bias_of(comparison, chosen, row.points);
+        }
+        row.slope_of_noise = slope_of_noise(comparison, row.points);
+    }
+    return result;
+}
+
+}  // namespace gumcert::gum

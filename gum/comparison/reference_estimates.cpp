@@ -1,0 +1,273 @@
+#include "gum/comparison/reference_estimates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <span>
+
+#include "gum/comparison/consensus_spread.h"
+#include "gum/comparison/random_effects.h"
+#include "gum/comparison/refusal_place.h"
+#include "gum/comparison/robust_statistics.h"
+#include "gum/comparison/scores.h"
+#include "gum/coverage.h"
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::gum {
+
+namespace {
+
+/// Collects estimates; one that the data do not allow is left out.
+class Estimates {
+public:
+    Estimates(const LaboratoryData& data, const AssignedValue& assigned, double coverage_probability)
+        : data_(data), assigned_(assigned), coverage_probability_(coverage_probability) {}
+
+    /// U of an estimate by the scatter of the results.
+    void expand(ReferenceEstimate& estimate, const SpreadUncertainty& spread) const {
+        if (estimate.u && spread.u > 0.0) {
+            estimate.U = coverage_factor(coverage_probability_, spread.degrees_of_freedom) * spread.u;
+            estimate.degrees_of_freedom = spread.degrees_of_freedom;
+        }
+    }
+
+    void add(const std::string& method, const std::function<void(ReferenceEstimate&)>& evaluate) {
+        ReferenceEstimate estimate;
+        estimate.method = method;
+        estimate.results = data_.contributing.size();
+        try {
+            evaluate(estimate);
+        } catch (const DiagnosedError&) {
+            return;  // not possible with these data, and not asked for
+        }
+        all_.push_back(std::move(estimate));
+    }
+
+    void add(AssignedValueMethod method, const std::function<void(ReferenceEstimate&)>& evaluate) {
+        add(word_of(method), [&](ReferenceEstimate& estimate) {
+            evaluate(estimate);
+            if (method == data_.item->assigned_value.method) {  // with all that was asked, trials or constants
+                estimate.value = assigned_.value;
+                estimate.u = assigned_.u;
+                estimate.used = true;
+            }
+            if (data_.item->assigned_value.method == AssignedValueMethod::median &&
+                data_.item->assigned_value.median_by_trials && method == AssignedValueMethod::median) {
+                estimate.U = std::nullopt;
+                estimate.degrees_of_freedom = std::numeric_limits<double>::infinity();
+            }
+        });
+    }
+
+    [[nodiscard]] std::vector<ReferenceEstimate> take() { return std::move(all_); }
+    [[nodiscard]] double coverage_probability() const { return coverage_probability_; }
+
+private:
+    const LaboratoryData& data_;
+    const AssignedValue& assigned_;
+    double coverage_probability_;
+    std::vector<ReferenceEstimate> all_;
+};
+
+void take(ReferenceEstimate& estimate, const ReferenceValue& value) {
+    estimate.value = value.value;
+    estimate.u = value.u;
+}
+
+void take_random_effects(ReferenceEstimate& estimate, const ReferenceValue& value) {
+    take(estimate, value);
+    estimate.between = value.between_standard_deviation;
+}
+
+void take_robust(ReferenceEstimate& estimate, const RobustEstimate& value) {
+    estimate.value = value.location;
+    estimate.scale = value.scale;
+    if (value.scale > 0.0) {
+        estimate.u = value.u;
+    }
+}
+
+void add_by_uncertainty(Estimates& estimates, const LaboratoryData& data, const LaboratoryResults& results) {
+    const AssignedValueRequest& request = data.item->assigned_value;
+    const bool independent = results.covariance.size() == 0;
+    estimates.add(AssignedValueMethod::weighted_mean,
+                  [&](ReferenceEstimate& estimate) { take(estimate, weighted_mean(results)); });
+    const bool asked = request.method == AssignedValueMethod::largest_consistent_subset;
+    if (asked || (independent && data.contributing.size() <= k_most_laboratories_in_pairs)) {
+        estimates.add(AssignedValueMethod::largest_consistent_subset, [&](ReferenceEstimate& estimate) {
+            const ConsistentSubset subset = largest_consistent_subset(results, request.alpha);
+            take(estimate, subset.mean);
+            estimate.results = subset.members.size();
+        });
+    }
+    if (independent) {
+        const auto add = [&](AssignedValueMethod method, ReferenceValue (*evaluate)(const LaboratoryResults&)) {
+            estimates.add(method, [&](ReferenceEstimate& estimate) {
+                const ReferenceValue mean = evaluate(results);
+                take_random_effects(estimate, mean);
+                estimates.expand(estimate, weighted_spread(results.x, mean, estimates.coverage_probability()));
+                estimate.u_hartung_knapp = hartung_knapp_u(results, mean);
+            });
+        };
+        add(AssignedValueMethod::dersimonian_laird, dersimonian_laird);
+        add(AssignedValueMethod::mandel_paule, mandel_paule);
+    }
+}
+
+}  // namespace
+
+std::vector<ReferenceEstimate> reference_estimates(const LaboratoryData& data, const AssignedValue& assigned,
+                                                   double coverage_probability) {
+    const AssignedValueRequest& request = data.item->assigned_value;
+    Estimates estimates(data, assigned, coverage_probability);
+    if (data.contributing.size() < 2) {
+        return {};
+    }
+    const Eigen::VectorXd x = data.values(data.contributing);
+    const std::span<const double> values(x.data(), static_cast<std::size_t>(x.size()));
+    const bool weighed = data.all_have_u(data.contributing);
+    const LaboratoryResults results = data.at(data.contributing);
+    estimates.add(AssignedValueMethod::arithmetic_mean, [&](ReferenceEstimate& estimate) {
+        const ReferenceValue mean = arithmetic_mean(x);
+        estimate.value = mean.value;
+        estimate.scale = mean.u * std::sqrt(static_cast<double>(x.size()));  // exactly 0 for equal results
+        if (mean.u > 0.0) {
+            estimate.u = mean.u;
+            estimates.expand(estimate, weighted_spread(x, mean, estimates.coverage_probability()));
+        }
+    });
+    const auto add_robust = [&](AssignedValueMethod method, RobustMean kind, const auto& evaluate) {
+        estimates.add(method, [&](ReferenceEstimate& estimate) {
+            take_robust(estimate, evaluate());
+            estimates.expand(estimate, robust_spread(kind, values));
+        });
+    };
+    add_robust(AssignedValueMethod::median, RobustMean::median, [&] { return median_with_made(values); });
+    estimates.add("niqr", [&](ReferenceEstimate& estimate) {
+        estimate.value = median(values);
+        estimate.scale = normalised_interquartile_range(values);
+    });
+    add_robust(AssignedValueMethod::algorithm_a, RobustMean::algorithm_a, [&] {
+        return algorithm_a(values,
+                           request.exact_constants ? AlgorithmAConstants::exact : AlgorithmAConstants::published);
+    });
+    add_robust(AssignedValueMethod::q_hampel, RobustMean::q_hampel, [&] { return q_hampel(values); });
+    if (weighed) {
+        add_by_uncertainty(estimates, data, results);
+    }
+    if (const std::optional<Replicates> stated = replicates(data); stated && results.covariance.size() == 0) {
+        estimates.add(AssignedValueMethod::vangel_rukhin, [&](ReferenceEstimate& estimate) {
+            const ReferenceValue mean = vangel_rukhin({stated->x, stated->s, stated->observations});
+            take_random_effects(estimate, mean);
+            estimates.expand(estimate, weighted_spread(stated->x, mean, estimates.coverage_probability()));
+        });
+    }
+    if (weighed && results.covariance.size() == 0) {
+        estimates.add(AssignedValueMethod::power_moderated_mean, [&](ReferenceEstimate& estimate) {
+            const ReferenceValue mean =
+                request.power ? power_moderated_mean(results, *request.power) : power_moderated_mean(results);
+            take_random_effects(estimate, mean);
+            estimates.expand(estimate, weighted_spread(results.x, mean, estimates.coverage_probability()));
+        });
+    }
+    if (data.item->kernel_bandwidth) {
+        estimates.add("kernel_mode", [&](ReferenceEstimate& estimate) {
+            estimate.value = kernel_density_mode(values, *data.item->kernel_bandwidth);
+            estimate.scale = *data.item->kernel_bandwidth;
+        });
+    }
+    return estimates.take();
+}
+
+std::optional<ResultConsistency> consistency_of(const LaboratoryData& data, const AssignedValue& assigned) {
+    if (data.contributing.size() < 2 || !data.all_have_u(data.contributing)) {
+        return std::nullopt;
+    }
+    const double alpha = data.item->assigned_value.alpha;
+    std::vector<std::size_t> tested = data.contributing;
+    std::optional<ConsistencyTest> test = assigned.subset;
+    if (test) {
+        std::erase_if(tested, [&](std::size_t i) {
+            return std::find(assigned.not_consistent.begin(), assigned.not_consistent.end(), i) !=
+                   assigned.not_consistent.end();
+        });
+    } else {
+        at_place(data.where, [&] { test = consistency_test(data.at(tested), alpha); });
+    }
+    ResultConsistency consistency{.test = *test, .alpha = alpha};
+    if (const std::size_t n = tested.size(); n <= k_most_results_of_pair_count) {
+        consistency.pairs = n * (n - 1) / 2;
+        consistency.incompatible_pairs = incompatible_pairs(data.at(tested));
+    }
+    return consistency;
+}
+
+std::optional<double> robust_standard_deviation(const LaboratoryData& data) {
+    constexpr std::size_t k_least_results = 3;
+    if (data.contributing.size() < k_least_results) {
+        return std::nullopt;
+    }
+    const Eigen::VectorXd x = data.values(data.contributing);
+    try {
+        return algorithm_a({x.data(), static_cast<std::size_t>(x.size())}).scale;
+    } catch (const DiagnosedError&) {
+        return std::nullopt;
+    }
+}
+
+std::optional<double> pooled_standard_deviation(const LaboratoryData& data) {
+    const std::optional<Replicates> stated = replicates(data);
+    if (!stated || std::any_of(stated->observations.begin(), stated->observations.end(),
+                               [&](std::size_t n) { return n != stated->observations.front(); })) {
+        return std::nullopt;
+    }
+    try {
+        return algorithm_s({stated->s.data(), static_cast<std::size_t>(stated->s.size())},
+                           static_cast<double>(stated->observations.front() - 1));
+    } catch (const DiagnosedError&) {
+        return std::nullopt;
+    }
+}
+
+std::size_t count_pairs(const LaboratoryData& data) {
+    const std::size_t n = data.with_u().size();
+    return n < 2 || n > k_most_laboratories_in_pairs ? 0 : n * (n - 1) / 2;
+}
+
+std::vector<PairEquivalence> pair_equivalences(const LaboratoryData& data, double coverage_probability) {
+    const std::vector<std::size_t> with_u = data.with_u();
+    std::vector<PairEquivalence> pairs;
+    if (count_pairs(data) == 0) {
+        return pairs;
+    }
+    const LaboratoryResults results = data.at(with_u);
+    for (std::size_t i = 0; i < with_u.size(); ++i) {
+        for (std::size_t j = i + 1; j < with_u.size(); ++j) {
+            const ParticipantResult& first = *data.results[with_u[i]];
+            const ParticipantResult& second = *data.results[with_u[j]];
+            const PairDifference difference = pair_difference(results, i, j);
+            double r = 0.0;
+            if (results.covariance.size() > 0) {
+                r = results.covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) /
+                    (first.uncertainty->u * second.uncertainty->u);
+            }
+            PairEquivalence pair;
+            pair.first = first.participant;
+            pair.second = second.participant;
+            pair.d = difference.d;
+            pair.u = difference.u;
+            const auto U_of = [&](const ResultUncertainty& stated) {
+                return en_uncertainty(stated.u, stated.U, stated.k, stated.degrees_of_freedom, coverage_probability).U;
+            };
+            pair.U = uncertainty_of_difference(U_of(*first.uncertainty), U_of(*second.uncertainty),
+                                               std::clamp(r, -1.0, 1.0));
+            if (pair.U > 0.0) {
+                pair.en = pair.d / pair.U;
+            }
+            pairs.push_back(pair);
+        }
+    }
+    return pairs;
+}
+
+}  // namespace gumcert::gum

@@ -1,0 +1,348 @@
+#include "gum/comparison/scored_result.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "gum/comparison/laboratory_covariance.h"
+#include "gum/comparison/scores.h"
+
+namespace gumcert::gum {
+
+namespace {
+
+/// Everything that the scores of one item have in common.
+struct Scene {
+    const ComparisonScheme& scheme;
+    const LaboratoryData& data;
+    const AssignedValue& assigned;
+    const ItemResult& item;
+
+    [[nodiscard]] double score_probability() const { return en_coverage_probability(scheme.coverage_probability); }
+};
+
+/// D over a scale, settled.
+double score_of(const ScoredResult& point, double scale) {
+    return settled_score(point.value, point.assigned_value, scale);
+}
+
+/// U of a result as E_n takes it.
+EnUncertainty of_scores(const Scene& scene, const ResultUncertainty& uncertainty) {
+    return en_uncertainty(uncertainty.u, uncertainty.U, uncertainty.k, uncertainty.degrees_of_freedom,
+                          scene.scheme.coverage_probability);
+}
+
+/// Scores against what the scatter of all other results says.
+SpreadDifference difference_by_scatter(const Scene& scene, std::size_t position, const ResultUncertainty& laboratory) {
+    const ConsensusScatter& scatter = *scene.assigned.scatter;
+    const auto at = static_cast<Eigen::Index>(position);
+    return spread_difference({laboratory.u, laboratory.degrees_of_freedom}, scatter.others[position],
+                             scene.item.u_of_item(), scatter.covariance[at], scatter.share[at],
+                             scatter.share[at] > 0.0 ? scatter.factor : 1.0, scene.score_probability());
+}
+
+bool is_scored_by_scatter(const Scene& scene) {
+    return scene.assigned.scatter && !scene.assigned.scatter->others.empty();
+}
+
+/// u_D, U_D and with them E_n and ζ.
+void score_with_uncertainty(const Scene& scene, std::size_t position, ScoredResult& point) {
+    const auto at = static_cast<Eigen::Index>(position);
+    const double u = point.uncertainty->u;
+    const double u_X = *scene.item.u;
+    const double covariance = scene.assigned.covariance[at];
+    const double r = u_X > 0.0 ? std::clamp(covariance / (u * u_X), -1.0, 1.0) : 0.0;
+    point.u_difference = uncertainty_of_difference(u, u_X, r);
+    point.correlation = r;
+    if (is_scored_by_scatter(scene)) {
+        const ConsensusScatter& scatter = *scene.assigned.scatter;
+        const SpreadDifference difference = difference_by_scatter(scene, position, *point.uncertainty);
+        point.U_difference = difference.U;
+        point.scatter = ScatterOfOthers{.others = scatter.others[position],
+                                        .covariance = scatter.covariance[at],
+                                        .share = scatter.share[at],
+                                        .factor = scatter.share[at] > 0.0 ? scatter.factor : 1.0,
+                                        .degrees_of_freedom = difference.degrees_of_freedom};
+    } else {
+        point.U_difference =
+            uncertainty_of_difference(point.U_of_scores(), scene.item.U_of_scores.value_or(*scene.item.U), r);
+    }
+    if (const std::optional<ComparisonScore> score =
+            score_of_difference(point.value, point.assigned_value, *point.u_difference, *point.U_difference)) {
+        point.en = score->en;
+        point.zeta = score->zeta;
+    }
+    if (scene.assigned.intervals && !scene.item.u_homogeneity) {
+        const double low = scene.assigned.intervals->d_low[at];
+        if (std::isfinite(low)) {
+            point.low = low;
+            point.high = scene.assigned.intervals->d_high[at];
+        }
+    }
+}
+
+/// E_n with the least variance that what the members of a group may share can leave.
+void score_with_unknown_group(const Scene& scene, double variance_change, ScoredResult& point) {
+    const double u_x = point.uncertainty->u;
+    const double u_X = *scene.item.u;
+    if (scene.data.reference && scene.item.U == scene.assigned.stated->U) {
+        point.en_worst =
+            worst_plausible_en({point.value, u_x, point.U_of_scores()},
+                               {point.assigned_value, u_X, scene.item.U_of_scores.value_or(*scene.item.U)});
+        return;
+    }
+    const double least = *point.u_difference * *point.u_difference + variance_change;
+    if (is_scored_by_scatter(scene)) {
+        if (least > 0.0) {
+            point.en_worst = score_of(point, *point.U_difference * std::sqrt(least) / *point.u_difference);
+        }
+        return;
+    }
+    const double r = u_X > 0.0 ? (u_x * u_x + u_X * u_X - least) / (2.0 * u_x * u_X) : 0.0;
+    if (least > 0.0 && std::abs(r) <= 1.0) {
+        const double U =
+            uncertainty_of_difference(point.U_of_scores(), scene.item.U_of_scores.value_or(*scene.item.U), r);
+        if (U > 0.0) {
+            point.en_worst = score_of(point, U);
+        }
+    }
+}
+
+/// What an audit changes of the square of an expanded uncertainty; 0 without a finding.
+double audited_change(const Scene& scene, const ParticipantResult& result) {
+    const double stated_U = of_scores(scene, *result.uncertainty).U;
+    const double audited_U = result.audited ? of_scores(scene, result.audited->uncertainty).U : stated_U;
+    return audited_U * audited_U - stated_U * stated_U;
+}
+
+/// E_n once the findings on the result, and on that of the reference laboratory, are corrected. What is shared stays.
+void score_audited(const Scene& scene, std::size_t position, ScoredResult& point) {
+    const ParticipantResult& result = *scene.data.results[position];
+    const ParticipantResult* reference = scene.data.reference ? scene.data.results[*scene.data.reference] : nullptr;
+    if (!point.U_difference || !(result.audited || (reference != nullptr && reference->audited))) {
+        return;
+    }
+    if (is_scored_by_scatter(scene)) {
+        const double U = difference_by_scatter(scene, position, result.audited->uncertainty).U;
+        if (U > 0.0) {
+            point.en_audited = score_of(point, U);
+        }
+        return;
+    }
+    const double weight =
+        scene.assigned.weights.size() > 0 ? scene.assigned.weights[static_cast<Eigen::Index>(position)] : 0.0;
+    double square =
+        *point.U_difference * *point.U_difference + (1.0 - weight) * (1.0 - weight) * audited_change(scene, result);
+    if (reference != nullptr) {
+        square += audited_change(scene, *reference);
+    }
+    if (square > 0.0) {
+        point.en_audited = score_of(point, std::sqrt(square));
+    }
+}
+
+void score_without_uncertainty(const Scene& scene, ScoredResult& point) {
+    if (scene.item.sigma_pt) {
+        const double sigma = *scene.item.sigma_pt;
+        point.z = z_score(point.value, point.assigned_value, sigma);
+        if (scene.item.u) {
+            point.z_prime = z_prime_score(point.value, point.assigned_value, sigma, *scene.item.u);
+        }
+    }
+    if (scene.item.delta_E) {
+        point.percent_of_allowed = percent_of_allowed(point.value, point.assigned_value, *scene.item.delta_E);
+    }
+    if (!scene.data.item->unit.is_celsius_temperature()) {
+        point.percent = percent_difference(point.value, point.assigned_value);
+    }
+}
+
+/// The signals of all scores that a result has. Of z and z' the one that holds.
+std::vector<std::pair<Score, Signal>> signals_of(const Scene& scene, const ScoredResult& point) {
+    std::vector<std::pair<Score, Signal>> signals;
+    const auto add = [&](Score score, const std::optional<double>& number, Signal (*signal)(double)) {
+        if (number) {
+            signals.emplace_back(score, signal(*number));
+        }
+    };
+    if (scene.item.criterion_met) {
+        add(Score::z, point.z, signal_of_z);
+    } else {
+        add(Score::z_prime, point.z_prime, signal_of_z);
+    }
+    add(Score::en, point.en, signal_of_en);
+    add(Score::zeta, point.zeta, signal_of_z);
+    add(Score::en_audited, point.en_audited, signal_of_en);
+    if (point.percent_of_allowed) {
+        constexpr double k_all_that_is_allowed = 100.0;  // %
+        signals.emplace_back(Score::difference, std::abs(*point.percent_of_allowed) > k_all_that_is_allowed
+                                                    ? Signal::action
+                                                    : Signal::none);
+    }
+    return signals;
+}
+
+/// U(X) for the probability of the scores.
+double expanded_value_of_scores(const Scene& scene) {
+    if (!scene.assigned.scatter) {
+        return scene.item.U_of_scores.value_or(*scene.item.U);
+    }
+    return spread_difference({}, scene.assigned.scatter->of_value, scene.item.u_of_item(), 0.0, 0.0, 1.0,
+                             scene.score_probability())
+        .U;
+}
+
+/// Whether the score that decides could not have found a fault of the size that it is to find: a small score clears
+/// nobody then. Nor does one where it is not known how uncertain the assigned value is.
+bool is_too_uncertain_to_clear(const Scene& scene, const ScoredResult& point) {
+    constexpr double k_rounding = 1.0 + 1e-9;
+    const ItemResult& item = scene.item;
+    if (item.score == DecidingScore::en) {
+        if (!point.uncertainty) {
+            return false;
+        }
+        const double u_of_value = point.scatter ? point.scatter->others.u : *item.u;
+        return u_of_value > point.uncertainty->u * k_rounding ||
+               expanded_value_of_scores(scene) > point.U_of_scores() * k_rounding;
+    }
+    if (!item.u) {
+        return true;
+    }
+    if (item.score == DecidingScore::z_prime) {
+        return *item.u > *item.sigma_pt * k_rounding;
+    }
+    return item.score == DecidingScore::difference && item.U && *item.U > *item.delta_E * k_rounding;
+}
+
+/// The strongest signal of all scores, and who gives it.
+void add_verdict(const Scene& scene, ScoredResult& point) {
+    const std::vector<std::pair<Score, Signal>> signals = signals_of(scene, point);
+    if (scene.item.score == DecidingScore::none || signals.empty()) {
+        return;
+    }
+    Signal strongest = Signal::none;
+    for (const auto& [score, signal] : signals) {
+        strongest = std::max(strongest, signal);
+    }
+    for (const auto& [score, signal] : signals) {
+        if (signal == strongest && signal != Signal::none) {
+            point.verdict_by.push_back(score);
+        }
+    }
+    switch (strongest) {
+        case Signal::none:
+            point.verdict = is_too_uncertain_to_clear(scene, point) ? Verdict::inconclusive : Verdict::none;
+            break;
+        case Signal::warning:
+            point.verdict = Verdict::warning;
+            break;
+        case Signal::action:
+            point.verdict = Verdict::action;
+            break;
+    }
+}
+
+/// A stated u outside u(X) … 1.5 s* is not what a laboratory of this kind reaches.      (after ISO 13528:2022, clause
+/// 9)
+UncertaintyRealism realism_of(const Scene& scene, const ScoredResult& point) {
+    constexpr double k_largest_in_s_star = 1.5;
+    const ItemResult& item = scene.item;
+    if (!point.uncertainty || !item.u || !item.s_star || !(*item.s_star > 0.0) ||
+        *item.u > k_largest_in_s_star * *item.s_star) {
+        return UncertaintyRealism::not_judged;
+    }
+    if (point.uncertainty->u < *item.u) {
+        return UncertaintyRealism::small;
+    }
+    return point.uncertainty->u > k_largest_in_s_star * *item.s_star ? UncertaintyRealism::large
+                                                                     : UncertaintyRealism::plausible;
+}
+
+ScoredResult scored(const Scene& scene, std::size_t position) {
+    const ParticipantResult& result = *scene.data.results[position];
+    ScoredResult point;
+    point.participant = result.participant;
+    point.item = result.item;
+    point.round = result.round;
+    point.result = scene.data.result_positions[position];
+    point.value = result.value;
+    point.uncertainty = result.uncertainty;
+    point.assigned_value = scene.item.value;
+    point.u_assigned = scene.item.u;
+    point.U_assigned = scene.item.U;
+    point.k_assigned = scene.item.k;
+    point.difference = result.value - scene.item.value;
+    if (result.uncertainty) {
+        if (const EnUncertainty taken = of_scores(scene, *result.uncertainty); taken.converted) {
+            point.of_scores = taken;
+        }
+        if (const std::optional<double>& cmc = scene.scheme.participants[result.participant].cmc_U; cmc && *cmc > 0.0) {
+            point.U_over_cmc = point.U_of_scores() / *cmc;
+        }
+    }
+    if (scene.data.reference == position) {
+        return point;
+    }
+    score_without_uncertainty(scene, point);
+    if (point.uncertainty && scene.item.u) {
+        score_with_uncertainty(scene, position, point);
+        score_audited(scene, position, point);
+    }
+    add_verdict(scene, point);
+    point.realism = realism_of(scene, point);
+    return point;
+}
+
+/// U of every result over the median of the U of all others, all of them for the probability of the scores.
+void hold_against_others(std::vector<ScoredResult>& points) {
+    std::vector<double> sorted;
+    for (const ScoredResult& point : points) {
+        if (point.uncertainty) {
+            sorted.push_back(point.U_of_scores());
+        }
+    }
+    if (sorted.size() < 2) {
+        return;
+    }
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t others = sorted.size() - 1;
+    for (ScoredResult& point : points) {
+        if (!point.uncertainty) {
+            continue;
+        }
+        const double U = point.U_of_scores();
+        const auto own = static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), U) - sorted.begin());
+        const auto other = [&](std::size_t i) { return sorted[i < own ? i : i + 1]; };
+        const double median = 0.5 * (other((others - 1) / 2) + other(others / 2));
+        point.U_over_median = U / median;
+    }
+}
+
+}  // namespace
+
+double ScoredResult::U_of_scores() const {
+    return of_scores ? of_scores->U : uncertainty->U;
+}
+
+std::vector<ScoredResult> scored_results(const ComparisonScheme& scheme, const LaboratoryData& data,
+                                         const AssignedValue& assigned, const ItemResult& item) {
+    const Scene scene{scheme, data, assigned, item};
+    std::vector<ScoredResult> points;
+    points.reserve(data.size());
+    for (std::size_t i = 0; i < data.size(); ++i) {
+        points.push_back(scored(scene, i));
+    }
+    if (assigned.weights.size() > 0) {
+        const std::vector<std::optional<double>> change =
+            least_variance_of_unknown_groups(scheme, data, assigned.weights);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (change[i] && *change[i] < 0.0 && points[i].en) {
+                score_with_unknown_group(scene, *change[i], points[i]);
+            }
+        }
+    }
+    hold_against_others(points);
+    return points;
+}
+
+}  // namespace gumcert::gum

@@ -1,0 +1,108 @@
+#include "gum/comparison/method_comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "gum/quantity/diagnostic.h"
+#include "tests/unit/gum/printed.h"
+
+namespace gumcert::gum {
+namespace {
+
+using test::code_of;
+
+/// Points 0, 100, 200 … with these differences, all with U = 2 of the method and 0.2 of the reference, k = 2.
+MethodComparison methods_with(const std::vector<double>& differences) {
+    MethodComparison comparison;
+    for (std::size_t i = 0; i < differences.size(); ++i) {
+        const double reference = 100.0 * static_cast<double>(i);
+        comparison.points.push_back({.name = std::to_string(i + 1),
+                                     .value = reference + differences[i],
+                                     .u = 1.0,
+                                     .U = 2.0,
+                                     .reference_value = reference,
+                                     .reference_u = 0.1,
+                                     .reference_U = 0.2});
+    }
+    const auto m = static_cast<Eigen::Index>(differences.size());
+    comparison.covariance = Eigen::MatrixXd::Identity(m, m);
+    comparison.reference_covariance = 0.01 * Eigen::MatrixXd::Identity(m, m);
+    return comparison;
+}
+
+TEST(MethodScores, OfIndependentMethods) {
+    const MethodResult result = compare_methods(methods_with({0.9, -1.1, 2.5}));
+    ASSERT_EQ(result.scores.size(), 3U);
+    EXPECT_NEAR(result.scores[2].en, 2.5 / std::sqrt(4.04), 1e-12);
+    EXPECT_NEAR(result.scores[2].zeta, 2.5 / std::sqrt(1.01), 1e-12);
+    EXPECT_FALSE(result.scores[0].en_worst);
+    EXPECT_FALSE(result.scores[0].en_audited);
+    ASSERT_EQ(result.summaries.size(), 1U);
+    EXPECT_EQ(result.summaries[0].direction, "all");
+    EXPECT_EQ(result.summaries[0].agreement.count_above_1, 1U);
+    EXPECT_EQ(result.score_probability, 0.9545);
+}
+
+TEST(MethodScores, WhereTheCorrelationIsNotKnown) {
+    MethodComparison comparison = methods_with({0.9, -1.1});
+    comparison.correlation_unknown = true;
+    const MethodResult result = compare_methods(comparison);
+    EXPECT_NEAR(result.scores[0].en_worst.value(), 0.9 / std::sqrt(4.0 - 0.04), 1e-12);
+    EXPECT_NEAR(result.summaries[0].worst->largest_absolute_en, 1.1 / std::sqrt(3.96), 1e-12);
+    comparison.points[0].reference_U = 2.0;
+    comparison.points[0].reference_u = 1.0;
+    EXPECT_TRUE(std::isinf(compare_methods(comparison).summaries[0].worst->largest_absolute_en)) << "nothing bounds it";
+}
+
+TEST(MethodScores, WithFindingsCorrected) {
+    MethodComparison comparison = methods_with({0.9, -1.1});
+    comparison.audited_factor = 0.5;
+    const MethodResult result = compare_methods(comparison);
+    EXPECT_NEAR(result.scores[1].en_audited.value(), -1.1 / std::hypot(1.0, 0.2), 1e-12);
+    EXPECT_EQ(result.summaries[0].audited->count_above_1, 1U);
+    EXPECT_EQ(result.summaries[0].agreement.count_above_1, 0U);
+}
+
+TEST(MethodSummaries, DirectionsInTheOrderOfThePointsAndThenAll) {
+    MethodComparison comparison = methods_with({0.9, -1.1, 0.4, -0.7, 1.3, -0.5});
+    for (std::size_t i = 0; i < comparison.points.size(); ++i) {
+        comparison.points[i].direction = i % 2 == 0 ? "y" : "x";
+    }
+    const MethodResult result = compare_methods(comparison);
+    ASSERT_EQ(result.summaries.size(), 3U);
+    EXPECT_EQ(result.summaries[0].direction, "y");
+    EXPECT_EQ(result.summaries[1].direction, "x");
+    EXPECT_EQ(result.summaries[2].agreement.points, 6U);
+    EXPECT_TRUE(result.summaries[0].bias);
+    EXPECT_FALSE(result.summaries[2].bias) << "directions of their own have no line in common";
+}
+
+TEST(MethodSummaries, BiasLineAndWhatNoiseMakesOfIt) {
+    // D = 0.002 t − 0.2: the line is met exactly.
+    const MethodResult result = compare_methods(methods_with({-0.2, 0.0, 0.2}));
+    const MethodBias& bias = result.summaries[0].bias.value();
+    EXPECT_NEAR(bias.line.slope, 0.002, 1e-12);
+    EXPECT_NEAR(bias.line.constant, 0.0, 1e-12);
+    EXPECT_EQ(bias.span, 200.0);
+    EXPECT_NEAR(bias.U_slope, 2.0 * std::sqrt(1.01 / 20000.0), 1e-5);
+    // −(trace − sum/n)/Σ(t − t̄)² of the reference covariance.
+    EXPECT_NEAR(result.summaries[0].slope_of_noise, -(0.03 - 0.01) / 20000.0, 1e-15);
+}
+
+TEST(MethodRefusals, SizesCorrelationsAndNames) {
+    MethodComparison sizes = methods_with({0.9, -1.1});
+    sizes.covariance.resize(1, 1);
+    EXPECT_EQ(code_of<InputError>([&] { (void)compare_methods(sizes); }), "GC-COMPARE-0201");
+    MethodComparison beyond = methods_with({0.9, -1.1});
+    beyond.cross_covariance = 0.2 * Eigen::MatrixXd::Identity(2, 2);
+    EXPECT_EQ(code_of<InputError>([&] { (void)compare_methods(beyond); }), "GC-COMPARE-0202");
+    MethodComparison all = methods_with({0.9, -1.1});
+    all.points[1].direction = "all";
+    EXPECT_EQ(code_of<InputError>([&] { (void)compare_methods(all); }), "GC-COMPARE-0203");
+}
+
+}  // namespace
+}  // namespace gumcert::gum

@@ -1,0 +1,114 @@
+#include "gum/comparison/scored_result.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/unit/gum/comparison/stated_comparison.h"
+#include "tests/unit/gum/printed.h"
+
+namespace gumcert::gum {
+namespace {
+
+using test::prints_as;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+std::vector<ScoredResult> scores_of(const test::StatedComparison& stated) {
+    const LaboratoryData data = stated.data();
+    const AssignedValue assigned = assigned_value(stated.scheme, data);
+    return scored_results(stated.scheme, data, assigned, item_result(stated.scheme, data, assigned));
+}
+
+TEST(ScoredResults, OfThePublishedScheme) {
+    // ISO 13528:2022, table E.4: laboratories 15, 9, 16 and 1.
+    const std::vector<ScoredResult> scores = scores_of(test::results_of_iso_13528_e4());
+    ASSERT_EQ(scores.size(), 4U);
+    const ScoredResult& first = scores.front();
+    EXPECT_TRUE(prints_as(*first.percent, "-68.2"));
+    EXPECT_TRUE(prints_as(*first.percent_of_allowed, "-151.5"));
+    EXPECT_TRUE(prints_as(*first.z, "-4.55"));
+    EXPECT_TRUE(prints_as(*first.z_prime, "-3.86"));
+    EXPECT_TRUE(prints_as(*first.zeta, "-7.30"));
+    EXPECT_TRUE(prints_as(*first.en, "-3.65"));
+    EXPECT_EQ(first.verdict, Verdict::action);
+    EXPECT_THAT(first.verdict_by, ElementsAre(Score::z_prime, Score::en, Score::zeta, Score::difference))
+        << "z' in place of z";
+    EXPECT_EQ(scores[2].verdict, Verdict::none);
+    EXPECT_THAT(scores[2].verdict_by, IsEmpty());
+}
+
+TEST(ScoredResults, DegreesOfEquivalenceOfAKeyComparison) {
+    const std::vector<ScoredResult> scores = scores_of(test::five_results_of_cox());
+    EXPECT_NEAR(scores[0].difference, -105.380389232552, 1e-4);
+    EXPECT_NEAR(*scores[0].U_difference, 161.853953745782, 2e-4);
+    EXPECT_NEAR(std::abs(*scores[0].en), 0.651083194409137, 1e-6);
+    EXPECT_NEAR(scores[1].difference, 32.6196107674477, 1e-4);
+    EXPECT_NEAR(*scores[1].U_difference, 168.999119356113, 2e-4);
+}
+
+TEST(ScoredResults, OfAnInconsistentKeyComparison) {
+    const std::array<double, 6> expected{-0.384, -0.696, 0.125, -0.583, 2.090, -0.548};
+    const std::vector<ScoredResult> scores = scores_of(test::key_comparison());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_NEAR(*scores[i].en, expected[i], 6e-4) << i;
+        EXPECT_EQ(scores[i].participant, i);
+    }
+    EXPECT_EQ(scores[4].verdict, Verdict::action);
+}
+
+TEST(ScoredResults, CorrectedByAnAudit) {
+    // The maximum permissible error taken as a standard uncertainty, and as it should be.
+    test::StatedComparison stated = test::comparison_of({118.0, 101.0}, {10.0, 2.5});
+    AssignedValueRequest& request = stated.scheme.items[0].assigned_value;
+    request.method = AssignedValueMethod::given;
+    request.value = 100.0;
+    request.uncertainty = test::u_with_k_2(2.5);
+    stated.results[0].audited = AuditedUncertainty{test::u_with_k_2(10.0 / std::sqrt(3.0)), "MPE is a limit"};
+    stated.scheme.participants[0].cmc_U = 5.0;
+    const std::vector<ScoredResult> scores = scores_of(stated);
+    EXPECT_TRUE(prints_as(*scores[0].en, "0.873"));
+    EXPECT_TRUE(prints_as(*scores[0].U_difference, "20.62"));
+    EXPECT_TRUE(prints_as(*scores[0].en_audited, "1.430"));
+    EXPECT_THAT(scores[0].verdict_by, ElementsAre(Score::en_audited));
+    EXPECT_DOUBLE_EQ(*scores[0].U_over_cmc, 4.0);
+    EXPECT_DOUBLE_EQ(*scores[0].U_over_median, 4.0);
+    EXPECT_FALSE(scores[1].en_audited);
+}
+
+TEST(ScoredResults, AReferenceThatIsWorseClearsNobody) {
+    test::StatedComparison stated = test::comparison_of({10.1, 10.2}, {0.1, 0.4});
+    AssignedValueRequest& request = stated.scheme.items[0].assigned_value;
+    request.method = AssignedValueMethod::given;
+    request.value = 10.0;
+    request.uncertainty = test::u_with_k_2(0.2);
+    const std::vector<ScoredResult> scores = scores_of(stated);
+    EXPECT_EQ(scores[0].verdict, Verdict::inconclusive);
+    EXPECT_EQ(scores[1].verdict, Verdict::none);
+}
+
+TEST(ScoredResults, TheReferenceLaboratoryHasNoScore) {
+    test::StatedComparison stated = test::key_comparison();
+    stated.scheme.items[0].assigned_value.method = AssignedValueMethod::reference;
+    stated.scheme.items[0].assigned_value.participant = "L1";
+    const std::vector<ScoredResult> scores = scores_of(stated);
+    EXPECT_FALSE(scores[0].en);
+    EXPECT_EQ(scores[0].verdict, Verdict::no_score);
+    EXPECT_NEAR(*scores[1].en, -0.13 / (2.0 * std::hypot(0.10, 0.15)), 1e-12);
+}
+
+TEST(ScoredResults, AnotherCoverageFactorIsBroughtTo95Percent) {
+    test::StatedComparison stated = test::results_of_iso_13528_e4();
+    stated.results[3].uncertainty = stated_expanded(0.0035 * 1.73, 1.73);
+    const std::vector<ScoredResult> scores = scores_of(stated);
+    ASSERT_TRUE(scores[3].of_scores);
+    EXPECT_NEAR(scores[3].U_of_scores(), 0.007, 1e-5);
+    EXPECT_FALSE(scores[2].of_scores);
+}
+
+}  // namespace
+}  // namespace gumcert::gum
