@@ -55,6 +55,9 @@ expect_printed(calibration_line "a = 0.5788, u = 0.4764" "b = 2.1597, u = 0.1355
 expect_printed(uncertainty_budget "t[30 degC] = 29.8506 degC, U = 0.0096 K (u = 0.0042 K, k = 2.32, student_t)"
                "r(22 degC, 30 degC) = -0.59, r(26 degC, 30 degC) = 0.90"
                "inputs y1, y2: correlated, with 9 degrees of freedom each")
+# ISO 13528:2022, E.1 (robust mean 26.81), and E_n = D / √(U² + U_ref²) of three laboratories against a fourth
+expect_printed(proficiency_test "solution: assigned value 26.81" "solution L18  z =  3.64" "block    L1   reference"
+               "block    L2   E_n =  0.38  no signal" "block    L3   E_n =  1.37  action" "block    L4   E_n = -0.40")
 
 # The installed package must not remember the tree that it was built from.
 file(GLOB_RECURSE package_files ${prefix}/lib/cmake/*.cmake ${prefix}/lib/*/cmake/*.cmake)
