@@ -21,7 +21,6 @@ using reports::BudgetRow;
 using reports::FitSummary;
 
 constexpr int k_digits_of_residual = 3;
-constexpr double k_least_printed_p = 1e-4;
 
 std::string fit_method(const gum::BudgetFit& fit) {
     if (fit.x_uncertainty.size() > 0) {
@@ -183,7 +182,7 @@ FitSummary fit_summary(const gum::BudgetFit& fit, const engine::CurveFit& solved
         const double upper = gum::chi_square_upper_tail(solved.sum_of_squares, solved.degrees_of_freedom);
         const double lower = gum::chi_square_lower_tail(solved.sum_of_squares, solved.degrees_of_freedom);
         summary.p_value = upper;
-        summary.printed.p_value = upper < k_least_printed_p ? "< 0.0001" : rounded(upper, 2);
+        summary.printed.p_value = printed_p_value(upper);
         summary.consistency = upper < k_fit_test_level              ? "refuted"
                               : lower < gum::k_fit_overstated_level ? "overstated"
                                                                     : "consistent";

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/budget_texts.h"
+#include "app/record_parts.h"
 #include "gum/analysis_of_variance.h"
 #include "gum/budget/budget_model.h"
 #include "gum/outlying_readings.h"
@@ -26,7 +27,6 @@ using gum::StatedQuantity;
 
 constexpr double k_test_level = 0.05;  // of the F test
 constexpr std::size_t k_longest_lag_list = 100;
-constexpr double k_least_printed_p = 1e-4;
 
 /// A statement of readings, and where it is in force.
 struct Stated {
@@ -182,7 +182,7 @@ void add_outliers(const Stated& stated, const char* of, std::size_t group, std::
         out.p_value = found.p_value;
         out.printed.value = as_stated(found.value);
         out.printed.G = rounded(found.G, 3);
-        out.printed.p_value = found.p_value < k_least_printed_p ? "< 0.0001" : rounded(found.p_value, 2);
+        out.printed.p_value = printed_p_value(found.p_value);
         record.outliers.push_back(std::move(out));
     }
 }

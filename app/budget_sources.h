@@ -15,8 +15,8 @@ namespace gumcert::app {
 /// \param point, output  positions in the result
 /// \param common_only    only inputs that all points of the table share
 [[nodiscard]] std::vector<gum::UncertaintySource> uncertainty_sources(const gum::Budget& budget,
-                                                                      const gum::BudgetResult& result, std::size_t point,
-                                                                      std::size_t output, const gum::Unit& unit,
-                                                                      bool common_only = false);
+                                                                      const gum::BudgetResult& result,
+                                                                      std::size_t point, std::size_t output,
+                                                                      const gum::Unit& unit, bool common_only = false);
 
 }  // namespace gumcert::app

@@ -28,6 +28,11 @@ std::string as_stated(double value) {
     return text::shortest(std::fabs(back - value) <= 4e-16 * std::fabs(value) ? back : value);
 }
 
+std::string printed_p_value(double p) {
+    constexpr double k_least = 1e-4;
+    return p < k_least ? "< 0.0001" : rounded(p, 2);
+}
+
 std::string printed_degrees_of_freedom(double nu) {
     if (std::isnan(nu)) {
         return "–";

@@ -27,7 +27,6 @@ using engine::CircleClosureJob;
 using engine::CircleClosureMeasurement;
 using engine::ClosurePattern;
 
-constexpr int k_digits_of_u = 2;
 constexpr double k_accepted_p = 0.001;
 
 Index at(std::size_t i) {

@@ -8,7 +8,6 @@ namespace gumcert::app {
 
 namespace {
 
-constexpr int k_digits_of_u = 2;
 constexpr int k_digits_without_u = 4;
 constexpr int k_decimals_of_score = 2;
 // Tails below what double precision holds come out as 0, which no probability of a test is.

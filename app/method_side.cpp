@@ -24,8 +24,8 @@ std::string place_of(const MethodBudget& budget, std::size_t i) {
         gum::Diagnostic{.code = code, .where = place_of(budget, i), .what = what, .rule = rule, .action = action});
 }
 
-gum::ResultUncertainty uncertainty_at(const MethodBudget& budget, std::size_t i,
-                                         const gum::BudgetOutputResult& output, const gum::Unit& unit) {
+gum::ResultUncertainty uncertainty_at(const MethodBudget& budget, std::size_t i, const gum::BudgetOutputResult& output,
+                                      const gum::Unit& unit) {
     if (!output.expanded_uncertainty || !output.coverage_factor) {
         refuse_point(budget, i, "GC-COMPARE-0205", "no expanded uncertainty can be stated: " + output.coverage_note,
                      "a comparison needs the expanded uncertainty of both values",

@@ -34,6 +34,9 @@ struct JobHead {
                                                     const nlohmann::json& options,
                                                     const std::vector<reports::InputFile>& files);
 
+/// Significant digits of a printed uncertainty (JCGM 100:2008, 7.2.6).
+inline constexpr int k_digits_of_u = 2;
+
 /// Degrees of freedom as a record holds them: none stands for infinite, or for none that can be stated.
 [[nodiscard]] std::optional<double> finite_or_none(double value);
 

@@ -63,12 +63,13 @@ std::array<int, 2> cross_coordinates(RotaryAxis axis) {
 }
 
 /// S with S Sᵀ = covariance, symmetric; also of a singular one.
-Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
+template <int n>
+Eigen::Matrix<double, n, n> root_of(const Eigen::Matrix<double, n, n>& covariance) {
     // To a unit diagonal first: metres and radians differ by powers of ten.
-    const Eigen::VectorXd u = covariance.diagonal().cwiseSqrt();
-    const Eigen::VectorXd inverse_u = (u.array() > 0.0).select(u.cwiseInverse(), 0.0);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        Eigen::MatrixXd(inverse_u.asDiagonal() * covariance * inverse_u.asDiagonal()));
+    const Eigen::Matrix<double, n, 1> u = covariance.diagonal().cwiseSqrt();
+    const Eigen::Matrix<double, n, 1> inverse_u = (u.array() > 0.0).select(u.cwiseInverse(), 0.0);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n, n>> eigen(
+        Eigen::Matrix<double, n, n>(inverse_u.asDiagonal() * covariance * inverse_u.asDiagonal()));
     return u.asDiagonal() * eigen.operatorSqrt();
 }
 

@@ -50,8 +50,7 @@ bool fill(SenseDeviation& result, const std::vector<std::size_t>& visits, const 
         return false;
     }
     const Vector6 scale = information.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(
-        MatrixXd(scale.asDiagonal() * information * scale.asDiagonal()));
+    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(Matrix6(scale.asDiagonal() * information * scale.asDiagonal()));
     if (!(solver.eigenvalues()[0] > k_least_eigenvalue)) {
         return false;
     }

@@ -23,7 +23,7 @@ inline constexpr std::array<std::string_view, 4> k_job_kinds{k_budget_kind, k_ro
 
 [[nodiscard]] std::string job_kind(const FileSource& source, const std::string& job_file,
                                    std::span<const std::string_view> kinds);
-[[nodiscard]] std::optional<std::string> read_kind(const JsonDocument& document, ProblemList& problems,
+[[nodiscard]] std::optional<std::string> read_kind(const gumcert::json::JsonDocument& document, ProblemList& problems,
                                                    std::span<const std::string_view> kinds);
 [[nodiscard]] std::optional<std::string> probable_job_kind(const FileSource& source, const std::string& job_file,
                                                            std::span<const std::string_view> kinds);

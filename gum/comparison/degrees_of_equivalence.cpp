@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double k_rounding = 1e-12;         // relative, of sums over some thousand results
-constexpr double k_weights_rounding = 1e-9;  // of Σ w, for weights that were read from a file
+constexpr double k_rounding_of_sums = 1e-12;  // relative, of sums over some thousand results
+constexpr double k_weights_rounding = 1e-9;   // of Σ w, for weights that were read from a file
 
 void require_reference(const LaboratoryResults& results, const ReferenceValue& reference) {
     require_finite(reference.value, "reference value");
@@ -60,7 +60,8 @@ Eigen::VectorXd differences(const LaboratoryResults& results, const ReferenceVal
     double value = reference.value - centre;
     if (sums_to_one(w)) {
         const double by_weights = w.dot(from_centre);
-        const double rounding = k_rounding * (w.cwiseAbs().dot(from_centre.cwiseAbs()) + std::abs(reference.value));
+        const double rounding =
+            k_rounding_of_sums * (w.cwiseAbs().dot(from_centre.cwiseAbs()) + std::abs(reference.value));
         if (std::abs(by_weights - value) <= rounding) {
             value = by_weights;
         }
@@ -105,7 +106,7 @@ DegreesOfEquivalence degrees_of_equivalence(const LaboratoryResults& results, co
         results.covariance.size() == 0 ? propagate_independent(u, w) : propagate_correlated(results, u, w);
     // What u²(y) has in addition: a variance between laboratories, say. For the weighted mean it is rounding.
     double additional = u_y * u_y - propagated.y;
-    if (std::abs(additional) <= k_rounding * propagated.y) {
+    if (std::abs(additional) <= k_rounding_of_sums * propagated.y) {
         additional = 0.0;
     }
     DegreesOfEquivalence degrees{
@@ -117,7 +118,7 @@ DegreesOfEquivalence degrees_of_equivalence(const LaboratoryResults& results, co
         if (product > 0.0) {
             degrees.correlation(i) = std::clamp(covariance / product, -1.0, 1.0);
         }
-        if (std::abs(covariance) > (1.0 + k_rounding) * product) {
+        if (std::abs(covariance) > (1.0 + k_rounding_of_sums) * product) {
             const double gap = product > 0.0 ? u(i) - std::copysign(u_y, covariance) : u(i);
             variance = gap * gap;
         }

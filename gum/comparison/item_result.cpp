@@ -15,7 +15,7 @@ namespace gumcert::gum {
 
 namespace {
 
-constexpr double k_rounding = 1.0 + 1e-14;  // of u(X)/σ_pt, which is exactly the limit in decimal numbers
+constexpr double k_rounding_of_criterion = 1.0 + 1e-14;  // of u(X)/σ_pt, which is exactly the limit in decimal numbers
 
 void describe(const ComparisonScheme& scheme, const LaboratoryData& data, const AssignedValue& assigned,
               ItemResult& result) {
@@ -278,7 +278,7 @@ ItemResult item_result(const ComparisonScheme& scheme, const LaboratoryData& dat
     add_uncertainty(scheme, data, assigned, result);
     if (result.sigma_pt && result.u) {
         result.criterion = *result.u / *result.sigma_pt;
-        result.criterion_met = *result.criterion <= k_assigned_value_criterion * k_rounding;
+        result.criterion_met = *result.criterion <= k_assigned_value_criterion * k_rounding_of_criterion;
     }
     result.consistency = consistency_of(data, assigned);
     result.estimates = reference_estimates(data, assigned, scheme.coverage_probability);

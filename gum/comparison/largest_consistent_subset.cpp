@@ -22,9 +22,9 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double k_tie = 1e-9;           // relative, of chi-square: subsets that nobody can tell apart
-constexpr double k_rounding = 1e-11;     // relative, of chi-square as it is computed
-constexpr double k_same_result = 1e-13;  // of u: results that are taken as equal
+constexpr double k_tie = 1e-9;                      // relative, of chi-square: subsets that nobody can tell apart
+constexpr double k_rounding_of_chi_square = 1e-11;  // relative, of chi-square as it is computed
+constexpr double k_same_result = 1e-13;             // of u: results that are taken as equal
 constexpr double k_largest_alpha = 0.3;
 
 using Members = std::vector<std::uint32_t>;
@@ -226,7 +226,7 @@ private:
 
     void search(double low, double high, Members active) {
         // Members of a subset of interest have terms up to its chi-square, so the others are left behind.
-        const double most = limit() * (1.0 + k_rounding);
+        const double most = limit() * (1.0 + k_rounding_of_chi_square);
         std::erase_if(active, [&](std::uint32_t i) {
             return !(x_[i] >= low && x_[i] <= high) && std::min(f(i, low), f(i, high)) > most;
         });
@@ -234,7 +234,7 @@ private:
             return;
         }
         const Interval interval = look_at(low, high, active);
-        if (interval.least * (1.0 - k_rounding) > limit()) {
+        if (interval.least * (1.0 - k_rounding_of_chi_square) > limit()) {
             return;
         }
         const double middle = low + 0.5 * (high - low);
@@ -318,7 +318,7 @@ private:
         for (std::size_t j = 0; j < missing; ++j) {
             least += possible_least_[j];
         }
-        return least * (1.0 - k_rounding);
+        return least * (1.0 - k_rounding_of_chi_square);
     }
 
     /// Another subset with the same chi-square that differs in one result, as where two laboratories report the same.

@@ -11,7 +11,7 @@ namespace gumcert::gum {
 namespace {
 
 // Below it an eigenvalue of a correlation matrix of m quantities is rounding: m times this.
-constexpr double k_rounding = 1e-10;
+constexpr double k_rounding_of_diagonal = 1e-10;
 
 }  // namespace
 
@@ -22,7 +22,7 @@ bool is_possible_covariance(const Eigen::MatrixXd& V, const Eigen::MatrixXd& W, 
     const Eigen::VectorXd scale =
         joint.diagonal().unaryExpr([](double variance) { return variance > 0.0 ? 1.0 / std::sqrt(variance) : 0.0; });
     joint = scale.asDiagonal() * joint * scale.asDiagonal();
-    joint.diagonal().array() += k_rounding * static_cast<double>(2 * m);
+    joint.diagonal().array() += k_rounding_of_diagonal * static_cast<double>(2 * m);
     return Eigen::LLT<Eigen::MatrixXd>(joint).info() == Eigen::Success;
 }
 

@@ -18,7 +18,7 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr int k_most_steps = 1000;
+constexpr int k_most_steps_to_maximum = 1000;
 constexpr double k_still = 1e-13;  // relative: steps that change nothing any more
 
 /// One laboratory, in the unit of the problem: mean x of ν + 1 observations, v = s²/(ν + 1).
@@ -231,7 +231,7 @@ struct Maximum {
 };
 Maximum climb(const Likelihood& likelihood, Point start) {
     Maximum maximum{.point = std::move(start)};
-    while (!maximum.converged && maximum.steps < k_most_steps) {
+    while (!maximum.converged && maximum.steps < k_most_steps_to_maximum) {
         ++maximum.steps;
         const Point& here = maximum.point;
         const Likelihood::Derivatives derivatives = likelihood.derivatives(here);
@@ -328,11 +328,12 @@ ReferenceValue vangel_rukhin(const ReplicatedResults& results) {
         }
     }
     if (!best.converged) {
-        throw NoResultError(Diagnostic{.code = "GC-GUM-0130",
-                                       .where = "Vangel-Rukhin mean",
-                                       .what = "not converged after " + std::to_string(k_most_steps) + " steps",
-                                       .rule = "the likelihood must reach a maximum",
-                                       .action = "Review the standard deviations, or take the Mandel-Paule mean."});
+        throw NoResultError(
+            Diagnostic{.code = "GC-GUM-0130",
+                       .where = "Vangel-Rukhin mean",
+                       .what = "not converged after " + std::to_string(k_most_steps_to_maximum) + " steps",
+                       .rule = "the likelihood must reach a maximum",
+                       .action = "Review the standard deviations, or take the Mandel-Paule mean."});
     }
     const ArrayXd weights = (best.point.between + best.point.t).inverse();
     const double total = weights.sum();

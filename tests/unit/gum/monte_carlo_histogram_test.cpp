@@ -51,8 +51,8 @@ std::uint64_t total(const Histogram& histogram) {
     return std::accumulate(histogram.counts.begin(), histogram.counts.end(), std::uint64_t{0});
 }
 
-Moments moments_of(const std::vector<double>& values) {
-    return gum::moments_of(values.data(), static_cast<Eigen::Index>(values.size()));
+Moments moments_of_values(const std::vector<double>& values) {
+    return gum::moments_of_values(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
 void count(const std::vector<double>& values, Histogram& histogram) {
@@ -171,16 +171,16 @@ TEST(MonteCarloHistogram, EndsAndOutsiders) {
 }
 
 TEST(MonteCarloHistogram, ValuesAtTheLimitsOfDouble) {
-    EXPECT_TRUE(empty_histogram(moments_of({4.25, 4.25, 4.25})).counts.empty());
-    EXPECT_TRUE(empty_histogram(moments_of({0.0, 5e-324})).counts.empty());
-    EXPECT_TRUE(empty_histogram(moments_of({-1.5e308, 1.5e308})).counts.empty());
+    EXPECT_TRUE(empty_histogram(moments_of_values({4.25, 4.25, 4.25})).counts.empty());
+    EXPECT_TRUE(empty_histogram(moments_of_values({0.0, 5e-324})).counts.empty());
+    EXPECT_TRUE(empty_histogram(moments_of_values({-1.5e308, 1.5e308})).counts.empty());
     const double one_up = std::nextafter(1.0, 2.0);
-    Histogram neighbours = empty_histogram(moments_of({1.0, one_up}));
+    Histogram neighbours = empty_histogram(moments_of_values({1.0, one_up}));
     ASSERT_EQ(neighbours.counts.size(), 60U);
     count({1.0, one_up}, neighbours);
     EXPECT_EQ(neighbours.counts.front() + neighbours.counts.back(), 2U);
     const std::vector<double> huge{-1e200, 0.0, 1e200};  // their squares are not finite
-    Histogram wide = empty_histogram(moments_of(huge));
+    Histogram wide = empty_histogram(moments_of_values(huge));
     EXPECT_EQ(wide.low, -1e200);
     EXPECT_EQ(wide.high, 1e200);
     count(huge, wide);
