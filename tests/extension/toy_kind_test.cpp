@@ -101,7 +101,7 @@ TEST_F(ToyKind, ItsRecordIsReadAndEvaluatedAgain) {
 }
 
 TEST_F(ToyKind, IsUnknownToTheProgram) {
-    const engine::MemoryFileSource source({{"job.json", k_job}});
+    const engine::MemoryFileSource source({{"job.json", std::string(k_job)}});
     EXPECT_THROW((void)app::evaluate_job(source, "job.json", app::CovarianceFile::none, 1, templates_),
                  gum::InputError);
     const std::string text = reports::to_canonical_json(evaluated(k_job).record);

@@ -15,12 +15,12 @@
 namespace gumcert::app {
 namespace {
 
-const std::filesystem::path k_tree = GUMCERT_SOURCE_DIR;
+const std::filesystem::path k_sources = GUMCERT_SOURCE_DIR;
 
 TEST(CertificateProfile, ComesFromTheTemplates) {
     certificate::CertificateData data = test::sample_certificate_data();
     data.profile = "cgcre";
-    const certificate::Profile profile = certificate_profile(data, k_tree / "templates");
+    const certificate::Profile profile = certificate_profile(data, k_sources / "templates");
     EXPECT_EQ(profile.id, "cgcre");
     EXPECT_EQ(profile.below_capability, "outside");
 }
@@ -29,7 +29,7 @@ TEST(CertificateProfile, IsTheOneBesideTheJobWhereThereIsOne) {
     certificate::CertificateData data = test::sample_certificate_data();
     data.own_profile.emplace();
     data.own_profile->id = "own";
-    EXPECT_EQ(certificate_profile(data, k_tree / "no templates").id, "own");
+    EXPECT_EQ(certificate_profile(data, k_sources / "no templates").id, "own");
 }
 
 TEST(CertificateProfile, IsRefusedWhereThereIsNoneOfThatName) {
@@ -37,7 +37,7 @@ TEST(CertificateProfile, IsRefusedWhereThereIsNoneOfThatName) {
     for (const char* name : {"nowhere", "", "../profiles/ilac", "/etc/passwd", "ilac.json"}) {
         data.profile = name;
         try {
-            (void)certificate_profile(data, k_tree / "templates");
+            (void)certificate_profile(data, k_sources / "templates");
             ADD_FAILURE() << name;
         } catch (const gum::InputError& error) {
             EXPECT_EQ(error.diagnostics().front().code, "GC-CERT-0300");
@@ -99,8 +99,8 @@ TEST(CapabilityInputs, HoldTheDistributionOfAConvolution) {
 }
 
 TEST(EvaluateJob, MakesACertificateOfAJobWithCertificateData) {
-    const Evaluation evaluation =
-        evaluate_job(k_tree / "examples/certificate/end_gauge.json", CovarianceFile::none, 1, k_tree / "templates");
+    const Evaluation evaluation = evaluate_job(k_sources / "examples/certificate/end_gauge.json", CovarianceFile::none,
+                                               1, k_sources / "templates");
     ASSERT_TRUE(evaluation.record.certificate);
     const certificate::Certificate& c = *evaluation.record.certificate;
     EXPECT_FALSE(evaluation.blocked);
@@ -119,7 +119,7 @@ TEST(EvaluateJob, MakesACertificateOfAJobWithCertificateData) {
 
 TEST(EvaluateJob, MakesNoCertificateWithoutCertificateData) {
     const Evaluation evaluation =
-        evaluate_job(k_tree / "examples/end_gauge/job.json", CovarianceFile::none, 1, k_tree / "templates");
+        evaluate_job(k_sources / "examples/end_gauge/job.json", CovarianceFile::none, 1, k_sources / "templates");
     EXPECT_FALSE(evaluation.record.certificate);
     EXPECT_FALSE(evaluation.blocked);
 }

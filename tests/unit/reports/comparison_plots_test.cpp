@@ -49,7 +49,7 @@ private:
     std::vector<nlohmann::json> texts_;
 };
 
-std::size_t count(const std::string& text, const std::string& part) {
+std::size_t occurrences(const std::string& text, const std::string& part) {
     std::size_t n = 0;
     for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
         ++n;
@@ -65,7 +65,7 @@ void expect_sound(const std::string& svg) {
     for (const char* bad : {"\"nan", "\"-nan", "\"inf", "\"-inf", " nan", ",nan", ",inf", ",-inf", "e+", "<script"}) {
         EXPECT_THAT(svg, Not(HasSubstr(bad)));
     }
-    EXPECT_EQ(count(svg, "<text "), count(svg, "</text>"));
+    EXPECT_EQ(occurrences(svg, "<text "), occurrences(svg, "</text>"));
     EXPECT_LT(svg.size(), 500'000U);
 }
 
@@ -94,8 +94,8 @@ TEST_F(ComparisonPlots, LaboratoriesStandInAscendingOrder) {
         last = at;
     }
     // Seven contribute and one does not; the key shows one of each, and a mark with a bar.
-    EXPECT_EQ(count(svg, "fill=\"#000000\" stroke=\"none\"/>"), 7U + 2U);
-    EXPECT_EQ(count(svg, "<circle"), 8U + 3U);
+    EXPECT_EQ(occurrences(svg, "fill=\"#000000\" stroke=\"none\"/>"), 7U + 2U);
+    EXPECT_EQ(occurrences(svg, "<circle"), 8U + 3U);
     EXPECT_THAT(svg, HasSubstr("fill=\"#d9d9d9\""));  // the band of the assigned value
     EXPECT_THAT(svg, HasSubstr(">Value / µm</text>"));
 }
@@ -116,7 +116,7 @@ TEST_F(ComparisonPlots, EveryLaboratoryIsFoundInEveryFigure) {
     const Comparison many = *test::sample_laboratories_record(162).comparison;
     EXPECT_THAT(laboratory_values_plot(many, many.items[0], "p", words()), Not(HasSubstr(">L031</text>")));
     const Comparison most = *test::sample_laboratories_record(500).comparison;
-    EXPECT_LT(count(laboratory_values_plot(most, most.items[0], "p", words()), "<circle"), 5U);
+    EXPECT_LT(occurrences(laboratory_values_plot(most, most.items[0], "p", words()), "<circle"), 5U);
 }
 
 TEST_F(ComparisonPlots, LimitsAreThoseOfTheScore) {
@@ -250,7 +250,7 @@ TEST_F(ComparisonPlots, PairsAboveOneAreBlack) {
     }
     ASSERT_GT(above, 0U);
     const std::string svg = pairs_plot(c.items[0], "p", words());
-    EXPECT_EQ(count(svg, "fill=\"#000000\" stroke=\"none\"/>"), 2 * above + 1);  // both halves, and the key
+    EXPECT_EQ(occurrences(svg, "fill=\"#000000\" stroke=\"none\"/>"), 2 * above + 1);  // both halves, and the key
     c.items[0].pairs[0].En = {};
     expect_sound(pairs_plot(c.items[0], "p", words()));
     c.items[0].pairs.clear();
@@ -302,7 +302,7 @@ TEST_F(ComparisonPlots, AnyNumberOfPointsAndDirections) {
     EXPECT_EQ(method_scores_plot(c, "p", words()), "");
 }
 
-std::vector<double> numbers_of(const std::string& svg, const std::string& before) {
+std::vector<double> coordinates_of(const std::string& svg, const std::string& before) {
     std::vector<double> numbers;
     for (std::size_t at = svg.find(before); at != std::string::npos; at = svg.find(before, at + 1)) {
         numbers.push_back(std::stod(svg.substr(at + before.size())));
@@ -311,7 +311,7 @@ std::vector<double> numbers_of(const std::string& svg, const std::string& before
 }
 
 double height_of(const std::string& svg) {
-    return numbers_of(svg, "viewBox=\"0 0 680 ").at(0);
+    return coordinates_of(svg, "viewBox=\"0 0 680 ").at(0);
 }
 
 TEST_F(ComparisonPlots, NoPointLiesOnTheFrame) {
@@ -325,12 +325,12 @@ TEST_F(ComparisonPlots, NoPointLiesOnTheFrame) {
         const std::string panel = "\" fill=\"none\" stroke=\"#000000\" stroke-width=\"0.9\"/>";
         const std::size_t frame = svg.rfind("<rect", svg.find(panel));
         const std::string rectangle = svg.substr(frame, 120);
-        const double x = numbers_of(rectangle, " x=\"").at(0);
-        const double y = numbers_of(rectangle, " y=\"").at(0);
-        const double right = x + numbers_of(rectangle, " width=\"").at(0);
-        const double bottom = y + numbers_of(rectangle, " height=\"").at(0);
-        const std::vector<double> xs = numbers_of(svg, "cx=\"");
-        const std::vector<double> ys = numbers_of(svg, "cy=\"");
+        const double x = coordinates_of(rectangle, " x=\"").at(0);
+        const double y = coordinates_of(rectangle, " y=\"").at(0);
+        const double right = x + coordinates_of(rectangle, " width=\"").at(0);
+        const double bottom = y + coordinates_of(rectangle, " height=\"").at(0);
+        const std::vector<double> xs = coordinates_of(svg, "cx=\"");
+        const std::vector<double> ys = coordinates_of(svg, "cy=\"");
         std::size_t inside = 0;
         for (std::size_t i = 0; i < xs.size(); ++i) {
             if (ys[i] > y - 1.0) {  // the others are those of the key
@@ -378,7 +378,7 @@ TEST_F(ComparisonPlots, PanelsOfManyDirectionsFitOnAPage) {
             EXPECT_LT(height_of(svg), k_page) << directions;
         }
         // A mark for each direction: a cross says that a point is beyond the axis, and nothing else.
-        EXPECT_EQ(count(method_scores_plot(c, "p", words()), ">direction d"), directions > 4 ? directions : 0U);
+        EXPECT_EQ(occurrences(method_scores_plot(c, "p", words()), ">direction d"), directions > 4 ? directions : 0U);
     }
 }
 
@@ -424,8 +424,8 @@ TEST_F(ComparisonPlots, ALineForAllDirectionsIsDrawnOnce) {
     c.summary[0].bias.reset();
     c.summary[1].bias.reset();
     const std::string svg = bias_plot(c, "p", words());
-    EXPECT_EQ(count(svg, "stroke-width=\"1.2\"/>"), 2U);  // the line and its key
-    EXPECT_EQ(count(svg, "<circle"), c.points.size() + 1);
+    EXPECT_EQ(occurrences(svg, "stroke-width=\"1.2\"/>"), 2U);  // the line and its key
+    EXPECT_EQ(occurrences(svg, "<circle"), c.points.size() + 1);
 }
 
 TEST_F(ComparisonPlots, NumbersThatAreNotFiniteAreRefused) {

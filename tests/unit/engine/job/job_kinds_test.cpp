@@ -22,7 +22,7 @@ MemoryFileSource job_of_kind(const std::string& kind) {
 
 TEST(JobKinds, IsOneOfTheWordsThatTheSchemaAllows) {
     const auto schema = nlohmann::json::parse(
-        test::file_content(std::filesystem::path(GUMCERT_SOURCE_DIR) / "schemas/job-1.schema.json"));
+        gumcert::test::file_content(std::filesystem::path(GUMCERT_SOURCE_DIR) / "schemas/job-1.schema.json"));
     EXPECT_THAT(schema["properties"]["kind"]["enum"].get<std::vector<std::string>>(), ElementsAreArray(k_job_kinds));
     for (const std::string_view kind : k_job_kinds) {
         EXPECT_EQ(job_kind(job_of_kind(std::string(kind)), "job.json"), kind);
@@ -46,7 +46,8 @@ TEST(JobKinds, MayBeAWordOfWhoAsks) {
     EXPECT_EQ(job_kind(job_of_kind("toy"), "job.json", k_words), "toy");
     EXPECT_THROW((void)job_kind(job_of_kind("comparison"), "job.json", k_words), gum::InputError);
     // The text has faults, and the word is seen all the same.
-    const MemoryFileSource broken({{"job.json", R"({"schema": "gumcert/job/1", "kind": "toy", )"}});
+    const std::string half = R"({"schema": "gumcert/job/1", "kind": "toy", )";
+    const MemoryFileSource broken({{"job.json", half}});
     EXPECT_EQ(probable_job_kind(broken, "job.json", k_words), "toy");
 }
 
