@@ -52,7 +52,7 @@ std::uint64_t total(const Histogram& histogram) {
 }
 
 Moments moments_of_values(const std::vector<double>& values) {
-    return gum::moments_of_values(values.data(), static_cast<Eigen::Index>(values.size()));
+    return gum::moments_of(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
 void count(const std::vector<double>& values, Histogram& histogram) {
