@@ -36,7 +36,7 @@ TEST(JobKinds, OfAnotherWordIsRefusedWithTheWordsThatThereAre) {
     } catch (const gum::InputError& refused) {
         const gum::Diagnostic& told = refused.diagnostics().front();
         EXPECT_EQ(told.code, "GC-INPUT-0028");
-        EXPECT_EQ(told.rule, "must be \"budget\", \"rotary_table\", \"circle_closure\" or \"comparison\"");
+        EXPECT_EQ(told.rule, "must be budget, rotary_table, circle_closure or comparison");
         EXPECT_THAT(told.action, HasSubstr("\"budget\""));
     }
 }

@@ -24,13 +24,14 @@ struct StatedComparison {
         return result;
     }
 
-    /// Of the first item, related.
-    [[nodiscard]] LaboratoryData data() const {
+    /// Of the first item, related. It points to what stands here.
+    [[nodiscard]] LaboratoryData data() const& {
         LaboratoryData first = laboratory_data(scheme, results).front();
         std::vector<SharedSource> shared;
         relate_results(scheme, first, shared);
         return first;
     }
+    LaboratoryData data() && = delete;
 };
 
 inline ResultUncertainty u_with_k_2(double u) {
