@@ -12,17 +12,7 @@ namespace gumcert::app {
 
 namespace {
 
-using reports::EvaluationRecord;
-
 constexpr std::string_view k_digital_certificate = "dcc";
-
-bool any_record(const EvaluationRecord& /*record*/, std::span<const Kind> /*kinds*/) {
-    return true;
-}
-
-bool holds_comparison(const EvaluationRecord& record, std::span<const Kind> /*kinds*/) {
-    return record.comparison.has_value();
-}
 
 std::string pdf(Issue& issue) {
     const IssueOptions& options = issue.options();
@@ -39,35 +29,20 @@ std::string pdf(Issue& issue) {
 constexpr std::array<OutputForm, 5> k_forms{{
     {.name = "html",
      .ending = ".html",
-     .media_type = "text/html",
      .description = "",
-     .applies_to = any_record,
      .render = [](Issue& issue) { return reports::render_html(issue.record(), issue.options().assets); }},
-    {.name = "pdf",
-     .ending = ".pdf",
-     .media_type = "application/pdf",
-     .description = "",
-     .applies_to = any_record,
-     .render = pdf,
-     .signable = true},
+    {.name = "pdf", .ending = ".pdf", .description = "", .render = pdf},
     {.name = "text",
      .ending = ".txt",
-     .media_type = "text/plain",
      .description = "",
-     .applies_to = any_record,
      .render = [](Issue& issue) { return reports::render_text(issue.record(), issue.options().assets); }},
     {.name = k_digital_certificate,
      .ending = ".xml",
-     .media_type = "application/xml",
      .description = "digital certificate, XML",
-     .applies_to = is_certificate,
-     .render = [](Issue& issue) { return issue.digital_certificate(); },
-     .signable = true},
+     .render = [](Issue& issue) { return issue.digital_certificate(); }},
     {.name = "csv",
      .ending = ".csv",
-     .media_type = "text/csv",
      .description = "scores of a comparison",
-     .applies_to = holds_comparison,
      .render = [](Issue& issue) { return reports::comparison_csv(issue.record()); },
      .with_templates = false},
 }};

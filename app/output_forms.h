@@ -41,14 +41,10 @@ private:
 
 /// A form that documents are written in, in one row.
 struct OutputForm {
-    std::string_view name;         ///< after --format
-    std::string_view ending;       ///< of its files: ".html"
-    std::string_view media_type;   ///< IANA: "text/html"
-    std::string_view description;  ///< for --help, where the name alone says too little
-    /// Whether a record can be issued in this form.
-    bool (*applies_to)(const reports::EvaluationRecord& record, std::span<const Kind> kinds);
-    std::string (*render)(Issue& issue);  ///< refuses a record that it does not apply to (gum::InputError)
-    bool signable = false;                ///< it carries the signature that is asked for
+    std::string_view name;                ///< after --format
+    std::string_view ending;              ///< of its files: ".html"
+    std::string_view description;         ///< for --help, where the name alone says too little
+    std::string (*render)(Issue& issue);  ///< refuses a record that has no such form (gum::InputError)
     bool with_templates = true;           ///< it is made with templates and wording
 };
 

@@ -9,6 +9,7 @@
 #include "gum/comparison/robust_statistics.h"
 #include "gum/comparison/shared_sources.h"
 #include "gum/coverage.h"
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 #include "text/lists.h"
 

@@ -35,17 +35,10 @@ TEST(OutputForms, HaveANameAndAnEndingOfTheirOwn) {
         EXPECT_TRUE(names.insert(form.name).second) << form.name;
         EXPECT_TRUE(endings.insert(form.ending).second) << form.name;
         EXPECT_TRUE(form.ending.starts_with('.'));
-        EXPECT_NE(form.media_type.find('/'), std::string_view::npos);
         EXPECT_EQ(&output_form(form.name), &form);
     }
     EXPECT_THAT(names, testing::ElementsAre("csv", "dcc", "html", "pdf", "text"));
     EXPECT_THROW((void)output_form("odt"), std::invalid_argument);
-}
-
-TEST(OutputForms, ThatCarryASignatureAreThePdfAndTheDigitalCertificate) {
-    for (const OutputForm& form : output_forms()) {
-        EXPECT_EQ(form.signable, form.name == "pdf" || form.name == "dcc") << form.name;
-    }
 }
 
 TEST(OutputForms, OfEveryKindAreInTheTable) {
@@ -54,17 +47,6 @@ TEST(OutputForms, OfEveryKindAreInTheTable) {
             EXPECT_NO_THROW((void)output_form(form)) << kind.word;
         }
     }
-}
-
-TEST(OutputForms, OfAComparisonHaveATableInPlaceOfADigitalCertificate) {
-    EvaluationRecord comparison = record_of_kind("comparison");
-    comparison.comparison.emplace();
-    EXPECT_FALSE(output_form("dcc").applies_to(comparison, program_kinds()));
-    EXPECT_TRUE(output_form("csv").applies_to(comparison, program_kinds()));
-    EXPECT_TRUE(output_form("pdf").applies_to(comparison, program_kinds()));
-    const EvaluationRecord budget = record_of_kind("budget");
-    EXPECT_TRUE(output_form("dcc").applies_to(budget, program_kinds()));
-    EXPECT_FALSE(output_form("csv").applies_to(budget, program_kinds()));
 }
 
 TEST(OutputForms, RefuseWhatTheyDoNotApplyTo) {
