@@ -64,7 +64,7 @@ std::vector<OutputName> output_names(const CircleClosureJob& job) {
 }
 
 /// A row of the budget of one output: a group of inputs.
-reports::BudgetRow budget_row(const CircleClosureJob& job, const CircleClosureResult& result, std::size_t group,
+reports::BudgetRow budget_row(const CircleClosureJob& job, const gum::CircleClosureResult& result, std::size_t group,
                               Index first, Index output) {
     const gum::InputGroup& of = result.model->inputs()[group];
     const gum::Unit own = of.unit == "rad" ? job.unit : gum::Unit();
@@ -99,10 +99,10 @@ reports::BudgetRow budget_row(const CircleClosureJob& job, const CircleClosureRe
     return row;
 }
 
-reports::Result result_of(const CircleClosureJob& job, const CircleClosureResult& result, const OutputName& name,
+reports::Result result_of(const CircleClosureJob& job, const gum::CircleClosureResult& result, const OutputName& name,
                           Index output) {
     const gum::Propagation& propagation = result.propagation;
-    const ClosureCoverage& coverage = result.coverage[static_cast<std::size_t>(output)];
+    const gum::ClosureCoverage& coverage = result.coverage[static_cast<std::size_t>(output)];
     reports::Result out;
     out.name = name.name;
     out.quantity = name.quantity;
@@ -290,7 +290,7 @@ void fill_residuals(const CircleClosureJob& job, const engine::CircleClosureSolu
     }
 }
 
-reports::CircleClosure closure_of(const CircleClosureJob& job, const CircleClosureResult& result) {
+reports::CircleClosure closure_of(const CircleClosureJob& job, const gum::CircleClosureResult& result) {
     const CircleClosureMeasurement& m = job.measurement;
     const engine::CircleClosureSolution& solution = *result.solution;
     reports::CircleClosure closure;
@@ -334,13 +334,13 @@ reports::CircleClosure closure_of(const CircleClosureJob& job, const CircleClosu
 
 // ---- covariance -----------------------------------------------------------------------------------------------------
 
-Eigen::MatrixXd covariance_in_unit(const CircleClosureJob& job, const CircleClosureResult& result) {
+Eigen::MatrixXd covariance_in_unit(const CircleClosureJob& job, const gum::CircleClosureResult& result) {
     const double scale = job.unit.difference_from_si(1.0);
     const Eigen::MatrixXd& V = result.propagation.covariance;
     return (0.5 * scale * scale) * (V + V.transpose());
 }
 
-reports::ResultCovariance covariance_of(const CircleClosureJob& job, const CircleClosureResult& result,
+reports::ResultCovariance covariance_of(const CircleClosureJob& job, const gum::CircleClosureResult& result,
                                         const std::string& file) {
     const auto rows_of = [](const Eigen::MatrixXd& matrix) {
         std::vector<std::vector<double>> rows;
@@ -407,7 +407,7 @@ std::vector<std::string> circle_closure_result_names(const CircleClosureJob& job
     return names;
 }
 
-reports::EvaluationRecord circle_closure_record(const CircleClosureJob& job, const CircleClosureResult& result,
+reports::EvaluationRecord circle_closure_record(const CircleClosureJob& job, const gum::CircleClosureResult& result,
                                                 const std::vector<reports::InputFile>& files,
                                                 const std::string& covariance_file) {
     reports::EvaluationRecord record = record_head("circle_closure",
@@ -432,7 +432,7 @@ reports::EvaluationRecord circle_closure_record(const CircleClosureJob& job, con
     return record;
 }
 
-CapabilityInputs circle_closure_capability_inputs(const CircleClosureJob& job, const CircleClosureResult& result) {
+CapabilityInputs circle_closure_capability_inputs(const CircleClosureJob& job, const gum::CircleClosureResult& result) {
     CapabilityInputs inputs;
     const std::vector<std::string> names = circle_closure_result_names(job);
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -450,7 +450,7 @@ CapabilityInputs circle_closure_capability_inputs(const CircleClosureJob& job, c
     return inputs;
 }
 
-std::string circle_closure_covariance_csv(const CircleClosureJob& job, const CircleClosureResult& result) {
+std::string circle_closure_covariance_csv(const CircleClosureJob& job, const gum::CircleClosureResult& result) {
     const std::vector<std::string> names = circle_closure_result_names(job);
     const Eigen::MatrixXd V = covariance_in_unit(job, result);
     std::string csv = "result";

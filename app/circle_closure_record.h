@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/certify.h"
-#include "app/evaluate_circle_closure.h"
 #include "engine/job/circle_closure_job.h"
+#include "gum/circle_closure/evaluate_circle_closure.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -22,16 +22,16 @@ inline constexpr const char* k_artefact_quantity = "P";
 /// The record of a job of kind `circle_closure`, in the unit of the job.
 /// \param covariance_file  name of the CSV that will hold the covariance; "": it stands in the record
 [[nodiscard]] reports::EvaluationRecord circle_closure_record(const engine::CircleClosureJob& job,
-                                                              const CircleClosureResult& result,
+                                                              const gum::CircleClosureResult& result,
                                                               const std::vector<reports::InputFile>& files,
                                                               const std::string& covariance_file);
 
 /// The distributions of the results whose k comes from a convolution, for decisions on conformity.
 [[nodiscard]] CapabilityInputs circle_closure_capability_inputs(const engine::CircleClosureJob& job,
-                                                                const CircleClosureResult& result);
+                                                                const gum::CircleClosureResult& result);
 
 /// The covariance of all results as CSV, in the square of their unit.
 [[nodiscard]] std::string circle_closure_covariance_csv(const engine::CircleClosureJob& job,
-                                                        const CircleClosureResult& result);
+                                                        const gum::CircleClosureResult& result);
 
 }  // namespace gumcert::app

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <utility>
 
-#include "app/evaluate_circle_closure.h"
-#include "app/evaluate_rotary_table.h"
 #include "engine/job/circle_closure_job.h"
 #include "engine/job/rotary_table_job.h"
+#include "gum/circle_closure/evaluate_circle_closure.h"
 #include "gum/coverage.h"
+#include "gum/rotary_table/evaluate_rotary_table.h"
 
 namespace gumcert::app {
 
@@ -45,7 +45,7 @@ MethodSide side_of_job(const engine::ComparisonSide& side, const gum::Unit& unit
         for (const std::size_t angle : side.job_angles) {
             rows.push_back(static_cast<Index>(angle + (side.of_artefact ? job.measurement.steps : 0)));
         }
-        const gum::Propagation propagation = evaluate_circle_closure(job, 1).propagation;
+        const gum::Propagation propagation = gum::evaluate_circle_closure(job, 1).propagation;
         out = side_of_outputs(propagation, propagation.covariance(rows, rows), rows, unit, coverage_probability);
     } else {
         engine::RotaryTableJob job = *side.rotary_table;
@@ -55,7 +55,7 @@ MethodSide side_of_job(const engine::ComparisonSide& side, const gum::Unit& unit
         for (const std::size_t angle : side.job_angles) {
             rows.push_back(static_cast<Index>(k_motions * angle + k_first_rotation + axial));
         }
-        const QuantityUncertainty reported = evaluate_rotary_table(job, 1).reported;
+        const gum::QuantityUncertainty reported = gum::evaluate_rotary_table(job, 1).reported;
         out = side_of_outputs(reported.budget, reported.covariance.of(rows), rows, unit, coverage_probability);
     }
     out.remarks.push_back("Values, uncertainties and covariance of " + side.name + " come from the job " +

@@ -5,10 +5,6 @@
 
 namespace gumcert::app {
 
-const DocumentUnit& unit_of(const gum::OutputQuantity& quantity) {
-    return quantity.unit == "m" ? k_um : k_arcsec;
-}
-
 reports::Printed printed(double value, double U, const DocumentUnit& unit) {
     if (!(U > 0.0)) {
         return {"0", "", unit.print};

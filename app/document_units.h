@@ -4,24 +4,16 @@
 #include <optional>
 
 #include "gum/propagation.h"
-#include "gum/quantity/measurement_model.h"
-#include "gum/quantity/units.h"
+#include "gum/rotary_table/document_units.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
 
-/// A unit of a document: factor to SI, name in the record, name in print.
-struct DocumentUnit {
-    double si;
-    const char* record;
-    const char* print;
-};
-constexpr DocumentUnit k_um{gum::k_micrometre, "um", "µm"};
-constexpr DocumentUnit k_arcsec{gum::k_arcsecond, "arcsec", "″"};
-constexpr DocumentUnit k_mm{gum::k_millimetre, "mm", "mm"};
-
-/// Micrometres for lengths, arcseconds for angles.
-[[nodiscard]] const DocumentUnit& unit_of(const gum::OutputQuantity& quantity);
+using gum::DocumentUnit;
+using gum::k_arcsec;
+using gum::k_mm;
+using gum::k_um;
+using gum::unit_of;
 
 /// Value and expanded uncertainty in a unit of the document. Without uncertainty (the home angle of the home datum)
 /// the value is zero by definition.

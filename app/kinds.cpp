@@ -10,9 +10,7 @@
 #include "app/certificate_inputs.h"
 #include "app/circle_closure_record.h"
 #include "app/document_units.h"
-#include "app/evaluate_circle_closure.h"
 #include "app/evaluate_comparison.h"
-#include "app/evaluate_rotary_table.h"
 #include "app/rotary_table_record.h"
 #include "engine/job/budget_job.h"
 #include "engine/job/circle_closure_job.h"
@@ -21,6 +19,8 @@
 #include "engine/job/rotary_table_job.h"
 #include "gum/budget/evaluate_budget.h"
 #include "gum/budget/reported_covariance.h"
+#include "gum/circle_closure/evaluate_circle_closure.h"
+#include "gum/rotary_table/evaluate_rotary_table.h"
 
 namespace gumcert::app {
 
@@ -64,7 +64,7 @@ Evaluation evaluate_budget_job(const EvaluationTask& task) {
 Evaluation evaluate_rotary_table_job(const EvaluationTask& task) {
     engine::RotaryTableJob job = engine::read_rotary_table_job(task.files, task.job_file);
     const std::optional<certificate::Profile> profile = task.profile_of(job.certificate);
-    const RotaryTableResult result = evaluate_rotary_table(job, task.threads, task.progress);
+    const gum::RotaryTableResult result = gum::evaluate_rotary_table(job, task.threads, task.progress);
     Evaluation evaluation;
     const std::vector<reports::InputFile> files = task.held_files(job.files);
     if (task.covariance.is_written()) {
@@ -87,7 +87,7 @@ Evaluation evaluate_rotary_table_job(const EvaluationTask& task) {
 Evaluation evaluate_circle_closure_job(const EvaluationTask& task) {
     const engine::CircleClosureJob job = engine::read_circle_closure_job(task.files, task.job_file);
     const std::optional<certificate::Profile> profile = task.profile_of(job.certificate);
-    const CircleClosureResult result = evaluate_circle_closure(job, task.threads, task.progress);
+    const gum::CircleClosureResult result = gum::evaluate_circle_closure(job, task.threads, task.progress);
     Evaluation evaluation;
     const std::vector<reports::InputFile> files = task.held_files(job.files);
     const bool is_large = circle_closure_result_names(job).size() > k_most_results_in_record;

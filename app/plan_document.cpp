@@ -7,9 +7,9 @@
 #include "app/plan_data.h"
 #include "app/plan_figures.h"
 #include "app/plan_texts.h"
-#include "app/table_parameter_record.h"
 #include "engine/geometry_check.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/rotary_table/positioning_scope.h"
 #include "gum/rounding.h"
 #include "text/lists.h"
 
@@ -96,7 +96,7 @@ std::string parameters_sentence(const Expected& expected) {
         text += " The deviation of one run will have a standard uncertainty of " +
                 gum::round_significant(parameters.u_deviation / k_arcsec.si, 2) + "″, which makes " +
                 gum::percent(parameters.share_of_the_noise) + " % of the variance of the runs";
-        text += parameters.share_of_the_noise > k_largest_scatter_share
+        text += parameters.share_of_the_noise > gum::k_largest_scatter_share
                     ? ": an evaluation will not state R and A, because they would be those of the measurement."
                     : ".";
     }

@@ -8,7 +8,6 @@
 #include <memory>
 #include <utility>
 
-#include "app/table_parameter_record.h"
 #include "engine/datum.h"
 #include "engine/measurement_plan.h"
 #include "engine/rotary_table_model.h"
@@ -16,6 +15,7 @@
 #include "gum/coverage.h"
 #include "gum/propagation.h"
 #include "gum/random_draws.h"
+#include "gum/rotary_table/positioning_scope.h"
 
 namespace gumcert::app::plan {
 
@@ -104,7 +104,7 @@ void add_positioning(const engine::TableParameters& parameters, const Eigen::Vec
             found = found == names.end() ? std::find(names.begin(), names.end(), one) : found;
         }
         PlannedParameter parameter{found == names.end() ? name : *found, true, std::nullopt, target};
-        if (found != names.end() && (scatter_stated || !rests_on_scatter(name))) {
+        if (found != names.end() && (scatter_stated || !gum::rests_on_scatter(name))) {
             parameter.U = k * u[found - names.begin()];
         }
         if (found != names.end() || target) {
@@ -141,7 +141,7 @@ ExpectedParameters expected_parameters(const RotaryTableMeasurement& layout, con
     for (Eigen::Index c = 0; c < 4; ++c) {
         add(places.axis_line + c, c >= 2, c < 2 ? targets.location_linear : targets.location_angular);
     }
-    const bool scatter_stated = expected.share_of_the_noise <= k_largest_scatter_share * (1.0 + 1e-12);
+    const bool scatter_stated = expected.share_of_the_noise <= gum::k_largest_scatter_share * (1.0 + 1e-12);
     add_positioning(*model.parameters(), u, scatter_stated, targets, k, expected);
     return expected;
 }

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "app/evaluate_rotary_table.h"
-#include "app/fixture_budget.h"
 #include "app/plan_texts.h"
 #include "engine/campaign_layout.h"
 #include "engine/geometry_check.h"
@@ -14,6 +12,8 @@
 #include "engine/variance_components.h"
 #include "gum/coverage.h"
 #include "gum/propagation.h"
+#include "gum/rotary_table/evaluate_rotary_table.h"
+#include "gum/rotary_table/fixture_budget.h"
 #include "gum/rounding.h"
 
 namespace gumcert::app::plan {
@@ -207,7 +207,7 @@ std::vector<Target> targets_of(const Setting& setting, const Expected& expected)
 Setting setting_of(const std::filesystem::path& job_file, const gum::Progress& progress) {
     Setting setting;
     setting.job = engine::read_rotary_table_job(job_file, engine::JobUse::plan);
-    (void)apply_fixture_budget(setting.job);
+    (void)gum::apply_fixture_budget(setting.job);
     setting.request = setting.job.plan.value_or(engine::PlanRequest{});
     RotaryTableMeasurement& layout = setting.layout;
     layout = setting.job.measurement;
@@ -249,7 +249,8 @@ Setting setting_of(const std::filesystem::path& job_file, const gum::Progress& p
 
 Expected expect(const Setting& setting, const RotaryTableMeasurement& layout) {
     Expected expected;
-    expected.uncertainty = engine::expected_uncertainty(layout, setting.stochastic, evaluation_options(setting.layout));
+    expected.uncertainty =
+        engine::expected_uncertainty(layout, setting.stochastic, gum::evaluation_options(setting.layout));
     expected.motions = motions_of(expected.uncertainty.covariance.diagonal(), layout.angles.size(), setting.k);
     expected.ratio = ratio_of(setting, expected.motions);
     expected.parameters = expected_parameters(layout, setting.stochastic, setting.request.parameter_targets, setting.k);

@@ -134,7 +134,7 @@ std::string word_of(ReferenceCorrelation correlation) {
     return "unknown";
 }
 
-gum::MethodComparison method_comparison(const RotaryTableJob& job, const QuantityUncertainty& displacement,
+gum::MethodComparison method_comparison(const RotaryTableJob& job, const gum::QuantityUncertainty& displacement,
                                         const std::vector<ReferencePoint>& points, const MethodSide& side) {
     gum::MethodComparison comparison;
     comparison.coverage_probability = job.coverage_probability;
@@ -178,7 +178,7 @@ void add_published(const ReferenceMethod& reference, reports::Comparison& record
 
 }  // namespace
 
-reports::Comparison reference_comparison(const RotaryTableJob& job, const QuantityUncertainty& displacement) {
+reports::Comparison reference_comparison(const RotaryTableJob& job, const gum::QuantityUncertainty& displacement) {
     const ReferenceMethod& reference = *job.reference;
     const std::vector<ReferencePoint> points = engine::reference_points(reference.readings);
     MethodSide side = job.reference_budget ? side_of_budget(job) : side_of_indicator(job, points);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/evaluate_rotary_table.h"
 #include "engine/job/rotary_table_job.h"
+#include "gum/rotary_table/evaluate_rotary_table.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -16,6 +16,6 @@ namespace gumcert::app {
 /// \throws InputError, NoResultError  those of side_of_budget(), covariance_of_stated_correlation() and
 ///                                    compare_methods()
 [[nodiscard]] reports::Comparison reference_comparison(const engine::RotaryTableJob& job,
-                                                       const QuantityUncertainty& displacement);
+                                                       const gum::QuantityUncertainty& displacement);
 
 }  // namespace gumcert::app

@@ -165,7 +165,7 @@ void fill_reversal_model(reports::RotaryTable& rotary, const engine::RotaryTable
 
 /// The poses of both senses at every angle, where the adjustment has them.
 void fill_sense_curves_by_angle(reports::RotaryTable& rotary, const engine::RotaryTableModel& model,
-                                const RotaryTableResult& result) {
+                                const gum::RotaryTableResult& result) {
     const gum::UncertaintyBudget& propagation = result.reported.budget;
     const engine::JointAdjustment& solved = model.solved();
     const engine::RotaryTableMeasurement& measurement = model.measurement();
@@ -196,7 +196,7 @@ void fill_sense_curves_by_angle(reports::RotaryTable& rotary, const engine::Rota
 
 /// The curves E ± reversal/2 and what the residuals of each sense at each angle add to them.
 void fill_sense_curves(reports::RotaryTable& rotary, const engine::RotaryTableModel& model,
-                       const RotaryTableResult& result) {
+                       const gum::RotaryTableResult& result) {
     if (!result.solution.quantities.has_reversal) {
         return;
     }
@@ -259,7 +259,7 @@ reports::HarmonicRow harmonic_row(const std::string& name, const DocumentUnit& u
 }
 
 void fill_harmonics(reports::RotaryTable& rotary, const RotaryTableMeasurement& measurement,
-                    const QuantityUncertainty& reported) {
+                    const gum::QuantityUncertainty& reported) {
     const gum::UncertaintyBudget& propagation = reported.budget;
     const auto count = static_cast<Eigen::Index>(measurement.angles.size());
     const Eigen::VectorXd angles = Eigen::Map<const Eigen::VectorXd>(measurement.angles.data(), count);
@@ -405,7 +405,8 @@ const char* group_kind_name(GroupKind kind) {
     return "";
 }
 
-void fill_evidence(reports::RotaryTable& rotary, const engine::RotaryTableJob& job, const RotaryTableResult& result) {
+void fill_evidence(reports::RotaryTable& rotary, const engine::RotaryTableJob& job,
+                   const gum::RotaryTableResult& result) {
     const RotaryTableMeasurement& measurement = job.measurement;
     if (result.solution.groups) {
         fill_group_tests(rotary, *result.solution.groups, measurement);

@@ -6,15 +6,15 @@
 
 #include "app/document_units.h"
 #include "app/record_parts.h"
-#include "app/table_parameter_record.h"
 #include "engine/rotary_table_trials.h"
+#include "gum/rotary_table/positioning_scope.h"
 #include "gum/rounding.h"
 
 namespace gumcert::app {
 
 void fill_monte_carlo(reports::EvaluationRecord& record, const engine::RotaryTableJob& job,
-                      const RotaryTableResult& result) {
-    const RotaryTableMonteCarlo& monte_carlo = *result.monte_carlo;
+                      const gum::RotaryTableResult& result) {
+    const gum::RotaryTableMonteCarlo& monte_carlo = *result.monte_carlo;
     reports::RotaryTable& rotary = *record.rotary;
     const engine::ReportedQuantities& quantities = result.solution.quantities;
     reports::RotaryMonteCarlo summary;
@@ -76,7 +76,7 @@ void fill_monte_carlo(reports::EvaluationRecord& record, const engine::RotaryTab
     const std::vector<std::string>& names = result.parameter_model->parameters()->short_names();
     for (std::size_t i = 0; rotary.iso230_2 && i < rotary.iso230_2->parameters.size(); ++i) {
         reports::TableParameter& parameter = rotary.iso230_2->parameters[i];
-        if (!rests_on_scatter(parameter.name)) {
+        if (!gum::rests_on_scatter(parameter.name)) {
             const auto found = std::find(names.begin() + layout.positioning, names.end(), parameter.name);
             parameter.monte_carlo = of(first + (found - names.begin()), parameter_unit(parameter), parameter.name);
         }

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "app/evaluate_rotary_table.h"
+#include "engine/job/rotary_table_job.h"
+#include "gum/rotary_table/evaluate_rotary_table.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -9,6 +10,6 @@ namespace gumcert::app {
 /// mean, standard uncertainty, coverage intervals and validation, and what they say together.
 /// \param record  with everything of the law of propagation in it
 void fill_monte_carlo(reports::EvaluationRecord& record, const engine::RotaryTableJob& job,
-                      const RotaryTableResult& result);
+                      const gum::RotaryTableResult& result);
 
 }  // namespace gumcert::app

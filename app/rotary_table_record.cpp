@@ -7,6 +7,8 @@
 
 #include "app/adjustment_record.h"
 #include "app/document_units.h"
+#include "app/fixture_budget_record.h"
+#include "app/location_error_record.h"
 #include "app/record_parts.h"
 #include "app/reference_comparison.h"
 #include "app/rotary_evidence.h"
@@ -56,7 +58,7 @@ DocumentUnit budget_unit(const std::string& si_unit) {
     return si_unit == "rad" ? k_arcsec : DocumentUnit{1.0, si_unit.c_str(), si_unit.c_str()};
 }
 
-reports::Result result_of(const QuantityUncertainty& uncertainty, const gum::MeasurementModel& model,
+reports::Result result_of(const gum::QuantityUncertainty& uncertainty, const gum::MeasurementModel& model,
                           Eigen::Index output, const std::string& name, const std::string& description) {
     const gum::UncertaintyBudget& propagation = uncertainty.budget;
     const DocumentUnit& unit = unit_of(model.outputs()[static_cast<std::size_t>(output)]);
@@ -279,7 +281,7 @@ std::vector<std::string> covariance_order(const RotaryTableJob& job, const engin
     return names;
 }
 
-reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const RotaryTableResult& result,
+reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const gum::RotaryTableResult& result,
                                               const std::vector<reports::InputFile>& files,
                                               const std::string& covariance_file) {
     const engine::RotaryTableMeasurement& measurement = job.measurement;
@@ -342,7 +344,7 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const R
     fill_budget(rotary, solution, propagation, measurement);
     const double k = gum::coverage_factor(job.coverage_probability, std::numeric_limits<double>::infinity());
     fill_adjustment(rotary, solution, measurement, propagation, k);
-    rotary.fixture_budget = result.fixture.record;
+    rotary.fixture_budget = fixture_budget_record(job, result.fixture);
     fill_evidence(rotary, job, result);
     fill_exclusions(rotary, job);
     record.rotary = std::move(rotary);

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "app/evaluate_rotary_table.h"
 #include "engine/job/rotary_table_job.h"
+#include "gum/rotary_table/evaluate_rotary_table.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -13,7 +13,7 @@ namespace gumcert::app {
 ///
 /// \param covariance_file  name that the covariance file will have beside the record; "" when there is none
 [[nodiscard]] reports::EvaluationRecord rotary_table_record(const engine::RotaryTableJob& job,
-                                                            const RotaryTableResult& result,
+                                                            const gum::RotaryTableResult& result,
                                                             const std::vector<reports::InputFile>& files,
                                                             const std::string& covariance_file);
 

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "app/evaluate_rotary_table.h"
-#include "app/fixture_budget.h"
 #include "app/simulation_document.h"
 #include "app/simulation_study.h"
 #include "engine/campaign_layout.h"
 #include "engine/rotary_table_evaluation.h"
 #include "gum/quantity/units.h"
+#include "gum/rotary_table/evaluate_rotary_table.h"
+#include "gum/rotary_table/fixture_budget.h"
 
 namespace gumcert::app {
 
@@ -60,7 +60,7 @@ Basis basis_of(const engine::RotaryTableJob& job, std::optional<std::size_t> run
         measurement.method = engine::AdjustmentMethod::joint;
         measurement.reversal = job.measurement.reversal;
         const engine::RotaryTableSolution solution =
-            engine::evaluate_jointly(measurement, evaluation_options(measurement));
+            engine::evaluate_jointly(measurement, gum::evaluation_options(measurement));
         if (table_unknown) {
             basis.table.u_linear = std::sqrt(solution.stochastic.variance_linear);
             basis.table.u_axial = std::sqrt(solution.stochastic.variance_axial);
@@ -115,7 +115,7 @@ reports::StudyDocument simulate_job(const engine::RotaryTableJob& stated, const 
                                     std::optional<std::size_t> runs, std::optional<std::uint64_t> seed,
                                     unsigned threads, const gum::Progress& progress) {
     engine::RotaryTableJob job = stated;
-    (void)apply_fixture_budget(job);
+    (void)gum::apply_fixture_budget(job);
     const Basis basis = basis_of(job, runs, seed, progress);
     const SimulationRequest& request = basis.request;
     gum::WorkerThreads workers(threads);

@@ -10,13 +10,13 @@
 #include <utility>
 
 #include "app/campaign_draws.h"
-#include "app/evaluate_rotary_table.h"
 #include "engine/campaign_simulation.h"
 #include "engine/joint_adjustment.h"
 #include "engine/rotary_table_contributions.h"
 #include "engine/rotary_table_evaluation.h"
 #include "engine/sequential_evaluation.h"
 #include "gum/propagation.h"
+#include "gum/rotary_table/evaluate_rotary_table.h"
 
 namespace gumcert::app {
 
@@ -85,7 +85,7 @@ public:
     explicit SequentialOfExactDistances(RotaryTableMeasurement first) {
         first.method = AdjustmentMethod::sequential;
         first.datum = Datum::home;
-        model_ = engine::evaluate_sequentially(first, single_test_options(first)).model;
+        model_ = engine::evaluate_sequentially(first, gum::single_test_options(first)).model;
         inputs_ = gum::input_estimates(*model_);
         for (const engine::Visit& visit : engine::visits_of(first, std::vector<bool>(first.lengths.size(), true))) {
             order_.insert(order_.end(), visit.observations.begin(), visit.observations.end());
@@ -146,7 +146,7 @@ public:
         if (measurement.fixture_component == engine::FixtureComponent::check) {
             measurement.fixture_component = engine::FixtureComponent::given;
         }
-        const engine::EvaluationOptions options = single_test_options(measurement);
+        const engine::EvaluationOptions options = gum::single_test_options(measurement);
         RotaryTableMeasurement for_sequential;
         try {
             const engine::RotaryTableSolution joint = engine::evaluate_jointly(measurement, options);

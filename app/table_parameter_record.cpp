@@ -9,6 +9,7 @@
 
 #include "app/document_units.h"
 #include "app/record_parts.h"
+#include "gum/rotary_table/positioning_scope.h"
 #include "gum/rounding.h"
 #include "text/numbers.h"
 
@@ -65,7 +66,7 @@ reports::PositioningAccuracy positioning_of(const engine::TableParameterModel& m
     const auto [least_down, most_down] = run_counts(parameters.runs().down);
     accuracy.runs_up = static_cast<std::int64_t>(least_up);
     accuracy.runs_down = static_cast<std::int64_t>(least_down);
-    const PositioningScope scope = positioning_scope(model);
+    const gum::PositioningScope scope = gum::positioning_scope(model);
     for (Eigen::Index i = layout.positioning; i < layout.positioning + layout.positioning_count; ++i) {
         if (scope.states(parameters.short_names()[static_cast<std::size_t>(i)])) {
             accuracy.parameters.push_back(parameter_of(parameters, propagation, i));
@@ -131,36 +132,6 @@ reports::TableParameter table_parameter(const gum::UncertaintyBudget& propagatio
             .nu_eff = numbers.nu_eff,
             .printed = numbers.text,
             .monte_carlo = {}};
-}
-
-bool rests_on_scatter(const std::string& short_name) {
-    return short_name.starts_with('R') || short_name.starts_with('A');
-}
-
-PositioningScope positioning_scope(const engine::TableParameterModel& model) {
-    constexpr double k_largest_ratio = 0.25;
-    const engine::PositioningAccuracy positioning = model.positioning();
-    PositioningScope scope;
-    scope.largest_ratio = k_largest_ratio;
-    scope.u_deviation = model.rms_position_uncertainty();
-    double squares = 0.0;
-    double count = 0.0;
-    for (const engine::PositioningTarget& target : positioning.targets) {
-        for (const std::optional<double>& s : {target.s_up, target.s_down}) {
-            squares += s ? *s * *s : 0.0;
-            count += s ? 1.0 : 0.0;
-        }
-    }
-    scope.s_runs = count > 0.0 ? std::sqrt(squares / count) : 0.0;
-    using engine::PositioningParameter;
-    double range = 0.0;
-    for (const PositioningParameter parameter : {PositioningParameter::systematic, PositioningParameter::systematic_up,
-                                                 PositioningParameter::systematic_down}) {
-        range = std::max(range, positioning[parameter].value_or(0.0));
-    }
-    scope.stated = scope.u_deviation <= k_largest_ratio * range;
-    scope.scatter_stated = std::pow(scope.u_deviation, 2) <= k_largest_scatter_share * std::pow(scope.s_runs, 2);
-    return scope;
 }
 
 void fill_table_parameters(reports::RotaryTable& rotary, const engine::TableParameterModel& model,

@@ -6,7 +6,7 @@
 
 # The layers from the foundation upwards. An edge may only point to a layer further left, so there are no cycles.
 set(GUMCERT_LAYER_FOLDERS text encoding gum/quantity json gum/expression gum gum/comparison certificate engine gum/budget
-                          engine/job reports/record reports reports/dcc signing app app/cli)
+                          gum/rotary_table gum/circle_closure engine/job reports/record reports reports/dcc signing app app/cli)
 
 # Our own layers whose headers a layer may include and whose library it may link.
 set(GUMCERT_EDGES_text)
@@ -19,14 +19,17 @@ set(GUMCERT_EDGES_gum_comparison text gum/quantity gum)
 set(GUMCERT_EDGES_certificate    text gum/quantity gum/expression gum)
 set(GUMCERT_EDGES_engine         text gum/quantity)
 set(GUMCERT_EDGES_gum_budget     text gum/quantity gum/expression gum engine)
+set(GUMCERT_EDGES_gum_rotary_table text gum/quantity gum engine gum/budget)
+set(GUMCERT_EDGES_gum_circle_closure gum/quantity gum engine gum/budget)
 set(GUMCERT_EDGES_engine_job     text encoding gum/quantity json gum/expression gum gum/comparison certificate engine
-                                 gum/budget)
+                                 gum/budget gum/rotary_table gum/circle_closure)
 set(GUMCERT_EDGES_reports_record text encoding gum/quantity json gum certificate)
 set(GUMCERT_EDGES_reports        text gum/quantity json gum certificate reports/record)
 set(GUMCERT_EDGES_reports_dcc    text encoding gum/quantity json gum certificate reports/record reports)
 set(GUMCERT_EDGES_signing        text encoding gum/quantity json)
 set(GUMCERT_EDGES_app            text encoding gum/quantity json gum/expression gum gum/comparison certificate engine
-                                 gum/budget engine/job reports/record reports reports/dcc signing)
+                                 gum/budget gum/rotary_table gum/circle_closure engine/job reports/record reports reports/dcc
+                                 signing)
 set(GUMCERT_EDGES_app_cli        text encoding gum/quantity certificate reports/record reports signing app)
 
 # Headers from outside that a layer may include: a first folder (Eigen) or one file (cholmod.h). The standard library is
@@ -40,6 +43,8 @@ set(GUMCERT_THIRD_PARTY_gum            Eigen unsupported boost Random123)
 set(GUMCERT_THIRD_PARTY_gum_comparison Eigen boost)
 set(GUMCERT_THIRD_PARTY_engine         Eigen ceres glog)
 set(GUMCERT_THIRD_PARTY_gum_budget     Eigen)
+set(GUMCERT_THIRD_PARTY_gum_rotary_table Eigen)
+set(GUMCERT_THIRD_PARTY_gum_circle_closure Eigen)
 set(GUMCERT_THIRD_PARTY_engine_job     Eigen nlohmann)
 set(GUMCERT_THIRD_PARTY_certificate)
 set(GUMCERT_THIRD_PARTY_reports_record nlohmann)

@@ -9,14 +9,12 @@
 #include <vector>
 
 #include "certificate/certificate_data.h"
-#include "engine/circle_closure.h"
 #include "engine/job/file_source.h"
 #include "engine/job/input_codes.h"
 #include "engine/job/job_kind.h"
+#include "gum/circle_closure/circle_closure_request.h"
 #include "gum/coverage_choice.h"
-#include "gum/monte_carlo_request.h"
 #include "gum/quantity/diagnostic.h"
-#include "gum/quantity/unit.h"
 
 namespace gumcert::engine {
 
@@ -32,19 +30,15 @@ inline constexpr InputCode k_closure_value{"GC-CLOSURE-0006", "an effect with a 
 inline constexpr std::array k_closure_codes{k_closure_repeated_reading, k_closure_positions, k_closure_not_read,
                                             k_closure_too_large,        k_closure_drift,     k_closure_value};
 
-/// A job of kind `circle_closure`, angles in radians.
-struct CircleClosureJob {
+/// A job of kind `circle_closure`: the request, in whose unit readings and results are, and the job as it was read.
+struct CircleClosureJob : gum::CircleClosureRequest {
     std::string title;
-    double coverage_probability = 0.9545;
     gum::CoverageChoice coverage = gum::CoverageChoice::as_validated;
-    gum::Unit unit;                ///< of readings and results, an angle
     std::optional<char> axis;      ///< 'A', 'B' or 'C': deviations of the table are then named EAA, EBB or ECC
     double first_angle_deg = 0.0;  ///< of the table at step 0
     std::string artefact;          ///< what stands on the table: "polygon of 36 sides"; "" where not stated
-    CircleClosureMeasurement measurement;
     std::vector<std::string> readings_as_stated;  ///< one a reading, for documents
     std::string repeatability_source;
-    std::optional<gum::MonteCarloRequest> monte_carlo;
     nlohmann::json document;
     std::optional<certificate::CertificateData> certificate;
     std::vector<std::string> files;

@@ -98,14 +98,9 @@ inline constexpr InputCode k_layout_incomplete{"GC-INPUT-0226", "neither measure
 inline constexpr InputCode k_repeated_angle{"GC-INPUT-0227", "a planned angle occurs twice"};
 inline constexpr InputCode k_limits_reversed{"GC-INPUT-0228", "a lower limit above the upper one"};
 inline constexpr InputCode k_layout_too_large{"GC-INPUT-0229", "a layout or a study that is larger than allowed"};
-inline constexpr InputCode k_fixture_budget_output{"GC-INPUT-0230",
-                                                   "the fixture budget has not one output of the unit of a length"};
-inline constexpr InputCode k_fixture_budget_differs{"GC-INPUT-0231",
-                                                    "fixture budget and coordinates file state different values"};
 inline constexpr InputCode k_bad_exclusion{"GC-INPUT-0232", "an exclusion that names no distance, or has no reason"};
 inline constexpr InputCode k_bad_machine_frame{"GC-INPUT-0236", "points that do not tell the frame of the machine"};
 inline constexpr InputCode k_bad_reversal{"GC-INPUT-0237", "a reversal that the measurement cannot tell"};
-inline constexpr InputCode k_monte_carlo_of_sequential{"GC-INPUT-0238", "Monte Carlo with the sequential method"};
 
 // Budget jobs.
 inline constexpr InputCode k_no_statement{"GC-INPUT-0300", "an input without a statement of what is known of it"};
@@ -168,8 +163,6 @@ inline constexpr InputCode k_warn_unused_input{"GC-WARN-0008", "an input that no
 inline constexpr InputCode k_warn_same_but_case{"GC-WARN-0009", "names that differ by capital letters only"};
 inline constexpr InputCode k_warn_few_trials{"GC-WARN-0010", "fewer Monte Carlo trials than recommended"};
 inline constexpr InputCode k_warn_equal_observations{"GC-WARN-0011", "observations that are all equal"};
-inline constexpr InputCode k_warn_fixture_u_differs{"GC-WARN-0012",
-                                                    "u columns of the fixture that are not used, and are far off"};
 inline constexpr InputCode k_warn_same_position{"GC-WARN-0013", "two angles that are one position of the table"};
 inline constexpr InputCode k_warn_correlations_repaired{"GC-WARN-0014",
                                                         "correlations that hold together within their digits only"};
@@ -250,12 +243,9 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_repeated_angle,
                                           k_limits_reversed,
                                           k_layout_too_large,
-                                          k_fixture_budget_output,
-                                          k_fixture_budget_differs,
                                           k_bad_exclusion,
                                           k_bad_machine_frame,
                                           k_bad_reversal,
-                                          k_monte_carlo_of_sequential,
                                           k_no_statement,
                                           k_two_statements,
                                           k_incomplete_statement,
@@ -303,7 +293,6 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_warn_same_but_case,
                                           k_warn_few_trials,
                                           k_warn_equal_observations,
-                                          k_warn_fixture_u_differs,
                                           k_warn_same_position,
                                           k_warn_correlations_repaired,
                                           k_warn_beyond_range};

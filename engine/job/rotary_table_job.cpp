@@ -24,6 +24,7 @@
 #include "engine/job/rotary_table_study.h"
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/units.h"
+#include "gum/rotary_table/fixture_budget.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 
@@ -219,6 +220,7 @@ public:
         read_job();
         files_.refuse_if_needed();
         job_.files = files_.names();
+        job_.where = job_.files.front();
         job_.warnings = files_.warnings();
         return std::move(job_);
     }
@@ -621,7 +623,8 @@ private:
         } else {
             Eigen::VectorXd variances = Eigen::VectorXd::Zero(3 * count);
             for (Eigen::Index i = 0; job_.source_paper_fixture && i < variances.size(); ++i) {
-                variances(i) = std::pow(source_paper_fixture_uncertainty(job_.measurement.fixture(i / 3, i % 3)), 2);
+                variances(i) =
+                    std::pow(gum::source_paper_fixture_uncertainty(job_.measurement.fixture(i / 3, i % 3)), 2);
             }
             job_.measurement.fixture_covariance = variances.asDiagonal();
             if (stated_u.maxCoeff() > 0.0) {
@@ -722,7 +725,8 @@ private:
             if (fixture_is_whole_) {
                 check_points(*budget, *file->problems);
             }
-            job_.fixture_budget = std::move(budget);
+            job_.fixture_budget = budget;
+            job_.fixture_budget_job = std::move(budget);
         } catch (const gum::InputError& error) {
             files_.add(error);
         } catch (const gum::StorageError& error) {
@@ -735,7 +739,7 @@ private:
         std::vector<std::string> expected;
         for (const std::string& reflector : reflectors_.names()) {
             for (std::size_t k = 0; k < 3; ++k) {
-                expected.push_back(fixture_coordinate_name(reflector, k));
+                expected.push_back(gum::fixture_coordinate_name(reflector, k));
             }
         }
         const std::string rule = "the budget of the fixture has one point for each coordinate, \"" + expected.front() +
@@ -1589,17 +1593,6 @@ DiskJob on_disk(const std::filesystem::path& job_file) {
 }
 
 }  // namespace
-
-double source_paper_fixture_uncertainty(double coordinate) {
-    constexpr double k_constant = 0.401 * k_micrometre;
-    constexpr double k_proportional = 3.32e-7;  // L and u_c in the same unit
-    return std::hypot(k_constant, k_proportional * coordinate);
-}
-
-std::string fixture_coordinate_name(const std::string& reflector, std::size_t axis) {
-    static constexpr std::array<const char*, 3> k_suffixes{".x", ".y", ".z"};
-    return reflector + k_suffixes[axis];
-}
 
 std::span<const JobKeys> rotary_table_job_keys() {
     return all_keys();

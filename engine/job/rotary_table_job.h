@@ -16,12 +16,11 @@
 #include "engine/job/job_kind.h"
 #include "engine/job/rotary_table_exclusion.h"
 #include "engine/line_of_sight.h"
-#include "engine/machine_frame.h"
 #include "engine/rotary_table_measurement.h"
 #include "gum/coverage_choice.h"
-#include "gum/monte_carlo_request.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/units.h"
+#include "gum/rotary_table/rotary_table_request.h"
 
 namespace gumcert::engine {
 
@@ -88,20 +87,15 @@ struct PlanRequest {
 /// What is done with a job: only an evaluation needs measured lengths.
 enum class JobUse { evaluate, simulate, plan };
 
-/// A job of kind `rotary_table`: the measurement in SI, and the job as it was read.
-struct RotaryTableJob {
-    std::string title;                     ///< empty when the job has none
-    double coverage_probability = 0.9545;  ///< [1]
-    RotaryTableMeasurement measurement;
-    std::optional<ReferenceMethod> reference;
-    /// Also where `coverage` asks for its result and nothing else is said of it.
-    std::optional<gum::MonteCarloRequest> monte_carlo;
+/// A job of kind `rotary_table`: the request, and the job as it was read.
+///
+/// Monte Carlo is in the request also where `coverage` asks for its result and nothing else is said of it. The fixture
+/// covariance is zero where a budget gives it, until that is evaluated.
+struct RotaryTableJob : gum::RotaryTableRequest {
+    std::string title;  ///< empty when the job has none
     gum::CoverageChoice coverage = gum::CoverageChoice::as_validated;
-    /// Budget of the fixture coordinates, kind `budget`, with a point "<reflector>.x", "<reflector>.y", "<reflector>.z"
-    /// for each coordinate. Its results give the fixture covariance; the application evaluates it.
-    /// The fixture covariance is zero until then.
-    std::shared_ptr<const BudgetJob> fixture_budget;
-    std::string fixture_budget_file;
+    /// `fixture_budget` of the request, with what a job of kind `budget` has beside it.
+    std::shared_ptr<const BudgetJob> fixture_budget_job;
     /// Budget of the reference value, kind `budget`, with one output, a length, and the mean reading at one point as
     /// the value of its input `reading`. Its points are those of reference_points(), in that order; the application
     /// evaluates it.
@@ -109,17 +103,13 @@ struct RotaryTableJob {
     std::string reference_budget_file;
     /// The fixture covariance is that of the source paper, eqs. (10) to (12), on purpose.
     bool source_paper_fixture = false;
-    /// Columns u of the coordinates file where the covariance comes from elsewhere, 3n, order x1 y1 z1 …, [m]; empty
-    /// where the file has none of them. They have no part in any result.
-    Eigen::VectorXd stated_fixture_u;
     std::optional<SimulationRequest> simulation;
     std::optional<PlanRequest> plan;
-    std::optional<MachineFrame> machine_frame;  ///< where the location errors of the axis are asked for
-    std::vector<Exclusion> exclusions;          ///< what the laboratory left out; not in `measurement`
-    bool has_lengths = true;                    ///< false: a layout for `plan` or `simulate` without measured lengths
-    std::vector<StationAir> air;                ///< per station; empty without an environment file
-    double reference_temperature_degC = 20.0;   ///< of the fixture coordinates
-    nlohmann::json document;                    ///< the job file as read
+    std::vector<Exclusion> exclusions;         ///< what the laboratory left out; not in `measurement`
+    bool has_lengths = true;                   ///< false: a layout for `plan` or `simulate` without measured lengths
+    std::vector<StationAir> air;               ///< per station; empty without an environment file
+    double reference_temperature_degC = 20.0;  ///< of the fixture coordinates
+    nlohmann::json document;                   ///< the job file as read
     std::optional<certificate::CertificateData> certificate;  ///< from the job or a file of its own
     /// Names as the job gives them, each once: the job file, lengths, stations, environment, fixture coordinates,
     /// fixture covariance, points of the machine frame, readings and description of the reference method, budget of the
@@ -127,16 +117,6 @@ struct RotaryTableJob {
     std::vector<std::string> files;
     std::vector<gum::Diagnostic> warnings;
 };
-
-/// Standard uncertainty of one fixture coordinate as the source paper states it, eq. (11):
-/// u_c = sqrt(0.401² + (3.32e-7 L)²) µm with L in µm. It is kept to reproduce the paper, not because it is right.
-/// \param coordinate  [m]
-/// \return [m]
-[[nodiscard]] double source_paper_fixture_uncertainty(double coordinate);
-
-/// The name that a fixture budget gives a coordinate: "R1.x".
-/// \param axis  0, 1, 2 for x, y, z
-[[nodiscard]] std::string fixture_coordinate_name(const std::string& reflector, std::size_t axis);
 
 /// The keys of a job of kind `rotary_table`, object by object. schemas/job-1.schema.json states the same ones.
 [[nodiscard]] std::span<const JobKeys> rotary_table_job_keys();

@@ -32,7 +32,7 @@ SOURCES = (
     "app/environment_findings.cpp",
     "app/evaluate_laboratories.cpp",
     "app/laboratory_notes.cpp",
-    "app/location_errors.cpp",
+    "app/location_error_record.cpp",
     "app/rotary_findings.cpp",
     "app/rotary_monte_carlo_record.cpp",
     "app/table_parameter_record.cpp",
@@ -48,6 +48,7 @@ SOURCES = (
     "gum/comparison/item_result.cpp",
     "gum/comparison/laboratory_covariance.cpp",
     "gum/comparison/laboratory_data.cpp",
+    "gum/rotary_table/location_errors.cpp",
 )
 
 # Literals of these sources that are no sentences of a record, or end the program in place of a record.

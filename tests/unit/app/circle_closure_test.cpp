@@ -13,11 +13,11 @@
 #include "app/circle_closure_findings.h"
 #include "app/circle_closure_record.h"
 #include "app/compared_job_side.h"
-#include "app/evaluate_circle_closure.h"
 #include "app/evaluate_job.h"
 #include "app/recompute_record.h"
 #include "engine/job/circle_closure_job.h"
 #include "engine/job/file_source.h"
+#include "gum/circle_closure/evaluate_circle_closure.h"
 #include "gum/coverage.h"
 #include "reports/record_sentences.h"
 
@@ -273,7 +273,7 @@ TEST(CircleClosureRecord, FalseAlarmsAreRare) {
             files_of({.steps = 6, .repetitions = 2, .seed = 100 + static_cast<std::uint64_t>(campaign)},
                      R"(, "repeatability": {"u": 0.2})"),
             "job.json");
-        alarms += circle_closure_record(job, evaluate_circle_closure(job, 1), {}, "").diagnostics.empty() ? 0 : 1;
+        alarms += circle_closure_record(job, gum::evaluate_circle_closure(job, 1), {}, "").diagnostics.empty() ? 0 : 1;
     }
     EXPECT_LE(alarms, 4);  // four tests at 0.001 each: 0.8 are to be expected
 }

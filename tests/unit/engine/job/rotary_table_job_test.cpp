@@ -602,11 +602,8 @@ TEST(RotaryTableJob, EveryCodeOfRotaryJobsHasABadInput) {
     for (const BadInput& bad : bad_inputs()) {
         covered.insert(bad.code.code);
     }
-    covered.insert(k_too_many_reflectors.code);        // by a test of its own
-    covered.insert(k_layout_incomplete.code);          // by a test of its own
-    covered.insert(k_monte_carlo_of_sequential.code);  // by app/evaluate_rotary_table, which knows the method
-    // By the tests of app/fixture_budget, where the budget is evaluated.
-    covered.insert({k_fixture_budget_output.code, k_fixture_budget_differs.code});
+    covered.insert(k_too_many_reflectors.code);  // by a test of its own
+    covered.insert(k_layout_incomplete.code);    // by a test of its own
     for (const InputCode& code : k_input_codes) {
         if (code.code.starts_with("GC-INPUT-02")) {
             EXPECT_TRUE(covered.contains(code.code)) << code.code << " " << code.meaning;
@@ -1244,13 +1241,6 @@ TEST(RotaryTableJob, NeedsNoColumnsOfUncertaintyBesideABudgetOrTheSourcePaper) {
     // Eq. (11) at L = 136 500 µm: sqrt(0.401² + 0.045318²) µm; computed with Python's decimal module.
     EXPECT_NEAR(std::sqrt(V(1, 1)), 0.40355262e-6, 1e-14);
     EXPECT_EQ(V(1, 0), 0.0);
-}
-
-TEST(RotaryTableJob, ComputesTheFixtureUncertaintyOfTheSourcePaper) {
-    // Eqs. (11) and (12) at the origin and at 1 m, where the terms are 0.401 µm and 0.332 µm.
-    EXPECT_DOUBLE_EQ(source_paper_fixture_uncertainty(0.0), 0.401e-6);
-    EXPECT_NEAR(source_paper_fixture_uncertainty(1.0), 0.52060061e-6, 1e-14);
-    EXPECT_NEAR(2.0 * source_paper_fixture_uncertainty(-1.0), 1.04120123e-6, 2e-14);
 }
 
 TEST(RotaryTableJob, ReadsSimulationAndPlan) {

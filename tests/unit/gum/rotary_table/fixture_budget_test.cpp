@@ -1,18 +1,19 @@
-#include "app/fixture_budget.h"
+#include "gum/rotary_table/fixture_budget.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <utility>
 
-#include "engine/job/input_codes.h"
 #include "gum/monte_carlo.h"
 #include "gum/propagation.h"
 #include "tests/unit/engine/job/campaign.h"
 
-namespace gumcert::app {
+namespace gumcert::gum {
 namespace {
 
 using engine::RotaryTableJob;
@@ -20,7 +21,7 @@ using engine::test::Files;
 using engine::test::replace;
 using testing::HasSubstr;
 
-constexpr double k_um = 1e-6;
+constexpr double k_micro = 1e-6;
 
 Files campaign_with_budget() {
     Files files = engine::test::small_campaign();
@@ -31,8 +32,8 @@ Files campaign_with_budget() {
 }
 
 /// Covariance of the results of the joint model by the law of propagation, from its own inputs and Jacobian.
-Eigen::MatrixXd propagated(const gum::MeasurementModel& model) {
-    return gum::propagate(model, 0.9545).covariance;
+Eigen::MatrixXd propagated(const MeasurementModel& model) {
+    return propagate(model, 0.9545).covariance;
 }
 
 double largest_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
@@ -49,16 +50,11 @@ TEST(FixtureBudget, GivesTheCovarianceOfTheCoordinates) {
         for (Eigen::Index j = 0; j < 12; ++j) {
             const double expected =
                 1e-12 * job.measurement.fixture(i / 3, i % 3) * job.measurement.fixture(j / 3, j % 3) +
-                (i == j ? 0.09 * k_um * k_um : 0.0);
-            EXPECT_NEAR(V(i, j), expected, 1e-12 * 0.09 * k_um * k_um) << i << ", " << j;
+                (i == j ? 0.09 * k_micro * k_micro : 0.0);
+            EXPECT_NEAR(V(i, j), expected, 1e-12 * 0.09 * k_micro * k_micro) << i << ", " << j;
         }
     }
-    EXPECT_EQ(fixture.record.method, "budget");
-    EXPECT_EQ(fixture.record.file, "fixture_budget.json");
-    EXPECT_EQ(fixture.record.largest_coordinate, "R3.x");
-    ASSERT_EQ(fixture.record.largest.size(), 3U);
-    EXPECT_EQ(fixture.record.largest[1].input, "d_cmm");
-    EXPECT_NEAR(fixture.record.largest[1].share, 0.09 / (0.09 + std::pow(0.15275, 2)), 1e-12);
+    EXPECT_EQ(fixture.largest, 6U);  // R3.x
     EXPECT_THAT(fixture.notes, testing::IsEmpty());
 }
 
@@ -75,15 +71,15 @@ TEST(FixtureBudget, FollowsTheOrderOfTheCoordinatesNotOfThePoints) {
     ASSERT_EQ(other.model->outputs().size(), 12U);
     EXPECT_EQ(other.model->outputs().front().name, "R1.x");
     EXPECT_EQ(other.model->outputs().front().unit, "m");
-    EXPECT_EQ(in_order.model->evaluate(gum::input_estimates(*in_order.model)),
-              other.model->evaluate(gum::input_estimates(*other.model)));
+    EXPECT_EQ(in_order.model->evaluate(input_estimates(*in_order.model)),
+              other.model->evaluate(input_estimates(*other.model)));
 }
 
 TEST(FixtureBudget, JointModelHasTheCovarianceAndTheValuesOfThePoints) {
     RotaryTableJob job = engine::test::read(campaign_with_budget());
     const FixtureUncertainty fixture = apply_fixture_budget(job);
     EXPECT_LT(largest_difference(propagated(*fixture.model), job.measurement.fixture_covariance), 1e-12);
-    const Eigen::VectorXd y = fixture.model->evaluate(gum::input_estimates(*fixture.model));
+    const Eigen::VectorXd y = fixture.model->evaluate(input_estimates(*fixture.model));
     for (Eigen::Index i = 0; i < 12; ++i) {
         EXPECT_NEAR(y(i), job.measurement.fixture(i / 3, i % 3), 1e-12);
     }
@@ -92,10 +88,10 @@ TEST(FixtureBudget, JointModelHasTheCovarianceAndTheValuesOfThePoints) {
 TEST(FixtureBudget, JointModelDrawsWhatThePointsHaveInCommonTogether) {
     RotaryTableJob job = engine::test::read(campaign_with_budget());
     const FixtureUncertainty fixture = apply_fixture_budget(job);
-    gum::MonteCarloOptions options;
+    MonteCarloOptions options;
     options.trials = 100'000;
     options.threads = 1;
-    const gum::MonteCarloResult result = gum::run_monte_carlo(*fixture.model, options);
+    const MonteCarloResult result = run_monte_carlo(*fixture.model, options);
     const Eigen::MatrixXd& V = job.measurement.fixture_covariance;
     for (Eigen::Index i = 0; i < 12; ++i) {
         for (Eigen::Index j = 0; j <= i; ++j) {
@@ -120,10 +116,10 @@ TEST(FixtureBudget, JointModelTakesOneProbabilityWhereACommonInputDiffersBetween
     const auto l = [&](Eigen::Index i) { return std::abs(job.measurement.fixture(i / 3, i % 3)); };
     EXPECT_NEAR(V(0, 1), 1e-12 * l(0) * l(1) + 1e-10 / 3.0 * l(0) * l(1), 1e-12 * V(0, 0));
     EXPECT_LT(largest_difference(propagated(*fixture.model), V), 1e-12);
-    gum::MonteCarloOptions options;
+    MonteCarloOptions options;
     options.trials = 100'000;
     options.threads = 1;
-    const gum::MonteCarloResult result = gum::run_monte_carlo(*fixture.model, options);
+    const MonteCarloResult result = run_monte_carlo(*fixture.model, options);
     for (Eigen::Index i = 0; i < 12; ++i) {
         EXPECT_NEAR(result.covariance(i, 1), V(i, 1), 5.0 * std::sqrt(2.0 * V(i, i) * V(1, 1) / 1e5)) << i;
     }
@@ -139,9 +135,9 @@ TEST(FixtureBudget, RefusesOutputsThatAreNoLength) {
     try {
         (void)apply_fixture_budget(job);
         FAIL() << "two outputs were accepted";
-    } catch (const gum::InputError& error) {
-        EXPECT_EQ(error.diagnostics().front().code, engine::k_fixture_budget_output.code);
-        EXPECT_THAT(gum::message(error.diagnostics().front()), HasSubstr("the results are x [mm], y [1]"));
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.diagnostics().front().code, "GC-INPUT-0230");
+        EXPECT_THAT(message(error.diagnostics().front()), HasSubstr("the results are x [mm], y [1]"));
     }
 }
 
@@ -153,11 +149,10 @@ TEST(FixtureBudget, RefusesValuesThatAreNotThoseOfTheCoordinatesFile) {
     try {
         (void)apply_fixture_budget(job);
         FAIL() << "another coordinate was accepted";
-    } catch (const gum::InputError& error) {
+    } catch (const InputError& error) {
         ASSERT_EQ(error.diagnostics().size(), 1U);
-        EXPECT_EQ(error.diagnostics().front().code, engine::k_fixture_budget_differs.code);
-        EXPECT_THAT(gum::message(error.diagnostics().front()),
-                    HasSubstr("R2.x is 85.5002 mm in the budget and 85.5 mm"));
+        EXPECT_EQ(error.diagnostics().front().code, "GC-INPUT-0231");
+        EXPECT_THAT(message(error.diagnostics().front()), HasSubstr("R2.x is 85.5002 mm in the budget and 85.5 mm"));
     }
 }
 
@@ -167,8 +162,8 @@ TEST(FixtureBudget, WarnsOfColumnsThatAreFarOff) {
     RotaryTableJob job = engine::test::read(files);
     const FixtureUncertainty fixture = apply_fixture_budget(job);
     ASSERT_EQ(fixture.notes.size(), 1U);
-    EXPECT_EQ(fixture.notes[0].code, engine::k_warn_fixture_u_differs.code);
-    EXPECT_THAT(gum::message(fixture.notes[0]), HasSubstr("u of R1.y is 5 µm"));
+    EXPECT_EQ(fixture.notes[0].code, "GC-WARN-0012");
+    EXPECT_THAT(message(fixture.notes[0]), HasSubstr("u of R1.y is 5 µm"));
 }
 
 TEST(FixtureBudget, LeavesAFixtureWithoutBudgetAlone) {
@@ -176,23 +171,33 @@ TEST(FixtureBudget, LeavesAFixtureWithoutBudgetAlone) {
     const Eigen::MatrixXd before = job.measurement.fixture_covariance;
     const FixtureUncertainty fixture = apply_fixture_budget(job);
     EXPECT_EQ(job.measurement.fixture_covariance, before);
-    EXPECT_EQ(fixture.record.method, "stated");
     EXPECT_FALSE(fixture.model);
     EXPECT_FALSE(fixture.budget);
 }
 
-TEST(FixtureBudget, SaysWhatIsWrongWithTheEquationOfTheSourcePaper) {
-    Files files = engine::test::small_campaign();
-    replace(files.at("job.json"), "\"coordinates\"", "\"uncertainty\": \"source_paper\", \"coordinates\"");
-    RotaryTableJob job = engine::test::read(files);
-    const FixtureUncertainty fixture = apply_fixture_budget(job);
-    EXPECT_EQ(fixture.record.method, "source_paper");
-    ASSERT_EQ(fixture.record.remarks.size(), 4U);
-    EXPECT_THAT(fixture.record.remarks[1], HasSubstr("3.334"));
-    // Its terms, as section 5.1 of the paper prints them: sqrt(3.12² + 1.176²) = 3.334, sqrt(0.4² + 0.0289²) = 0.401.
-    EXPECT_NEAR(std::hypot(3.12, 1.176), 3.334, 0.0005);
-    EXPECT_NEAR(std::hypot(0.4, 0.0289), 0.401, 0.0005);
-    EXPECT_NEAR(0.1 / std::sqrt(12.0), 0.0289, 0.00005);
+TEST(FixtureBudget, RefusesPointsThatAreNotTheCoordinates) {
+    const auto what = [](auto change) {
+        RotaryTableJob job = engine::test::read(campaign_with_budget());
+        Budget budget = *job.fixture_budget;
+        change(budget.points);
+        job.fixture_budget = std::make_shared<const Budget>(std::move(budget));
+        try {
+            (void)apply_fixture_budget(job);
+        } catch (const InputError& error) {
+            EXPECT_EQ(error.diagnostics().front().code, "GC-FIXTURE-0003");
+            return error.diagnostics().front().what;
+        }
+        return std::string("accepted");
+    };
+    EXPECT_EQ(what([](auto& points) { points[4].name = "R2.w"; }), "the coordinate R2.y has no point");
+    EXPECT_EQ(what([](auto& points) { points.push_back(points.front()); }), "13 points for 12 coordinates");
+    EXPECT_EQ(what([](auto& points) { points.clear(); }), "the coordinate R1.x has no point");
+}
+
+TEST(FixtureBudget, UncertaintyOfTheSourcePaperIsThatOfItsEquation) {
+    EXPECT_DOUBLE_EQ(source_paper_fixture_uncertainty(0.0), 0.401e-6);
+    EXPECT_NEAR(source_paper_fixture_uncertainty(1.0), 0.52060061e-6, 1e-14);
+    EXPECT_NEAR(2.0 * source_paper_fixture_uncertainty(-1.0), 1.04120123e-6, 2e-14);
 }
 
 TEST(FixtureBudget, OfTheShippedExampleIsThatOfItsTerms) {
@@ -208,14 +213,14 @@ TEST(FixtureBudget, OfTheShippedExampleIsThatOfItsTerms) {
             double expected = l(i) * l(j) * common;
             if (i == j) {
                 // The bound of the points file has six decimals; a uniform one of full width 0.1 µm is the step.
-                const double bound = 0.4 * k_um + 1.176e-7 * std::abs(l(i));
-                expected += (bound * bound + std::pow(0.05 * k_um, 2)) / 3.0;
+                const double bound = 0.4 * k_micro + 1.176e-7 * std::abs(l(i));
+                expected += (bound * bound + std::pow(0.05 * k_micro, 2)) / 3.0;
             }
-            EXPECT_NEAR(V(i, j), expected, 1e-5 * 0.06 * k_um * k_um) << i << ", " << j;
+            EXPECT_NEAR(V(i, j), expected, 1e-5 * 0.06 * k_micro * k_micro) << i << ", " << j;
         }
     }
     EXPECT_LT(largest_difference(propagated(*fixture.model), V), 1e-12);
 }
 
 }  // namespace
-}  // namespace gumcert::app
+}  // namespace gumcert::gum

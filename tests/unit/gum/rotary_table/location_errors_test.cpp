@@ -1,4 +1,4 @@
-#include "app/location_errors.h"
+#include "gum/rotary_table/location_errors.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <cmath>
 #include <random>
 
-#include "app/evaluate_rotary_table.h"
 #include "gum/quantity/units.h"
+#include "gum/rotary_table/evaluate_rotary_table.h"
 #include "tests/support/synthetic_campaign.h"
 
-namespace gumcert::app {
+namespace gumcert::gum {
 namespace {
 
 using engine::MachineFramePoints;
@@ -32,20 +32,20 @@ Eigen::Vector3d in_machine(const Eigen::Vector3d& point) {
 }
 
 /// A measured table whose reflectors or stations were located in the machine, with what they are off by.
-engine::RotaryTableJob job_of(MachineFramePoints by, std::uint64_t seed, double factor = 1.0) {
+RotaryTableRequest request_of(MachineFramePoints by, std::uint64_t seed, double factor = 1.0) {
     CampaignPlan plan;
     plan.angles_deg = engine::synthetic::full_turn(12);
     plan.start_values = true;
     plan.seed = seed;
     const Campaign campaign = engine::synthetic::simulate(plan);
-    engine::RotaryTableJob job;
-    job.measurement = campaign.measurement;
-    engine::MachineFrame& frame = job.machine_frame.emplace();
+    RotaryTableRequest request;
+    request.measurement = campaign.measurement;
+    engine::MachineFrame& frame = request.machine_frame.emplace();
     frame.by = by;
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;
     const bool stations = by == MachineFramePoints::stations;
-    const std::size_t count = stations ? campaign.truth.stations.size() : job.measurement.reflectors.size();
+    const std::size_t count = stations ? campaign.truth.stations.size() : request.measurement.reflectors.size();
     frame.coordinates.resize(static_cast<Eigen::Index>(count), 3);
     frame.u = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(count), k_u);
     for (std::size_t i = 0; i < count; ++i) {
@@ -60,11 +60,11 @@ engine::RotaryTableJob job_of(MachineFramePoints by, std::uint64_t seed, double 
         }
     }
     frame.nominal_point = in_machine(Eigen::Vector3d::Zero());
-    return job;
+    return request;
 }
 
-LocationErrors evaluated(engine::RotaryTableJob job) {
-    return *evaluate_rotary_table(job, 1).location_errors;
+LocationErrors evaluated(RotaryTableRequest request) {
+    return *evaluate_rotary_table(request, 1).location_errors;
 }
 
 /// The axis is x of the table.
@@ -78,7 +78,7 @@ TEST(LocationErrors, ErrorsOfSimulatedMeasurementsAreAsLargeAsTheirUncertainties
         constexpr int k_campaigns = 25;
         Eigen::Vector4d sum = Eigen::Vector4d::Zero();
         for (int i = 0; i < k_campaigns; ++i) {
-            const LocationErrors found = evaluated(job_of(by, static_cast<std::uint64_t>(i) + 1));
+            const LocationErrors found = evaluated(request_of(by, static_cast<std::uint64_t>(i) + 1));
             ASSERT_TRUE(found.budget) << i << (found.notes.empty() ? "" : found.notes.front().what);
             const Eigen::Vector4d error =
                 (found.budget->value - truth()).cwiseQuotient(found.budget->standard_uncertainty);
@@ -93,35 +93,21 @@ TEST(LocationErrors, ErrorsOfSimulatedMeasurementsAreAsLargeAsTheirUncertainties
 }
 
 TEST(LocationErrors, PointsThatDisagreeStateNone) {
-    const LocationErrors found = evaluated(job_of(MachineFramePoints::reflectors, 1, 10.0));
+    const LocationErrors found = evaluated(request_of(MachineFramePoints::reflectors, 1, 10.0));
     EXPECT_FALSE(found.budget);
     ASSERT_EQ(found.notes.size(), 1U);
     EXPECT_EQ(found.notes.front().code, "GC-FRAME-0002");
 }
 
 TEST(LocationErrors, CoordinatesInAnotherOrderStateNone) {
-    engine::RotaryTableJob job = job_of(MachineFramePoints::reflectors, 1);
-    const Eigen::MatrixXd coordinates = job.machine_frame->coordinates;
-    job.machine_frame->coordinates << coordinates.col(1), coordinates.col(2), coordinates.col(0);
-    const LocationErrors found = evaluated(job);
+    RotaryTableRequest request = request_of(MachineFramePoints::reflectors, 1);
+    const Eigen::MatrixXd coordinates = request.machine_frame->coordinates;
+    request.machine_frame->coordinates << coordinates.col(1), coordinates.col(2), coordinates.col(0);
+    const LocationErrors found = evaluated(request);
     EXPECT_FALSE(found.budget);
     ASSERT_EQ(found.notes.size(), 1U);
     EXPECT_EQ(found.notes.front().code, "GC-FRAME-0003");
 }
 
-TEST(LocationErrors, OfARecordHaveTheirFrame) {
-    engine::RotaryTableJob job = job_of(MachineFramePoints::stations, 3);
-    job.machine_frame->source = "calibrated axes";
-    reports::RotaryTable rotary;
-    fill_location_errors(rotary, job, evaluated(job));
-    ASSERT_EQ(rotary.location_errors.size(), 4U);
-    EXPECT_EQ(rotary.location_errors[0].name, "EY0A");
-    EXPECT_EQ(rotary.location_errors[3].description, "tilt of the axis about z in the frame of the machine");
-    ASSERT_TRUE(rotary.machine_frame);
-    EXPECT_EQ(rotary.machine_frame->by, "stations");
-    EXPECT_EQ(rotary.machine_frame->points.size(), 6U);
-    EXPECT_NEAR(rotary.location_errors[2].value, truth()[2] / gum::k_arcsecond, 20.0);
-}
-
 }  // namespace
-}  // namespace gumcert::app
+}  // namespace gumcert::gum

@@ -1,4 +1,4 @@
-#include "app/evaluate_rotary_table.h"
+#include "gum/rotary_table/evaluate_rotary_table.h"
 
 #include <cstddef>
 #include <functional>
@@ -6,11 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "app/document_units.h"
-#include "app/record_parts.h"
-#include "app/table_parameter_record.h"
 #include "engine/contact_point_model.h"
-#include "engine/job/input_codes.h"
 #include "engine/rotary_table_contributions.h"
 #include "engine/rotary_table_trials.h"
 #include "engine/sequential_evaluation.h"
@@ -18,13 +14,15 @@
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/progress.h"
+#include "gum/rotary_table/document_units.h"
+#include "gum/rotary_table/positioning_scope.h"
+#include "gum/validation_in_unit.h"
 #include "gum/worker_threads.h"
 
-namespace gumcert::app {
+namespace gumcert::gum {
 
 namespace {
 
-using engine::RotaryTableJob;
 constexpr double k_detection_power = 0.8;  // of the minimal detectable bias, as Baarda chose it
 
 /// Value, standard and expanded uncertainty that the law of propagation states for an output of Monte Carlo.
@@ -34,19 +32,19 @@ struct Stated {
 
 Stated stated(const RotaryTableResult& result, Eigen::Index output) {
     const Eigen::Index reported = result.reported.budget.value.size();
-    const gum::UncertaintyBudget& from = output < reported ? result.reported.budget : result.parameters;
+    const UncertaintyBudget& from = output < reported ? result.reported.budget : result.parameters;
     const Eigen::Index index = output < reported ? output : output - reported;
     return {from.value[index], from.standard_uncertainty[index], from.expanded_uncertainty[index]};
 }
 
-RotaryTableMonteCarlo run_monte_carlo(const RotaryTableJob& job, const RotaryTableResult& result, unsigned threads,
-                                      const gum::Progress& progress) {
-    const gum::MonteCarloRequest& asked = *job.monte_carlo;
+RotaryTableMonteCarlo monte_carlo_of(const RotaryTableRequest& request, const RotaryTableResult& result,
+                                     unsigned threads, const Progress& progress) {
+    const MonteCarloRequest& asked = *request.monte_carlo;
     const auto joint = std::dynamic_pointer_cast<const engine::RotaryTableModel>(result.solution.model);
     const engine::RotaryTableTrials trials(
         *joint, {.fixture = result.fixture.model, .derived = result.parameter_model->parameters()});
-    gum::MonteCarloOptions options = gum::monte_carlo_options(asked, threads, progress);
-    options.coverage_probability = job.coverage_probability;
+    MonteCarloOptions options = monte_carlo_options(asked, threads, progress);
+    options.coverage_probability = request.coverage_probability;
     options.regions = false;
     options.histogram = false;
     const std::vector<std::string>& names = result.parameter_model->parameters()->short_names();
@@ -55,38 +53,38 @@ RotaryTableMonteCarlo run_monte_carlo(const RotaryTableJob& job, const RotaryTab
     const std::size_t positioning =
         reported + static_cast<std::size_t>(result.parameter_model->parameters()->layout().positioning);
     RotaryTableMonteCarlo monte_carlo;
-    monte_carlo.result = gum::run_monte_carlo(trials, options);
+    monte_carlo.result = run_monte_carlo(trials, options);
     monte_carlo.most_steps = trials.steps().most;
     monte_carlo.mean_steps = trials.steps().mean();
     for (std::size_t i = 0; i < monte_carlo.result.outputs.size(); ++i) {
         const Stated law = stated(result, static_cast<Eigen::Index>(i));
-        std::optional<gum::Validation> validation;
+        std::optional<Validation> validation;
         // Of the parameters of ISO 230-2, those that are stated and that Monte Carlo can speak of.
         const bool compared =
             i < positioning || (scope.states(names[i - reported]) && !rests_on_scatter(names[i - reported]));
         if (law.u > 0.0 && compared) {
             const double unit = unit_of(trials.outputs()[i]).si;
             const auto scaled = [unit](double value) { return value / unit; };
-            validation = gum::validation_in_unit(law.value, law.u, law.U, monte_carlo.result.outputs[i],
-                                                 {scaled, scaled}, asked.digits);
+            validation = validation_in_unit(law.value, law.u, law.U, monte_carlo.result.outputs[i], {scaled, scaled},
+                                            asked.digits);
         }
         monte_carlo.validations.push_back(validation);
     }
     return monte_carlo;
 }
 
-QuantityUncertainty stated_by_law(const gum::MeasurementModel& model, const Eigen::VectorXd& value,
+QuantityUncertainty stated_by_law(const MeasurementModel& model, const Eigen::VectorXd& value,
                                   engine::RotaryTableContributions contributions, double coverage_probability) {
-    return {gum::uncertainty_budget(model, value, std::move(contributions.variance), coverage_probability),
+    return {uncertainty_budget(model, value, std::move(contributions.variance), coverage_probability),
             std::move(contributions.covariance), std::move(contributions.sensitivity)};
 }
 
 /// The same with a sensitivity coefficient for every input and output.
-QuantityUncertainty stated_by_all_coefficients(const gum::MeasurementModel& model, double coverage_probability) {
-    gum::Propagation propagation = gum::propagate(model, coverage_probability);
+QuantityUncertainty stated_by_all_coefficients(const MeasurementModel& model, double coverage_probability) {
+    Propagation propagation = propagate(model, coverage_probability);
     QuantityUncertainty result;
     Eigen::Index first = 0;
-    for (const gum::InputGroup& group : model.inputs()) {
+    for (const InputGroup& group : model.inputs()) {
         result.sensitivity.emplace_back();
         if (group.size() == 1) {
             result.sensitivity.back() = propagation.jacobian.col(first);
@@ -102,37 +100,37 @@ QuantityUncertainty stated_by_all_coefficients(const gum::MeasurementModel& mode
 
 engine::EvaluationOptions single_test_options(const engine::RotaryTableMeasurement& measurement) {
     engine::EvaluationOptions options;
-    options.critical_value = gum::two_sided_normal_critical_value(measurement.outliers.alpha);
-    options.non_centrality = options.critical_value + gum::standard_normal_quantile(k_detection_power);
+    options.critical_value = two_sided_normal_critical_value(measurement.outliers.alpha);
+    options.non_centrality = options.critical_value + standard_normal_quantile(k_detection_power);
     options.student_critical_value = [alpha = measurement.outliers.alpha](double degrees_of_freedom) {
-        return gum::coverage_factor(1.0 - alpha, degrees_of_freedom);
+        return coverage_factor(1.0 - alpha, degrees_of_freedom);
     };
     return options;
 }
 
 engine::EvaluationOptions evaluation_options(const engine::RotaryTableMeasurement& measurement) {
     engine::EvaluationOptions options = single_test_options(measurement);
-    options.chi_square_upper_tail = gum::chi_square_upper_tail;
-    options.fisher_upper_tail = gum::f_upper_tail;
+    options.chi_square_upper_tail = chi_square_upper_tail;
+    options.fisher_upper_tail = f_upper_tail;
     return options;
 }
 
-RotaryTableResult evaluate_rotary_table(RotaryTableJob& job, unsigned threads, const gum::Progress& progress) {
-    const engine::RotaryTableMeasurement& measurement = job.measurement;
+RotaryTableResult evaluate_rotary_table(RotaryTableRequest& request, unsigned threads, const Progress& progress) {
+    const engine::RotaryTableMeasurement& measurement = request.measurement;
     const bool joint = measurement.method == engine::AdjustmentMethod::joint;
-    if (job.monte_carlo && !joint) {
-        throw gum::InputError(gum::Diagnostic{
-            std::string(engine::k_monte_carlo_of_sequential.code), job.files.front() + "#/monte_carlo",
-            "Monte Carlo is asked for with the sequential method", "Monte Carlo repeats the joint adjustment",
-            "remove \"monte_carlo\", or choose \"method\": \"joint\"", gum::Severity::error});
+    if (request.monte_carlo && !joint) {
+        throw InputError(Diagnostic{"GC-INPUT-0238", request.where + "#/monte_carlo",
+                                    "Monte Carlo is asked for with the sequential method",
+                                    "Monte Carlo repeats the joint adjustment",
+                                    "remove \"monte_carlo\", or choose \"method\": \"joint\"", Severity::error});
     }
     if (!joint) {
         engine::require_evaluable_size(measurement);
     }
     RotaryTableResult result;
-    result.fixture = apply_fixture_budget(job);
+    result.fixture = apply_fixture_budget(request);
     result.options = evaluation_options(measurement);
-    result.options.workers = [workers = std::make_shared<gum::WorkerThreads>(threads)](
+    result.options.workers = [workers = std::make_shared<WorkerThreads>(threads)](
                                  std::size_t tasks, const std::function<void(std::size_t)>& task) {
         workers->run(tasks, [&](unsigned, std::size_t number) { task(number); });
     };
@@ -145,7 +143,7 @@ RotaryTableResult evaluate_rotary_table(RotaryTableJob& job, unsigned threads, c
     };
     report("law of propagation");
     const engine::RotaryTableSolution& solution = result.solution;
-    const double probability = job.coverage_probability;
+    const double probability = request.coverage_probability;
     const auto model = std::dynamic_pointer_cast<const engine::RotaryTableModel>(solution.model);
     if (model) {
         result.reported = stated_by_law(*model, solution.values, engine::contributions_of(*model), probability);
@@ -155,27 +153,27 @@ RotaryTableResult evaluate_rotary_table(RotaryTableJob& job, unsigned threads, c
         result.parameter_model =
             std::make_shared<engine::TableParameterModel>(solution.model, measurement, solution.datum);
     }
-    result.parameters = gum::propagate(*result.parameter_model, probability);
-    if (job.machine_frame) {
+    result.parameters = propagate(*result.parameter_model, probability);
+    if (request.machine_frame) {
         result.location_errors =
-            evaluate_location_errors(job, solution, result.reported.budget, result.reported.covariance);
+            evaluate_location_errors(request, solution, result.reported.budget, result.reported.covariance);
     }
-    if (job.reference) {
+    if (request.reference) {
         const engine::ContactPointModel contact(solution.model, measurement, solution.datum,
-                                                job.reference->contact_point);
+                                                request.reference->contact_point);
         result.contact_point = model ? stated_by_law(contact, contact.displacements(solution.values),
                                                      engine::contributions_of(*model, contact), probability)
                                      : stated_by_all_coefficients(contact, probability);
     }
-    if (job.monte_carlo) {
+    if (request.monte_carlo) {
         report("Monte Carlo");
-        result.monte_carlo = run_monte_carlo(job, result, threads, progress);
-        for (const std::optional<gum::Validation>& validation : result.monte_carlo->validations) {
+        result.monte_carlo = monte_carlo_of(request, result, threads, progress);
+        for (const std::optional<Validation>& validation : result.monte_carlo->validations) {
             const bool failed = validation && !(validation->validated && validation->precise_enough);
-            result.validation_failed = result.validation_failed || (job.monte_carlo->validate && failed);
+            result.validation_failed = result.validation_failed || (request.monte_carlo->validate && failed);
         }
     }
     return result;
 }
 
-}  // namespace gumcert::app
+}  // namespace gumcert::gum

@@ -1,35 +1,23 @@
-#include "app/fixture_budget.h"
+#include "gum/rotary_table/fixture_budget.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <unordered_map>
 #include <utility>
 
-#include "app/budget_record.h"
-#include "engine/job/budget_job.h"
-#include "engine/job/input_codes.h"
-#include "engine/job/input_text.h"
 #include "gum/budget/budget_covariance.h"
 #include "gum/quantity/units.h"
 #include "text/numbers.h"
 
-namespace gumcert::app {
+namespace gumcert::gum {
 
 namespace {
-
-using engine::RotaryTableJob;
-using gum::Diagnostic;
-using gum::InputGroup;
-using gum::k_micrometre;
 
 constexpr double k_greatest_difference = 0.1e-6;  // of a coordinate between budget and file, [m]
 constexpr double k_greatest_ratio = 2.0;          // of its standard uncertainties, before it is worth a warning
 
-std::string code(const engine::InputCode& input_code) {
-    return std::string(input_code.code);
-}
-
-bool same_distribution(const gum::Distribution& a, const gum::Distribution& b) {
+bool same_distribution(const Distribution& a, const Distribution& b) {
     return a.kind == b.kind && a.location == b.location && a.scale == b.scale && a.shape == b.shape &&
            a.second_shape == b.second_shape && a.samples == b.samples;
 }
@@ -61,12 +49,12 @@ InputGroup group_of_variants(const std::vector<InputGroup>& variants) {
         group.marginals.push_back(variant.marginals.front());
     }
     group.covariance = u * u.transpose();
-    group.dependence = gum::Dependence::same_probability;
+    group.dependence = Dependence::same_probability;
     return group;
 }
 
-void check_output(const RotaryTableJob& job, const gum::BudgetResult& result) {
-    const gum::Dimension length = gum::Unit::parse("m").dimension();
+void check_output(const RotaryTableRequest& request, const BudgetResult& result) {
+    const Dimension length = Unit::parse("m").dimension();
     if (result.output_names.size() == 1 && result.output_units.front().dimension() == length) {
         return;
     }
@@ -74,38 +62,22 @@ void check_output(const RotaryTableJob& job, const gum::BudgetResult& result) {
     for (std::size_t i = 0; i < result.output_names.size(); ++i) {
         found += (i == 0 ? "" : ", ") + result.output_names[i] + " [" + result.output_units[i].text() + "]";
     }
-    throw gum::InputError(Diagnostic{.code = code(engine::k_fixture_budget_output),
-                                     .where = job.fixture_budget_file + "#/outputs",
-                                     .what = "the results are " + found,
-                                     .rule = "the budget of the fixture has one output, a length",
-                                     .action = "State one output with a unit of length, such as um."});
+    throw InputError(Diagnostic{.code = "GC-INPUT-0230",
+                                .where = request.fixture_budget_file + "#/outputs",
+                                .what = "the results are " + found,
+                                .rule = "the budget of the fixture has one output, a length",
+                                .action = "State one output with a unit of length, such as um."});
 }
 
-/// The budget with its points in the order x1 y1 z1 x2 …; the reader has matched their names.
-engine::BudgetJob in_order_of_coordinates(const RotaryTableJob& job) {
-    std::unordered_map<std::string, std::size_t> places;
-    for (const std::string& reflector : job.measurement.reflectors) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            places.emplace(engine::fixture_coordinate_name(reflector, k), places.size());
-        }
-    }
-    engine::BudgetJob budget = *job.fixture_budget;
-    std::sort(budget.points.begin(), budget.points.end(),
-              [&](const auto& a, const auto& b) { return places.at(a.name) < places.at(b.name); });
-    // Monte Carlo of the budget alone would not be looked at: the job draws its inputs together with all others.
-    budget.monte_carlo.reset();
-    return budget;
-}
-
-void check_values(const RotaryTableJob& job, const engine::BudgetJob& budget, const gum::BudgetResult& result) {
+void check_values(const RotaryTableRequest& request, const Budget& budget, const BudgetResult& result) {
     std::vector<Diagnostic> problems;
     for (std::size_t p = 0; p < result.points.size(); ++p) {
         const auto at = static_cast<Eigen::Index>(p);
-        const double stated = job.measurement.fixture(at / 3, at % 3);
+        const double stated = request.measurement.fixture(at / 3, at % 3);
         const double value = result.points[p].propagation.value(0);
         if (!(std::abs(value - stated) <= k_greatest_difference)) {
-            problems.push_back({.code = code(engine::k_fixture_budget_differs),
-                                .where = job.fixture_budget_file + "#/points",
+            problems.push_back({.code = "GC-INPUT-0231",
+                                .where = request.fixture_budget_file + "#/points",
                                 .what = budget.points[p].name + " is " + text::shortest_plain(value * 1e3) +
                                         " mm in the budget and " + text::shortest_plain(stated * 1e3) +
                                         " mm in the coordinates file",
@@ -114,15 +86,16 @@ void check_values(const RotaryTableJob& job, const engine::BudgetJob& budget, co
         }
     }
     if (!problems.empty()) {
-        throw gum::InputError(std::move(problems));
+        throw InputError(std::move(problems));
     }
 }
 
-void warn_of_columns(const RotaryTableJob& job, const Eigen::MatrixXd& covariance, std::vector<Diagnostic>& notes) {
+void warn_of_columns(const RotaryTableRequest& request, const Eigen::MatrixXd& covariance,
+                     std::vector<Diagnostic>& notes) {
     double largest = 1.0;
     Eigen::Index at = 0;
-    for (Eigen::Index i = 0; i < job.stated_fixture_u.size(); ++i) {
-        const double stated = job.stated_fixture_u(i);
+    for (Eigen::Index i = 0; i < request.stated_fixture_u.size(); ++i) {
+        const double stated = request.stated_fixture_u(i);
         const double u = std::sqrt(covariance(i, i));
         const double ratio = stated > 0.0 ? std::max(u / stated, stated / u) : 1.0;
         if (ratio > largest) {
@@ -133,56 +106,51 @@ void warn_of_columns(const RotaryTableJob& job, const Eigen::MatrixXd& covarianc
     if (largest <= k_greatest_ratio) {
         return;
     }
-    const std::string& reflector = job.measurement.reflectors[static_cast<std::size_t>(at / 3)];
-    notes.push_back({.code = code(engine::k_warn_fixture_u_differs),
+    const std::string& reflector = request.measurement.reflectors[static_cast<std::size_t>(at / 3)];
+    notes.push_back({.code = "GC-WARN-0012",
                      .where = "fixture coordinates",
-                     .what = "u of " + engine::fixture_coordinate_name(reflector, static_cast<std::size_t>(at % 3)) +
-                             " is " + text::shortest_plain(job.stated_fixture_u(at) / k_micrometre) +
+                     .what = "u of " + fixture_coordinate_name(reflector, static_cast<std::size_t>(at % 3)) + " is " +
+                             text::shortest_plain(request.stated_fixture_u(at) / k_micrometre) +
                              " µm in the coordinates file",
                      .rule = "the column is not used; what is used instead differs by more than a factor of 2",
                      .action = "Find out which of the two is right.",
-                     .severity = gum::Severity::warning});
+                     .severity = Severity::warning});
 }
 
-void evaluate(RotaryTableJob& job, FixtureUncertainty& fixture) {
-    const engine::BudgetJob budget = in_order_of_coordinates(job);
-    const gum::BudgetResult& result = fixture.budget.emplace(gum::evaluate_budget(budget, 1));
-    check_output(job, result);
-    check_values(job, budget, result);
-    const Eigen::MatrixXd covariance = gum::budget_covariance(result);
+void evaluate(RotaryTableRequest& request, FixtureUncertainty& fixture) {
+    Budget budget = *request.fixture_budget;
+    budget.points =
+        in_order_of_coordinates(std::move(budget.points), request.measurement.reflectors, request.fixture_budget_file);
+    // Monte Carlo of the budget alone would not be looked at: its inputs are drawn together with all others.
+    budget.monte_carlo.reset();
+    const BudgetResult& result = fixture.budget.emplace(evaluate_budget(budget, 1));
+    check_output(request, result);
+    check_values(request, budget, result);
+    const Eigen::MatrixXd covariance = budget_covariance(result);
     std::vector<std::string> names;
     Eigen::Index largest = 0;
     for (Eigen::Index p = 0; p < covariance.rows(); ++p) {
         const std::string& name = names.emplace_back(budget.points[static_cast<std::size_t>(p)].name);
         if (!(covariance(p, p) > 0.0)) {
-            throw gum::NoResultError(Diagnostic{.code = "GC-FIXTURE-0002",
-                                                .where = job.fixture_budget_file + "#/points",
-                                                .what = "the standard uncertainty of " + name + " is 0 µm",
-                                                .rule = "a measured coordinate has an uncertainty",
-                                                .action = "State it in the budget."});
+            throw NoResultError(Diagnostic{.code = "GC-FIXTURE-0002",
+                                           .where = request.fixture_budget_file + "#/points",
+                                           .what = "the standard uncertainty of " + name + " is 0 µm",
+                                           .rule = "a measured coordinate has an uncertainty",
+                                           .action = "State it in the budget."});
         }
         if (covariance(p, p) > covariance(largest, largest)) {
             largest = p;
         }
     }
-    job.measurement.fixture_covariance = covariance;
+    request.measurement.fixture_covariance = covariance;
+    fixture.largest = static_cast<std::size_t>(largest);
     fixture.model = std::make_shared<const JointBudgetModel>(result, names);
-
-    reports::FixtureBudget& record = fixture.record;
-    record.method = "budget";
-    record.file = job.fixture_budget_file;
-    record.largest_coordinate = names[static_cast<std::size_t>(largest)];
-    reports::EvaluationRecord of_budget = budget_record(budget, result, {}, {}, "");
-    record.largest = std::move(of_budget.results[static_cast<std::size_t>(largest)].budget);
-    record.remarks.emplace_back(
-        "The coordinates are correlated through the input quantities that their budgets have in common; the adjustment "
-        "uses the full covariance.");
     fixture.notes = result.notes;
 }
 
 }  // namespace
 
-JointBudgetModel::JointBudgetModel(const gum::BudgetResult& result, const std::vector<std::string>& names) {
+JointBudgetModel::JointBudgetModel(const BudgetResult& result, const std::vector<std::string>& names) {
     // Groups in the order in which the points first bring them, so that the result depends on the job alone.
     std::vector<SharedInput> shared;
     std::unordered_map<std::uint64_t, std::size_t> by_stream;
@@ -190,7 +158,7 @@ JointBudgetModel::JointBudgetModel(const gum::BudgetResult& result, const std::v
         std::size_t input = 0, variant = 0;
     };
     std::vector<std::vector<Use>> uses;
-    for (const gum::BudgetPointResult& point : result.points) {
+    for (const BudgetPointResult& point : result.points) {
         std::vector<Use>& of_point = uses.emplace_back();
         for (std::size_t g = 0; g < point.streams.size(); ++g) {
             const InputGroup& group = point.model->inputs()[g];
@@ -206,7 +174,7 @@ JointBudgetModel::JointBudgetModel(const gum::BudgetResult& result, const std::v
                 continue;
             }
             if (group.size() > 1 || shared[entry->second].group.size() > 1) {
-                throw gum::NoResultError(
+                throw NoResultError(
                     Diagnostic{.code = "GC-FIXTURE-0001",
                                .where = "inputs " + group.name,
                                .what = "correlated with each other, common to all points, and different between them",
@@ -261,25 +229,50 @@ void JointBudgetModel::evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& 
     }
 }
 
-FixtureUncertainty apply_fixture_budget(RotaryTableJob& job) {
-    FixtureUncertainty fixture;
-    reports::FixtureBudget& record = fixture.record;
-    record.method = "stated";
-    if (job.source_paper_fixture) {
-        record.method = "source_paper";
-        record.remarks = {
-            "Standard uncertainty of each coordinate L by equation (11) of the source paper, "
-            "sqrt(0.401² + (3.32·10⁻⁷ L)²) µm with L in µm, uncorrelated; U = 2 u_c by its equation (12). It is used "
-            "on request, to reproduce the paper.",
-            "The terms 3.12·10⁻⁷ L and 1.176·10⁻⁷ L that the paper states combine to 3.334·10⁻⁷ L, not to 3.32·10⁻⁷ L.",
-            "The maximum permissible error of the coordinate measuring machine is used as a standard uncertainty; as a "
-            "bound of a uniform distribution it would be divided by the square root of 3.",
-            "The square of 0.4 + 1.176·10⁻⁷ L is taken without its cross term."};
-    } else if (job.fixture_budget) {
-        evaluate(job, fixture);
+double source_paper_fixture_uncertainty(double coordinate) {
+    constexpr double k_constant = 0.401 * k_micrometre;
+    constexpr double k_proportional = 3.32e-7;  // L and u_c in the same unit
+    return std::hypot(k_constant, k_proportional * coordinate);
+}
+
+std::string fixture_coordinate_name(const std::string& reflector, std::size_t axis) {
+    static constexpr std::array<const char*, 3> k_suffixes{".x", ".y", ".z"};
+    return reflector + k_suffixes[axis];
+}
+
+std::vector<BudgetPoint> in_order_of_coordinates(std::vector<BudgetPoint> points,
+                                                 const std::vector<std::string>& reflectors, const std::string& file) {
+    std::unordered_map<std::string, std::size_t> found;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        found.emplace(points[p].name, p);
     }
-    warn_of_columns(job, job.measurement.fixture_covariance, fixture.notes);
+    std::vector<BudgetPoint> in_order;
+    for (std::size_t i = 0; i < 3 * reflectors.size(); ++i) {
+        const std::string name = fixture_coordinate_name(reflectors[i / 3], i % 3);
+        const auto point = found.find(name);
+        if (point == found.end() || points.size() != 3 * reflectors.size()) {
+            throw InputError(Diagnostic{.code = "GC-FIXTURE-0003",
+                                        .where = file + "#/points",
+                                        .what = point == found.end()
+                                                    ? "the coordinate " + name + " has no point"
+                                                    : std::to_string(points.size()) + " points for " +
+                                                          std::to_string(3 * reflectors.size()) + " coordinates",
+                                        .rule = "the budget of the fixture has one point for each coordinate",
+                                        .action = "State one point for each coordinate, named as R1.x."});
+        }
+        in_order.push_back(std::move(points[point->second]));
+        found.erase(point);
+    }
+    return in_order;
+}
+
+FixtureUncertainty apply_fixture_budget(RotaryTableRequest& request) {
+    FixtureUncertainty fixture;
+    if (request.fixture_budget) {
+        evaluate(request, fixture);
+    }
+    warn_of_columns(request, request.measurement.fixture_covariance, fixture.notes);
     return fixture;
 }
 
-}  // namespace gumcert::app
+}  // namespace gumcert::gum

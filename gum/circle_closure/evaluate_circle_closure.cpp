@@ -1,0 +1,77 @@
+#include "gum/circle_closure/evaluate_circle_closure.h"
+
+#include <cmath>
+#include <utility>
+
+#include "gum/budget/budget_coverage.h"
+#include "gum/convolution.h"
+#include "gum/quantity/progress.h"
+#include "gum/validation_in_unit.h"
+
+namespace gumcert::gum {
+
+namespace {
+
+using engine::CircleClosureModel;
+ClosureCoverage coverage_of(const CircleClosureModel& model, const Propagation& propagation, Eigen::Index output) {
+    const double nu = propagation.effective_degrees_of_freedom(output);
+    ClosureCoverage all{.k = propagation.coverage_factor(output),
+                        .U = propagation.expanded_uncertainty(output),
+                        .coverage = std::isinf(nu) ? "normal" : "student_t",
+                        .note = {}};
+    if (convolution_changes_little(model, propagation, output)) {
+        return all;
+    }
+    const auto convolved = expand_by_convolution(model, propagation, output);
+    if (convolved && is_noticed_change(convolved->coverage_factor, all.k)) {
+        all.coverage = "convolution";
+        all.note = convolution_note(nu, all.k);
+        all.k = convolved->coverage_factor;
+        all.U = convolved->expanded_uncertainty;
+    }
+    return all;
+}
+
+CircleClosureMonteCarlo monte_carlo_of(const CircleClosureRequest& request, const CircleClosureResult& result,
+                                       unsigned threads, const Progress& progress) {
+    const CircleClosureModel trials(request.measurement, result.solution, CircleClosureModel::Inputs::deviations);
+    MonteCarloOptions options = monte_carlo_options(*request.monte_carlo, threads, progress);
+    options.coverage_probability = request.coverage_probability;
+    options.regions = false;
+    options.histogram = false;
+    CircleClosureMonteCarlo monte_carlo{.result = run_monte_carlo(trials, options), .validations = {}};
+    const ToUnit to_unit{.value = [&](double value) { return request.unit.from_si(value); },
+                         .difference = [&](double value) { return request.unit.difference_from_si(value); }};
+    for (std::size_t i = 0; i < monte_carlo.result.outputs.size(); ++i) {
+        const auto output = static_cast<Eigen::Index>(i);
+        monte_carlo.validations.push_back(validation_in_unit(
+            result.propagation.value(output), result.propagation.standard_uncertainty(output), result.coverage[i].U,
+            monte_carlo.result.outputs[i], to_unit, request.monte_carlo->digits));
+    }
+    return monte_carlo;
+}
+
+}  // namespace
+
+CircleClosureResult evaluate_circle_closure(const CircleClosureRequest& request, unsigned threads,
+                                            const Progress& progress) {
+    CircleClosureResult result;
+    result.solution =
+        std::make_shared<const engine::CircleClosureSolution>(engine::solve_circle_closure(request.measurement));
+    result.model = std::make_shared<const CircleClosureModel>(request.measurement, result.solution,
+                                                              CircleClosureModel::Inputs::readings);
+    result.propagation = propagate(*result.model, request.coverage_probability);
+    for (Eigen::Index i = 0; i < result.propagation.value.size(); ++i) {
+        result.coverage.push_back(coverage_of(*result.model, result.propagation, i));
+    }
+    if (request.monte_carlo) {
+        result.monte_carlo = monte_carlo_of(request, result, threads, progress);
+        for (const Validation& validation : result.monte_carlo->validations) {
+            const bool failed = !(validation.validated && validation.precise_enough);
+            result.validation_failed = result.validation_failed || (request.monte_carlo->validate && failed);
+        }
+    }
+    return result;
+}
+
+}  // namespace gumcert::gum

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/circle_closure.h"
+#include "gum/circle_closure/circle_closure_request.h"
+#include "gum/monte_carlo.h"
+#include "gum/propagation.h"
+#include "gum/quantity/progress.h"
+
+namespace gumcert::gum {
+
+/// Expanded uncertainty of one output, coherent SI.
+struct ClosureCoverage {
+    double k = 2.0, U = 0.0;
+    std::string coverage = "student_t";  ///< where k comes from: "normal", "student_t" or "convolution"
+    std::string note;                    ///< where it is the convolution: why
+};
+
+struct CircleClosureMonteCarlo {
+    MonteCarloResult result;
+    std::vector<Validation> validations;  ///< one an output, in the unit of the request
+};
+
+/// Everything computed for a comparison of two circles. Outputs: T, P, range of T, range of P.
+struct CircleClosureResult {
+    std::shared_ptr<const engine::CircleClosureSolution> solution;
+    std::shared_ptr<const engine::CircleClosureModel> model;
+    Propagation propagation;
+    std::vector<ClosureCoverage> coverage;
+    std::optional<CircleClosureMonteCarlo> monte_carlo;
+    bool validation_failed = false;
+};
+
+/// Solves the comparison: adjustment, law of propagation, coverage, Monte Carlo.
+///
+/// Positions and indices in the measurement have to be right, which the reader of a job sees to.
+/// \param threads  of Monte Carlo; 0: as many as the machine has
+/// \throws NoResultError  of solve_circle_closure() and run_monte_carlo()
+[[nodiscard]] CircleClosureResult evaluate_circle_closure(const CircleClosureRequest& request, unsigned threads,
+                                                          const Progress& progress = {});
+
+}  // namespace gumcert::gum

@@ -1,0 +1,9 @@
+#include "gum/rotary_table/document_units.h"
+
+namespace gumcert::gum {
+
+const DocumentUnit& unit_of(const OutputQuantity& quantity) {
+    return quantity.unit == "m" ? k_um : k_arcsec;
+}
+
+}  // namespace gumcert::gum

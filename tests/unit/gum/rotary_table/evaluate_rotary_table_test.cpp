@@ -1,0 +1,165 @@
+#include "gum/rotary_table/evaluate_rotary_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "gum/coverage.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/rotary_table/document_units.h"
+#include "tests/support/synthetic_campaign.h"
+
+namespace gumcert::gum {
+namespace {
+
+using engine::RotaryAxis;
+using engine::synthetic::Campaign;
+using engine::synthetic::CampaignPlan;
+
+CampaignPlan plan_of_twelve(RotaryAxis axis = RotaryAxis::a) {
+    CampaignPlan plan;
+    plan.axis = axis;
+    plan.angles_deg = engine::synthetic::full_turn(12);
+    plan.start_values = true;
+    plan.table_linear = 0.05e-6;
+    plan.table_axial = plan.table_tilt = 0.2e-6;
+    return plan;
+}
+
+RotaryTableRequest request_of(const Campaign& campaign) {
+    RotaryTableRequest request;
+    request.measurement = campaign.measurement;
+    return request;
+}
+
+TEST(EvaluateRotaryTable, ErrorsOfASimulatedMeasurementAreAsLargeAsTheirUncertainties) {
+    const Campaign campaign = engine::synthetic::simulate(plan_of_twelve());
+    RotaryTableRequest request = request_of(campaign);
+    const RotaryTableResult result = evaluate_rotary_table(request, 1);
+    const UncertaintyBudget& budget = result.reported.budget;
+    const Eigen::VectorXd truth = campaign.true_values(result.solution.quantities.has_reversal);
+    ASSERT_EQ(budget.value.size(), truth.size());
+    const Eigen::VectorXd normalised = (budget.value - truth).cwiseQuotient(budget.standard_uncertainty);
+    const double rms = std::sqrt(normalised.squaredNorm() / static_cast<double>(normalised.size()));
+    EXPECT_GT(rms, 0.5);
+    EXPECT_LT(rms, 1.5);
+    EXPECT_LT(normalised.cwiseAbs().maxCoeff(), 4.0);
+}
+
+TEST(EvaluateRotaryTable, ExactLengthsGiveTheTruth) {
+    CampaignPlan plan = plan_of_twelve();
+    plan.noise = 0.0;
+    const Campaign campaign = engine::synthetic::simulate(plan);
+    RotaryTableRequest request = request_of(campaign);
+    const RotaryTableResult result = evaluate_rotary_table(request, 1);
+    const Eigen::VectorXd truth = campaign.true_values(result.solution.quantities.has_reversal);
+    // The plan carries its errors to the datum to first order: what is left are products of tilts, 5e-4 rad, and errors.
+    EXPECT_LT((result.reported.budget.value - truth).cwiseAbs().maxCoeff(), 2e-8);
+}
+
+TEST(EvaluateRotaryTable, ContributionsAddUpToTheVariance) {
+    RotaryTableRequest request = request_of(engine::synthetic::simulate(plan_of_twelve()));
+    const RotaryTableResult result = evaluate_rotary_table(request, 1);
+    for (const UncertaintyBudget* const budget : {&result.reported.budget, &result.parameters}) {
+        Eigen::VectorXd variance = Eigen::VectorXd::Zero(budget->value.size());
+        for (const BudgetContribution& contribution : budget->budget) {
+            variance += contribution.variance;
+        }
+        for (Eigen::Index i = 0; i < variance.size(); ++i) {
+            const double u = budget->standard_uncertainty(i);
+            EXPECT_NEAR(variance(i), u * u, 1e-12 * u * u) << i;
+            EXPECT_DOUBLE_EQ(budget->expanded_uncertainty(i), budget->coverage_factor(i) * u) << i;
+        }
+    }
+}
+
+TEST(EvaluateRotaryTable, ExpandsByTheCoverageProbability) {
+    const Campaign campaign = engine::synthetic::simulate(plan_of_twelve());
+    RotaryTableRequest request = request_of(campaign);
+    request.coverage_probability = 0.99;
+    const RotaryTableResult wide = evaluate_rotary_table(request, 1);
+    request.coverage_probability = 0.9545;
+    const RotaryTableResult usual = evaluate_rotary_table(request, 1);
+    EXPECT_EQ(wide.reported.budget.standard_uncertainty, usual.reported.budget.standard_uncertainty);
+    // All variances are stated, so that ν is infinite.
+    EXPECT_NEAR(wide.reported.budget.coverage_factor(0), coverage_factor(0.99, INFINITY), 1e-12);
+    EXPECT_NEAR(usual.reported.budget.coverage_factor(0), coverage_factor(0.9545, INFINITY), 1e-12);
+}
+
+TEST(EvaluateRotaryTable, TableHasTheSameUncertaintiesWhateverItsAxisIsCalled) {
+    // The plan of an axis is that of A with all coordinates turned cyclically.
+    CampaignPlan plan = plan_of_twelve();
+    plan.noise = 0.0;
+    RotaryTableRequest request = request_of(engine::synthetic::simulate(plan));
+    const Eigen::VectorXd of_a = evaluate_rotary_table(request, 1).reported.budget.standard_uncertainty;
+    for (const RotaryAxis axis : {RotaryAxis::b, RotaryAxis::c}) {
+        plan.axis = axis;
+        RotaryTableRequest other = request_of(engine::synthetic::simulate(plan));
+        const Eigen::VectorXd u = evaluate_rotary_table(other, 1).reported.budget.standard_uncertainty;
+        ASSERT_EQ(u.size(), of_a.size());
+        const Eigen::Index turned = engine::axial_coordinate(axis);
+        for (Eigen::Index i = 0; i < 72; ++i) {
+            const Eigen::Index c = i % 6;
+            const Eigen::Index same = i - c + (c < 3 ? (c + turned) % 3 : 3 + (c - 3 + turned) % 3);
+            EXPECT_NEAR(u(same) / of_a(i), 1.0, 1e-3) << i;
+        }
+        for (Eigen::Index i = 72; i < 76; ++i) {
+            EXPECT_NEAR(u(i) / of_a(i), 1.0, 1e-3) << i;
+        }
+    }
+}
+
+TEST(EvaluateRotaryTable, RepeatsTheMeasurementByMonteCarlo) {
+    RotaryTableRequest request = request_of(engine::synthetic::simulate(plan_of_twelve()));
+    request.monte_carlo = {.trials = 2000, .digits = 1, .seed = 1, .validate = false, .where = "a test"};
+    const RotaryTableResult result = evaluate_rotary_table(request, 2);
+    ASSERT_TRUE(result.monte_carlo);
+    const UncertaintyBudget& budget = result.reported.budget;
+    const auto reported = static_cast<std::size_t>(budget.value.size());
+    ASSERT_GT(result.monte_carlo->result.outputs.size(), reported);  // the parameters of the table follow
+    for (std::size_t i = 0; i < reported; ++i) {
+        const double u = budget.standard_uncertainty(static_cast<Eigen::Index>(i));
+        // The standard deviation of 2000 trials has a relative standard error of 1.6 %; 76 are looked at.
+        EXPECT_NEAR(result.monte_carlo->result.outputs[i].standard_uncertainty / u, 1.0, 0.07) << i;
+        EXPECT_TRUE(result.monte_carlo->validations[i]) << i;
+    }
+    EXPECT_FALSE(result.validation_failed);
+}
+
+TEST(EvaluateRotaryTable, RefusesMonteCarloOfTheSequentialMethod) {
+    RotaryTableRequest request = request_of(engine::synthetic::simulate(plan_of_twelve()));
+    request.measurement.method = engine::AdjustmentMethod::sequential;
+    request.monte_carlo.emplace();
+    request.where = "job.json";
+    try {
+        (void)evaluate_rotary_table(request, 1);
+        FAIL() << "it was accepted";
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.diagnostics().front().code, "GC-INPUT-0238");
+        EXPECT_EQ(error.diagnostics().front().where, "job.json#/monte_carlo");
+    }
+}
+
+TEST(EvaluateRotaryTable, StatesADisplacementWhereThereIsAReference) {
+    RotaryTableRequest request = request_of(engine::synthetic::simulate(plan_of_twelve()));
+    request.reference.emplace().contact_point = {0.1, 0.0, 0.0};
+    const RotaryTableResult result = evaluate_rotary_table(request, 1);
+    ASSERT_TRUE(result.contact_point);
+    EXPECT_EQ(result.contact_point->budget.value.size(), 36);
+    EXPECT_FALSE(result.location_errors);
+    // A point on the axis of A, 0.1 m out: along x it is moved by EXA, and back by what the tilts shorten its distance.
+    const Eigen::VectorXd& error = result.reported.budget.value;
+    const double shortened = 0.1 * (error(4) * error(4) + error(5) * error(5)) / 2.0;
+    EXPECT_NEAR(result.contact_point->budget.value(0), error(0) - shortened, 1e-14);
+}
+
+TEST(DocumentUnits, AreMicrometresAndArcseconds) {
+    EXPECT_STREQ(unit_of({.name = "d", .unit = "m"}).record, "um");
+    EXPECT_STREQ(unit_of({.name = "e", .unit = "rad"}).print, "″");
+    EXPECT_DOUBLE_EQ(unit_of({.name = "d", .unit = "m"}).si, 1e-6);
+}
+
+}  // namespace
+}  // namespace gumcert::gum
