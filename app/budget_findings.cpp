@@ -11,12 +11,12 @@
 
 #include "app/budget_fit_record.h"
 #include "app/budget_texts.h"
-#include "app/record_parts.h"
-#include "app/remark.h"
 #include "gum/analysis_of_variance.h"
 #include "gum/outlying_readings.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
+#include "reports/record/make/record_parts.h"
+#include "reports/record/make/remark.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 
@@ -54,7 +54,7 @@ std::string place_of(const std::string& input, const std::string& component, con
     return text;
 }
 
-Remark refuted_fit(const FitSummary& fit) {
+reports::Remark refuted_fit(const FitSummary& fit) {
     std::vector<std::string> scaled;
     for (const FitSummary::Parameter& parameter : fit.parameters) {
         scaled.push_back("u(" + parameter.name + ") = " + with_unit(parameter.printed.scaled_u, parameter.unit) +
@@ -80,7 +80,7 @@ Remark refuted_fit(const FitSummary& fit) {
         .accredited = FindingSeverity::critical};
 }
 
-Remark overstated_fit(const FitSummary& fit) {
+reports::Remark overstated_fit(const FitSummary& fit) {
     return {
         .message = {.code = "GC-BUDGET-0033",
                     .where = "fit " + fit.name,
@@ -106,7 +106,7 @@ std::string place_in_set(const OutlyingReading& r) {
 }
 
 /// \param all  of one input
-Remark outliers(const std::vector<const OutlyingReading*>& all) {
+reports::Remark outliers(const std::vector<const OutlyingReading*>& all) {
     const OutlyingReading& first = **std::min_element(
         all.begin(), all.end(), [](const auto* a, const auto* b) { return a->p_value < b->p_value; });
     std::vector<std::string> points;
@@ -137,7 +137,7 @@ Remark outliers(const std::vector<const OutlyingReading*>& all) {
 }
 
 /// \param all  of one input
-Remark dependent(const std::vector<const ReadingsSummary*>& all) {
+reports::Remark dependent(const std::vector<const ReadingsSummary*>& all) {
     const ReadingsSummary& first = *all.front();
     std::vector<std::string> points;
     for (const ReadingsSummary* r : all) {
@@ -206,7 +206,7 @@ std::string printed_p(double p_value) {
     return p_value < k_least_printed ? "< 0.0001" : gum::round_significant(p_value, 2);
 }
 
-Remark refuted_pool(const ReadingsSummary& of, const PoolTest& test) {
+reports::Remark refuted_pool(const ReadingsSummary& of, const PoolTest& test) {
     return {.message = {.code = "GC-BUDGET-0037",
                         .where = place_of(of.input, of.component, test.points),
                         .what = "the readings scatter " + gum::round_significant(std::sqrt(test.F), 2) +
@@ -241,8 +241,8 @@ std::vector<std::vector<const Summary*>> by_input(const std::vector<Summary>& al
     return groups;
 }
 
-std::vector<Remark> remarks_of(const EvaluationRecord& record) {
-    std::vector<Remark> remarks;
+std::vector<reports::Remark> remarks_of(const EvaluationRecord& record) {
+    std::vector<reports::Remark> remarks;
     for (const FitSummary& fit : record.fits) {
         if (fit.consistency == "refuted") {
             remarks.push_back(refuted_fit(fit));
@@ -268,7 +268,7 @@ std::vector<Remark> remarks_of(const EvaluationRecord& record) {
 }  // namespace
 
 std::vector<gum::Diagnostic> budget_remarks(const EvaluationRecord& record) {
-    return messages_of(remarks_of(record));
+    return reports::messages_of(remarks_of(record));
 }
 
 namespace {
@@ -300,7 +300,7 @@ std::vector<certificate::Finding> budget_findings(const EvaluationRecord& record
             }
         }
     }
-    for (certificate::Finding& finding : findings_of(remarks_of(record), record)) {
+    for (certificate::Finding& finding : reports::findings_of(remarks_of(record), record)) {
         findings.push_back(std::move(finding));
     }
     return findings;

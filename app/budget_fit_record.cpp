@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "app/budget_texts.h"
-#include "app/record_parts.h"
 #include "gum/budget/fit_scatter.h"
 #include "gum/coverage.h"
 #include "gum/propagation.h"
 #include "gum/rounding.h"
+#include "reports/record/make/record_parts.h"
 
 namespace gumcert::app {
 
@@ -82,11 +82,11 @@ void add_parameters(const gum::BudgetFit& fit, const engine::CurveFit& solved, F
         parameter.value = from.unit.from_si(solved.parameters(i));
         parameter.u = from.unit.difference_from_si(std::sqrt(solved.covariance(i, i)));
         parameter.printed.value = printed_estimate(parameter.value, parameter.u);
-        parameter.printed.u = rounded(parameter.u, k_digits_of_u);
+        parameter.printed.u = rounded(parameter.u, reports::k_digits_of_u);
         parameter.printed.unit = gum::unit_for_people(from.unit.text());
         if (summary.consistency == "refuted") {
             parameter.scaled_u = parameter.u * solved.residual_standard_deviation;
-            parameter.printed.scaled_u = rounded(*parameter.scaled_u, k_digits_of_u);
+            parameter.printed.scaled_u = rounded(*parameter.scaled_u, reports::k_digits_of_u);
         }
         summary.parameters.push_back(std::move(parameter));
         std::vector<double> row;
@@ -131,8 +131,8 @@ void add_data(const gum::BudgetFit& fit, const engine::CurveFit& solved, FitSumm
     summary.u_y = standard_uncertainties(fit.y_uncertainty, fit.ordinate_unit);
     summary.printed.x = printed_as_stated(summary.x);
     summary.printed.y = printed_as_stated(summary.y);
-    summary.printed.u_x = printed_rounded(summary.u_x, k_digits_of_u);
-    summary.printed.u_y = printed_rounded(summary.u_y, k_digits_of_u);
+    summary.printed.u_x = printed_rounded(summary.u_x, reports::k_digits_of_u);
+    summary.printed.u_y = printed_rounded(summary.u_y, reports::k_digits_of_u);
     summary.printed.residual = printed_rounded(summary.residual, k_digits_of_residual);
 }
 
@@ -146,13 +146,13 @@ BudgetRow joint_row(const std::string& name, const std::string& role, double var
     const double contribution_si = std::sqrt(std::max(0.0, variance_si));
     row.contribution = unit.difference_from_si(contribution_si);
     row.u = row.contribution;
-    row.nu = finite_or_none(nu);
+    row.nu = reports::finite_or_none(nu);
     row.type = is_scaled ? "A" : "B";
     row.distribution = is_scaled ? "student_t" : "normal";
     const double ratio = result_u > 0.0 ? contribution_si / result_u : 0.0;  // nothing to share of 0
     row.share = ratio * ratio;
     row.printed.nu = printed_degrees_of_freedom(nu);
-    row.printed.contribution = rounded(row.contribution, k_digits_of_u);
+    row.printed.contribution = rounded(row.contribution, reports::k_digits_of_u);
     row.printed.share = gum::percent(row.share);
     return row;
 }
@@ -218,7 +218,7 @@ BudgetRow fit_row(const gum::BudgetFit& fit, const engine::CurveFit& solved, con
         part.u = parameter.unit.difference_from_si(u);
         part.sensitivity = result_unit.difference_from_si(sensitivity(i) * parameter.unit.difference_to_si(1.0));
         part.printed.value = printed_estimate(*part.value, part.u);
-        part.printed.u = rounded(part.u, k_digits_of_u);
+        part.printed.u = rounded(part.u, reports::k_digits_of_u);
         part.printed.sensitivity = rounded(*part.sensitivity, 4);
         part.printed.contribution.clear();  // alone it says nothing: the parameters of a fit are correlated
         part.printed.share.clear();

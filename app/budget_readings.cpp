@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "app/budget_texts.h"
-#include "app/record_parts.h"
 #include "gum/analysis_of_variance.h"
 #include "gum/budget/budget_model.h"
 #include "gum/outlying_readings.h"
 #include "gum/rounding.h"
 #include "gum/type_a.h"
+#include "reports/record/make/record_parts.h"
 
 namespace gumcert::app {
 
@@ -104,8 +104,8 @@ reports::ReadingsSummary readings_summary(const Stated& stated) {
         add_pool(stated, summary);
     }
     summary.printed.mean = printed_estimate(summary.mean, summary.standard_deviation_of_mean);
-    summary.printed.standard_deviation = rounded(summary.standard_deviation, k_digits_of_u);
-    summary.printed.standard_deviation_of_mean = rounded(summary.standard_deviation_of_mean, k_digits_of_u);
+    summary.printed.standard_deviation = rounded(summary.standard_deviation, reports::k_digits_of_u);
+    summary.printed.standard_deviation_of_mean = rounded(summary.standard_deviation_of_mean, reports::k_digits_of_u);
     return summary;
 }
 
@@ -157,9 +157,9 @@ reports::VarianceAnalysis variance_analysis(const Stated& stated) {
     out.printed.F = rounded(out.F, 3);
     out.printed.F_critical = rounded(out.F_critical, 3);
     out.printed.p_value = rounded(out.p_value, 2);
-    out.printed.within = rounded(out.standard_deviation_within, k_digits_of_u);
-    out.printed.between = rounded(out.standard_deviation_between, k_digits_of_u);
-    out.printed.group_means = rounded(out.standard_deviation_of_group_means, k_digits_of_u);
+    out.printed.within = rounded(out.standard_deviation_within, reports::k_digits_of_u);
+    out.printed.between = rounded(out.standard_deviation_between, reports::k_digits_of_u);
+    out.printed.group_means = rounded(out.standard_deviation_of_group_means, reports::k_digits_of_u);
     out.printed.mean_square = {rounded(out.mean_square_between, 3), rounded(out.mean_square_within, 3)};
     return out;
 }

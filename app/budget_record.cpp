@@ -13,7 +13,6 @@
 #include "app/budget_fit_record.h"
 #include "app/budget_readings.h"
 #include "app/budget_texts.h"
-#include "app/record_parts.h"
 #include "app/reported_result.h"
 #include "gum/budget/reported_covariance.h"
 #include "gum/budget/zero_uncertainty.h"
@@ -22,6 +21,7 @@
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/special_values.h"
 #include "gum/rounding.h"
+#include "reports/record/make/record_parts.h"
 #include "text/csv_field.h"
 #include "text/lists.h"
 #include "text/numbers.h"
@@ -41,7 +41,7 @@ Printed printed_result(double value, std::optional<double> U, double u, const st
                        gum::RoundingMode rounding) {
     const std::string shown = gum::unit_for_people(unit);
     if (U && *U > 0.0) {
-        const gum::RoundedPair pair = gum::round_to_uncertainty(value, *U, k_digits_of_u, rounding);
+        const gum::RoundedPair pair = gum::round_to_uncertainty(value, *U, reports::k_digits_of_u, rounding);
         return {pair.value, pair.U, shown};
     }
     return {printed_estimate(value, u), U ? "0" : "", shown};
@@ -77,16 +77,16 @@ BudgetRow budget_row(const std::string& name, const Unit& unit, const RowNumbers
     row.unit = unit.text();
     row.value = unit.from_si(si.value);
     row.u = unit.difference_from_si(si.u);
-    row.nu = finite_or_none(si.nu);
+    row.nu = reports::finite_or_none(si.nu);
     row.sensitivity = result_unit.difference_from_si(si.sensitivity * unit.difference_to_si(1.0));
     row.contribution = result_unit.difference_from_si(std::abs(si.sensitivity) * si.u);
     const double ratio = result_u > 0.0 ? std::abs(si.sensitivity) * si.u / result_u : 0.0;  // nothing to share of 0
     row.share = ratio * ratio;
     row.printed.value = printed_estimate(*row.value, row.u);
-    row.printed.u = rounded(row.u, k_digits_of_u);
+    row.printed.u = rounded(row.u, reports::k_digits_of_u);
     row.printed.nu = printed_degrees_of_freedom(si.nu);
     row.printed.sensitivity = rounded(*row.sensitivity, 4);
-    row.printed.contribution = rounded(row.contribution, k_digits_of_u);
+    row.printed.contribution = rounded(row.contribution, reports::k_digits_of_u);
     row.printed.share = gum::percent(row.share);
     return row;
 }
@@ -109,7 +109,7 @@ std::vector<BudgetRow> budget_rows(const BudgetJob& job, const gum::BudgetResult
         RowNumbers numbers{
             .value = total.value, .u = total.u, .nu = total.degrees_of_freedom, .sensitivity = sensitivity[i]};
         BudgetRow row = budget_row(input.name, input.unit, numbers, unit, u);
-        row.type = type_letter(first.evaluation);
+        row.type = reports::type_letter(first.evaluation);
         row.source = first.source;
         row.distribution = std::string(gum::distribution_name(first.distribution.kind));
         if (input.components.size() == 1) {
@@ -125,7 +125,7 @@ std::vector<BudgetRow> budget_rows(const BudgetJob& job, const gum::BudgetResult
                 BudgetRow part = budget_row(component.name, input.unit, numbers, unit, u);
                 part.value = component.stated_value;
                 part.printed.value = printed_estimate(component.stated_value, part.u);
-                part.type = type_letter(component.evaluation);
+                part.type = reports::type_letter(component.evaluation);
                 part.source = component.source;
                 part.distribution = std::string(gum::distribution_name(component.distribution.kind));
                 if (component.evaluation == gum::Evaluation::type_b) {
@@ -190,7 +190,7 @@ std::optional<reports::CorrelationRow> correlation_row(const gum::BudgetPointRes
     }
     row.share = u > 0.0 ? row.variance / (u * u) : 0.0;
     const double root = std::sqrt(std::abs(row.variance));
-    row.printed.contribution = (row.variance < 0.0 ? "-" : "") + rounded(root, k_digits_of_u);
+    row.printed.contribution = (row.variance < 0.0 ? "-" : "") + rounded(root, reports::k_digits_of_u);
     row.printed.share = gum::percent(row.share);
     return row;
 }
@@ -318,7 +318,7 @@ reports::CoverageRegion region_of(const BudgetJob& job, const gum::BudgetPointRe
         region.from = "law of propagation";
         const auto m = static_cast<std::size_t>(point.propagation.value.size());
         const double nu = gum::joint_effective_degrees_of_freedom(*point.model, point.propagation);
-        region.degrees_of_freedom = finite_or_none(nu);
+        region.degrees_of_freedom = reports::finite_or_none(nu);
         const Eigen::MatrixXd correlation = gum::correlation_matrix(point.propagation.covariance);
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation, Eigen::EigenvaluesOnly);
         const bool singular = !(eigen.eigenvalues()(0) > 1e-12 * static_cast<double>(m)) ||
@@ -434,7 +434,8 @@ nlohmann::json options_json(const BudgetJob& job, const gum::BudgetResult& resul
     options["reporting"] = {{"degrees_of_freedom", job.truncate_degrees_of_freedom ? "truncated" : "exact"},
                             {"rounding", job.rounding == gum::RoundingMode::up ? "up" : "half_even"}};
     options["coverage"] = gum::coverage_choice_name(job.coverage);
-    options["monte_carlo"] = monte_carlo_json(job.monte_carlo ? job.monte_carlo : result.automatic_monte_carlo);
+    options["monte_carlo"] =
+        reports::monte_carlo_json(job.monte_carlo ? job.monte_carlo : result.automatic_monte_carlo);
     if (!job.monte_carlo && result.automatic_monte_carlo) {
         options["monte_carlo"]["automatic"] = true;
     }
@@ -446,13 +447,13 @@ nlohmann::json options_json(const BudgetJob& job, const gum::BudgetResult& resul
 reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetResult& result,
                                         const std::vector<reports::InputFile>& files, const Eigen::MatrixXd& covariance,
                                         const std::string& covariance_file) {
-    reports::EvaluationRecord record = record_head("budget",
-                                                   {.title = job.title,
-                                                    .coverage_probability = job.coverage_probability,
-                                                    .document = job.document,
-                                                    .warnings = job.warnings,
-                                                    .notes = result.notes},
-                                                   options_json(job, result), files);
+    reports::EvaluationRecord record = reports::record_head("budget",
+                                                            {.title = job.title,
+                                                             .coverage_probability = job.coverage_probability,
+                                                             .document = job.document,
+                                                             .warnings = job.warnings,
+                                                             .notes = result.notes},
+                                                            options_json(job, result), files);
     for (const BudgetInput& input : job.inputs) {
         const auto described = job.input_descriptions.find(input.name);
         record.inputs.push_back({.name = input.name,
@@ -498,7 +499,7 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
             }
             out.unit = unit.text();
             out.u = unit.difference_from_si(from.standard_uncertainty);
-            out.nu_eff = finite_or_none(from.degrees_of_freedom);
+            out.nu_eff = reports::finite_or_none(from.degrees_of_freedom);
             out.k = from.coverage_factor;
             out.k_numerical_error = from.k_numerical_error;
             out.coverage_probability = from.coverage_probability;
@@ -519,19 +520,19 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
             if (from.second_order_matters) {
                 reports::SecondOrder second;
                 second.first_order_u = unit.difference_from_si(point.propagation.standard_uncertainty(index));
-                second.printed.first_order_u = rounded(second.first_order_u, k_digits_of_u);
+                second.printed.first_order_u = rounded(second.first_order_u, reports::k_digits_of_u);
                 second.u = unit.difference_from_si(point.second_order->standard_uncertainty(index));
                 second.shift = unit.difference_from_si(point.second_order->shift(index));
-                second.printed.u = rounded(second.u, k_digits_of_u);
-                second.printed.shift = rounded(second.shift, k_digits_of_u);
+                second.printed.u = rounded(second.u, reports::k_digits_of_u);
+                second.printed.shift = rounded(second.shift, reports::k_digits_of_u);
                 out.second_order = second;
             }
             if (from.monte_carlo) {
-                out.monte_carlo =
-                    monte_carlo_summary(*from.monte_carlo, asked, {from.trials, from.stabilised},
-                                        {[&](double value) { return unit.from_si(value); },
-                                         [&](double difference) { return unit.difference_from_si(difference); }},
-                                        from.validation);
+                out.monte_carlo = reports::monte_carlo_summary(
+                    *from.monte_carlo, asked, {from.trials, from.stabilised},
+                    {[&](double value) { return unit.from_si(value); },
+                     [&](double difference) { return unit.difference_from_si(difference); }},
+                    from.validation);
                 without_missing_moments(from, *out.monte_carlo);
             }
             record.results.push_back(std::move(out));

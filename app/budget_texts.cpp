@@ -4,9 +4,9 @@
 #include <charconv>
 #include <cmath>
 
-#include "app/record_parts.h"
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/rounding.h"
+#include "reports/record/make/record_parts.h"
 #include "text/numbers.h"
 
 namespace gumcert::app {
@@ -16,7 +16,7 @@ std::string rounded(double value, int digits) {
 }
 
 std::string printed_estimate(double value, double u) {
-    return u > 0.0 ? gum::round_to_uncertainty(value, u, k_digits_of_u).value : text::shortest(value);
+    return u > 0.0 ? gum::round_to_uncertainty(value, u, reports::k_digits_of_u).value : text::shortest(value);
 }
 
 std::string as_stated(double value) {
@@ -37,7 +37,7 @@ std::string printed_degrees_of_freedom(double nu) {
     if (std::isnan(nu)) {
         return "–";
     }
-    return certificate::printed_degrees_of_freedom(finite_or_none(nu));
+    return certificate::printed_degrees_of_freedom(reports::finite_or_none(nu));
 }
 
 }  // namespace gumcert::app

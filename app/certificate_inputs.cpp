@@ -10,11 +10,11 @@
 
 #include "app/budget_record.h"
 #include "app/read_file.h"
-#include "app/record_parts.h"
 #include "engine/job/certificate_statement.h"
 #include "gum/budget/budget_model.h"
 #include "gum/convolution.h"
 #include "gum/quantity/diagnostic.h"
+#include "reports/record/make/record_parts.h"
 #include "text/lists.h"
 
 namespace gumcert::app {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "app/record_parts.h"
 #include "certificate/capability.h"
 #include "certificate/result_names.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
+#include "reports/record/make/record_parts.h"
 #include "text/numbers.h"
 
 namespace gumcert::app {

@@ -11,10 +11,7 @@
 #include "app/certified_scope.h"
 #include "app/certified_texts.h"
 #include "app/certified_traceability.h"
-#include "app/circle_closure_findings.h"
 #include "app/environment_findings.h"
-#include "app/record_parts.h"
-#include "app/rotary_findings.h"
 #include "certificate/gates.h"
 #include "certificate/result_names.h"
 #include "certificate/statement_of_uncertainty.h"
@@ -22,6 +19,9 @@
 #include "gum/coverage.h"
 #include "gum/rounding.h"
 #include "reports/record/certified_tables.h"
+#include "reports/record/make/circle_closure/circle_closure_findings.h"
+#include "reports/record/make/record_parts.h"
+#include "reports/record/make/rotary_table/rotary_findings.h"
 #include "reports/record/reported_result.h"
 
 namespace gumcert::app {
@@ -358,9 +358,9 @@ void certify(EvaluationRecord& record, CertificateData data, Profile profile, co
     audit.insert(audit.end(), validation.begin(), validation.end());
     const std::vector<Finding> budget = budget_findings(record);
     audit.insert(audit.end(), budget.begin(), budget.end());
-    const std::vector<Finding> adjustment = rotary_findings(record);
+    const std::vector<Finding> adjustment = reports::rotary_findings(record);
     audit.insert(audit.end(), adjustment.begin(), adjustment.end());
-    const std::vector<Finding> closure = circle_closure_findings(record);
+    const std::vector<Finding> closure = reports::circle_closure_findings(record);
     audit.insert(audit.end(), closure.begin(), closure.end());
     const std::vector<Finding> environment = environment_findings(record);
     audit.insert(audit.end(), environment.begin(), environment.end());

@@ -1,7 +1,7 @@
 #include "app/comparison_print.h"
 
-#include "app/record_parts.h"
 #include "gum/rounding.h"
+#include "reports/record/make/record_parts.h"
 #include "text/numbers.h"
 
 namespace gumcert::app {
@@ -17,7 +17,7 @@ constexpr const char* k_below_least = "<1E-300";
 }  // namespace
 
 std::string printed_value(double value, const std::optional<double>& U) {
-    return U && *U > 0.0 ? gum::round_to_uncertainty(value, *U, k_digits_of_u).value : text::shortest(value);
+    return U && *U > 0.0 ? gum::round_to_uncertainty(value, *U, reports::k_digits_of_u).value : text::shortest(value);
 }
 
 std::string printed_difference(double difference, const std::optional<double>& U, const std::optional<double>& scale) {
@@ -33,7 +33,7 @@ std::string printed_uncertainty(const std::optional<double>& u) {
         return "";
     }
     // As beside its value: 0.000000001000 with 0.000000000044, not with 4.4E-11.
-    return *u > 0.0 ? gum::round_to_uncertainty(0.0, *u, k_digits_of_u).U : "0";
+    return *u > 0.0 ? gum::round_to_uncertainty(0.0, *u, reports::k_digits_of_u).U : "0";
 }
 
 std::string printed_as_stated(const std::optional<double>& number) {
@@ -48,7 +48,8 @@ std::string printed_probability(const std::optional<double>& probability) {
     if (!probability) {
         return "";
     }
-    return *probability < k_least_probability ? k_below_least : gum::round_significant(*probability, k_digits_of_u);
+    return *probability < k_least_probability ? k_below_least
+                                              : gum::round_significant(*probability, reports::k_digits_of_u);
 }
 
 }  // namespace gumcert::app

@@ -5,8 +5,8 @@
 #include <span>
 #include <utility>
 
-#include "app/record_parts.h"
 #include "encoding/npy.h"
+#include "reports/record/make/record_parts.h"
 #include "text/csv_field.h"
 #include "text/numbers.h"
 

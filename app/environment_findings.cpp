@@ -6,11 +6,11 @@
 #include <string>
 #include <utility>
 
-#include "app/record_parts.h"
 #include "certificate/stated_text.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
+#include "reports/record/make/record_parts.h"
 #include "text/numbers.h"
 
 namespace gumcert::app {

@@ -3,11 +3,11 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "app/record_parts.h"
 #include "gum/comparison/laboratory_covariance.h"
 #include "gum/comparison/proficiency_scheme.h"
 #include "gum/comparison/reference_estimates.h"
 #include "gum/quantity/progress.h"
+#include "reports/record/make/record_parts.h"
 
 namespace gumcert::app {
 
@@ -55,7 +55,7 @@ reports::EvaluationRecord evaluate_comparison(const engine::ComparisonJob& job,
             .laboratory = data.laboratory.name, .number = data.number, .issued = data.dates.issued};
     }
     const std::vector<gum::Diagnostic> notes = notes_on(job, std::move(found));
-    reports::EvaluationRecord record = record_head(
+    reports::EvaluationRecord record = reports::record_head(
         "comparison", {job.title, job.coverage_probability, job.document, job.warnings, notes}, options_of(job), files);
     record.comparison = std::move(comparison);
     return record;

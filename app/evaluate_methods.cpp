@@ -11,8 +11,8 @@
 #include "app/method_record.h"
 #include "app/method_side.h"
 #include "app/name_spelling.h"
-#include "app/record_parts.h"
 #include "gum/rounding.h"
+#include "reports/record/make/record_parts.h"
 
 namespace gumcert::app {
 
@@ -60,12 +60,12 @@ gum::MethodComparison method_comparison(const ComparisonJob& job, const MethodSi
                                      .u = of_method.u,
                                      .U = of_method.U,
                                      .k = of_method.k,
-                                     .nu = finite_or_none(of_method.degrees_of_freedom),
+                                     .nu = reports::finite_or_none(of_method.degrees_of_freedom),
                                      .reference_value = reference.value[i],
                                      .reference_u = of_reference.u,
                                      .reference_U = of_reference.U,
                                      .reference_k = of_reference.k,
-                                     .reference_nu = finite_or_none(of_reference.degrees_of_freedom)});
+                                     .reference_nu = reports::finite_or_none(of_reference.degrees_of_freedom)});
     }
     comparison.covariance = method.covariance;
     comparison.reference_covariance = reference.covariance;

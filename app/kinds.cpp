@@ -8,10 +8,9 @@
 
 #include "app/budget_record.h"
 #include "app/certificate_inputs.h"
-#include "app/circle_closure_record.h"
-#include "app/document_units.h"
 #include "app/evaluate_comparison.h"
-#include "app/rotary_table_record.h"
+#include "app/fixture_budget_record.h"
+#include "app/reference_comparison.h"
 #include "engine/job/budget_job.h"
 #include "engine/job/circle_closure_job.h"
 #include "engine/job/comparison_job.h"
@@ -20,7 +19,10 @@
 #include "gum/budget/evaluate_budget.h"
 #include "gum/budget/reported_covariance.h"
 #include "gum/circle_closure/evaluate_circle_closure.h"
+#include "gum/rotary_table/document_units.h"
 #include "gum/rotary_table/evaluate_rotary_table.h"
+#include "reports/record/make/circle_closure/circle_closure_record.h"
+#include "reports/record/make/rotary_table/rotary_table_record.h"
 
 namespace gumcert::app {
 
@@ -72,13 +74,17 @@ Evaluation evaluate_rotary_table_job(const EvaluationTask& task) {
         const CovarianceForm form = chosen_form(task.covariance.form, quantities.size());
         std::vector<double> units;
         for (const gum::OutputQuantity& quantity : quantities) {
-            units.push_back(unit_of(quantity).si);
+            units.push_back(gum::unit_of(quantity).si);
         }
-        evaluation.covariance = covariance_contents(result.reported.covariance,
-                                                    covariance_order(job, result.solution.quantities), units, form);
+        evaluation.covariance = covariance_contents(
+            result.reported.covariance, reports::covariance_order(job, result.solution.quantities), units, form);
         evaluation.covariance_file = task.covariance.name(form, files);
     }
-    evaluation.record = rotary_table_record(job, result, files, evaluation.covariance_file);
+    reports::RotaryRecordParts parts{.fixture_budget = fixture_budget_record(job, result.fixture), .comparison = {}};
+    if (result.contact_point) {
+        parts.comparison = reference_comparison(job, *result.contact_point);
+    }
+    evaluation.record = reports::rotary_table_record(job, result, parts, files, evaluation.covariance_file);
     evaluation.negative = result.validation_failed;
     make_certificate(evaluation, job.certificate, profile, {});
     return evaluation;
@@ -90,15 +96,18 @@ Evaluation evaluate_circle_closure_job(const EvaluationTask& task) {
     const gum::CircleClosureResult result = gum::evaluate_circle_closure(job, task.threads, task.progress);
     Evaluation evaluation;
     const std::vector<reports::InputFile> files = task.held_files(job.files);
-    const bool is_large = circle_closure_result_names(job).size() > k_most_results_in_record;
+    const bool is_large = reports::circle_closure_result_names(job).size() > k_most_results_in_record;
     if (is_large && task.covariance.is_written()) {
-        evaluation.covariance = circle_closure_covariance_csv(job, result);
+        evaluation.covariance = reports::circle_closure_covariance_csv(job, result);
         evaluation.covariance_file = task.covariance.name(CovarianceForm::csv, files);
     }
-    evaluation.record = circle_closure_record(job, result, files, evaluation.covariance_file);
+    evaluation.record = reports::circle_closure_record(job, result, files, evaluation.covariance_file);
     evaluation.negative = result.validation_failed;
     if (job.certificate) {
-        make_certificate(evaluation, job.certificate, profile, circle_closure_capability_inputs(job, result));
+        make_certificate(evaluation, job.certificate, profile,
+                         {.values = {},
+                          .distributions = reports::circle_closure_distributions(job, result),
+                          .distributions_below = {}});
     }
     return evaluation;
 }

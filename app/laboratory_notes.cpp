@@ -6,8 +6,8 @@
 #include <set>
 
 #include "app/comparison_print.h"
-#include "app/record_parts.h"
 #include "gum/rounding.h"
+#include "reports/record/make/record_parts.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 

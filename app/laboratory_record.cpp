@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "app/comparison_print.h"
-#include "app/record_parts.h"
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
+#include "reports/record/make/record_parts.h"
 
 namespace gumcert::app {
 
@@ -169,7 +169,7 @@ reports::ReferenceEstimate estimate_record(const gum::ReferenceEstimate& from) {
     estimate.scale = from.scale;
     estimate.between = from.between;
     estimate.U = from.U;
-    estimate.nu = finite_or_none(from.degrees_of_freedom);
+    estimate.nu = reports::finite_or_none(from.degrees_of_freedom);
     estimate.u_hartung_knapp = from.u_hartung_knapp;
     estimate.results = static_cast<std::int64_t>(from.results);
     estimate.used = from.used;
@@ -268,7 +268,7 @@ void add_assigned_value(const gum::ItemResult& from, ComparisonItemEvaluation& i
     item.u = from.u;
     item.U = from.U;
     item.k = from.k;
-    item.nu = finite_or_none(from.degrees_of_freedom);
+    item.nu = reports::finite_or_none(from.degrees_of_freedom);
     item.U_rests_on = word_of(from.expanded_by);
     item.coverage_with_scatter = from.coverage_with_scatter;
     item.U_of_scores = from.U_of_scores;
@@ -407,7 +407,7 @@ ComparisonPoint point_record(const gum::ComparisonScheme& scheme, const gum::Par
         point.u = from.uncertainty->u;
         point.U = from.uncertainty->U;
         point.k = from.uncertainty->k;
-        point.nu = finite_or_none(from.uncertainty->degrees_of_freedom);
+        point.nu = reports::finite_or_none(from.uncertainty->degrees_of_freedom);
     }
     if (from.of_scores) {
         point.U_of_scores = from.of_scores->U;
@@ -423,11 +423,11 @@ ComparisonPoint point_record(const gum::ComparisonScheme& scheme, const gum::Par
     point.correlation = from.correlation;
     if (from.scatter) {
         point.u_others = from.scatter->others.u;
-        point.nu_others = finite_or_none(from.scatter->others.degrees_of_freedom);
+        point.nu_others = reports::finite_or_none(from.scatter->others.degrees_of_freedom);
         point.covariance_others = from.scatter->covariance;
         point.share = from.scatter->share;
         point.factor_D = from.scatter->factor;
-        point.nu_D = finite_or_none(from.scatter->degrees_of_freedom);
+        point.nu_D = reports::finite_or_none(from.scatter->degrees_of_freedom);
     }
     point.D_low = from.low;
     point.D_high = from.high;

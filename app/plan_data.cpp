@@ -40,13 +40,13 @@ json finite(double value) {
 }
 
 json position_json(const Eigen::Vector3d& position) {
-    return json::array({position[0] / k_mm.si, position[1] / k_mm.si, position[2] / k_mm.si});
+    return json::array({position[0] / gum::k_mm.si, position[1] / gum::k_mm.si, position[2] / gum::k_mm.si});
 }
 
 json motions_json(const Setting& setting, const RotaryTableMeasurement& layout, const std::array<Motion, 6>& motions) {
     json object = json::object();
     for (std::size_t c = 0; c < 6; ++c) {
-        const DocumentUnit& unit = unit_of_motion(c);
+        const gum::DocumentUnit& unit = unit_of_motion(c);
         object[setting.names[c]] = {{"unit", unit.record},
                                     {"U_rms", motions[c].rms / unit.si},
                                     {"U_largest", motions[c].largest / unit.si},
@@ -89,14 +89,14 @@ json expected_json(const Setting& setting, const RotaryTableMeasurement& layout,
     const engine::ExpectedUncertainty& uncertainty = expected.uncertainty;
     json object{{"error_motions", motions_json(setting, layout, expected.motions)},
                 {"table_parameters", parameters_json(setting, expected.parameters)},
-                {"u_of_one_run_arcsec", expected.parameters.u_deviation / k_arcsec.si},
+                {"u_of_one_run_arcsec", expected.parameters.u_deviation / gum::k_arcsec.si},
                 {"largest_ratio", expected.ratio},
                 {"observations", uncertainty.observations},
                 {"parameters", uncertainty.parameters},
                 {"degrees_of_freedom", uncertainty.degrees_of_freedom},
                 {"condition_number", uncertainty.condition_number},
                 {"mean_redundancy_number", uncertainty.mean_redundancy},
-                {"largest_minimal_detectable_bias_um", uncertainty.largest_minimal_detectable_bias / k_um.si},
+                {"largest_minimal_detectable_bias_um", uncertainty.largest_minimal_detectable_bias / gum::k_um.si},
                 {"uncontrolled_distances", uncertainty.uncontrolled_distances}};
     object["angles"] = json::array();
     for (std::size_t i = 0; i < layout.angles.size(); ++i) {
@@ -111,9 +111,9 @@ json expected_json(const Setting& setting, const RotaryTableMeasurement& layout,
     object["others"] = json::array();
     for (Eigen::Index i = uncertainty.quantities.set_up; i < uncertainty.covariance.rows(); ++i) {
         const gum::OutputQuantity& quantity = uncertainty.quantities.outputs[static_cast<std::size_t>(i)];
-        const double u = std::sqrt(uncertainty.covariance(i, i)) / unit_of(quantity).si;
+        const double u = std::sqrt(uncertainty.covariance(i, i)) / gum::unit_of(quantity).si;
         object["others"].push_back(
-            {{"quantity", quantity.name}, {"unit", unit_of(quantity).record}, {"u", u}, {"U", setting.k * u}});
+            {{"quantity", quantity.name}, {"unit", gum::unit_of(quantity).record}, {"u", u}, {"U", setting.k * u}});
     }
     object["stations"] = json::array();
     for (std::size_t j = 0; j < layout.stations.size(); ++j) {
@@ -139,14 +139,14 @@ std::string data_json(const Setting& setting, const std::string& job_name, const
               {"coverage_probability", setting.job.coverage_probability},
               {"coverage_factor", setting.k},
               {"targets",
-               {{"linear_um", setting.request.target_linear / k_um.si},
-                {"angular_arcsec", setting.request.target_angular / k_arcsec.si}}},
+               {{"linear_um", setting.request.target_linear / gum::k_um.si},
+                {"angular_arcsec", setting.request.target_angular / gum::k_arcsec.si}}},
               {"distances", layout.lengths.size()},
               {"dead_paths", layout.dead_paths.size()},
               {"table_repeatability",
-               {{"u_linear_um", std::sqrt(setting.stochastic.variance_linear) / k_um.si},
-                {"u_axial_arcsec", std::sqrt(setting.stochastic.variance_axial) / k_arcsec.si},
-                {"u_tilt_arcsec", std::sqrt(setting.stochastic.variance_tilt) / k_arcsec.si}}}};
+               {{"u_linear_um", std::sqrt(setting.stochastic.variance_linear) / gum::k_um.si},
+                {"u_axial_arcsec", std::sqrt(setting.stochastic.variance_axial) / gum::k_arcsec.si},
+                {"u_tilt_arcsec", std::sqrt(setting.stochastic.variance_tilt) / gum::k_arcsec.si}}}};
     data["expected"] = expected_json(setting, layout, now);
     data["sight"] = setting.sight ? sight_json(setting.whole, *setting.sight) : json();
     data["budget"] = json::object();
@@ -184,7 +184,7 @@ std::string data_json(const Setting& setting, const std::string& job_name, const
                                  {"largest_ratio", exchange.ratio}});
         }
         data["proposal"] = {{"candidates", proposal->candidates.positions.size()},
-                            {"grid_step_mm", proposal->candidates.step / k_mm.si},
+                            {"grid_step_mm", proposal->candidates.step / gum::k_mm.si},
                             {"angles_of_search", proposal->angles_of_search},
                             {"layouts_compared", proposal->stations.layouts},
                             {"exchanges", std::move(exchanges)},

@@ -94,7 +94,7 @@ std::string parameters_sentence(const Expected& expected) {
     const ExpectedParameters& parameters = expected.parameters;
     if (parameters.u_deviation > 0.0) {
         text += " The deviation of one run will have a standard uncertainty of " +
-                gum::round_significant(parameters.u_deviation / k_arcsec.si, 2) + "″, which makes " +
+                gum::round_significant(parameters.u_deviation / gum::k_arcsec.si, 2) + "″, which makes " +
                 gum::percent(parameters.share_of_the_noise) + " % of the variance of the runs";
         text += parameters.share_of_the_noise > gum::k_largest_scatter_share
                     ? ": an evaluation will not state R and A, because they would be those of the measurement."
@@ -137,7 +137,7 @@ std::vector<std::string> sight_sentences(const Setting& setting) {
                                   "looked at.");
     sentences.push_back(rules.reflector_diameter > 0.0
                             ? "A reflector hides what is behind a sphere of " +
-                                  plain(rules.reflector_diameter / k_mm.si) + " mm about its centre."
+                                  plain(rules.reflector_diameter / gum::k_mm.si) + " mm about its centre."
                             : "The job states no diameter of the reflectors: whether one hides another was not looked "
                               "at.");
     std::vector<std::string> open;
@@ -179,7 +179,7 @@ StudyTable expected_table(const Setting& setting, const Expected& expected) {
                      {}};
     for (std::size_t c = 0; c < 6; ++c) {
         const Motion& motion = expected.motions[c];
-        const DocumentUnit& unit = unit_of_motion(c);
+        const gum::DocumentUnit& unit = unit_of_motion(c);
         table.rows.push_back({setting.names[c], unit.print, U_text(motion.rms, unit), U_text(motion.largest, unit),
                               angle_text(setting.layout, motion.worst_angle), plain(target_of(setting, c) / unit.si),
                               motion.largest <= target_of(setting, c) ? "yes" : "no"});
@@ -194,7 +194,7 @@ StudyTable other_quantities_table(const Setting& setting, const engine::Expected
                      {}};
     for (Eigen::Index i = uncertainty.quantities.set_up; i < uncertainty.covariance.rows(); ++i) {
         const gum::OutputQuantity& quantity = uncertainty.quantities.outputs[static_cast<std::size_t>(i)];
-        const DocumentUnit& unit = unit_of(quantity);
+        const gum::DocumentUnit& unit = gum::unit_of(quantity);
         table.rows.push_back(
             {quantity.name, unit.print, U_text(setting.k * std::sqrt(uncertainty.covariance(i, i)), unit)});
     }
@@ -351,7 +351,7 @@ void add_proposal(const Setting& setting, const Expected& now, const Proposal& p
                       {"met after", "", false}},
                      {}};
     for (std::size_t c = 0; c < 6; ++c) {
-        const DocumentUnit& unit = unit_of_motion(c);
+        const gum::DocumentUnit& unit = unit_of_motion(c);
         const double from = now.motions[c].largest;
         const double to = proposal.expected.motions[c].largest;
         gains.rows.push_back({setting.names[c], unit.print, U_text(from, unit), U_text(to, unit), ratio_text(from / to),
@@ -407,7 +407,7 @@ StudyTable layout_table(const Setting& setting, const Expected& now) {
         const auto texts = coordinates(station.position);
         row.insert(row.end(), texts.begin(), texts.end());
         for (int c = 0; c < 3; ++c) {
-            row.push_back(gum::round_significant(std::sqrt(station.covariance(c, c)) / k_um.si, 2));
+            row.push_back(gum::round_significant(std::sqrt(station.covariance(c, c)) / gum::k_um.si, 2));
         }
         table.rows.push_back(std::move(row));
     }
@@ -419,7 +419,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Setting& setting
     const RotaryTableMeasurement& layout = setting.layout;
     const engine::ExpectedUncertainty& uncertainty = now.uncertainty;
     const engine::LengthUncertainty& noise = layout.length_uncertainty;
-    const auto um = [](double value) { return gum::round_significant(value / k_um.si, 3) + " µm"; };
+    const auto um = [](double value) { return gum::round_significant(value / gum::k_um.si, 3) + " µm"; };
     std::vector<std::pair<std::string, std::string>> facts{
         {"Job", job_name},
         {"Axis", axis_letter(layout)},
@@ -438,16 +438,16 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Setting& setting
         facts.emplace_back("Resolution of the lengths", um(noise.resolution));
     }
     const StochasticModel& variances = setting.stochastic;
-    facts.emplace_back("Table repeatability, standard deviation",
-                       um(std::sqrt(variances.variance_linear)) + ", " +
-                           gum::round_significant(std::sqrt(variances.variance_axial) / k_arcsec.si, 3) +
-                           "″ about the axis, " +
-                           gum::round_significant(std::sqrt(variances.variance_tilt) / k_arcsec.si, 3) + "″ across it");
+    facts.emplace_back(
+        "Table repeatability, standard deviation",
+        um(std::sqrt(variances.variance_linear)) + ", " +
+            gum::round_significant(std::sqrt(variances.variance_axial) / gum::k_arcsec.si, 3) + "″ about the axis, " +
+            gum::round_significant(std::sqrt(variances.variance_tilt) / gum::k_arcsec.si, 3) + "″ across it");
     facts.insert(facts.end(),
                  {{"Coverage", gum::round_significant(100.0 * setting.job.coverage_probability, 4) +
                                    " %, k = " + gum::round_significant(setting.k, 3) + ", infinite degrees of freedom"},
-                  {"Targets", plain(setting.request.target_linear / k_um.si) + " µm and " +
-                                  plain(setting.request.target_angular / k_arcsec.si) + "″"},
+                  {"Targets", plain(setting.request.target_linear / gum::k_um.si) + " µm and " +
+                                  plain(setting.request.target_angular / gum::k_arcsec.si) + "″"},
                   {"Observations, parameters, degrees of freedom", std::to_string(uncertainty.observations) + ", " +
                                                                        std::to_string(uncertainty.parameters) + ", " +
                                                                        std::to_string(uncertainty.degrees_of_freedom)},
@@ -471,7 +471,7 @@ std::string found_text(const Setting& setting, const Expected& now, const std::v
         for (std::size_t c = first; c < first + 3; ++c) {
             worst = now.motions[c].largest > now.motions[worst].largest ? c : worst;
         }
-        const DocumentUnit& unit = unit_of_motion(worst);
+        const gum::DocumentUnit& unit = unit_of_motion(worst);
         const std::string gap = first == 0 ? " " : "";
         text += (first == 0 ? "" : ", and at most ") + U_text(now.motions[worst].largest, unit) + gap + unit.print +
                 " is to be expected for the " + (first == 0 ? "linear" : "angular") + " error motions (target " +

@@ -11,14 +11,15 @@ namespace {
 using engine::RotaryTableMeasurement;
 
 std::array<double, 3> millimetres(const Eigen::Vector3d& position) {
-    return {position[0] / k_mm.si, position[1] / k_mm.si, position[2] / k_mm.si};
+    return {position[0] / gum::k_mm.si, position[1] / gum::k_mm.si, position[2] / gum::k_mm.si};
 }
 
 std::array<std::array<double, 3>, 3> square_millimetres(const Eigen::Matrix3d& covariance) {
     std::array<std::array<double, 3>, 3> result{};
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) {
-            result[i][j] = covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) / (k_mm.si * k_mm.si);
+            result[i][j] =
+                covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) / (gum::k_mm.si * gum::k_mm.si);
         }
     }
     return result;
@@ -78,7 +79,7 @@ reports::StudyFigure bars_figure(const Setting& setting, const Expected& now, co
                           .x_label = "largest U in % of its target",
                           .bars = {}};
     for (std::size_t c = 0; c < 6; ++c) {
-        const DocumentUnit& unit = unit_of_motion(c);
+        const gum::DocumentUnit& unit = unit_of_motion(c);
         const auto add = [&](const std::string& label, const Motion& motion) {
             const std::string gap = c < 3 ? " " : "";
             plot.bars.push_back({label, 100.0 * motion.largest / target_of(setting, c),

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "app/document_units.h"
 #include "engine/job/rotary_table_job.h"
 #include "engine/joint_adjustment.h"
 #include "engine/rotary_table_measurement.h"
+#include "gum/rotary_table/document_units.h"
 
 /// What a plan expects of the parameters that standards name: ranges, location of the axis, E, R and A.
 namespace gumcert::app::plan {
@@ -19,7 +19,7 @@ struct PlannedParameter {
     std::optional<double> U;
     std::optional<double> target;  ///< [m] or [rad]
 
-    [[nodiscard]] const DocumentUnit& unit() const { return angular ? k_arcsec : k_um; }
+    [[nodiscard]] const gum::DocumentUnit& unit() const { return angular ? gum::k_arcsec : gum::k_um; }
     [[nodiscard]] bool missed() const { return target && !(U && *U <= *target); }
 };
 

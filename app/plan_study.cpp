@@ -89,10 +89,10 @@ void note_limits(Setting& setting) {
     const bool stated = table.u_linear > 0.0 && table.u_axial > 0.0 && table.u_tilt > 0.0;
     setting.notes.push_back(
         "The evaluation will estimate the repeatability of the table. The plan rests on " +
-        gum::round_significant(std::sqrt(setting.stochastic.variance_linear) / k_um.si, 3) + " µm linear, " +
-        gum::round_significant(std::sqrt(setting.stochastic.variance_axial) / k_arcsec.si, 3) +
-        "″ about the axis and " + gum::round_significant(std::sqrt(setting.stochastic.variance_tilt) / k_arcsec.si, 3) +
-        "″ across it, " +
+        gum::round_significant(std::sqrt(setting.stochastic.variance_linear) / gum::k_um.si, 3) + " µm linear, " +
+        gum::round_significant(std::sqrt(setting.stochastic.variance_axial) / gum::k_arcsec.si, 3) +
+        "″ about the axis and " +
+        gum::round_significant(std::sqrt(setting.stochastic.variance_tilt) / gum::k_arcsec.si, 3) + "″ across it, " +
         (stated ? "the start values of the job."
                 : "of which the job does not state all: the others are those that an evaluation starts from. State the "
                   "repeatability that you expect of this table in table_repeatability."));
@@ -100,8 +100,8 @@ void note_limits(Setting& setting) {
 
 }  // namespace
 
-const DocumentUnit& unit_of_motion(std::size_t motion) {
-    return motion < 3 ? k_um : k_arcsec;
+const gum::DocumentUnit& unit_of_motion(std::size_t motion) {
+    return motion < 3 ? gum::k_um : gum::k_arcsec;
 }
 
 double target_of(const Setting& setting, std::size_t motion) {
@@ -405,7 +405,7 @@ std::optional<Proposal> propose(Setting& setting, const Expected& now, gum::Work
     if (proposal.candidates.positions.empty()) {
         throw gum::InputError(
             gum::Diagnostic{"GC-PLAN-0002", setting.job.files.front() + "#/plan/station_region",
-                            "no position of the region is at least " + plain(region.least_distance / k_mm.si) +
+                            "no position of the region is at least " + plain(region.least_distance / gum::k_mm.si) +
                                 " mm from every reflector at every angle",
                             "stations are proposed where they clear the turning fixture and the rotary axis",
                             "state a larger region or a smaller least_distance_mm", gum::Severity::error});
@@ -417,8 +417,8 @@ std::optional<Proposal> propose(Setting& setting, const Expected& now, gum::Work
     proposal.angles_of_search = searched.angles.size();
     if (proposal.candidates.step > region.step) {
         setting.notes.push_back("The region has more positions than are compared: the grid is " +
-                                gum::round_significant(proposal.candidates.step / k_mm.si, 3) + " mm instead of " +
-                                plain(region.step / k_mm.si) + " mm.");
+                                gum::round_significant(proposal.candidates.step / gum::k_mm.si, 3) + " mm instead of " +
+                                plain(region.step / gum::k_mm.si) + " mm.");
     }
     if (stride > 1) {
         setting.notes.push_back("Stations were compared at every " + std::to_string(stride) +

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "app/document_units.h"
 #include "app/evaluate_job.h"
 #include "app/plan_parameters.h"
 #include "engine/job/rotary_table_job.h"
@@ -18,6 +17,7 @@
 #include "engine/station_proposal.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/progress.h"
+#include "gum/rotary_table/document_units.h"
 #include "gum/worker_threads.h"
 
 /// What `gumcert plan` computes. Documents and data files are made from it by plan_document.h and plan_data.h.
@@ -44,7 +44,7 @@ struct Motion {
     std::size_t worst_angle = 0;
 };
 
-[[nodiscard]] const DocumentUnit& unit_of_motion(std::size_t motion);
+[[nodiscard]] const gum::DocumentUnit& unit_of_motion(std::size_t motion);
 /// Expanded uncertainty wanted, [m] or [rad].
 [[nodiscard]] double target_of(const Setting& setting, std::size_t motion);
 

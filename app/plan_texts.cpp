@@ -10,12 +10,12 @@ namespace gumcert::app::plan {
 namespace {
 
 std::string mm_text(double value) {
-    return gum::round_to_quantum(value / k_mm.si, 1);
+    return gum::round_to_quantum(value / gum::k_mm.si, 1);
 }
 
 }  // namespace
 
-std::string U_text(double U, const DocumentUnit& unit) {
+std::string U_text(double U, const gum::DocumentUnit& unit) {
     return U > 0.0 ? gum::round_to_uncertainty(0.0, U / unit.si, 2, gum::RoundingMode::up).U : "0";
 }
 

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "app/document_units.h"
+#include "gum/rotary_table/document_units.h"
 
 /// Numbers as the documents of `gumcert plan` print them.
 namespace gumcert::app::plan {
 
 /// Rounded up, so that a printed U that is within a target is so (JCGM 100:2008, 7.2.6).
-[[nodiscard]] std::string U_text(double U, const DocumentUnit& unit);
+[[nodiscard]] std::string U_text(double U, const gum::DocumentUnit& unit);
 /// A stated number without the last digits of its conversion: 0.3, not 0.30000000000000004.
 [[nodiscard]] std::string plain(double value);
 [[nodiscard]] std::string ratio_text(double ratio);

@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "app/record_parts.h"
 #include "encoding/sha2.h"
 #include "json/canonical_json.h"
 #include "json/json_pointer.h"
+#include "reports/record/make/record_parts.h"
 #include "text/lists.h"
 #include "text/utf8.h"
 

@@ -9,11 +9,9 @@
 #include <vector>
 
 #include "app/comparison_print.h"
-#include "app/document_units.h"
 #include "app/method_correlation.h"
 #include "app/method_record.h"
 #include "app/method_side.h"
-#include "app/record_parts.h"
 #include "engine/job/reference_budget.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
@@ -21,6 +19,8 @@
 #include "gum/rounding.h"
 #include "gum/type_a.h"
 #include "gum/type_b.h"
+#include "reports/record/make/record_parts.h"
+#include "reports/record/make/rotary_table/document_units.h"
 
 namespace gumcert::app {
 
@@ -144,7 +144,7 @@ gum::MethodComparison method_comparison(const RotaryTableJob& job, const gum::Qu
         const ReferencePoint& at = points[i];
         const gum::ResultUncertainty& of_reference = side.uncertainty[i];
         rows.push_back(static_cast<Eigen::Index>(3 * at.angle + at.direction));
-        const Reported table = reported(displacement.budget, rows.back(), k_um);
+        const reports::Reported table = reports::reported(displacement.budget, rows.back(), gum::k_um);
         comparison.points.push_back({.direction = k_directions[at.direction],
                                      .angle_deg = job.measurement.angles_deg[at.angle],
                                      .position = job.measurement.angles_deg[at.angle],
@@ -157,7 +157,7 @@ gum::MethodComparison method_comparison(const RotaryTableJob& job, const gum::Qu
                                      .reference_u = of_reference.u,
                                      .reference_U = of_reference.U,
                                      .reference_k = of_reference.k,
-                                     .reference_nu = finite_or_none(of_reference.degrees_of_freedom)});
+                                     .reference_nu = reports::finite_or_none(of_reference.degrees_of_freedom)});
     }
     comparison.covariance = displacement.covariance.of(rows) / (gum::k_micrometre * gum::k_micrometre);
     comparison.correlation_unknown = job.reference->correlation == ReferenceCorrelation::unknown;

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "app/record_parts.h"
 #include "gum/quantity/unit.h"
 #include "reports/comparison_sections.h"
+#include "reports/record/make/record_parts.h"
 #include "reports/record/record_kinds.h"
 #include "text/lists.h"
 

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "app/kinds.h"
-#include "app/record_parts.h"
 #include "engine/job/job_files.h"
 #include "engine/job/job_kinds.h"
 #include "gum/coverage.h"
 #include "gum/type_a.h"
 #include "reports/certificate_builder.h"
 #include "reports/document_kinds.h"
+#include "reports/record/make/record_parts.h"
 #include "reports/record/reported_result.h"
 
 // A kind of jobs that the program does not have, added with public headers alone: the mean of repeated readings in
@@ -62,13 +62,13 @@ inline app::Evaluation evaluate_toy_job(const app::EvaluationTask& task) {
     const double k = gum::coverage_factor(k_coverage_probability, mean.degrees_of_freedom);
 
     app::Evaluation evaluation;
-    evaluation.record = app::record_head(std::string(k_toy_kind),
-                                         {.title = job.title,
-                                          .coverage_probability = k_coverage_probability,
-                                          .document = job.document,
-                                          .warnings = job.warnings,
-                                          .notes = {}},
-                                         nlohmann::json::object(), task.held_files(job.files));
+    evaluation.record = reports::record_head(std::string(k_toy_kind),
+                                             {.title = job.title,
+                                              .coverage_probability = k_coverage_probability,
+                                              .document = job.document,
+                                              .warnings = job.warnings,
+                                              .notes = {}},
+                                             nlohmann::json::object(), task.held_files(job.files));
     reports::Result result;
     result.name = "mean";
     result.description = "mean of the readings";

@@ -10,8 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "app/circle_closure_findings.h"
-#include "app/circle_closure_record.h"
 #include "app/compared_job_side.h"
 #include "app/evaluate_job.h"
 #include "app/recompute_record.h"
@@ -19,6 +17,8 @@
 #include "engine/job/file_source.h"
 #include "gum/circle_closure/evaluate_circle_closure.h"
 #include "gum/coverage.h"
+#include "reports/record/make/circle_closure/circle_closure_findings.h"
+#include "reports/record/make/circle_closure/circle_closure_record.h"
 #include "reports/record_sentences.h"
 
 namespace gumcert::app {
@@ -236,7 +236,7 @@ TEST(CircleClosureFindings, HoldAnAccreditedCertificateBack) {
         record.certificate.emplace();
         record.certificate->data.status = status;
         std::map<std::string, certificate::FindingSeverity> all;
-        for (const certificate::Finding& finding : circle_closure_findings(record)) {
+        for (const certificate::Finding& finding : reports::circle_closure_findings(record)) {
             all.emplace(finding.id, finding.severity);
         }
         return all;
@@ -273,7 +273,9 @@ TEST(CircleClosureRecord, FalseAlarmsAreRare) {
             files_of({.steps = 6, .repetitions = 2, .seed = 100 + static_cast<std::uint64_t>(campaign)},
                      R"(, "repeatability": {"u": 0.2})"),
             "job.json");
-        alarms += circle_closure_record(job, gum::evaluate_circle_closure(job, 1), {}, "").diagnostics.empty() ? 0 : 1;
+        alarms += reports::circle_closure_record(job, gum::evaluate_circle_closure(job, 1), {}, "").diagnostics.empty()
+                      ? 0
+                      : 1;
     }
     EXPECT_LE(alarms, 4);  // four tests at 0.001 each: 0.8 are to be expected
 }

@@ -1,0 +1,154 @@
+#include "reports/record/make/rotary_table/rotary_findings.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <utility>
+
+#include "engine/group_notes.h"
+#include "gum/coverage.h"
+#include "gum/rounding.h"
+#include "reports/record/make/remark.h"
+
+namespace gumcert::reports {
+
+namespace {
+
+using certificate::FindingSeverity;
+using reports::AdjustmentSummary;
+using reports::EvaluationRecord;
+using reports::RotaryTable;
+
+constexpr double k_refuted = 0.001;  // p-value below which nobody takes the residuals for chance
+constexpr const char* k_implausible_angle = "GC-ANGLE-0001";
+constexpr const char* k_fixture_component = "fixture CMM";  // as a record names it
+constexpr double k_most_left_out = 0.05;  // of all distances: a twentieth is no longer single gross errors
+
+std::string chi_square_of(const AdjustmentSummary& a) {
+    return "chi-square is " + a.printed.chi_square + " with " + std::to_string(a.degrees_of_freedom) +
+           " degrees of freedom";
+}
+
+Remark refuted(const AdjustmentSummary& a) {
+    return {.message = {.code = "GC-ADJUST-0010",
+                        .where = "adjustment",
+                        .what = chi_square_of(a) + " (p-value " + a.printed.p_value +
+                                "): the residuals of the distances refute the stated uncertainties",
+                        .rule = "results are certified when the residuals do not refute the uncertainties that they "
+                                "rest on: the p-value of the global test is at least 0.001",
+                        .action = "Correct the uncertainties of the distances, or look for what the model leaves out: "
+                                  "drift, a moved station, a table that does not come back. "
+                                  "\"variance_components\": \"estimate\" takes the uncertainty from the residuals.",
+                        .severity = gum::Severity::warning},
+            .id = "G01",
+            .clause = "ISO/IEC 17025:2017, 7.7.1",
+            .accredited = FindingSeverity::critical};
+}
+
+Remark overstated(const AdjustmentSummary& a) {
+    return {.message = {.code = "GC-ADJUST-0011",
+                        .where = "adjustment",
+                        .what = chi_square_of(a) +
+                                ": the residuals of the distances are far smaller than the stated uncertainties",
+                        .rule = "by chance alone this happens less than once in a thousand adjustments",
+                        .action = "See whether the uncertainties hold what all distances have in common; such a part "
+                                  "is no scatter.",
+                        .severity = gum::Severity::note},
+            .id = "G02",
+            .clause = "ISO/IEC 17025:2017, 7.7.1",
+            .severity = FindingSeverity::information,
+            .accredited = FindingSeverity::information};
+}
+
+Remark left_out(std::size_t count, std::int64_t all) {
+    const double share = static_cast<double>(count) / static_cast<double>(all);
+    return {.message = {.code = "GC-ADJUST-0012",
+                        .where = "outlying distances",
+                        .what = std::to_string(count) + " of " + std::to_string(all) + " distances, " +
+                                gum::percent(share) + " %, are left out as outlying",
+                        .rule = "so many are no single gross errors: what is left out belongs to the measurement, and "
+                                "to its uncertainty",
+                        .action = "Look for the cause that they have in common, or correct the uncertainty of the "
+                                  "distances that makes them outlying.",
+                        .severity = gum::Severity::warning},
+            .id = "G03",
+            .clause = "ISO/IEC 17025:2017, 7.7.1",
+            .accredited = FindingSeverity::critical};
+}
+
+/// The component of the fixture that the distances give, where it refutes the stated covariance from above. The message
+/// of the adjustment itself warns of smaller doubts, and of both sides.
+std::vector<Remark> refuted_fixture(const RotaryTable& rotary) {
+    std::vector<Remark> remarks;
+    for (const reports::VarianceComponent& c : rotary.variance_components) {
+        if (c.name != k_fixture_component || c.used || !c.estimated || !c.stated || !c.degrees_of_freedom ||
+            *c.stated <= 0.0) {
+            continue;
+        }
+        const double nu = *c.degrees_of_freedom;
+        const double ratio = c.value / *c.stated;
+        if (nu <= 0.0 || gum::chi_square_upper_tail(nu * ratio * ratio, nu) >= k_refuted) {
+            continue;
+        }
+        remarks.push_back(
+            {.message = {.code = "GC-VARIANCE-0003",
+                         .where = "variance components, fixture CMM",
+                         .what = "the distances refute the stated covariance of the fixture: they give a "
+                                 "standard uncertainty of " +
+                                 c.printed.value + " µm for a coordinate, and " + c.printed_stated + " µm is stated",
+                         .rule = {},
+                         .action = "Measure the fixture again, or correct the uncertainty of its "
+                                   "coordinates and evaluate anew."},
+             .id = "G05",
+             .clause = "ISO/IEC 17025:2017, 7.7.1",
+             .accredited = FindingSeverity::critical});
+    }
+    return remarks;
+}
+
+std::vector<Remark> remarks_of(const EvaluationRecord& record) {
+    std::vector<Remark> remarks;
+    if (!record.rotary) {
+        return remarks;
+    }
+    const RotaryTable& rotary = *record.rotary;
+    const AdjustmentSummary& a = rotary.adjustment;
+    const auto degrees = static_cast<double>(a.degrees_of_freedom);
+    if (a.degrees_of_freedom > 0 && a.p_value < k_refuted) {
+        remarks.push_back(refuted(a));
+    } else if (a.degrees_of_freedom > 0 && 1.0 - gum::chi_square_upper_tail(a.chi_square, degrees) < k_refuted) {
+        remarks.push_back(overstated(a));
+    }
+    const auto removed = static_cast<std::size_t>(std::count_if(
+        rotary.flagged.begin(), rotary.flagged.end(), [](const reports::FlaggedDistance& d) { return d.removed; }));
+    const std::int64_t distances = static_cast<std::int64_t>(rotary.reliability.size());
+    if (distances > 0 && static_cast<double>(removed) > k_most_left_out * static_cast<double>(distances)) {
+        remarks.push_back(left_out(removed, distances));
+    }
+    return remarks;
+}
+
+}  // namespace
+
+std::vector<gum::Diagnostic> rotary_remarks(const EvaluationRecord& record) {
+    return messages_of(remarks_of(record));
+}
+
+std::vector<certificate::Finding> rotary_findings(const EvaluationRecord& record) {
+    std::vector<Remark> remarks = remarks_of(record);
+    for (const gum::Diagnostic& message : record.diagnostics) {
+        if (record.rotary && (message.code == engine::k_suspicious_group || message.code == k_implausible_angle)) {
+            remarks.push_back({.message = message,
+                               .id = "G04",
+                               .clause = "ISO/IEC 17025:2017, 7.7.1",
+                               .accredited = FindingSeverity::critical});
+        }
+    }
+    if (record.rotary) {
+        std::ranges::move(refuted_fixture(*record.rotary), std::back_inserter(remarks));
+    }
+    return findings_of(std::move(remarks), record);
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,110 @@
+#include "reports/record/make/rotary_table/rotary_findings.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/group_notes.h"
+#include "tests/support/sample_certificate.h"
+#include "tests/support/sample_record.h"
+
+namespace gumcert::reports {
+namespace {
+
+using certificate::Finding;
+using certificate::FindingSeverity;
+using reports::EvaluationRecord;
+
+EvaluationRecord record_with(double chi_square, double p_value, std::size_t removed = 0) {
+    EvaluationRecord record = test::sample_record();
+    reports::RotaryTable& rotary = *record.rotary;
+    rotary.adjustment.chi_square = chi_square;
+    rotary.adjustment.p_value = p_value;
+    rotary.adjustment.degrees_of_freedom = 100;
+    rotary.reliability.resize(100);
+    rotary.flagged.assign(removed, {});
+    for (reports::FlaggedDistance& distance : rotary.flagged) {
+        distance.removed = true;
+    }
+    record.certificate.emplace();
+    record.certificate->data.status = "accredited";
+    return record;
+}
+
+std::vector<std::string> ids(const EvaluationRecord& record) {
+    std::vector<std::string> all;
+    for (const Finding& finding : rotary_findings(record)) {
+        all.push_back(finding.id);
+    }
+    return all;
+}
+
+using Ids = std::vector<std::string>;
+
+TEST(RotaryFindings, ResidualsThatRefuteTheUncertaintiesBlockTheCertificate) {
+    EXPECT_EQ(ids(record_with(100.0, 0.48)), Ids());
+    EXPECT_EQ(ids(record_with(145.0, 0.0022)), Ids());
+    EXPECT_EQ(ids(record_with(160.0, 1.3e-4)), Ids{"G01"});
+    EvaluationRecord record = record_with(160.0, 1.3e-4);
+    EXPECT_EQ(rotary_findings(record).front().severity, FindingSeverity::critical);
+    record.certificate->data.status = "not_accredited";
+    EXPECT_EQ(rotary_findings(record).front().severity, FindingSeverity::major);
+    record.certificate.reset();
+    ASSERT_EQ(rotary_remarks(record).size(), 1U) << "the message stands without a certificate, too";
+    EXPECT_EQ(rotary_remarks(record).front().code, "GC-ADJUST-0010");
+}
+
+TEST(RotaryFindings, ResidualsThatAreFarTooSmallAreTold) {
+    EXPECT_EQ(ids(record_with(70.0, 0.99)), Ids());
+    EXPECT_EQ(ids(record_with(10.0, 1.0)), Ids{"G02"});
+    EXPECT_EQ(rotary_findings(record_with(10.0, 1.0)).front().severity, FindingSeverity::information);
+}
+
+TEST(RotaryFindings, ManyDistancesLeftOutAreNoGrossErrors) {
+    EXPECT_EQ(ids(record_with(100.0, 0.48, 5)), Ids());
+    EXPECT_EQ(ids(record_with(100.0, 0.48, 6)), Ids{"G03"});
+    EvaluationRecord reported_only = record_with(100.0, 0.48, 6);
+    for (reports::FlaggedDistance& distance : reported_only.rotary->flagged) {
+        distance.removed = false;
+    }
+    EXPECT_EQ(ids(reported_only), Ids());
+}
+
+TEST(RotaryFindings, SuspiciousGroupsBlockAnAccreditedCertificate) {
+    EvaluationRecord record = record_with(100.0, 0.48);
+    record.diagnostics.push_back(
+        {.code = engine::k_suspicious_group, .where = "station P1", .what = "drift", .rule = "r", .action = "a"});
+    EXPECT_EQ(ids(record), Ids{"G04"});
+    EXPECT_EQ(rotary_findings(record).front().severity, FindingSeverity::critical);
+    EXPECT_EQ(rotary_findings(record).front().where, "station P1");
+    record.certificate->data.status = "not_accredited";
+    EXPECT_EQ(rotary_findings(record).front().severity, FindingSeverity::major);
+}
+
+TEST(RotaryFindings, ARefutedFixtureBlocksAnAccreditedCertificate) {
+    EvaluationRecord record = record_with(100.0, 0.48);
+    reports::VarianceComponent fixture;
+    fixture.name = "fixture CMM";
+    fixture.value = 1.9;
+    fixture.stated = 1.0;
+    fixture.estimated = true;
+    fixture.used = false;
+    fixture.degrees_of_freedom = 12.0;  // 12 · 1.9² = 43.3: p = 2e-5
+    record.rotary->variance_components = {fixture};
+    EXPECT_EQ(ids(record), Ids{"G05"});
+    EXPECT_EQ(rotary_findings(record).front().severity, FindingSeverity::critical);
+
+    record.rotary->variance_components.front().value = 1.6;  // 30.7: p = 2e-3
+    EXPECT_EQ(ids(record), Ids());
+    record.rotary->variance_components.front().value = 0.3;  // stated on the safe side
+    EXPECT_EQ(ids(record), Ids());
+    record.rotary->variance_components.front() = fixture;
+    record.rotary->variance_components.front().used = true;  // estimated, and in the weights
+    EXPECT_EQ(ids(record), Ids());
+}
+
+TEST(RotaryFindings, OfOtherRecordsAreNone) {
+    EXPECT_TRUE(rotary_findings(EvaluationRecord()).empty());
+    EXPECT_TRUE(rotary_remarks(EvaluationRecord()).empty());
+}
+
+}  // namespace
+}  // namespace gumcert::reports
