@@ -4,9 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "app/plan_document.h"
-#include "app/plan_study.h"
+#include "engine/job/rotary_table_job.h"
+#include "gum/rotary_table/studies/plan_study.h"
 #include "gum/worker_threads.h"
+#include "reports/studies/plan_document.h"
 
 namespace gumcert::app {
 
@@ -16,16 +17,21 @@ reports::StudyDocument plan_job(const std::filesystem::path& job, unsigned threa
             progress(text);
         }
     };
-    plan::Setting setting = plan::setting_of(job, progress);
+    const engine::RotaryTableJob read = engine::read_rotary_table_job(job, engine::JobUse::plan);
+    gum::plan::Setting setting = gum::plan::setting_of(read, read.plan.value_or(gum::PlanRequest{}), progress);
     gum::WorkerThreads workers(threads);
     report("expected uncertainties");
-    const plan::Expected now = plan::expect(setting, setting.layout);
+    const gum::plan::Expected now = gum::plan::expect(setting, setting.layout);
     report("budget by source");
-    const plan::SourceShares shares = plan::source_shares(setting, now.motions);
+    const gum::plan::SourceShares shares = gum::plan::source_shares(setting, now.motions);
     report("one thing changed at a time");
-    const std::vector<plan::Variant> variants = plan::variants_of(setting, workers);
-    const std::optional<plan::Proposal> proposal = plan::propose(setting, now, workers, progress);
-    return plan::document_of(std::move(setting), job.filename().string(), now, shares, variants, proposal);
+    const std::vector<gum::plan::Variant> variants = gum::plan::variants_of(setting, workers);
+    const std::optional<gum::plan::Proposal> proposal = gum::plan::propose(setting, now, workers, progress);
+    return reports::plan::document_of({.name = job.filename().string(),
+                                       .title = read.title,
+                                       .coverage_probability = read.coverage_probability,
+                                       .warnings = read.warnings},
+                                      std::move(setting), now, shares, variants, proposal);
 }
 
 }  // namespace gumcert::app

@@ -6,9 +6,9 @@
 
 # The layers from the foundation upwards. An edge may only point to a layer further left, so there are no cycles.
 set(GUMCERT_LAYER_FOLDERS text encoding gum/quantity json gum/expression gum gum/comparison certificate engine gum/budget
-                          gum/rotary_table gum/circle_closure engine/job reports/record
-                          reports/record/make reports/record/make/rotary_table reports/record/make/circle_closure
-                          reports reports/dcc signing app app/cli)
+                          gum/rotary_table gum/circle_closure gum/rotary_table/studies
+                          engine/job reports/record reports/record/make reports/record/make/rotary_table
+                          reports/record/make/circle_closure reports reports/studies reports/dcc signing app app/cli)
 
 # Our own layers whose headers a layer may include and whose library it may link.
 set(GUMCERT_EDGES_text)
@@ -23,8 +23,9 @@ set(GUMCERT_EDGES_engine         text gum/quantity)
 set(GUMCERT_EDGES_gum_budget     text gum/quantity gum/expression gum engine)
 set(GUMCERT_EDGES_gum_rotary_table text gum/quantity gum engine gum/budget)
 set(GUMCERT_EDGES_gum_circle_closure gum/quantity gum engine gum/budget)
+set(GUMCERT_EDGES_gum_rotary_table_studies text gum/quantity gum engine gum/rotary_table)
 set(GUMCERT_EDGES_engine_job     text encoding gum/quantity json gum/expression gum gum/comparison certificate engine
-                                 gum/budget gum/rotary_table gum/circle_closure)
+                                 gum/budget gum/rotary_table gum/circle_closure gum/rotary_table/studies)
 set(GUMCERT_EDGES_reports_record text encoding gum/quantity json gum certificate)
 set(GUMCERT_EDGES_reports_record_make text encoding gum/quantity json gum certificate reports/record)
 set(GUMCERT_EDGES_reports_record_make_rotary_table text gum/quantity gum engine gum/rotary_table engine/job certificate
@@ -32,13 +33,13 @@ set(GUMCERT_EDGES_reports_record_make_rotary_table text gum/quantity gum engine 
 set(GUMCERT_EDGES_reports_record_make_circle_closure text gum/quantity gum gum/circle_closure engine/job certificate
                                  reports/record reports/record/make)
 set(GUMCERT_EDGES_reports        text gum/quantity json gum certificate reports/record)
+set(GUMCERT_EDGES_reports_studies text gum/quantity json gum engine gum/rotary_table gum/rotary_table/studies reports)
 set(GUMCERT_EDGES_reports_dcc    text encoding gum/quantity json gum certificate reports/record reports)
 set(GUMCERT_EDGES_signing        text encoding gum/quantity json)
 set(GUMCERT_EDGES_app            text encoding gum/quantity json gum/expression gum gum/comparison certificate engine
-                                 gum/budget gum/rotary_table gum/circle_closure engine/job reports/record
-                          reports/record/make reports/record/make/rotary_table reports/record/make/circle_closure
-                          reports reports/dcc
-                                 signing)
+                                 gum/budget gum/rotary_table gum/circle_closure gum/rotary_table/studies
+                                 engine/job reports/record reports/record/make reports/record/make/rotary_table
+                                 reports/record/make/circle_closure reports reports/studies reports/dcc signing)
 set(GUMCERT_EDGES_app_cli        text encoding gum/quantity certificate reports/record reports/record/make reports signing app)
 
 # Headers from outside that a layer may include: a first folder (Eigen) or one file (cholmod.h). The standard library is
@@ -54,6 +55,7 @@ set(GUMCERT_THIRD_PARTY_engine         Eigen ceres glog)
 set(GUMCERT_THIRD_PARTY_gum_budget     Eigen)
 set(GUMCERT_THIRD_PARTY_gum_rotary_table Eigen)
 set(GUMCERT_THIRD_PARTY_gum_circle_closure Eigen)
+set(GUMCERT_THIRD_PARTY_gum_rotary_table_studies Eigen)
 set(GUMCERT_THIRD_PARTY_engine_job     Eigen nlohmann)
 set(GUMCERT_THIRD_PARTY_certificate)
 set(GUMCERT_THIRD_PARTY_reports_record nlohmann)
@@ -62,6 +64,7 @@ set(GUMCERT_THIRD_PARTY_reports_record_make_rotary_table Eigen nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_record_make_circle_closure Eigen nlohmann)
 set(GUMCERT_THIRD_PARTY_reports        kainjow nlohmann qpdf
                                        fcntl.h poll.h spawn.h sys/wait.h unistd.h)  # PDF is set by a program of its own
+set(GUMCERT_THIRD_PARTY_reports_studies nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_dcc    libxml nlohmann)
 set(GUMCERT_THIRD_PARTY_signing        libxml nlohmann openssl qpdf xmlsec
                                        fcntl.h poll.h spawn.h sys/wait.h unistd.h)  # a signer may be a program

@@ -15,12 +15,13 @@
 #include "engine/job/file_source.h"
 #include "engine/job/job_kind.h"
 #include "engine/job/rotary_table_exclusion.h"
-#include "engine/line_of_sight.h"
 #include "engine/rotary_table_measurement.h"
 #include "gum/coverage_choice.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/units.h"
 #include "gum/rotary_table/rotary_table_request.h"
+#include "gum/rotary_table/studies/plan_request.h"
+#include "gum/rotary_table/studies/simulation_request.h"
 
 namespace gumcert::engine {
 
@@ -31,57 +32,6 @@ struct StationAir {
     std::optional<double> temperature_degC;
     std::optional<double> pressure_hPa;
     std::optional<double> humidity_percent;
-};
-
-/// Truth and noise of simulated campaigns (`gumcert simulate`); defaults are those of the source paper, section 4.
-struct SimulationRequest {
-    std::size_t runs = 100;
-    std::uint64_t seed = 1;
-    double set_up_offset = 10e-6;                    ///< both offsets of the fixture across the axis, [m]
-    double set_up_tilt = 20.0 * gum::k_arcsecond;    ///< both tilts, [rad]
-    double error_linear = 10e-6;                     ///< error motions uniform within ± this, [m]
-    double error_angular = 20.0 * gum::k_arcsecond;  ///< [rad]
-    /// Repeatability of the simulated table; nothing: as `table_repeatability` of the job states it.
-    std::optional<TableRepeatability> table_repeatability;
-    std::size_t outliers = 0;               ///< distances with a planted error in every campaign
-    double outlier_size = 3e-6;             ///< its absolute value, sign at random, [m]
-    std::vector<std::size_t> angle_counts;  ///< studies over full turns of these many angles; empty: angles of the job
-};
-
-/// Expanded uncertainties wanted of the parameters of the table, [m] and [rad]; nothing: none is wanted.
-struct ParameterTargets {
-    std::optional<double> range_linear, range_angular;          ///< of the six error ranges
-    std::optional<double> location_linear, location_angular;    ///< of the axis average line
-    std::optional<double> systematic, repeatability, accuracy;  ///< E, R and A of ISO 230-2, [rad]
-};
-
-/// What is known of the lines of sight, as the job states it.
-struct SightStatement {
-    struct Facing {
-        std::string reflector, where;
-        Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit vector in the fixture
-    };
-    std::vector<Obstacle> obstacles;
-    std::vector<std::string> obstacles_where;  ///< for messages
-    double reflector_diameter = 0.0;           ///< [m]; 0: not stated
-    std::optional<double> acceptance_angle;    ///< [rad]
-    std::vector<Facing> facing;
-};
-
-/// A layout that is not measured yet, and what may be changed in it (`gumcert plan`).
-struct PlanRequest {
-    std::vector<double> angles_deg;  ///< ascending; empty: those of the lengths file
-    bool both_senses = false;
-    bool dead_path_per_reflector = false;            ///< else one a station
-    double target_linear = 1e-6;                     ///< expanded uncertainty wanted of the linear error motions, [m]
-    double target_angular = 1.0 * gum::k_arcsecond;  ///< and of the angular ones, [rad]
-    /// Box in which stations may stand, corners in T, [m]; nothing: stations are not moved.
-    std::optional<std::array<Eigen::Vector3d, 2>> station_region;
-    double station_step = 0.2;    ///< grid of candidate positions in the box, [m]
-    double least_distance = 0.2;  ///< of a station from every reflector at every angle, [m]
-    ParameterTargets parameter_targets;
-    bool keep_met_targets = false;  ///< no station is moved where that makes a target missed that was met
-    SightStatement sight;
 };
 
 /// What is done with a job: only an evaluation needs measured lengths.
@@ -103,8 +53,8 @@ struct RotaryTableJob : gum::RotaryTableRequest {
     std::string reference_budget_file;
     /// The fixture covariance is that of the source paper, eqs. (10) to (12), on purpose.
     bool source_paper_fixture = false;
-    std::optional<SimulationRequest> simulation;
-    std::optional<PlanRequest> plan;
+    std::optional<gum::SimulationRequest> simulation;
+    std::optional<gum::PlanRequest> plan;
     std::vector<Exclusion> exclusions;         ///< what the laboratory left out; not in `measurement`
     bool has_lengths = true;                   ///< false: a layout for `plan` or `simulate` without measured lengths
     std::vector<StationAir> air;               ///< per station; empty without an environment file

@@ -136,7 +136,7 @@ void read_angles(const JsonObject& plan, std::vector<double>& angles) {
     angles = std::move(*numbers);
 }
 
-void read_region(const JsonObject& plan, PlanRequest& request) {
+void read_region(const JsonObject& plan, gum::PlanRequest& request) {
     const auto region = plan.optional_object("station_region", k_region_keys);
     if (!region) {
         return;
@@ -213,7 +213,7 @@ void read_list(const JsonDocument& document, const JsonObject& object, std::stri
     }
 }
 
-void read_cylinder(const JsonObject& object, SightStatement& sight) {
+void read_cylinder(const JsonObject& object, gum::SightStatement& sight) {
     NumberRange radius_range = k_station_coordinate;
     radius_range.low = 0.0;
     radius_range.low_open = true;
@@ -231,7 +231,7 @@ void read_cylinder(const JsonObject& object, SightStatement& sight) {
     }
 }
 
-void read_box(const JsonObject& object, SightStatement& sight) {
+void read_box(const JsonObject& object, gum::SightStatement& sight) {
     Obstacle obstacle;
     const auto name = object.required_name("name");
     bool is_whole = name.has_value();
@@ -251,7 +251,7 @@ void read_box(const JsonObject& object, SightStatement& sight) {
     }
 }
 
-void read_facing(const JsonObject& object, SightStatement& sight) {
+void read_facing(const JsonObject& object, gum::SightStatement& sight) {
     const auto reflector = object.required_name("reflector");
     const auto direction = object.required_numbers("direction", 3, between(-1e6, 1e6, ""));
     if (!reflector || !direction) {
@@ -267,7 +267,8 @@ void read_facing(const JsonObject& object, SightStatement& sight) {
     sight.facing.push_back({*reflector, object.where("reflector"), vector.normalized()});
 }
 
-void read_sight(const JsonDocument& document, const JsonObject& plan, SightStatement& sight, ProblemList& problems) {
+void read_sight(const JsonDocument& document, const JsonObject& plan, gum::SightStatement& sight,
+                ProblemList& problems) {
     const auto object = plan.optional_object("sight", k_sight_keys);
     if (!object) {
         return;
@@ -297,7 +298,7 @@ void read_sight(const JsonDocument& document, const JsonObject& plan, SightState
     }
 }
 
-void read_targets(const JsonObject& plan, PlanRequest& request) {
+void read_targets(const JsonObject& plan, gum::PlanRequest& request) {
     const auto targets = plan.optional_object("targets", k_targets_keys);
     if (!targets) {
         return;
@@ -308,7 +309,7 @@ void read_targets(const JsonObject& plan, PlanRequest& request) {
     };
     request.target_linear = read("linear_um", false).value_or(request.target_linear);
     request.target_angular = read("angular_arcsec", true).value_or(request.target_angular);
-    ParameterTargets& parameters = request.parameter_targets;
+    gum::ParameterTargets& parameters = request.parameter_targets;
     parameters.range_linear = read("range_linear_um", false);
     parameters.range_angular = read("range_angular_arcsec", true);
     parameters.location_linear = read("location_um", false);
@@ -320,9 +321,9 @@ void read_targets(const JsonObject& plan, PlanRequest& request) {
 
 }  // namespace
 
-void check_facing(const PlanRequest& plan, const std::vector<std::string>& reflectors, ProblemList& problems) {
+void check_facing(const gum::PlanRequest& plan, const std::vector<std::string>& reflectors, ProblemList& problems) {
     std::vector<std::string_view> seen;
-    for (const SightStatement::Facing& facing : plan.sight.facing) {
+    for (const gum::SightStatement::Facing& facing : plan.sight.facing) {
         if (std::find(reflectors.begin(), reflectors.end(), facing.reflector) == reflectors.end()) {
             problems.refuse(k_unknown_reflector, facing.where, "the reflector " + text::in_quotes(facing.reflector),
                             "is not in the coordinates file", "correct the name");
@@ -351,12 +352,12 @@ void warn_of_same_positions(const std::vector<double>& angles_deg, const std::st
     }
 }
 
-std::optional<SimulationRequest> read_simulation(const JsonObject& root, ProblemList& problems) {
+std::optional<gum::SimulationRequest> read_simulation(const JsonObject& root, ProblemList& problems) {
     const auto object = root.optional_object("simulation", k_simulation_keys);
     if (!object) {
         return std::nullopt;
     }
-    SimulationRequest request;
+    gum::SimulationRequest request;
     const auto length = [](const std::optional<double>& stated, double otherwise) {
         return stated ? *stated * k_micrometre : otherwise;
     };
@@ -397,14 +398,14 @@ std::optional<SimulationRequest> read_simulation(const JsonObject& root, Problem
     return request;
 }
 
-std::optional<PlanRequest> read_plan(const JsonDocument& document, const JsonObject& root, ProblemList& problems) {
+std::optional<gum::PlanRequest> read_plan(const JsonDocument& document, const JsonObject& root, ProblemList& problems) {
     const auto object = root.optional_object("plan", k_plan_keys);
     if (!object) {
         return std::nullopt;
     }
     constexpr std::array<std::pair<std::string_view, bool>, 2> k_senses{{{"one", false}, {"both", true}}};
     constexpr std::array<std::pair<std::string_view, bool>, 2> k_dead_paths{{{"station", false}, {"reflector", true}}};
-    PlanRequest request;
+    gum::PlanRequest request;
     read_angles(*object, request.angles_deg);
     warn_of_same_positions(request.angles_deg, object->where("angles_deg"), problems);
     request.both_senses = object->optional_choice("senses", k_senses).value_or(false);

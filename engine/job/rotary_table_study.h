@@ -16,15 +16,15 @@ namespace gumcert::engine {
 
 /// The key `simulation`.
 /// \return nothing when it is absent
-[[nodiscard]] std::optional<SimulationRequest> read_simulation(const JsonObject& root, ProblemList& problems);
+[[nodiscard]] std::optional<gum::SimulationRequest> read_simulation(const JsonObject& root, ProblemList& problems);
 
 /// The key `plan`.
 /// \return nothing when it is absent
-[[nodiscard]] std::optional<PlanRequest> read_plan(const JsonDocument& document, const JsonObject& root,
-                                                   ProblemList& problems);
+[[nodiscard]] std::optional<gum::PlanRequest> read_plan(const JsonDocument& document, const JsonObject& root,
+                                                        ProblemList& problems);
 
 /// Refuses directions of reflectors that the fixture does not have, or has twice.
-void check_facing(const PlanRequest& plan, const std::vector<std::string>& reflectors, ProblemList& problems);
+void check_facing(const gum::PlanRequest& plan, const std::vector<std::string>& reflectors, ProblemList& problems);
 
 /// Warns of angles that differ by full turns: 0° and 360° each get a pose of their own.
 /// \param angles_deg  ascending

@@ -114,14 +114,14 @@ inline void demand_consistent(const RotaryTableJob& job) {
                    (!job.plan->station_region ||
                     ((*job.plan->station_region)[1] - (*job.plan->station_region)[0]).minCoeff() >= 0.0),
                "a plan");
-        const SightStatement& sight = job.plan->sight;
+        const gum::SightStatement& sight = job.plan->sight;
         demand(sight.obstacles.size() == sight.obstacles_where.size() && sight.reflector_diameter >= 0.0 &&
                    sight.acceptance_angle.value_or(1.0) > 0.0,
                "lines of sight");
         for (const Obstacle& obstacle : sight.obstacles) {
             demand(obstacle.radius >= 0.0 && (obstacle.high - obstacle.low).minCoeff() > 0.0, "an obstacle");
         }
-        for (const SightStatement::Facing& facing : sight.facing) {
+        for (const gum::SightStatement::Facing& facing : sight.facing) {
             demand(std::abs(facing.direction.norm() - 1.0) < 1e-9, "where a reflector looks");
         }
     }

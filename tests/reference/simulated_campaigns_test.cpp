@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "app/campaign_draws.h"
-#include "app/simulation_study.h"
 #include "engine/campaign_layout.h"
 #include "engine/rotary_table_evaluation.h"
 #include "gum/propagation.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/units.h"
+#include "gum/rotary_table/studies/campaign_draws.h"
+#include "gum/rotary_table/studies/simulation_study.h"
 #include "gum/worker_threads.h"
 #include "tests/support/synthetic_campaign.h"
 
@@ -296,8 +296,8 @@ TEST(SimulatedCampaigns, DatumAloneGivesTheSetUpDifferencesOfThePapersSimulation
     for (const PaperCase& expected : {PaperCase{12, 0.1154, 0.1189}, PaperCase{36, 0.0671, 0.0715},
                                       PaperCase{72, 0.0504, 0.0480}, PaperCase{360, 0.0214, 0.0219}}) {
         const engine::RotaryTableMeasurement layout = note_layout(expected.angles);
-        const engine::SimulationRequest request;  // the defaults are those of the paper
-        const app::CampaignDraws draws(layout, request, {}, 1, expected.angles);
+        const gum::SimulationRequest request;  // the defaults are those of the paper
+        const gum::CampaignDraws draws(layout, request, {}, 1, expected.angles);
         double offset = 0.0;
         double tilt = 0.0;
         const std::size_t runs = expected.angles > 100 ? 100 : 400;
@@ -322,29 +322,29 @@ TEST(SimulatedCampaigns, DatumAloneGivesTheSetUpDifferencesOfThePapersSimulation
 // the paper's simulation measures is therefore its datum.
 TEST(SimulatedCampaigns, ExactDistancesGiveTheAssumedValuesInTheDatum) {
     gum::WorkerThreads workers(0);
-    engine::SimulationRequest request;
+    gum::SimulationRequest request;
     request.runs = 6;
     engine::RotaryTableMeasurement layout = note_layout(12);
     layout.table_repeatability = {engine::RepeatabilityMode::given, 0.3e-6, 5e-6, 1.7e-6};
     layout.estimate_length_noise = false;
-    const app::AngleStudy study =
-        app::study_layout(layout, request, layout.table_repeatability, k_coverage_probability, 0, workers);
+    const gum::AngleStudy study =
+        gum::study_layout(layout, request, layout.table_repeatability, k_coverage_probability, 0, workers);
     ASSERT_EQ(study.adjusted, 6U);
     ASSERT_TRUE(study.sequential);
     ASSERT_EQ(study.exact.evaluated[0], 6U);
     ASSERT_EQ(study.exact.evaluated[1], 6U);
-    for (std::size_t e = 0; e < app::k_estimators.size(); ++e) {
-        const bool joint = app::k_estimators[e].method == engine::AdjustmentMethod::joint;
-        const app::Tallies& tallies = study.exact.tallies[e];
-        const app::Tallies& datum = study.datum_only[e % 2];
+    for (std::size_t e = 0; e < gum::k_estimators.size(); ++e) {
+        const bool joint = gum::k_estimators[e].method == engine::AdjustmentMethod::joint;
+        const gum::Tallies& tallies = study.exact.tallies[e];
+        const gum::Tallies& datum = study.datum_only[e % 2];
         for (const std::size_t kind :
-             {app::k_linear_tally, app::k_angular_tally, app::k_offset_tally, app::k_tilt_tally}) {
+             {gum::k_linear_tally, gum::k_angular_tally, gum::k_offset_tally, gum::k_tilt_tally}) {
             // The sequential method is linear in set-up and error motions: a remainder of their squares stays.
             EXPECT_LT(tallies[kind].measurement_rms(), joint ? 1e-12 : 2e-8) << e << " " << kind;
             EXPECT_NEAR(tallies[kind].rms() / datum[kind].rms(), 1.0, joint ? 1e-5 : 1e-2) << e << " " << kind;
         }
         // With noise the measurement part is there, and the whole is their sum in squares.
-        const app::DifferenceTally& offset = study.noisy.tallies[e][app::k_offset_tally];
+        const gum::DifferenceTally& offset = study.noisy.tallies[e][gum::k_offset_tally];
         EXPECT_GT(offset.measurement_rms(), 1e-8);
         EXPECT_GT(offset.normalised_rms(), 0.4);
         EXPECT_LT(offset.normalised_rms(), 2.0);

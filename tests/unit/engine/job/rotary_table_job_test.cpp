@@ -1258,7 +1258,7 @@ TEST(RotaryTableJob, ReadsSimulationAndPlan) {
         "station_region": {"x_mm": [0, 1000], "y_mm": [-500, 500], "z_mm": [0, 0], "step_mm": 100}})")(files);
     const RotaryTableJob job = read(files);
     ASSERT_TRUE(job.simulation);
-    const SimulationRequest& s = *job.simulation;
+    const gum::SimulationRequest& s = *job.simulation;
     constexpr double k_arcsecond = std::numbers::pi / 180.0 / 3600.0;
     EXPECT_EQ(s.runs, 20U);
     EXPECT_EQ(s.seed, 7U);
@@ -1275,7 +1275,7 @@ TEST(RotaryTableJob, ReadsSimulationAndPlan) {
     EXPECT_DOUBLE_EQ(s.table_repeatability->u_tilt, 0.3 * k_arcsecond);
 
     ASSERT_TRUE(job.plan);
-    const PlanRequest& p = *job.plan;
+    const gum::PlanRequest& p = *job.plan;
     EXPECT_THAT(p.angles_deg, ElementsAre(0, 90, 180));
     EXPECT_TRUE(p.both_senses);
     EXPECT_TRUE(p.dead_path_per_reflector);

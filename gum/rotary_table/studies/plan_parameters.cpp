@@ -1,0 +1,149 @@
+#include "gum/rotary_table/studies/plan_parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "engine/datum.h"
+#include "engine/measurement_plan.h"
+#include "engine/rotary_table_model.h"
+#include "engine/table_parameters.h"
+#include "gum/coverage.h"
+#include "gum/propagation.h"
+#include "gum/random_draws.h"
+#include "gum/rotary_table/positioning_scope.h"
+
+namespace gumcert::gum::plan {
+
+namespace {
+
+using engine::RotaryTableMeasurement;
+using engine::TableParameterModel;
+
+constexpr std::uint64_t k_seed = 230;
+// Error motions of the drawn tables, so large that noise does not decide which angle is extreme.
+constexpr double k_drawn_linear = 1e-5;           // [m]
+constexpr double k_drawn_against_scatter = 10.0;  // of the angular ones against the scatter of a run
+
+/// A standard normal deviate that a number stands for.
+double deviate(std::uint64_t table, std::uint64_t number) {
+    constexpr double k_step = 0x1p-53;
+    const std::uint64_t word = philox_4x64_10({k_seed, 0}, {number, table, 0, 0})[0];
+    return standard_normal_quantile((static_cast<double>(word >> 11U) + 0.5) * k_step);
+}
+
+/// A table that shows certain error motions, as the law of propagation sees it.
+class DrawnTable final : public MeasurementModel {
+public:
+    DrawnTable(const TableParameterModel& model, const RotaryTableMeasurement& layout, double scatter, int table)
+        : model_(model) {
+        const auto number = static_cast<std::uint64_t>(table);
+        const auto angles = static_cast<Eigen::Index>(layout.angles.size());
+        const auto visits = static_cast<Eigen::Index>(model.visits().size());
+        reported_ = Eigen::VectorXd::Zero(reported_size(model, angles));
+        for (Eigen::Index i = 0; i < 6 * angles; ++i) {
+            const bool zero = layout.datum == engine::Datum::home && i / 6 == static_cast<Eigen::Index>(layout.home);
+            const double size = i % 6 < 3 ? k_drawn_linear : k_drawn_against_scatter * scatter;
+            reported_[i] = zero ? 0.0 : size * deviate(2 * number, static_cast<std::uint64_t>(i));
+        }
+        positions_ = Eigen::VectorXd::Zero(visits);
+        const int axial = 3 + engine::axial_coordinate(layout.axis);
+        for (Eigen::Index v = 0; v < visits; ++v) {
+            const auto angle = static_cast<Eigen::Index>(model.visits()[static_cast<std::size_t>(v)].angle);
+            positions_[v] =
+                reported_[6 * angle + axial] + scatter * deviate(2 * number + 1, static_cast<std::uint64_t>(v));
+        }
+    }
+
+    [[nodiscard]] const std::vector<InputGroup>& inputs() const override { return model_.inputs(); }
+    [[nodiscard]] const std::vector<OutputQuantity>& outputs() const override { return model_.outputs(); }
+    [[nodiscard]] Eigen::VectorXd evaluate(const Eigen::VectorXd& /*x*/) const override {
+        Eigen::VectorXd result(static_cast<Eigen::Index>(outputs().size()));
+        model_.parameters()->values(reported_, positions_, result);
+        return result;
+    }
+    [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& /*x*/) const override {
+        return model_.jacobian_of_table(reported_, positions_);
+    }
+
+private:
+    static Eigen::Index reported_size(const TableParameterModel& model, Eigen::Index angles) {
+        return 6 * angles + 4 + (model.has_reversal() ? 6 : 0);
+    }
+
+    const TableParameterModel& model_;
+    Eigen::VectorXd reported_, positions_;
+};
+
+/// Standard uncertainties of the outputs, root mean square over the drawn tables.
+Eigen::VectorXd rms_uncertainty(const TableParameterModel& model, const RotaryTableMeasurement& layout,
+                                double scatter) {
+    Eigen::VectorXd squares = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.outputs().size()));
+    constexpr double k_any_probability = 0.95;  // of U, which is not used
+    for (int table = 0; table < k_drawn_tables; ++table) {
+        const Propagation law = propagate(DrawnTable(model, layout, scatter, table), k_any_probability);
+        squares += law.standard_uncertainty.cwiseAbs2();
+    }
+    return (squares / k_drawn_tables).cwiseSqrt();
+}
+
+/// E, R and A of both senses where there are such, else those of the one sense; with their targets.
+void add_positioning(const engine::TableParameters& parameters, const Eigen::VectorXd& u, bool scatter_stated,
+                     const ParameterTargets& targets, double k, ExpectedParameters& expected) {
+    const std::vector<std::string>& names = parameters.short_names();
+    const std::array<std::pair<const char*, std::optional<double>>, 3> wanted{
+        {{"E", targets.systematic}, {"R", targets.repeatability}, {"A", targets.accuracy}}};
+    for (const auto& [letter, target] : wanted) {
+        const std::string name = letter;
+        auto found = names.end();
+        for (const std::string& one : {name, name + "_up", name + "_down"}) {
+            found = found == names.end() ? std::find(names.begin(), names.end(), one) : found;
+        }
+        PlannedParameter parameter{found == names.end() ? name : *found, true, std::nullopt, target};
+        if (found != names.end() && (scatter_stated || !rests_on_scatter(name))) {
+            parameter.U = k * u[found - names.begin()];
+        }
+        if (found != names.end() || target) {
+            expected.all.push_back(std::move(parameter));
+        }
+    }
+}
+
+}  // namespace
+
+ExpectedParameters expected_parameters(const RotaryTableMeasurement& layout, const engine::StochasticModel& stochastic,
+                                       const ParameterTargets& targets, double k) {
+    constexpr double k_infinite = std::numeric_limits<double>::infinity();
+    const engine::JointAdjustment adjustment = engine::planned_adjustment(layout, stochastic);
+    const auto table = std::make_shared<engine::RotaryTableModel>(
+        layout, adjustment, stochastic,
+        engine::SourceDegreesOfFreedom{k_infinite, k_infinite, k_infinite, k_infinite, k_infinite});
+    const TableParameterModel model(
+        table, engine::transform_to_datum(layout, adjustment.poses(), adjustment.set_up(), layout.datum));
+
+    ExpectedParameters expected;
+    expected.u_deviation = model.rms_position_uncertainty();
+    const double noise = expected.u_deviation * expected.u_deviation;
+    const double scatter = noise + stochastic.variance_axial;
+    expected.share_of_the_noise = scatter > 0.0 ? noise / scatter : 0.0;
+    const Eigen::VectorXd u = rms_uncertainty(model, layout, std::sqrt(scatter));
+    const engine::TableParameterLayout& places = model.parameters()->layout();
+    const auto add = [&](Eigen::Index index, bool angular, const std::optional<double>& target) {
+        expected.all.push_back({model.outputs()[static_cast<std::size_t>(index)].name, angular, k * u[index], target});
+    };
+    for (Eigen::Index c = 0; c < 6; ++c) {
+        add(places.ranges + c, c >= 3, c < 3 ? targets.range_linear : targets.range_angular);
+    }
+    for (Eigen::Index c = 0; c < 4; ++c) {
+        add(places.axis_line + c, c >= 2, c < 2 ? targets.location_linear : targets.location_angular);
+    }
+    const bool scatter_stated = expected.share_of_the_noise <= k_largest_scatter_share * (1.0 + 1e-12);
+    add_positioning(*model.parameters(), u, scatter_stated, targets, k, expected);
+    return expected;
+}
+
+}  // namespace gumcert::gum::plan

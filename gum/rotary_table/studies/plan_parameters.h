@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/joint_adjustment.h"
+#include "engine/rotary_table_measurement.h"
+#include "gum/rotary_table/document_units.h"
+#include "gum/rotary_table/studies/plan_request.h"
+
+/// What a plan expects of the parameters that standards name: ranges, location of the axis, E, R and A.
+namespace gumcert::gum::plan {
+
+struct PlannedParameter {
+    std::string name;  ///< "range of EXA", "axis_y", "E", "R_up"
+    bool angular = false;
+    /// Expanded uncertainty, [m] or [rad]; nothing where an evaluation of this layout would not state the parameter.
+    std::optional<double> U;
+    std::optional<double> target;  ///< [m] or [rad]
+
+    [[nodiscard]] const DocumentUnit& unit() const { return angular ? k_arcsec : k_um; }
+    [[nodiscard]] bool missed() const { return target && !(U && *U <= *target); }
+};
+
+struct ExpectedParameters {
+    std::vector<PlannedParameter> all;
+    double u_deviation = 0.0;         ///< standard uncertainty of the deviation of one run, rms, [rad]
+    double share_of_the_noise = 0.0;  ///< of the measurement in the variance of the runs, [1]
+};
+
+/// Tables that are drawn to see where the extremes of the parameters may lie.
+constexpr int k_drawn_tables = 10;
+
+/// U of a range, of E, R and A depends on which angles are extreme and on how the runs scatter, which is not known
+/// before the measurement: it is the root mean square over drawn tables, by the functions with which `gumcert evaluate`
+/// states it. Error motions are drawn large against what the measurement does not know of them; runs scatter by the
+/// repeatability of the table and the noise of one deviation. The draws are the same for every layout of as many
+/// angles.
+/// \param layout  with predicted lengths
+[[nodiscard]] ExpectedParameters expected_parameters(const engine::RotaryTableMeasurement& layout,
+                                                     const engine::StochasticModel& stochastic,
+                                                     const ParameterTargets& targets, double k);
+
+}  // namespace gumcert::gum::plan
