@@ -58,6 +58,9 @@ expect_printed(uncertainty_budget "t[30 degC] = 29.8506 degC, U = 0.0096 K (u = 
 # ISO 13528:2022, E.1 (robust mean 26.81), and E_n = D / √(U² + U_ref²) of three laboratories against a fourth
 expect_printed(proficiency_test "solution: assigned value 26.81" "solution L18  z =  3.64" "block    L1   reference"
                "block    L2   E_n =  0.38  no signal" "block    L3   E_n =  1.37  action" "block    L4   E_n = -0.40")
+# The truth beside it is that of the drawn table; 76 · 0.95 = 72.2 values are expected within U.
+expect_printed(rotary_table "EXA at  0°: 2.16 µm, U = 0.10, true 2.20" "ECA at 30°: 14.39 ″, U = 0.19, true 14.28"
+               "72 of 76 true values lie within U" "length noise: 67.6 % of the variance of EXA")
 
 # The installed package must not remember the tree that it was built from.
 file(GLOB_RECURSE package_files ${prefix}/lib/cmake/*.cmake ${prefix}/lib/*/cmake/*.cmake)
