@@ -65,6 +65,7 @@ using Places = std::unordered_map<std::string, text::Place>;
 /// \return the value; nothing when the text cannot be read to its end. With faults that let reading go on it is returned
 ///         all the same: of two equal keys the first is kept, and a number that was refused has the nlohmann type
 ///         `discarded`.
+/// Example: examples/api/records.cpp
 [[nodiscard]] std::optional<nlohmann::json> parse(std::string_view text, const ParserOptions& options,
                                                   const std::function<void(ParsingProblem)>& report,
                                                   Places* places = nullptr);
