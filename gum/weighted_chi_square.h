@@ -15,8 +15,7 @@ namespace gumcert::gum {
 /// \param weights  λ_k ≥ 0, not all 0, in any order
 /// \param x        finite; 0 is returned below 0
 /// \return 0 to 1. Weights below 1e-30 of the largest are left out, which counts only where x is as small; 0 for x
-/// below
-///         1e-100 of the largest
+///         below 1e-100 of the largest
 /// \throws InputError  GC-GUM-0001 or -0002 for a weight, -0003 where all are 0, -0001 for x
 /// \throws NoResultError  GC-GUM-0140 where the integral does not converge
 /// Accuracy: relative error below 1e-9 as long as the result is above 1e-290, also far out in the tail
