@@ -87,6 +87,7 @@ void verdict(FindingList& found, const std::string& where, const CertifiedValue&
                   "Agree with the customer on another rule, or leave the statement out.");
     }
     poor_measurement(found, where, value, v);
+    // A reader can decide with the printed numbers only, and must come to the same verdict.
     if (v.verdict != v.verdict_from_printed) {
         found.critical("D04", iso_17025("7.8.6.1"), where,
                        "the verdict is \"" + v.verdict + "\" with the unrounded numbers and \"" +
