@@ -61,7 +61,7 @@ RotaryTableMonteCarlo run_monte_carlo(const RotaryTableJob& job, const RotaryTab
     for (std::size_t i = 0; i < monte_carlo.result.outputs.size(); ++i) {
         const Stated law = stated(result, static_cast<Eigen::Index>(i));
         std::optional<gum::Validation> validation;
-        // Of the parameters of ISO 230-2, those that are stated and that Monte Carlo can speak of.
+        // Of the parameters of ISO 230-2, those that are stated and that Monte Carlo can check.
         const bool compared =
             i < positioning || (scope.states(names[i - reported]) && !rests_on_scatter(names[i - reported]));
         if (law.u > 0.0 && compared) {

@@ -22,7 +22,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double k_tie = 1e-9;                      // relative, of chi-square: subsets that nobody can tell apart
+constexpr double k_tie = 1e-9;                      // relative, of chi-square: closer subsets are a tie
 constexpr double k_rounding_of_chi_square = 1e-11;  // relative, of chi-square as it is computed
 constexpr double k_same_result = 1e-13;             // of u: results that are taken as equal
 constexpr double k_largest_alpha = 0.3;

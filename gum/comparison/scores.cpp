@@ -74,7 +74,7 @@ double settled_score(double value, double reference, double scale) {
 }
 
 ComparisonScore score(const ComparedValue& laboratory, const ComparedValue& reference, double correlation) {
-    static_cast<void>(difference_of(laboratory.value, reference.value));  // told before the uncertainties
+    static_cast<void>(difference_of(laboratory.value, reference.value));  // a fault of the values is reported first
     const double u = difference_uncertainty_for_score(laboratory.standard_uncertainty, reference.standard_uncertainty,
                                                       correlation, "u");
     const double U = difference_uncertainty_for_score(laboratory.expanded_uncertainty, reference.expanded_uncertainty,

@@ -203,7 +203,7 @@ constexpr const char* k_rule = "a unit is a product of names, each with or witho
 constexpr const char* k_action =
     "Write for example um, nm/K, J/(kg K), V/Hz^(1/2), degC, 1/K, percent, or 1 for a bare number.";
 
-/// What is no unit of the grammar, and is told better than as a fault in it.
+/// What people write that is no unit of the grammar: a message of its own helps more than one about syntax.
 void refuse_other_scales(std::string_view text) {
     const auto has = [&](std::string_view part) { return text.find(part) != std::string_view::npos; };
     constexpr std::array<std::string_view, 7> k_levels{"dBm", "dBW", "dBV", "dBu", "dBuV", "dBc", "Np"};
