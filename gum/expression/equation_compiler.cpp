@@ -42,6 +42,7 @@ public:
                    "Write \"name = expression\".");
             finish();
         }
+        // Each step notes its problems and goes on with what is sound: finish() refuses with all of them at once.
         declare_quantities();
         parse();
         declare_left_sides();
@@ -173,6 +174,7 @@ private:
                            "Remove one of the two, or give it another name.");
             }
         }
+        // The unit may stand in an equation as the factor 1; a quantity of that name goes before.
         if (!symbols_.contains("rad")) {
             symbols_.emplace("rad", Symbol{Symbol::Kind::radian, 0});
         }
