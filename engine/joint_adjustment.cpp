@@ -41,6 +41,7 @@ public:
         const bool own_reversal = pose_size_ > 6;
         const Eigen::Map<const Vector6> reversal(own_reversal ? parameters[4] + 6 : parameters[3]);
         const Eigen::Map<const Vector6> mean_pose(parameters[4]);
+        // Half of the reversal in each sense: the pose that is reported is the mean of both.
         const Vector6 pose = mean_pose + 0.5 * sense_ * reversal;
         const Eigen::Matrix3d error_rotation = rotation_zyx(pose.tail<3>());
         const Eigen::Matrix3d fixture_to_world = error_rotation * rotation_ * set_up_.rotation;

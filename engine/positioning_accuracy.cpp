@@ -198,6 +198,7 @@ Eigen::MatrixXd positioning_derivatives(const PositioningRuns& runs,
         for (const Eigen::Index j : list) {
             double& element = result(static_cast<Eigen::Index>(parameter), j);
             element += by_mean / n;
+            // At s = 0 the standard deviation has no derivative.
             if (by_s != 0.0 && s > 0.0) {
                 element += by_s * (deviations[j] - mean) / ((n - 1.0) * s);
             }
