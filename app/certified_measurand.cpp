@@ -59,8 +59,9 @@ const reports::BudgetRow* row_of(const Budgeted& budgeted, const CapabilityArgum
     return row == rows.end() ? nullptr : &*row;
 }
 
-/// Whether it told. A constant is the statement of the author; what has an uncertainty was measured, and a result
-/// beyond the range of it may be an amplified one.
+/// A constant is the statement of the author; what has an uncertainty was measured, and a result beyond the range of it
+/// may be an amplified one.
+/// \return whether it added a finding
 bool range(FindingList& found, const ScopeEntry& entry, std::size_t i, const ScopeEntry::Range& range,
            const Budgeted& budgeted) {
     const reports::BudgetRow* row = row_of(budgeted, range.argument);

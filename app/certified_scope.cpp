@@ -43,7 +43,7 @@ Found converted(double value, const std::string& from, const std::string& to, co
     return {.value = from == to ? value : target.from_si(source.to_si(value)), .why = {}};
 }
 
-/// Whether a line of the scope speaks of negative values of an argument, e.g. temperatures from −40 °C.
+/// Whether a line of the scope covers negative values of an argument, e.g. temperatures from −40 °C.
 bool has_negative(const ScopeEntry& entry, const std::string& argument) {
     const auto of_argument = [&](const ScopeEntry::Range& r) { return r.argument.name == argument && r.low < 0.0; };
     if (std::any_of(entry.ranges.begin(), entry.ranges.end(), of_argument)) {

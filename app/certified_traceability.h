@@ -7,7 +7,7 @@
 
 namespace gumcert::app {
 
-/// Whether the standards of a certificate and its budgets speak of the same things: a standard is named by the `source`
+/// Whether the standards of a certificate and its budgets name the same standards: a standard is named by the `source`
 /// of an input, with its identification, the number of its certificate or its name. Findings T06: major where none of
 /// them is, minor for each one that is not. Nothing without standards, or where the record has no budget with inputs of
 /// its own (rotary tables state standards as files).

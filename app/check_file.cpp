@@ -22,7 +22,7 @@ FileCheck check_job(const engine::FileSource& files, const std::string& name) {
         if (const Kind* const kind = find_kind(program_kinds(), word)) {
             check.findings = kind->read(files, name);
         } else {
-            (void)engine::job_kind(files, name);  // tells which kinds there are
+            (void)engine::job_kind(files, name);  // its message lists the kinds there are
         }
     } catch (const gum::InputError& refused) {
         check.findings = refused.diagnostics();

@@ -17,7 +17,7 @@ struct FileCheck {
 };
 
 /// Use case of `gumcert check FILE`. A job is read with all its files, and everything that its reader refuses or warns
-/// of is told; it is not evaluated. A record is read, its digest compared, its job evaluated again and the two
+/// of is reported; it is not evaluated. A record is read, its digest compared, its job evaluated again and the two
 /// compared.
 /// \throws gum::StorageError  if a file cannot be read
 /// \throws gum::InputError    GC-CHECK-0001 if it is neither

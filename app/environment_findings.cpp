@@ -78,7 +78,7 @@ struct Range {
     double slack_of_limits = 0.0;
 };
 
-/// Nothing where the unit of the condition is of another kind; the plausibility of conditions tells that (E02).
+/// Nothing where the unit of the condition is of another kind; the plausibility of conditions reports that (E02).
 std::optional<Range> range_of(const Condition& condition, const Observed& of) {
     gum::Unit stated;
     const gum::Unit wanted = gum::Unit::parse(of.unit);

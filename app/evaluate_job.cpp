@@ -10,7 +10,7 @@ namespace gumcert::app {
 
 void require_comparison_job(const std::filesystem::path& job_file) {
     const std::optional<std::string> kind = engine::probable_job_kind(job_file);
-    // A kind that no job has is told by the reader, with the kinds that there are.
+    // The reader reports an unknown kind, and lists those that there are.
     if (kind && *kind != engine::k_comparison_kind && find_kind(program_kinds(), *kind) != nullptr) {
         throw gum::InputError(gum::Diagnostic{.code = "GC-COMPARE-0140",
                                               .where = job_file.string() + "#/kind",
@@ -51,7 +51,7 @@ Evaluation evaluate_job(const engine::FileSource& source, const std::string& job
     try {
         kind = find_kind(kinds, engine::job_kind(files, job_file, words));
     } catch (const gum::InputError&) {
-        // The reader of its kind tells the other problems of the job together with this one.
+        // The reader of its kind reports the other problems of the job together with this one.
         kind = find_kind(kinds, engine::probable_job_kind(files, job_file, words).value_or(""));
         if (kind != nullptr) {
             (void)kind->read(files, job_file);

@@ -17,7 +17,7 @@ namespace gumcert::app {
 [[nodiscard]] std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_file,
                                                              const reports::EvaluationRecord& record);
 
-/// Refuses a job of another kind than `comparison`; what is wrong with its text is left for the reader to tell.
+/// Refuses a job of another kind than `comparison`; what is wrong with its text is left for the reader to report.
 /// \throws gum::InputError  GC-COMPARE-0140
 void require_comparison_job(const std::filesystem::path& job_file);
 

@@ -113,7 +113,7 @@ std::set<std::string> source_names(const engine::ComparisonJob& job,
     return names;
 }
 
-/// Where at least one item has a result the others are told beside it; else the job is refused.
+/// Where at least one item has a result, the problems of the others are reported beside it; else the job is refused.
 void tell_problems(const std::vector<gum::Diagnostic>& problems, const reports::Comparison& comparison, bool is_input,
                    std::vector<gum::Diagnostic>* notes) {
     if (problems.empty()) {

@@ -15,7 +15,7 @@ namespace gumcert::app {
 
 /// Whom a reader of a certificate trusts, and what time it is.
 struct CertificateTrust {
-    std::optional<std::vector<signing::Bytes>> trusted;  ///< DER; none: nobody was named, a signer is only told
+    std::optional<std::vector<signing::Bytes>> trusted;  ///< DER; none: nobody was named, a signer is only named
     /// Seconds since 1970-01-01 UTC. Without a clock no signature is one of the future.
     std::int64_t now = std::numeric_limits<std::int64_t>::max() / 2;
 };

@@ -152,7 +152,7 @@ std::string made_by(const reports::Software& software) {
     return software.name + " " + software.version + " (commit " + software.commit + ")";
 }
 
-/// As the record was made; where its name is another one, the comparison of the two records tells it.
+/// As the record was made; where the file has another name, the comparison of the two records finds that.
 CovarianceOutput covariance_of(const EvaluationRecord& record) {
     const std::string name = record.rotary       ? record.rotary->covariance_file.value_or("")
                              : record.covariance ? record.covariance->file

@@ -14,7 +14,7 @@
 
 namespace gumcert::app {
 
-/// At most so many places of one record are told.
+/// At most so many places of one record are reported.
 inline constexpr std::size_t k_most_disagreements = 20;
 
 /// Where a record says something else than the one that its job gives. The same numbers are those that agree within

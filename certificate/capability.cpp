@@ -116,6 +116,7 @@ CapabilityAt CapabilityEvaluator::Prepared::of_matrix(double row, double column)
     }
     const std::vector<double>& first = capability.matrix[r->first];
     const std::vector<double>& second = capability.matrix[r->second];
+    // Between its points such a scope vouches for the larger of the two uncertainties only.
     if (capability.lookup == "next_worse") {
         return {std::max({first[c->first], first[c->second], second[c->first], second[c->second]}), ""};
     }
@@ -127,6 +128,7 @@ CapabilityAt CapabilityEvaluator::Prepared::of_matrix(double row, double column)
 CapabilityAt CapabilityEvaluator::Prepared::of_function(const Eigen::VectorXd& arguments) const {
     try {
         const double U = equation->evaluate(arguments)(0);
+        // An expression may fall to 0 or below at an end of its range: no capability can be claimed there.
         if (std::isfinite(U) && U > 0.0) {
             return {U, ""};
         }

@@ -78,6 +78,7 @@ private:
 
 /// The same for one result.
 /// \throws gum::InputError  as the class
+/// Example: examples/api/records.cpp
 [[nodiscard]] CapabilityAt capability_at(const Capability& capability, const std::vector<ArgumentValue>& arguments);
 
 /// Why a capability cannot be used: an open interval, no rule between the points, an expression that does not compile,

@@ -99,6 +99,7 @@ void Check::arguments(std::size_t least, std::size_t most) {
 }
 
 void Check::lookup() {
+    // ILAC-P14:09/2020, section 4: a capability leaves no doubt between its points. Nothing is interpolated silently.
     const bool must = c_.form == "table" || c_.form == "matrix";
     if (must && c_.lookup != "linear" && c_.lookup != "next_worse") {
         say("/lookup", c_.lookup.empty() ? "no rule between the points" : "the rule \"" + c_.lookup + "\"",
@@ -112,6 +113,7 @@ void Check::lookup() {
 }
 
 void Check::of_other_forms() {
+    // A capability that is stated twice has two meanings, of which only one was accredited.
     const auto refuse = [&](bool stated, bool belongs, const char* key) {
         if (stated && !belongs) {
             say(key, "stated for a capability of the form \"" + c_.form + "\"",

@@ -46,7 +46,7 @@ void describe(Archive& a, Struct& r) {
     a.needed("U", r.U);
 }
 
-// Which members a form of capability needs, and their values, are the business of check_capability.
+// check_capability decides which members a form of capability needs, and checks their values.
 template <class Archive, Described<Capability> Struct>
 void describe(Archive& a, Struct& r) {
     a.needed("form", r.form, {"value", "range", "function", "table", "matrix"});

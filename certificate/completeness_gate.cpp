@@ -33,6 +33,7 @@ void laboratory_and_customer(FindingList& found, const CertificateData& data) {
     if (!is_name(data.customer.name)) {
         found.item(k_critical, 'e', "/customer/name", "the name of the customer is missing", "State it.");
     }
+    // ISO/IEC 17025:2017, 7.8.2.1 e asks for contact information, not for a postal address.
     const bool reachable = is_postal_address(data.customer.address.lines) || is_name(data.customer.contact) ||
                            is_email(data.customer.email) || is_email(data.customer.contact);
     if (!reachable) {
@@ -125,6 +126,7 @@ void persons(FindingList& found, const CertificateData& data, const Profile& pro
         }
     };
     const std::string& authorised = data.dates.authorised.empty() ? data.dates.issued : data.dates.authorised;
+    // A person who was authorised for a part of the work only: the day that is not covered is the one that is named.
     const bool first_day =
         !performed_by || data.dates.performed_from.empty() ||
         is_within(data.dates.performed_from, performed_by->authorised_from, performed_by->authorised_to);

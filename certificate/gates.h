@@ -45,6 +45,7 @@ namespace gumcert::certificate {
 /// All of them, the gravest first; sets `findings`, `blocked` and `symbol`. A specimen is not issued, so that nothing
 /// blocks it.
 /// \param audit  findings of the evaluation, put to those of the gates
+/// Example: examples/api/records.cpp
 void pass_gates(Certificate& certificate, const std::vector<Finding>& audit = {});
 
 }  // namespace gumcert::certificate

@@ -35,7 +35,7 @@ struct HeldAgainst {
 
 /// Tells of a capability that is taken at another number than the result (X12): critical where the result is the larger
 /// one.
-/// \return whether it told
+/// \return whether it reported something
 bool capability_taken_elsewhere(FindingList& found, const ScopeEntry& entry, std::size_t i,
                                 const CapabilityArgument& argument, const HeldAgainst& held,
                                 const CertifiedColumn& column, const CertifiedValue& value);

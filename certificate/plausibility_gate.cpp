@@ -52,7 +52,7 @@ std::vector<IdentifyingText> identifying_texts(const CertificateData& data) {
     return all;
 }
 
-/// Two fields that tell different things have different texts. The laboratory as its own customer is told apart below.
+/// Fields of different meaning must not hold the same text. The laboratory as its own customer is looked at below.
 void same_texts(FindingList& found, const CertificateData& data) {
     const std::vector<IdentifyingText> all = identifying_texts(data);
     const auto names = [](const IdentifyingText& a, const IdentifyingText& b) {

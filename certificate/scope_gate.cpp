@@ -293,7 +293,7 @@ void capability(FindingList& found, const Certificate& certificate, const ScopeE
     const std::string where = place_in("/accreditation/scope", i, "capability");
     const Capability& c = entry.capability;
     if (!check_capability(c).empty()) {
-        return;  // told by X05
+        return;  // reported by X05
     }
     if (c.form == "function") {
         const CapabilityEvaluator evaluator(c);

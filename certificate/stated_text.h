@@ -26,7 +26,7 @@ template <class Text>
 [[nodiscard]] bool is_name(const std::string& text);
 [[nodiscard]] bool is_name(const LocalisedText& text);
 
-/// A number or a mark by which something is told from others: stated in all of its parts, and not "0", "0000", "9999",
+/// A number or a mark that identifies something: stated in all of its parts, and not "0", "0000", "9999",
 /// "123456", "EX-XXXX" or "SN-tbd".
 [[nodiscard]] bool is_identification(const std::string& text);
 /// The same of a certificate: no draft, sample or copy.

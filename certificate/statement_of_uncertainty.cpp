@@ -76,6 +76,8 @@ StatedPair state_uncertainty(double value, double U, std::optional<double> capab
                                   .below = true};
     }
     const gum::RoundedPair plain = gum::round_to_uncertainty(value, U, rule.digits, rule.rounding);
+    // First as the profile rounds. Rounded down below the capability, or by more than a twentieth, U is rounded up;
+    // only a U that is smaller by itself is replaced by the capability.
     const bool too_small = capability && below(plain.U, *capability);
     if (!too_small && !lost_much(plain.U, U)) {
         return {.value = plain.value, .U = plain.U};
@@ -92,6 +94,7 @@ std::string printed_coverage_factor(double k) {
 }
 
 std::string whole_degrees_of_freedom(double nu_eff) {
+    // Truncated, not rounded (JCGM 100:2008, G.4.1, note 1): 149 printed for 148.6 would promise more than there is.
     return nu_eff < 10000.0 ? gum::round_to_quantum(std::floor(nu_eff * (1.0 + k_noise)), 0) : ">9999";
 }
 
@@ -114,6 +117,7 @@ std::string printed_probability(double probability) {
     if (complement < k_least_printed) {
         return ">99.99";
     }
+    // Two significant digits of the smaller of both: 99.87 % and 0.13 % are one statement.
     return probability < complement
                ? gum::round_significant(100.0 * probability, 2)
                : gum::round_to_quantum(100.0 * probability, decimals_of(gum::round_significant(100.0 * complement, 2)));

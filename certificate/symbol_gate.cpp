@@ -140,6 +140,8 @@ void capabilities(FindingList& found, const CertifiedTable& table, const Certifi
         if (value.scope_entry.empty() || !value.capability || !U) {
             continue;
         }
+        // Compared as printed, because the printed U is what the laboratory states; the capability without the noise of
+        // a conversion of units, which must not fail a U that is equal to it.
         const double capability = number_of(gum::round_significant(*value.capability, 12)).value_or(*value.capability);
         if (*U < capability) {
             const bool named = table.argument && row < table.argument->printed.size();
@@ -186,6 +188,8 @@ void scope(FindingList& found, const Certificate& certificate) {
             all.add(tally);
         }
     }
+    // The symbol may stand only where at least one result is accredited (X02). U at the capability throughout says that
+    // the item under calibration adds nothing, which is seldom true (X03).
     if (all.inside == 0) {
         found.critical(
             "X02", k_p8, "results",

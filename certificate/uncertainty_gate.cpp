@@ -56,7 +56,7 @@ bool is_outside(const CertifiedValue& value, const Verdict& v) {
 /// Judged by the numbers, whatever the rule is called: its parameters may leave nothing of its guard band.
 void poor_measurement(FindingList& found, const std::string& where, const CertifiedValue& value, const Verdict& v) {
     constexpr double k_even = 0.5 - 1e-9;
-    constexpr double k_proven = 0.05 + 1e-9;  // a specific risk that nobody need be told of
+    constexpr double k_proven = 0.05 + 1e-9;  // a smaller specific risk need not be reported
     const bool passes = v.verdict == "pass" || v.verdict == "conditional_pass";
     const bool unguarded = v.rule == "DR-01" || v.rule == "DR-12" || (passes && v.specific_risk > k_proven);
     if (passes && is_outside(value, v)) {
@@ -87,6 +87,7 @@ void verdict(FindingList& found, const std::string& where, const CertifiedValue&
                   "Agree with the customer on another rule, or leave the statement out.");
     }
     poor_measurement(found, where, value, v);
+    // A reader can decide with the printed numbers only, and must come to the same verdict.
     if (v.verdict != v.verdict_from_printed) {
         found.critical("D04", iso_17025("7.8.6.1"), where,
                        "the verdict is \"" + v.verdict + "\" with the unrounded numbers and \"" +

@@ -104,6 +104,7 @@ private:
 };
 
 Adjustment::BlockId Adjustment::add_parameters(std::vector<std::string> names, Eigen::VectorXd start, bool eliminated) {
+    // A held parameter keeps its place in its block, so that no model needs to know what is held.
     std::vector<bool> held(names.size(), false);
     blocks_.push_back({std::move(names), std::move(start), std::move(held), eliminated});
     return blocks_.size() - 1;
@@ -323,6 +324,8 @@ void NormalEquations::accumulate() {
             for (const std::size_t group : block.groups) {
                 add(groups_[group], &block, sums[part]);
             }
+            // Schur complement A_bb − A_be A_ee⁻¹ A_eb, block by block. With A_ee = L Lᵀ what is taken off is a product
+            // of L⁻¹ A_eb with its own transpose: symmetric to the last bit, and never negative.
             const Eigen::LLT<Eigen::MatrixXd> factor(block.normal);
             block.inverse = factor.solve(Eigen::MatrixXd::Identity(size, size));
             block.elimination = block.border;
@@ -387,6 +390,8 @@ RankReport NormalEquations::rank(double tolerance) const {
     const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
         Eigen::MatrixXd(scale.asDiagonal() * reduced_ * scale.asDiagonal()));
+    // Before the elimination the scaled border has a diagonal of 1. Where the elimination leaves hardly anything of it,
+    // the largest eigenvalue is as small as the smallest, and their ratio would look sound.
     const double ratio = eigen.eigenvalues()[0] / std::max(1.0, eigen.eigenvalues()[border_ - 1]);
     report.smallest_to_largest = std::min(report.smallest_to_largest, ratio);
     if (!(ratio > tolerance)) {
@@ -441,6 +446,7 @@ BorderedCovariance NormalEquations::bordered_covariance() const {
             own.covariance = blocks_[e].inverse;
             const Eigen::MatrixXd spread =
                 result.cross_.middleRows(at, size) * result.elimination_.middleRows(at, size).transpose();
+            // What a block has of its own, and what the border brings in: A_ee⁻¹ + E C_b Eᵀ.
             own.total = 0.5 * (spread + spread.transpose()) + own.covariance;
             own.total.triangularView<Eigen::StrictlyUpper>() = own.total.transpose();  // symmetric to the last bit
         }
@@ -496,6 +502,7 @@ Eigen::MatrixXd BorderedCovariance::operator()(const Indices& rows, const Indice
 Eigen::MatrixXd BorderedCovariance::times_left(const Eigen::Ref<const Eigen::MatrixXd>& rows) const {
     const Eigen::Index b = border();
     const Eigen::Index q = elimination_.rows();
+    // The rows are carried to the border once. A product with the dense matrix would cost p² for each of them.
     Eigen::MatrixXd to_border = rows.leftCols(b);
     to_border.noalias() += rows.rightCols(q) * elimination_;
     Eigen::MatrixXd result(rows.rows(), b + q);
@@ -538,6 +545,8 @@ Eigen::MatrixXd BorderedCovariance::dense() const {
     return covariance;
 }
 
+// Block elimination: the border first, then every eliminated block from the border. Costs grow in proportion to the
+// angles.
 Eigen::VectorXd NormalEquations::step() const {
     Eigen::VectorXd step(parameter_count());
     Eigen::VectorXd right = gradient_.head(border_);
@@ -646,6 +655,8 @@ double NormalEquations::condition_number() const {
         return std::numeric_limits<double>::infinity();
     }
     const Eigen::VectorXd inverse_scale = scale.cwiseInverse();
+    // Largest eigenvalues of N and of N⁻¹ with a unit diagonal, from products with vectors: no p×p matrix is made. The
+    // root, because N holds the squares of the singular values of the design.
     const double largest = largest_eigenvalue(
         [&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return scale.cwiseProduct(times(scale.cwiseProduct(v))); },
         p);

@@ -15,6 +15,8 @@ std::optional<Eigen::Index> reversal_column(const JointAdjustment& adjustment, c
 
 /// G, m×b: the quantities by the border, the poses following it.
 TallMatrix gain_of(const AnglewiseMap& map, const TallMatrix& pose_by_border) {
+    // All that ties the angles to each other through the datum are the few numbers of `change`: this keeps costs in
+    // proportion to the angles.
     TallMatrix gain = map.by_border;
     gain.noalias() += map.by_change * (map.change * pose_by_border);
     const Eigen::Index q = map.per_angle();
@@ -102,6 +104,7 @@ AnglewiseMap reported_map(const DatumSolution& datum, Eigen::Index border,
     AnglewiseMap map;
     map.local = Eigen::MatrixXd::Identity(6, 6).replicate(errors / 6, 1);
     if (datum.zero_angle) {
+        // At home in its own datum an error is zero by definition, whatever the pose is.
         map.local.middleRows<6>(6 * *datum.zero_angle).setZero();
     }
     map.by_border = Eigen::MatrixXd::Zero(rows, border);
@@ -133,6 +136,7 @@ AnglewiseMap map_of_both_senses(const AnglewiseMap& reported) {
         for (Eigen::Index sense = 0; sense < 2; ++sense) {
             const Eigen::Index first = 12 * i + 6 * sense;
             map.local.middleRows<6>(first) = reported.local.middleRows<6>(6 * i);
+            // A pose is the mean of both senses of approach; each lies half of the reversal beside it.
             map.local.block<6, 6>(first, 6).diagonal().array() += sense == 0 ? 0.5 : -0.5;
             map.by_border.middleRows<6>(first) = reported.by_border.middleRows<6>(6 * i);
             map.by_change.middleRows<6>(first) = reported.by_change.middleRows<6>(6 * i);

@@ -90,6 +90,7 @@ MatrixXd normal_equations(const CircleClosureMeasurement& m) {
         }
         const MatrixXd own = own_columns(m, rows);
         const MatrixXd shared = own.transpose() * A;
+        // Zeros and slopes are eliminated by projecting the readings off the own columns: they are no unknowns of R.
         R += A.transpose() * A - shared.transpose() * shared;
     }
     return R;
@@ -102,6 +103,8 @@ std::pair<MatrixXd, double> cofactors_of(const CircleClosureMeasurement& m) {
     MatrixXd datum = MatrixXd::Zero(2 * n, 2 * n);
     datum.topLeftCorner(n, n).setConstant(1.0 / static_cast<double>(n));
     datum.bottomRightCorner(n, n).setConstant(1.0 / static_cast<double>(n));
+    // The datum Σ T = Σ P = 0 is added as a matrix in the two directions that no reading knows, with the mean weight of
+    // the others so that it does not decide the condition number, and is taken off the inverse again.
     const double weight = R.trace() / static_cast<double>(2 * n);
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(R + weight * datum));
     const double least = eigen.eigenvalues()(0);
@@ -210,6 +213,7 @@ std::optional<ClosureTest> misfit_of(const CircleClosureMeasurement& m, const Ci
     for (const auto& [position, count] : steps_of_position) {
         nu += static_cast<double>(series_of_position[position] - 1) * (static_cast<double>(count) - own);
     }
+    // F: what steps and sides leave unexplained, over the scatter of repetitions.
     const double left = solution.degrees_of_freedom - nu;
     const double misfit = solution.residuals.squaredNorm() - within;
     if (!(nu > 0.0) || !(left > 0.0) || !(within > 0.0)) {
@@ -219,6 +223,7 @@ std::optional<ClosureTest> misfit_of(const CircleClosureMeasurement& m, const Ci
 }
 
 void fill_scatter(const CircleClosureMeasurement& m, CircleClosureSolution& solution) {
+    // N readings, less a zero (and a slope) a series, less T and P with n − 1 free deviations each.
     const double own = static_cast<double>(m.series.size()) * (m.removes_drift ? 2.0 : 1.0);
     solution.degrees_of_freedom =
         static_cast<double>(m.readings.size()) - own - 2.0 * (static_cast<double>(m.steps) - 1.0);
@@ -445,6 +450,8 @@ MatrixXd CircleClosureModel::jacobian(const VectorXd& x) const {
     }
     const VectorXd y = evaluate(x);
     for (const Index circle : {Index{0}, Index{1}}) {
+        // The range follows the two steps that are extreme here. Where two are equally extreme it has no derivative;
+        // that of one of them is taken.
         Index most = 0;
         Index least = 0;
         (void)y.segment(circle * n, n).maxCoeff(&most);

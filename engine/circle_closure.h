@@ -106,6 +106,9 @@ struct CircleClosureSolution {
 /// u(T_j) = s √(n − 1)/n with (n − 1)(n − 2) degrees of freedom.
 /// \throws gum::NoResultError  GC-CLOSURE-0010 deviations that the readings do not determine, -0011 no scatter to take
 ///                             an uncertainty from
+/// Accuracy: that of the dense solution of all unknowns within 1e-10 of the unit of the readings
+/// (docs/accuracy.md#adjustment-of-distances).
+/// Example: examples/api/distances.cpp
 [[nodiscard]] CircleClosureSolution solve_circle_closure(const CircleClosureMeasurement& measurement);
 
 /// The solution as a measurement model of the GUM layer: readings and effects → T_0 …, P_0 …, range of T, range of P.

@@ -72,6 +72,7 @@ NetworkSolution adjust_distance_network(const std::vector<NetworkPoint>& points,
                                     Eigen::MatrixXd::Constant(1, 1, distance.u * distance.u));
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
+        // A point with a covariance is observed, not fixed: its residuals are part of chi-square.
         if (points[i].covariance && !points[i].fixed) {
             adjustment.add_prior(point_block[i], {0, 1, 2}, points[i].position, *points[i].covariance);
         }
@@ -134,6 +135,7 @@ NetworkSolution adjust_distance_network(const std::vector<NetworkPoint>& points,
     for (std::size_t i = 0; i < distances.size(); ++i) {
         const LinearisedGroup& group = normal.groups()[i];
         const auto size = static_cast<Eigen::Index>(group.columns.size());
+        // r = 1 − J̃ C J̃ᵀ of a whitened distance, w = v/(σ √r), smallest bias that is found δ0 σ/√r (Baarda 1968).
         double leverage = 0.0;
         for (Eigen::Index a = 0; a < size; ++a) {
             for (Eigen::Index b = 0; b < size; ++b) {

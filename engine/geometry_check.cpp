@@ -102,6 +102,7 @@ public:
             rows.row(i).head<3>() = direction(static_cast<std::size_t>(i), position, raised).transpose();
             rows(i, 3 + path_[static_cast<std::size_t>(i)]) = 1.0;
         }
+        // R has the singular values of the whole matrix, and is as small as the number of columns.
         const Eigen::HouseholderQR<Eigen::MatrixXd> factor(rows);
         const Eigen::MatrixXd upper = factor.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
         const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(upper).singularValues();

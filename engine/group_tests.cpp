@@ -34,6 +34,7 @@ constexpr std::size_t k_drift_hypotheses = 3;    // all stations alike, each its
 double critical_chi_square(const GroupTestOptions& options, double probability, int degrees_of_freedom) {
     double low = 0.0;
     double high = 1e4;
+    // By bisection of the tail that the caller gives: the engine may not use the layer that has quantiles (ADR 0001).
     for (int i = 0; i < 80; ++i) {
         const double middle = 0.5 * (low + high);
         (options.chi_square_upper_tail(middle, degrees_of_freedom) > probability ? low : high) = middle;
@@ -277,6 +278,8 @@ public:
         find_scale();
         sequences();
         estimate_drifts();
+        // One group at a time: what the least probable one says is taken away before the others are tested again, so
+        // that its effects elsewhere are not reported as causes of their own.
         std::vector<std::optional<Candidate>> last;
         for (std::size_t round = 0; round < std::min(k_most_suspects, visits_.size() / 4); ++round) {
             last = {best_visit(), best_change(), best_drift(), best_index()};
@@ -318,6 +321,7 @@ private:
             test.error = visits_.weighted(g).sum() / test.spread;
         }
         const MatrixXd& pose = poses_[g];
+        // Columns of unit length, so that metres and radians count alike in the rank of the pseudo-inverse.
         const VectorXd scale = pose.colwise().norm().cwiseMax(1e-300).cwiseInverse();
         const MatrixXd columns = pose * scale.asDiagonal();
         const Inverted inverted = pseudo_inverse(columns.transpose() * visits_.own(g) * columns, visits_.least(g));
@@ -380,6 +384,8 @@ private:
         test.p_value = options_.chi_square_upper_tail(chi_square, degrees_of_freedom);
         const double level =
             share_of_level(kind) * options_.alpha / static_cast<double>(std::max<std::size_t>(count, 1));
+        // The level is divided among all tests of a kind (Bonferroni): alpha is the probability of a false alarm in the
+        // whole measurement.
         const auto [limit, is_new] = limits_.try_emplace({degrees_of_freedom, level}, 0.0);
         if (is_new) {
             limit->second = critical_chi_square(options_, level, degrees_of_freedom);

@@ -83,7 +83,7 @@ struct GroupTests {
 };
 
 struct GroupTestOptions {
-    /// Probability that a sound measurement makes any group of any kind suspicious, or is told of its fixture.
+    /// Probability that a sound measurement makes any group of any kind suspicious, or makes its fixture so.
     double alpha = 0.01;
     /// Probability above a value of chi-square, by value and degrees of freedom.
     std::function<double(double, double)> chi_square_upper_tail;
@@ -100,7 +100,7 @@ struct GroupTestOptions {
 /// tested where nothing else is suspicious. Of the
 /// level each kind has its share, and within a kind it is divided by the number of its tests (Bonferroni); of drift a
 /// third each for all stations alike, each its own jointly, and single stations. A fixture whose misfit one scale
-/// explains better than any displaced point is told as scaled.
+/// explains better than any displaced point is reported as scaled.
 ///
 /// A drift is proportional to the times of the visits where the measurement has them, else to their order.
 ///

@@ -31,6 +31,8 @@ struct HarmonicAnalysis {
 /// discrete Fourier transform.
 /// \param covariance_of  covariance of combinations c of the values, k×n: c V cᵀ, k×k, in the square of their unit
 /// \param orders         from resolved_orders()
+/// Accuracy: amplitudes within 1e-13 of the values, phases within 1e-12 rad (docs/accuracy.md#adjustment-of-distances).
+/// Example: examples/api/distances.cpp
 [[nodiscard]] HarmonicAnalysis analyse_harmonics(
     const Eigen::Ref<const Eigen::VectorXd>& angles, const Eigen::Ref<const Eigen::VectorXd>& values,
     const std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>& covariance_of, int orders);

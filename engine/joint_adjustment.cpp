@@ -41,6 +41,7 @@ public:
         const bool own_reversal = pose_size_ > 6;
         const Eigen::Map<const Vector6> reversal(own_reversal ? parameters[4] + 6 : parameters[3]);
         const Eigen::Map<const Vector6> mean_pose(parameters[4]);
+        // Half of the reversal in each sense: the pose that is reported is the mean of both.
         const Vector6 pose = mean_pose + 0.5 * sense_ * reversal;
         const Eigen::Matrix3d error_rotation = rotation_zyx(pose.tail<3>());
         const Eigen::Matrix3d fixture_to_world = error_rotation * rotation_ * set_up_.rotation;
@@ -71,6 +72,7 @@ public:
                 row[2] = -direction[2];
                 row[k_scale] = distance;
             }
+            // Derivatives by the chain rule along the line of sight, turned into the frame of what moves.
             const Eigen::Vector3d in_fixture = fixture_to_world.transpose() * direction;
             const double along = in_fixture.dot(point);
             if (jacobians[0] != nullptr) {
@@ -225,6 +227,7 @@ JointAdjustment::JointAdjustment(const RotaryTableMeasurement& measurement, std:
             pose_names.push_back("reversal of " + motions[c] + at_angle);
         }
         const auto block = adjustment_.add_parameters(std::move(pose_names), Eigen::VectorXd::Zero(pose_size()), true);
+        // The pose at home is held: distances do not tell it from a motion of the world (ADR 0006).
         for (int c = 0; c < 6 && i == measurement.home; ++c) {
             adjustment_.hold(block, c);
         }
@@ -299,6 +302,7 @@ Eigen::VectorXd JointAdjustment::stated_variance(std::size_t visit) const {
     for (std::size_t k = 0; k < observations.size(); ++k) {
         const LengthObservation& length = measurement_->lengths[observations[k]];
         const double distance = length.length + adjustment_.parameters(dead_path_blocks_[length.dead_path])[0];
+        // Both parts have causes of their own: they add in squares.
         const double proportional = u.u_proportional * distance;
         variance[static_cast<Eigen::Index>(k)] = u.u_constant * u.u_constant + proportional * proportional;
     }

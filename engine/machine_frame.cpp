@@ -51,6 +51,7 @@ void require_width(const Eigen::MatrixXd& centred, MachineFramePoints by) {
 Eigen::Matrix3d start_rotation(const Eigen::MatrixXd& from, const Eigen::MatrixXd& to) {
     const Eigen::Matrix3d product = from.transpose() * to;
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(product, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    // Without the sign the best orthogonal matrix may be a reflection, as for points in a plane.
     const double sign = (svd.matrixV() * svd.matrixU().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
     return svd.matrixV() * Eigen::Vector3d(1.0, 1.0, sign).asDiagonal() * svd.matrixU().transpose();
 }
@@ -119,6 +120,8 @@ MachineFrameFit fit_machine_frame(const Eigen::MatrixXd& points, const Eigen::Ma
             design.block<3, 3>(3 * i, 0).setIdentity();
             design.block<3, 3>(3 * i, 3) = -cross_matrix(carried);
             for (Eigen::Index j = 0; j < n; ++j) {
+                // Covariances of the points are turned into the machine frame: the weights follow the rotation in each
+                // step.
                 sum.block<3, 3>(3 * i, 3 * j) = rotation * covariance.block<3, 3>(3 * i, 3 * j) * rotation.transpose();
             }
             sum.block<3, 3>(3 * i, 3 * i).diagonal().array() += frame.u[i] * frame.u[i];
@@ -209,6 +212,7 @@ Eigen::VectorXd LocationErrorModel::evaluate(const Eigen::VectorXd& x) const {
 }
 
 Eigen::MatrixXd LocationErrorModel::jacobian(const Eigen::VectorXd& x) const {
+    // Central differences: the curvature cancels, and over ± one standard uncertainty rounding does not matter.
     constexpr double k_step = 1.0;  // one standard uncertainty
     Eigen::MatrixXd result(k_errors, x.size());
     for (Eigen::Index i = 0; i < x.size(); ++i) {

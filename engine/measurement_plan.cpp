@@ -298,6 +298,8 @@ std::optional<PoseFactor> factor_of(const Matrix6& normal) {
     if (!(diagonal.minCoeff() > 0.0)) {
         return std::nullopt;
     }
+    // Metres and radians differ by powers of ten: without a unit diagonal the limit of a pivot would depend on the
+    // units.
     PoseFactor result{diagonal.cwiseSqrt().cwiseInverse(), {}};
     result.factor.compute(result.scale.asDiagonal() * normal * result.scale.asDiagonal());
     if (result.factor.info() != Eigen::Success ||
@@ -505,6 +507,8 @@ std::optional<Eigen::VectorXd> LayoutVariances::variances(const Information& inf
         if (!pose) {
             return std::nullopt;
         }
+        // No distance joins two poses: each is eliminated alone, by a factor of 6×6. Only the border is factored as a
+        // whole.
         half = pose->scale.asDiagonal() * information.mixed.middleRows<6>(6 * i);
         pose->factor.matrixL().solveInPlace(half);
         reduced.selfadjointView<Eigen::Lower>().rankUpdate(half.transpose(), -1.0);

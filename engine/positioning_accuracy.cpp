@@ -67,6 +67,7 @@ Extremes find_extremes(const std::array<std::vector<Moments>, 2>& senses) {
             const auto [mean, s] = senses[sense][i];
             extremes.mean_high[sense].offer(mean, i, sense == 0);
             extremes.mean_low[sense].offer(-mean, i, sense == 0);
+            // x̄ ± 2 s of ISO 230-2: A is the distance of the outermost of these limits.
             extremes.limit_high[sense].offer(mean + 2.0 * s, i, sense == 0);
             extremes.limit_low[sense].offer(-(mean - 2.0 * s), i, sense == 0);
             extremes.spread[sense].offer(4.0 * s, i, sense == 0);
@@ -143,6 +144,7 @@ PositioningAccuracy evaluate_positioning(const PositioningRuns& runs,
         larger(e.mean_high[0], e.mean_high[1]).value() + larger(e.mean_low[0], e.mean_low[1]).value());
     set(Parameter::systematic_up, e.mean_high[0].value() + e.mean_low[0].value());
     set(Parameter::systematic_down, e.mean_high[1].value() + e.mean_low[1].value());
+    // R of both senses can be less than that of one sense alone, where the spreads differ; then the larger one holds.
     set(Parameter::repeatability, std::max({e.repeatability.value(), e.spread[0].value(), e.spread[1].value()}));
     set(Parameter::repeatability_up, e.spread[0].value());
     set(Parameter::repeatability_down, e.spread[1].value());
@@ -196,6 +198,7 @@ Eigen::MatrixXd positioning_derivatives(const PositioningRuns& runs,
         for (const Eigen::Index j : list) {
             double& element = result(static_cast<Eigen::Index>(parameter), j);
             element += by_mean / n;
+            // At s = 0 the standard deviation has no derivative.
             if (by_s != 0.0 && s > 0.0) {
                 element += by_s * (deviations[j] - mean) / ((n - 1.0) * s);
             }

@@ -109,6 +109,8 @@ std::vector<DistanceReliability> distance_reliability(const JointAdjustment& adj
         const Eigen::VectorXd difference = group.cholesky * group.residual;
         const Eigen::MatrixXd noise = group.cholesky * group.cholesky.transpose();
         const Eigen::MatrixXd parameters = covariance(columns, columns);
+        // A distance that was left out is predicted from all others: through the parameters, and through the kept
+        // distances of its visit, with which it has the deviation of the table in common.
         const Eigen::LLT<Eigen::MatrixXd> kept_factor(Eigen::MatrixXd(noise(kept, kept)));
         for (const Eigen::Index self : left_out) {
             double deviation = difference[self];
@@ -152,6 +154,7 @@ std::vector<CoordinateReliability> fixture_reliability(const JointAdjustment& ad
 }
 
 double tau_critical_value(double student_critical_value, double degrees_of_freedom) {
+    // Pope's tau: the residual is part of the estimate of the variance that it is divided by.
     const double t = student_critical_value;
     return std::sqrt(degrees_of_freedom) * t / std::sqrt(degrees_of_freedom - 1.0 + t * t);
 }
@@ -237,6 +240,7 @@ void OneAtATime::leave_out(std::size_t length) {
     const std::size_t at = place_of_[length];
     const Place& place = places_[at];
     LeftOut left_out{column(place), diagonal_[place.index]};
+    // Leaving out is a change of rank one at fixed weights: no new adjustment for every suspect.
     weighted_ -= left_out.column * (weighted_[place.index] / left_out.diagonal);
     diagonal_ -= left_out.column.cwiseAbs2() / left_out.diagonal;
     out_[at] = true;

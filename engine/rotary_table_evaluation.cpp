@@ -228,7 +228,7 @@ public:
         weights_only.step_tolerance = std::max(solver.step_tolerance, k_linear_step);
         for (int i = 0; i < max_iterations; ++i) {
             solve(adjustment, i == 0 ? solver : weights_only);
-            // Whether the residuals speak of the fixture at all is asked once, at its stated covariance.
+            // Whether the residuals depend on the fixture at all is tested once, at its stated covariance.
             if (estimated_.fixture && !fixture_asked_) {
                 fixture_asked_ = true;
                 if (fixture_redundancy(adjustment, *normal, covariance) < k_least_component_redundancy) {
@@ -248,7 +248,7 @@ public:
         solve(adjustment, solver);
     }
 
-    /// Exactly, with weights from derivatives at the very solution, so that whoever makes them again finds the same.
+    /// Exactly, with weights from derivatives at the very solution, so that weights made again from it are the same.
     void settle_exactly(JointAdjustment& adjustment, StochasticModel& stochastic, const EvaluationOptions& options) {
         settle(adjustment, stochastic, options.max_component_iterations, options.component_tolerance, options.solver);
         if (estimated_.fixture && fixture_is_weak()) {
@@ -270,7 +270,7 @@ public:
     }
 
     [[nodiscard]] const EstimatedComponents& estimated() const { return estimated_; }
-    /// True where the estimate of the fixture ends where the distances no longer speak of it.
+    /// True where the estimate of the fixture went to a value at which the distances no longer determine it.
     [[nodiscard]] bool fixture_is_weak() const {
         return step.fixture_at_bound || step.components[fixture_cmm].redundancy < k_least_component_redundancy;
     }
@@ -838,7 +838,8 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
     solution.critical_value_degrees_of_freedom = limits.degrees_of_freedom;
     solution.non_centrality = limits.non_centrality;
     fill_variance_factor(solution);
-    std::vector<bool> but_gross = all;  // what single tests left out may speak of more than itself
+    // Lengths that single tests left out stay in for the group tests: they may be signs of a fault of a whole group.
+    std::vector<bool> but_gross = all;
     for (const OutlierFinding& finding : solution.outliers) {
         but_gross[finding.length] = but_gross[finding.length] && finding.reason != OutlierReason::gross_error;
     }

@@ -133,6 +133,9 @@ using Progress = std::function<void(const std::string&)>;
 /// the others in a run of its own, and a warning says when it contradicts what is stated.
 ///
 /// \throws gum::NoResultError  naming the parameters that are not determined, or when nothing converges
+/// Accuracy: exact distances give the truth back within 1e-10 m and 1e-9 rad
+/// (docs/accuracy.md#covariance-and-trials-of-a-rotary-table).
+/// Example: examples/api/rotary_table.cpp
 [[nodiscard]] RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement,
                                                    const EvaluationOptions& options, const Progress& progress = {});
 

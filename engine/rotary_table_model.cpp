@@ -21,6 +21,7 @@ void make_uniform(gum::InputGroup& group) {
     group.distribution = "uniform";
     group.marginals.clear();
     for (Eigen::Index i = 0; i < group.size(); ++i) {
+        // u = a/√3 (JCGM 100:2008, 4.3.7), the other way round: the stated u stays what it is.
         const double half_width = std::sqrt(3.0 * group.covariance(i, 0));
         group.marginals.push_back(half_width > 0.0 ? gum::Distribution::uniform(group.value[i], half_width)
                                                    : gum::Distribution::constant(group.value[i]));
@@ -91,6 +92,7 @@ double sensitivity_coefficient_count(const RotaryTableMeasurement& measurement) 
         static_cast<double>(visits_of(measurement, std::vector<bool>(measurement.lengths.size(), true)).size());
     const auto stations = static_cast<double>(measurement.stations.size());
     const LengthUncertainty& u = measurement.length_uncertainty;
+    // Counted from the measurement alone: a job that is too large is refused before anything is solved.
     const double inputs = (u.resolution > 0.0 ? 2.0 : 1.0) * lengths + 6.0 * visits +
                           (u.scale_model == ScaleModel::prior ? stations : 0.0) +
                           static_cast<double>(measurement.dead_paths.size()) +
@@ -290,6 +292,7 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
     }
     layout_.size = input_count();
     for (std::size_t d = 0; d < measurement_.dead_paths.size(); ++d) {
+        // As inputs they are held in the equations and varied from outside (ADR 0007).
         nominal_.adjustment().hold(nominal_.dead_path_block(d), 0);
     }
     equations_ = nominal_.adjustment().linearise();
@@ -384,6 +387,7 @@ Eigen::MatrixXd RotaryTableModel::input_sensitivity(const JointAdjustment& adjus
         }
         gain = normal.bordered_covariance().times_left(combined);
     } else {
+        // The rows of the outputs go through the normal equations, not the columns of the inputs, which are more.
         gain = normal.bordered_covariance().times_left(by_parameter);
     }
 

@@ -266,6 +266,8 @@ void RotaryTableTrials::add_inputs(const JointAdjustment& solved, const Stochast
                                          Eigen::MatrixXd::Constant(1, 1, 2.0 / nu), gum::k_infinity);
         group.evaluation = gum::Evaluation::type_a;
         group.distribution = "gamma";
+        // The variance itself is known with ν degrees of freedom only: a factor χ²_ν/ν that all quantities of the
+        // component share. Drawn for each of thousands of lengths it would average out.
         group.marginals = {gum::Distribution{
             .kind = gum::DistributionKind::gamma, .location = 0.0, .scale = 2.0 / nu, .shape = 0.5 * nu}};
         return add(std::move(group));
@@ -431,6 +433,8 @@ void RotaryTableTrials::evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>&
         }
         for (Index t = 0; t < count; ++t) {
             const TrialEnd& end = ends[static_cast<std::size_t>(t)];
+            // A trial without a solution has no value: Monte Carlo ends and names it, instead of leaving it out in
+            // silence.
             if (!end.converged) {
                 y.row(first + t).setConstant(std::numeric_limits<double>::quiet_NaN());
             }
@@ -494,6 +498,7 @@ Eigen::MatrixXd RotaryTableTrials::jacobian(const Eigen::VectorXd& x) const {
         Eigen::MatrixXd y(trials.rows(), result.rows());
         evaluate_trials(trials, y);
         for (Index i = 0; i < count; ++i) {
+            // The difference as it was evaluated: x + h and x − h are rounded.
             const double width = trials(2 * i, first + i) - trials(2 * i + 1, first + i);
             if (width > 0.0) {
                 result.col(first + i) = (y.row(2 * i) - y.row(2 * i + 1)).transpose() / width;

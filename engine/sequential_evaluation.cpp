@@ -79,6 +79,7 @@ Eigen::Matrix<double, 3, 4> set_up_rows(const Eigen::Vector3d& point, const Eige
 }
 
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& design, double* condition, bool* full_rank) {
+    // Columns of unit length, so that coordinates, dead paths and scale count alike in the rank.
     const Eigen::VectorXd scale = design.colwise().norm().cwiseInverse();
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(design * scale.asDiagonal(), Eigen::ComputeThinU | Eigen::ComputeThinV);
     const Eigen::VectorXd& values = svd.singularValues();

@@ -220,6 +220,8 @@ private:
         for (Eigen::Index i = 0; i < deviation.size(); ++i) {
             deviation[i] = (at.point[static_cast<std::size_t>(i)] - station).norm() - data.length[i];
         }
+        // The constant of a dead path moves all its lengths alike: their median takes it out, and single wrong lengths
+        // do not move that.
         Eigen::VectorXd centre(static_cast<Eigen::Index>(data.members.size()));
         std::vector<double> values;
         for (std::size_t d = 0; d < data.members.size(); ++d) {
@@ -260,6 +262,7 @@ private:
         if (values.empty()) {
             return 0.0;
         }
+        // Without the largest ones: gross errors in a few lengths say nothing against a position.
         const auto kept = static_cast<std::ptrdiff_t>(std::ceil(k_trimmed_share * static_cast<double>(values.size())));
         std::nth_element(values.begin(), values.begin() + kept - 1, values.end());
         double squares = 0.0;
@@ -279,6 +282,8 @@ private:
     [[nodiscard]] static Weighted weigh(const StationData& data, Eigen::VectorXd deviation, double c) {
         Weighted result;
         result.weight.resize(deviation.size());
+        // Weights of Cauchy fall with the square of a deviation: a length that is wrong by a metre has no pull left.
+        // Weights and weighted centres depend on each other, so that both are made three times.
         for (int round = 0; round < 3; ++round) {
             for (const std::vector<Eigen::Index>& members : data.members) {
                 double sum = 0.0;
@@ -329,6 +334,7 @@ private:
             }
             return values.empty() ? 1e-9 : std::max(2.5 * k_mad_to_deviation * median(values), 1e-9);
         };
+        // Weak beside any distance: it only decides what they leave open (k_set_up_offset).
         const auto prior = [&](const Eigen::Vector4d& with, double c) {
             return std::pow(k_typical_deviation / c, 2) *
                    (with.head<2>().squaredNorm() / (k_set_up_offset * k_set_up_offset) +
@@ -864,6 +870,7 @@ private:
     [[nodiscard]] std::optional<LabelHypothesis> cause_of(std::size_t station, double misfit) const {
         const std::vector<bool> active = of_station(station, std::nullopt);
         std::optional<LabelHypothesis> best;
+        // A wrong guess of labels lowers the misfit a little by chance; the right one removes nearly all of it.
         double least = std::min(k_share_with_right_labels * misfit, k_wrong_labels);
         for (const LabelHypothesis& hypothesis : hypotheses_) {
             const RotaryTableMeasurement other = relabelled(measurement_, station, hypothesis);

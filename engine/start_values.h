@@ -41,7 +41,8 @@ struct StartValues {
 /// Nothing is found in a dead path with fewer than three lengths: there is no telling which one is wrong.
 ///
 /// Distances of a station that no position explains are tried with other labels: the table turning the other way, two
-/// reflectors interchanged, passes from two places. The one that makes the misfit vanish is told, and nothing is found.
+/// reflectors interchanged, passes from two places. If one makes the misfit vanish it is reported as wrong
+/// labels, and no gross error is returned.
 ///
 /// \throws gum::NoResultError  as find_start_values(), and GC-ADJUST-0013 for wrong labels
 [[nodiscard]] std::vector<std::size_t> find_gross_errors(const RotaryTableMeasurement& measurement);

@@ -259,6 +259,8 @@ private:
 
     /// Of every exchange; infinite also for those that are surely not the best, or surely not wanted.
     std::vector<double> ratios_of_round() {
+        // The bound takes the poses alone, with all else as known. The border, the costly part, is factored only for
+        // exchanges that may still be the best, the most promising first.
         std::vector<double> least(tasks());
         parallel_.run(least.size(),
                       [&](unsigned worker, std::size_t task) { least[task] = least_ratio(workers_[worker], task); });

@@ -130,6 +130,8 @@ constexpr std::array<const char*, k_positioning_parameters> k_descriptions{
 
 VisitPositionGains visit_position_gains(const JointAdjustment& solved, const StochasticModel& stochastic) {
     StochasticModel without_axial = stochastic;
+    // The axial deviation of a visit is part of the position that is looked for: as noise in the weights it would be
+    // drawn towards the mean.
     without_axial.variance_axial = 0.0;
     const int column = 3 + axial_coordinate(solved.measurement().axis);
     VisitPositionGains result;

@@ -117,6 +117,7 @@ void TrialNetwork::take_visits(const JointAdjustment& solved, const NormalEquati
         input += static_cast<Index>(of_adjustment[v].observations.size());
         sequence.push_back(v);
     }
+    // Visits of one angle in one sense share pose and rotation, which a trial then forms once for all of them.
     std::stable_sort(sequence.begin(), sequence.end(), [&](std::size_t a, std::size_t b) {
         return std::pair(of_adjustment[a].angle, half_sense(of_adjustment[a])) <
                std::pair(of_adjustment[b].angle, half_sense(of_adjustment[b]));
@@ -277,6 +278,7 @@ void TrialNetwork::take_normal_equations(const JointAdjustment& solved, const No
     }
 
     const auto border_size = static_cast<Index>(border.size());
+    // Jᵀ V⁻¹ J in three parts: of the border, of each pose alone, and between both. No observation joins two poses.
     Eigen::MatrixXd reduced = Eigen::MatrixXd::Zero(border_size, border_size);
     std::vector<Eigen::MatrixXd> own;
     std::vector<Eigen::MatrixXd> cross;
@@ -323,6 +325,8 @@ void TrialNetwork::take_normal_equations(const JointAdjustment& solved, const No
             continue;
         }
         Elimination elimination;
+        // Made once, at the solution: trials begin there and take their steps with these matrices. One that needs more
+        // than a few steps is solved alone with matrices of its own (TrialOptions::most_steps).
         elimination.inverse = inverse_of(own[i]);
         elimination.to_pose = -(elimination.inverse * cross[i]);
         elimination.to_border = elimination.to_pose.transpose();

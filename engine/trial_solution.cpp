@@ -35,6 +35,7 @@ void reduce_gradient(const TrialNetwork& network, TrialBatch& batch) {
 
 /// Solves A x = b in the place of b; A n×n, positive definite, is overwritten.
 GUMCERT_INLINE void solve_positive_definite(Lanes* a, std::size_t n, Lanes* b) {
+    // No pivots are sought: A is the identity plus a positive semidefinite matrix here, its pivots are 1 or more.
     for (std::size_t k = 0; k < n; ++k) {
         Lanes inverse;
         for (int t = 0; t < k_lanes; ++t) {
@@ -300,6 +301,8 @@ std::array<TrialEnd, k_lanes> solve(const TrialNetwork& network, const TrialOpti
     }
     fill(batch.thermal_moves, 0.0);
     for (int number = 1; number <= options.most_steps && any(batch.active); ++number) {
+        // The gradient is that of the trial at its present parameters, the normal matrix that of the nominal solution
+        // for all of them: steps are a little wrong, the solution at which they end is not.
         find_gradient(network, batch);
         reduce_gradient(network, batch);
         if (network.thermal.is_uncertain) {

@@ -286,6 +286,7 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
                                                       estimated.table};
     const std::vector<std::vector<std::size_t>> parts = visits_by_parts(adjustment);
     std::vector<VisitSums> sums(parts.size());
+    // Parts that do not depend on the number of threads, added in their order: the same sum to the last bit.
     FixedParts(parts.size(), 1).run(adjustment.adjustment().workers(), [&](std::size_t part, std::size_t, std::size_t) {
         sums[part] = sums_of(adjustment, normal, covariance, parts[part], needed);
     });
@@ -455,6 +456,7 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
             // At zero the Fisher information of the component alone says how large it could be.
             const double spread =
                 variance_of_theta > 0.0 ? std::sqrt(variance_of_theta) : std::sqrt(2.0 / fisher(at, at));
+            // u(√θ) = u(θ)/(2 √θ) grows without limit towards 0; √u(θ) is what a component near 0 may be as large as.
             component.u = next[at] > 0.0
                               ? std::min(0.5 * spread / next[at] * component.value, std::sqrt(spread * scales[k]))
                               : std::sqrt(spread * scales[k]);

@@ -25,7 +25,7 @@ struct VarianceComponent {
     bool estimated = false;
     std::optional<double> stated = {};  ///< what the job states, in the unit of `value`
     bool used = true;       ///< in the weights; false: estimated only as a check of the stated value, which they use
-    bool separable = true;  ///< false: it was to be estimated, but too little of the redundancy speaks of it
+    bool separable = true;  ///< false: it was to be estimated, but too little of the redundancy depends on it
 };
 
 /// Which components are estimated from the residuals.

@@ -177,6 +177,7 @@ OneWayAnalysis analyse(std::span<const Sample> samples, Real centre, double alph
     result.standard_deviation_of_group_means = static_cast<double>(of_means);
     result.between_estimate = static_cast<double>(root_of_square(between.mean_square()));
     result.within_standard_deviation = static_cast<double>(root_of_square(within.mean_square()));
+    // Of groups of one size it is that size.
     const Real effective_size = (n - squared_sizes / n) / (j - 1.0L);
     result.between_variance_clipped = between.mean_square() < within.mean_square();
     result.between_standard_deviation =

@@ -77,7 +77,8 @@ struct OneWayAnalysis {
 /// \throws NoResultError  GC-GUM-0073 nothing varies, or squares leave the range of numbers
 /// Valid for observations that are independent and of one dispersion within the groups; normal for the p-value.
 /// Accuracy: two passes in long double about a common centre; 15 digits of the observations in, and what their rounding
-/// to double leaves, out.
+/// to double leaves, out (docs/accuracy.md#analysis-of-variance).
+/// Example: examples/api/observations.cpp
 /// @{
 
 /// From the observations, V_jk; groups may differ in size.

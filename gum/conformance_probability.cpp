@@ -189,6 +189,7 @@ std::optional<ToleranceLimits> acceptance_limits_for_risk(const MeasuredValue& y
     if (dispersion.risk(best, limits) > risk) {
         return std::nullopt;
     }
+    // Only where the far tail counts at all: else the closed form of one side stands, exact and without a search.
     if (dispersion.above(*limits.upper - low) > k_negligible_tail * risk) {
         accepted.lower = crossing(dispersion, limits, risk, low, best);
     }

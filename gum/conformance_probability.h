@@ -32,6 +32,8 @@ void require_measured_value(const MeasuredValue& y);
 
 /// p_c = P(T_L ≤ Y ≤ T_U)                                                        (JCGM 106:2012, 7.1 and 7.2)
 /// \throws InputError  GC-GUM-0080 limits, GC-GUM-0081 measured value
+/// Accuracy: relative error below 1e-11, also far out in a tail (docs/accuracy.md#conformity-and-global-risk).
+/// Example: examples/api/conformity.cpp
 [[nodiscard]] double conformance_probability(const MeasuredValue& y, const ToleranceLimits& limits);
 
 /// 1 − p_c, added up from the two tails, so that it keeps its digits when it is small.

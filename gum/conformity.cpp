@@ -98,6 +98,7 @@ std::string acceptance_text(const ToleranceLimits& limits, const std::string& gu
 }
 
 bool Application::at_most(double a, double b) const {
+    // A value that stands on a limit in decimal numbers passes: in binary it may lie a rounding beyond.
     const double scale = std::max({std::abs(y_.value), std::abs(limits_.lower.value_or(0.0)),
                                    std::abs(limits_.upper.value_or(0.0)), std::abs(decision_.guard_band)});
     return a <= b + k_rounding * scale;

@@ -48,6 +48,9 @@ struct ConformityDecision {
 /// DR-06, DR-08, DR-09 by method 4). So far out every rule says fail.
 /// \throws InputError  GC-GUM-0080 limits, GC-GUM-0081 measured value, GC-GUM-0082 every fault that
 ///     `check_decision_rule` finds with the rule
+/// Accuracy: probabilities and acceptance limits within 1e-11 relative where the distribution is normal or t
+/// (docs/accuracy.md#conformity-and-global-risk).
+/// Example: examples/api/conformity.cpp
 [[nodiscard]] ConformityDecision decide_conformity(DecisionRule rule, const DecisionRuleParameters& parameters,
                                                    const ToleranceLimits& limits, const MeasuredValue& y);
 

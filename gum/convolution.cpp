@@ -164,6 +164,7 @@ CellSum convolve(std::span<const Centred> distributions, double widest_grid, dou
     const double h = reach / static_cast<double>(k_last_cell);
 
     Eigen::FFT<double> transform;
+    // The spectrum of a sum of independent quantities is the product of their spectra.
     std::vector<std::complex<double>> product;
     for (const Centred& centred : distributions) {
         std::vector<std::complex<double>> spectrum;
@@ -337,6 +338,7 @@ void multiply_by_characteristic(const Distribution& d, double delta, std::vector
 /// P(|Y| ≤ x) = x/L + (2/π) Σ_j φ(jπ/L) sin(jπx/L)/j.
 /// \return nothing where cells of a grid are better: an unknown characteristic function, or one that falls slowly
 std::optional<double> fourier_half_width(std::span<const Centred> terms, double p) {
+    // Nearer to p = 1 the density at the end is lower: the same error of k allows a smaller error of the probability.
     const double accepted = k_fourier_error * std::min(1.0, (1.0 - p) / 0.05);
     double bounded_reach = 0.0;
     double proxy = 0.0;  // variance of a normal distribution whose tails are no lighter
@@ -359,6 +361,8 @@ std::optional<double> fourier_half_width(std::span<const Centred> terms, double 
             bounded_reach += a;
         }
     }
+    // Bounded terms reach no further than their half-widths together; with normal ones, no further than a normal
+    // distribution of the variance `proxy`, whose tails are at least as heavy.
     const double core = std::min(bounded_reach, std::sqrt(-2.0 * proxy * std::log(0.05 * accepted)));
     // What lies beyond 2 L − x is counted where it does not belong, a density that falls with the distance.
     const double reach = core + students;
@@ -400,6 +404,7 @@ std::optional<double> fourier_half_width(std::span<const Centred> terms, double 
     }
     /// P(|Y| ≤ x) − p and the density of |Y| at x.
     const auto at = [&](double x) {
+        // cos and sin of every multiple by rotating the last ones: two products in place of two calls.
         const double c = std::cos(delta * x);
         const double s = std::sin(delta * x);
         double cosine = c;
@@ -529,6 +534,7 @@ ConvolutionInterval convolution_interval(std::span<const ConvolutionTerm> terms,
     // grid must lie far from where it counts.
     constexpr double k_trusted = 0.125;
     constexpr double k_wider = 8.0;
+    // What is cut off must stay small beside the tail that is asked for.
     const double tail = std::min(k_tail_beyond_grid, 1e-3 * (1.0 - coverage_probability));
     for (double widest_grid = k_widest_grid;; widest_grid *= k_wider) {
         const CellSum sum = convolve(distributions, widest_grid, tail);

@@ -33,8 +33,9 @@ struct ConvolutionInterval {
 /// interval. Others, and where that series falls slowly: probabilities of cells of a grid, multiplied as Fourier
 /// transforms. All normal terms enter as one; a single symmetric term by its quantile.
 /// \throws InputError  GC-GUM-0004 for p; GC-GUM-0060 without a term of scale > 0, or with one that has a problem
-/// Accuracy: relative error below 2e-6 of symmetric terms, of t-distributions from ν = 2 on; 1e-4 of others, 5e-3 from
-/// ν = 1 on.
+/// Accuracy: relative error below 2e-6 of symmetric terms, of t-distributions from ν = 2 on; 4e-4 of others, 5e-3 from
+/// ν = 1 on (docs/accuracy.md#convolution-of-contributions).
+/// Example: examples/api/coverage_factor.cpp
 [[nodiscard]] ConvolutionInterval convolution_interval(std::span<const ConvolutionTerm> terms,
                                                        double coverage_probability);
 
@@ -52,8 +53,8 @@ public:
     explicit ConvolutionDistribution(std::span<const ConvolutionTerm> terms);
 
     /// \param x  [unit of y], not NaN
-    /// Accuracy: absolute error below 1e-6 where no term has a t-distribution with fewer than 3 degrees of freedom, or
-    /// samples.
+    /// Accuracy: absolute error below 2e-6 of symmetric terms where none has a t-distribution with fewer than 3 degrees
+    /// of freedom, or samples; 1e-4 of others.
     [[nodiscard]] double operator()(double x) const;
 
     /// P(… < x), which differs where samples are the only term: each of them has a probability of its own.

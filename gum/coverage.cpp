@@ -65,6 +65,8 @@ double ellipsoid_coverage_factor(double coverage_probability, std::size_t output
     if (std::isinf(degrees_of_freedom)) {
         return std::sqrt(boost::math::quantile(boost::math::complement(ChiSquareDistribution(m), tail)));
     }
+    // Hotelling's T²: m ν/(ν + 1 − m) F(m, ν + 1 − m). With fewer degrees of freedom the estimated covariance matrix is
+    // singular, and there is no ellipsoid.
     const double denominator = degrees_of_freedom + 1.0 - m;
     if (!(denominator > 0.0)) {
         throw NoResultError(Diagnostic{.code = "GC-GUM-0011",
@@ -97,6 +99,7 @@ double effective_degrees_of_freedom(std::span<const UncertaintyContribution> con
     double denominator = 0.0;
     for (const UncertaintyContribution& contribution : contributions) {
         const double ratio = contribution.uncertainty / largest;
+        // JCGM 100:2008, G.4.1, eq. G.2b with shares of the variance: 1/ν_eff = Σ share_i²/ν_i.
         const double share = ratio * ratio / sum_of_squares;
         denominator += share * share / contribution.degrees_of_freedom;
     }

@@ -16,7 +16,8 @@ namespace gumcert::gum {
 /// \throws NoResultError  GC-GUM-0010 if k is too large to be represented (ν far below 1)
 /// A ν that is not whole is used as it is. Annex G of the GUM cuts it to the next lower integer only to enter its
 /// table; the quantile exists for every real ν, so cutting would add nothing but a little uncertainty.
-/// Accuracy: relative error below 1e-12.
+/// Accuracy: relative error below 1e-12 (docs/accuracy.md#coverage-factors-and-quantiles).
+/// Example: examples/api/coverage_factor.cpp
 [[nodiscard]] double coverage_factor(double coverage_probability, double degrees_of_freedom);
 
 /// Factor k_p of the hyper-ellipsoid (η − y)ᵀ V⁻¹ (η − y) = k_p² that has the coverage probability p for m outputs.
@@ -43,6 +44,8 @@ struct UncertaintyContribution {
 /// \return ν_eff, not cut to an integer; infinite when no contribution other than 0 has finite ν_i
 /// \throws InputError  GC-GUM-0001, -0002 or -0005 for a contribution out of range
 /// Valid for contributions that are independent of each other; correlated quantities must enter as one contribution.
+/// Accuracy: relative error below 1e-12, in any unit.
+/// Example: examples/api/coverage_factor.cpp
 [[nodiscard]] double effective_degrees_of_freedom(std::span<const UncertaintyContribution> contributions);
 
 /// P(χ²_ν ≤ x). Called p_low where x is a sum of squared scores: a small value says that uncertainties are too large.

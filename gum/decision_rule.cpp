@@ -223,6 +223,7 @@ void Check::range(bool fine, const char* key, const std::optional<double>& value
 }
 
 void Check::ranges() {
+    // A negative guard band accepts values outside of the limits: only rules that publish this may have one.
     const bool outwards = row_of(rule_).outwards || (p_.alternative && row_of(*p_.alternative).outwards);
     range(outwards || p_.guard_factor.value_or(0.0) >= 0.0, "guard_factor", p_.guard_factor,
           outwards ? "finite" : "finite and not negative");
@@ -257,6 +258,7 @@ void Check::ranges() {
 }
 
 void Check::unused() {
+    // A parameter that a rule does not look at is refused: who states a guard band must not believe that it was kept.
     const Uses own = uses_of(rule_);
     const Uses other = p_.alternative && own.alternative ? uses_of(*p_.alternative) : Uses{};
     const auto refuse_unused = [&](bool stated, bool used, const char* key) {

@@ -9,6 +9,8 @@
 
 namespace gumcert::gum {
 
+/// The rules that a certificate can name, DR-01 to DR-13.
+/// Example: examples/api/conformity.cpp
 enum class DecisionRule {
     simple_acceptance,             ///< DR-01 ILAC-G8 4.2.1
     simple_acceptance_with_ratio,  ///< DR-02 only where TUR ≥ N or U ≤ U_max; where both are stated, both

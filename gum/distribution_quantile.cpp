@@ -95,6 +95,7 @@ double symmetric_tail(const Distribution& distribution, double s) {
                 return s < 1.0 ? 0.5 * (1.0 - s) : 0.0;
             }
             if (s <= 1.0 - shape && shape < 1.0) {
+                // Between the nearest positions of the limits the density of JCGM 101:2008, 6.4.3.3 is constant.
                 return 0.5 - s * (std::log1p(shape) - std::log1p(-shape)) / (4.0 * shape);
             }
             return limit / (4.0 * shape) * curved_tail((limit - s) / limit);
@@ -120,6 +121,8 @@ double symmetric_quantile(const Distribution& distribution, double q) {
         case DistributionKind::triangular:
             return 1.0 - std::sqrt(2.0 * q);
         case DistributionKind::arcsine:
+            // The same number twice: each form keeps its digits where the other cancels, near the limit and near the
+            // middle.
             return q < 0.25 ? std::cos(k_pi * q) : std::sin(k_pi * (0.5 - q));
         case DistributionKind::trapezoidal: {
             const double slanted = (1.0 - shape) * (1.0 + shape);

@@ -16,7 +16,8 @@ namespace gumcert::gum {
 /// \param distribution  one without a problem (distribution_problem)
 /// \param x             [unit of location]; infinite is allowed
 /// \throws InputError  GC-GUM-0124 for a distribution with a problem, GC-GUM-0125 if x is NaN
-/// Accuracy: relative error below 1e-11 for shapes from 0.1 to 1e4, given the rounding of (x - location)/scale.
+/// Accuracy: relative error below 1e-9, and 1e-12 where there is a closed form, given the rounding of
+/// (x - location)/scale (docs/accuracy.md#coverage-factors-and-quantiles).
 [[nodiscard]] double lower_tail_probability(const Distribution& distribution, double x);
 
 /// P(X > x); as lower_tail_probability. Both tails of a value add up to 1.
@@ -34,7 +35,9 @@ namespace gumcert::gum {
 /// and is inverted by Newton steps. Student's t, gamma and beta: Boost.Math. The others have closed forms.
 /// \param p  0 … 1
 /// \throws InputError  GC-GUM-0124 for a distribution with a problem, GC-GUM-0125 if p is not from 0 to 1
-/// Accuracy: relative error of (x - location)/scale below 1e-11 for shapes from 0.1 to 1e4.
+/// Accuracy: the tail probability of the x that is returned is p within 1e-9 relative, from p = 1e-12 on
+/// (docs/accuracy.md#coverage-factors-and-quantiles).
+/// Example: examples/api/coverage_factor.cpp
 [[nodiscard]] double quantile(const Distribution& distribution, double p);
 
 /// The x with P(X > x) = q, for upper tails too small to be written as 1 - q; else as quantile(1 - q).

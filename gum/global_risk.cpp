@@ -16,6 +16,8 @@
 namespace gumcert::gum {
 namespace {
 
+// Fixed panels of 20 points and no adaptive rule: panel ends lie where the integrand changes (panel_ends), so that a
+// measurement far narrower than the population is not stepped over.
 using Panel = boost::math::quadrature::gauss<double, 20>;
 
 constexpr int k_reach = 38;  // standard deviations: beyond, a normal density is not a number above 0 any more

@@ -21,8 +21,9 @@ struct GlobalRisk {
 /// \param centre, deviation  mean and standard deviation s0 > 0 of the population
 /// \param u                  standard uncertainty of the measurement, u > 0
 /// \throws InputError  GC-GUM-0080 for the tolerance, GC-GUM-0001 or -0003 for another argument
-/// Accuracy: relative error of each risk below 1e-11 while it is above 1e-100; Gauss–Legendre panels of one standard
-/// deviation of the narrower distribution.
+/// Accuracy: relative error of each risk below 1e-11; Gauss–Legendre panels of one standard deviation of the narrower
+/// distribution (docs/accuracy.md#conformity-and-global-risk).
+/// Example: examples/api/conformity.cpp
 [[nodiscard]] GlobalRisk global_risk(const ToleranceLimits& tolerance, const ToleranceLimits& acceptance, double centre,
                                      double deviation, double u);
 

@@ -144,6 +144,8 @@ std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const
         return at < coverage_factor.size() ? coverage_factor[at].value_or(2.0) : 2.0;
     };
 
+    // Model against tangent at points that come in pairs x ± δ, scattered with the covariance of the inputs, and along
+    // the direction in which each output moves most. The same points every time: a verdict must not depend on luck.
     Eigen::MatrixXd points = x.transpose().replicate(2 * k_pairs + 4 * m, 1);
     for (Eigen::Index pair = 0; pair < k_pairs; ++pair) {
         Eigen::VectorXd s(n);
@@ -198,6 +200,7 @@ std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const
         for (Eigen::Index i = 0; i < n; ++i) {
             size = std::max(size, std::abs(propagation.jacobian(k, i) * x(i)));
         }
+        // Where large terms cancel, the difference of model and tangent is rounding and no curvature.
         const double rounding = k_roundings * std::numeric_limits<double>::epsilon() * size;
         double mean = 0.0;
         double square = 0.0;
@@ -255,6 +258,7 @@ double linear_skewness(const MeasurementModel& model, const Propagation& propaga
     Eigen::Index column = 0;
     for (const InputGroup& group : model.inputs()) {
         if (group.marginals.size() == 1 && !is_symmetric(group.marginals.front())) {
+            // Third cumulants of independent inputs add up: γ(y) = Σ (c u/u(y))³ γ_i.
             const double part = propagation.jacobian(output, column) * std::sqrt(group.covariance(0, 0)) / u;
             if (part != 0.0) {
                 sum += part * part * part * skewness(group.marginals.front());

@@ -637,6 +637,7 @@ private:
             low.merge(moments_of(&range.low.value, 1));
             high.merge(moments_of(&range.high.value, 1));
         }
+        // The shortest interval settles as M^(-1/3) (NumericalError).
         const double scale = std::cbrt(static_cast<double>(batch_) / static_cast<double>(trials_));
         return {.low = low.standard_deviation() * scale, .high = high.standard_deviation() * scale};
     }
@@ -659,6 +660,8 @@ private:
             const auto [below, above] = spread_of(rank);
             const double distance = search.value(above).value - search.value(below).value;
             // Near the smallest or largest value one side is cut off: then the whole distance.
+            // The rank of a quantile scatters binomially: the order statistics one standard deviation away show what
+            // this does to the value, whatever the density is.
             const bool cut = below == 0 || above == trials_ - 1;
             value = at.value;
             value_error = std::hypot(cut ? distance : 0.5 * distance, at.resolution);
@@ -773,6 +776,7 @@ SequenceResult evaluate_sequence(TrialSource& source, const MonteCarloOptions& o
     for (Eigen::Index j = 0; j < m; ++j) {
         double* begin = y.col(j).data();
         double* end = begin + trials;
+        // JCGM 101:2008, 7.7.2: only two order statistics are asked for, so nothing is sorted.
         std::nth_element(begin, begin + ranks.low, end);
         const double low = begin[ranks.low];
         double* high = begin + ranks.low + ranks.inside;
@@ -853,6 +857,7 @@ private:
 
 MonteCarloResult run_adaptive(TrialSource& source, const MonteCarloOptions& options) {
     const AdaptiveTrials& adaptive = *options.adaptive;
+    // JCGM 101:2008, 7.9.4: J is the smallest integer not below 100/(1 − p); 1 − p is rounded, and must not add one.
     const double wanted = std::ceil(100.0 / (1.0 - options.coverage_probability) * (1.0 - 1e-12));
     const auto sequence_trials =
         static_cast<std::uint64_t>(std::clamp(wanted, 1e4, static_cast<double>(k_most_trials)));

@@ -132,6 +132,8 @@ struct MonteCarloResult {
 /// block
 ///                        that has one, the number of the first such trial and its inputs
 /// Fewer than 10^4/(1 − p) trials are done as asked; the caller warns (JCGM 101:2008, 7.2).
+/// Accuracy: that of the number of trials, stated with every number (NumericalError); docs/accuracy.md#monte-carlo.
+/// Example: examples/api/monte_carlo.cpp
 [[nodiscard]] MonteCarloResult run_monte_carlo(const MeasurementModel& model, const MonteCarloOptions& options);
 
 /// The inputs of one trial, n values: "why did trial 731 204 give this value?".

@@ -19,7 +19,7 @@ struct MonteCarloRequest {
     std::string where;      ///< place to name in messages
 };
 
-/// Trials, seed and threads as they are asked for, and who is told how far they are; nothing else is set.
+/// Trials, seed and threads as they are asked for, and the receiver of their progress; nothing else is set.
 [[nodiscard]] MonteCarloOptions monte_carlo_options(const MonteCarloRequest& asked, unsigned threads,
                                                     const Progress& progress);
 

@@ -32,6 +32,8 @@ void Moments::merge(const Moments& other) {
         *this = other;
         return;
     }
+    // Central moments of two parts, moved to the mean of both: no second pass over the trials, and none of the
+    // cancellation of raw powers.
     const double na = static_cast<double>(count);
     const double nb = static_cast<double>(other.count);
     const double n = na + nb;
@@ -59,6 +61,8 @@ double Moments::error_of_standard_deviation() const {
     }
     const double n = static_cast<double>(count);
     const double variance = m2 / n;
+    // Var(s²) = σ⁴ (κ − (n − 3)/(n − 1))/n; of s relative to σ it is a quarter of that. Heavy tails show in κ, so that
+    // the error does not rest on normal trials.
     const double relative = (m4 / n / variance / variance - (n - 3.0) / (n - 1.0)) / n;  // of u², squared
     return std::isfinite(relative) ? std::min(0.5 * std::sqrt(std::max(relative, 0.0)), 1.0) * u : u;
 }
@@ -89,6 +93,7 @@ Moments moments_of(const double* values, Eigen::Index count) {
         low[0] = std::min(low[0], values[i]);
         high[0] = std::max(high[0], values[i]);
     }
+    // Two passes: the moments are taken about the mean, never from sums of powers.
     result.mean = sum(total) / static_cast<double>(count);
     result.smallest = *std::min_element(low.begin(), low.end());
     result.largest = *std::max_element(high.begin(), high.end());
@@ -143,6 +148,7 @@ double sum_of_products(const double* a, double mean_a, const double* b, double m
 
 CoverageRanks::CoverageRanks(double coverage_probability, std::uint64_t trials) {
     const auto wanted =
+        // q = pM rounded, r = (M − q)/2 (JCGM 101:2008, 7.7.2).
         static_cast<std::uint64_t>(std::floor(coverage_probability * static_cast<double>(trials) + 0.5));
     inside = trials > 1 ? std::clamp<std::uint64_t>(wanted, 1, trials - 1) : 0;
     const std::uint64_t outside = trials - inside;
@@ -174,6 +180,7 @@ RankSearch::RankSearch(std::span<const double> pilot, int bits, std::uint64_t mo
     std::sort(sorted.begin(), sorted.end());
     const std::size_t n = sorted.size();
     centre_ = sorted[n / 2];
+    // About one standard deviation of the bulk: a standard deviation itself would follow a single outlier.
     double spread = 0.5 * (sorted[n - 1 - n / 6] - sorted[n / 6]);
     if (!(spread > 0.0)) {
         spread = 0.5 * (sorted.back() - sorted.front());
@@ -183,6 +190,8 @@ RankSearch::RankSearch(std::span<const double> pilot, int bits, std::uint64_t mo
     }
     spread = std::clamp(spread, 0x1p-900, 0x1p900);
     const int shift = 52 - bits;
+    // The bits of a positive double, read as a whole number, rise with it: bins are cut on these bits, fine near the
+    // centre and coarse far out, without knowing the range of the trials beforehand.
     base_ = std::bit_cast<std::int64_t>(std::ldexp(1.0, std::ilogb(spread) - k_octaves_below));
     top_key_ = (std::int64_t{k_octaves_below + k_octaves_above} << 52) - 1;
     offset_ = (top_key_ >> shift) + 1;
@@ -287,6 +296,9 @@ std::uint64_t RankSearch::mark_wanted(bool with_shortest) {
     if (with_shortest) {
         const std::uint64_t all = bins_.back().start + bins_.back().count;
         const std::uint64_t last = all - inside_ - 1;  // rank where the last interval begins
+        // From the edges of the bins: no interval that begins in a bin is shorter than from its upper edge to the lower
+        // edge of the bin where it ends. A bin whose shortest possible interval is longer than the longest possible one of
+        // another bin cannot hold it.
         double shortest_at_most = k_infinity;
         std::size_t begin = 0;
         for (const Bin& bin : bins_) {

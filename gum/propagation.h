@@ -57,10 +57,16 @@ struct Propagation : UncertaintyBudget {
 ///                        freedom (GC-GUM-0005), negative variance (GC-GUM-0051), not symmetric (GC-GUM-0052),
 ///                        correlation above 1 (GC-GUM-0053), not positive semi-definite (GC-GUM-0054)
 /// \throws NoResultError  GC-GUM-0055 to -0057 if the model has no finite value, sensitivity or variance at the
-/// estimates Positive semi-definite is judged on the correlation matrix of a group, so that quantities of very
-/// different size are judged alike: an eigenvalue below −10 n ε λ_max is refused, one between that and 0 is rounding
-/// and taken as 0. A source that is empty counts as a source of the group's name. Valid when the model is near-linear
-/// over the uncertainties. Accuracy: contributions sum to u² within 1e-12 relative.
+///                        estimates
+///
+/// Positive semi-definite is judged on the correlation matrix of a group, so that quantities of very different size are
+/// judged alike: an eigenvalue below −10 n ε λ_max is refused, one between that and 0 is rounding and taken as 0. A
+/// source that is empty counts as a source of the group's name.
+///
+/// Valid when the model is near-linear over the uncertainties.
+/// Accuracy: contributions sum to u² within 1e-12 relative; the covariance within 1e-13 of the sum of the magnitudes
+/// that it is made of (docs/accuracy.md#law-of-propagation).
+/// Example: examples/api/budget_by_hand.cpp
 [[nodiscard]] Propagation propagate(const MeasurementModel& model, double coverage_probability);
 
 /// Effective degrees of freedom of the joint covariance matrix of several outputs.
@@ -85,6 +91,8 @@ struct SecondOrderPropagation {
 ///                                                                            (JCGM 100:2008, 5.1.2 note)
 /// for normal ones (others: propagation.cpp). Third derivatives by central differences of the exact second ones.
 /// \return nothing when the model offers no second derivatives, or they are not finite
+/// Accuracy: u to this order within 1e-11 relative (docs/accuracy.md#law-of-propagation).
+/// Example: examples/api/budget_by_hand.cpp
 [[nodiscard]] std::optional<SecondOrderPropagation> propagate_to_second_order(const MeasurementModel& model,
                                                                               const Propagation& first_order);
 

@@ -360,12 +360,15 @@ void QuantileTable::fill(bool upper) {
     for (int octave = 0; octave < k_tabulated_octaves; ++octave) {
         const double octave_q = std::ldexp(0.5, -octave);  // at its upper end
         const double width = octave_q / 2.0 / k_cells;
+        // Anew from the exact quantile in each octave: errors of the chain do not add up over the table.
         double x_inner = exact(octave_q, upper);
         double f_inner = density(x_inner);
         for (int cell = k_cells - 1; cell >= 0; --cell) {
             const double q_outer = octave_q / 2.0 + cell * width;
             x_outer = chain ? student_t.next(x_inner, f_inner, width) : exact(q_outer, upper);
             f_outer = density(x_outer);
+            // Hermite piece: values and slopes, ∓1/density by q, agree at both ends. Its error falls with the fourth
+            // power of the width, and neighbouring pieces join without a step.
             const double slope_outer = direction * width / f_outer;
             const double slope_inner = direction * width / f_inner;
             const double rise = x_inner - x_outer;
@@ -586,6 +589,7 @@ private:
 InputDraws::InputDraws(const std::vector<InputGroup>& groups, std::uint64_t seed,
                        std::span<const std::uint64_t> streams, WorkerThreads* workers)
     : seed_(seed) {
+    // The checks of covariances are those of the law of propagation: both methods refuse the same inputs.
     static_cast<void>(propagate(GroupsAlone(groups), 0.5));
     std::vector<Diagnostic> problems;
     for (const InputGroup& group : groups) {
@@ -680,6 +684,7 @@ void InputDraws::draw_words(std::uint64_t stream, std::uint64_t index, std::uint
 }
 
 double InputDraws::more_bits(std::uint64_t stream, std::uint64_t index, std::uint64_t trial) const {
+    // The third word of the counter is 0 for all other draws: these bits are independent of them.
     const std::array<std::uint64_t, 4> words = philox_4x64_10({seed_, stream}, {trial, index, 1, 0});
     return (static_cast<double>(words[0] >> 11) + 0.5) * 0x1p-53;
 }
@@ -804,6 +809,8 @@ void InputDraws::draw_correlated(const Group& group, std::uint64_t first, Eigen:
     if (group.chi_square) {
         Eigen::ArrayXd factor(trials);
         draw_standard(*group.chi_square, group.stream, static_cast<std::uint64_t>(n), first, trials, factor.data());
+        // One χ² for all quantities of a group and trial makes the distribution a multivariate t (JCGM 102:2011,
+        // 5.3.2).
         factor = (0.5 * group.degrees_of_freedom / factor).sqrt();  // χ² is twice the gamma deviate
         for (Eigen::Index i = 0; i < n; ++i) {
             x.col(group.first + i).array() *= factor;
@@ -820,6 +827,7 @@ void InputDraws::draw_correlated(const Group& group, std::uint64_t first, Eigen:
         if (group.dependence == Dependence::gaussian_copula && marginal.kind != DistributionKind::normal) {
             for (Eigen::Index trial = 0; trial < trials; ++trial) {
                 const bool upper = column[trial] > 0.0;
+                // The probability of the nearer tail: 1 − Φ(z) would lose the digits of the upper one.
                 const double q = 0.5 * std::erfc(std::abs(column[trial]) / std::numbers::sqrt2);
                 if (quantity.table) {
                     column[trial] = quantity.table->value(q, upper);

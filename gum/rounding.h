@@ -37,6 +37,8 @@ struct RoundedPair {
 /// \param mode    for U only; `up` ignores an excess in or after the 13th significant digit, which is noise of the
 ///                computation: 0.12000000000000001 stays 0.12
 /// \throws InputError  GC-GUM-0001, -0003 or -0040
+/// Accuracy: half a unit of the last digit, ties to the even one (docs/accuracy.md#rounding-and-printing).
+/// Example: examples/api/budget_by_hand.cpp
 [[nodiscard]] RoundedPair round_to_uncertainty(double value, double U, int digits = 2,
                                                RoundingMode mode = RoundingMode::half_even);
 

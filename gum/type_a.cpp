@@ -84,6 +84,7 @@ ObservationSummary evaluate_type_a(std::span<const double> observations) {
     require_series(observations);
     const auto n = static_cast<Real>(observations.size());
     const Real mean = mean_of(observations);
+    // JCGM 100:2008, 4.2.2 with n − 1; rounded to double only at the end, so that s and s/√n belong to one number.
     const Real s = std::sqrt(std::max(sum_of_squares(observations, mean), 0.0L) / (n - 1.0L));
     ObservationSummary summary;
     summary.observations = observations.size();

@@ -32,7 +32,9 @@ struct ObservationSummary {
 /// \param observations  x_k, n ≥ 2, independent of each other (see autocorrelation_check)
 /// \throws InputError  GC-GUM-0001 not finite, GC-GUM-0021 fewer than two observations
 /// \throws NoResultError  GC-GUM-0027 observations so large that their squares leave the range of numbers
-/// Accuracy: two passes in long double; what is lost is the rounding of the observations themselves to double.
+/// Accuracy: two passes in long double; what is lost is the rounding of the observations themselves to double
+/// (docs/accuracy.md#type-a-evaluation).
+/// Example: examples/api/observations.cpp
 [[nodiscard]] ObservationSummary evaluate_type_a(std::span<const double> observations);
 
 /// Autocorrelation coefficients r_0 … r_m of a series.
@@ -83,7 +85,7 @@ struct StandardDeviation {
 /// \param observations  n ≥ 2
 /// \return ratio, 0.76 for n = 2, about 1/√(2(n − 1)) for large n
 /// \throws InputError GC-GUM-0021
-/// Accuracy: relative error below 1e-12.
+/// Accuracy: relative error below 1e-10 (docs/accuracy.md#type-a-evaluation).
 [[nodiscard]] double relative_standard_deviation_of_s(std::size_t observations);
 
 /// Degrees of freedom of a Type B standard uncertainty that is thought to be known to a relative part r.

@@ -8,6 +8,7 @@ namespace gumcert::gum {
 /// \param half_width  a ≥ 0, e.g. the maximum permissible error of an instrument found to conform
 /// \return u, in the unit of a; 0 only for a = 0, which stands for a constant
 /// \throws InputError  GC-GUM-0001 or -0002
+/// Example: examples/api/observations.cpp
 [[nodiscard]] double u_from_half_width(double half_width);
 
 /// Standard uncertainty due to the resolution of a displaying device.

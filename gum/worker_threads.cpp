@@ -84,6 +84,8 @@ void WorkerThreads::take_tasks(unsigned worker) {
             (*work_)(worker, task);
         } catch (...) {
             const std::lock_guard lock(mutex_);
+            // Of several failures that of the first task is kept, whichever thread was sooner: the message is the same
+            // for any number of threads.
             if (task < failed_task_) {
                 failed_task_ = task;
                 failure_ = std::current_exception();

@@ -12,8 +12,8 @@ namespace gumcert::gum {
 
 /// A few threads that share numbered tasks. The calling thread is one of them, so that one thread starts none.
 ///
-/// Which thread takes which task is not determined: a task must write to its own place, and whoever reads the places in
-/// the order of the tasks gets the same result for any number of threads.
+/// Which thread takes which task is not determined: a task must write to its own place. Read in the order of the tasks,
+/// the places give the same result for any number of threads.
 class WorkerThreads {
 public:
     /// \param count  1 … k_most; 0: as many as the machine has

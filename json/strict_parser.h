@@ -30,8 +30,8 @@ enum class Fault {
     not_finite
 };
 
-/// One fault, in words for whoever writes the text. Which code it has, and what a text of another kind says of it, is
-/// the business of the caller.
+/// One fault, in words for the author of the text. The caller chooses the code of the message, and may say it otherwise
+/// for a text of another kind.
 struct ParsingProblem {
     Fault fault = Fault::syntax;
     text::Place place;       ///< of the first character that is wrong
@@ -60,11 +60,12 @@ using Places = std::unordered_map<std::string, text::Place>;
 /// Reads a text strictly as JSON: UTF-8 only, no duplicate keys, no NaN, no numbers that double precision cannot hold,
 /// no integer that it would change, no NUL.
 ///
-/// \param report  is told of every fault, in the order of the text
+/// \param report  is called for every fault, in the order of the text
 /// \param places  when there is one, receives where the values stand; not those below very long keys
 /// \return the value; nothing when the text cannot be read to its end. With faults that let reading go on it is returned
 ///         all the same: of two equal keys the first is kept, and a number that was refused has the nlohmann type
 ///         `discarded`.
+/// Example: examples/api/records.cpp
 [[nodiscard]] std::optional<nlohmann::json> parse(std::string_view text, const ParserOptions& options,
                                                   const std::function<void(ParsingProblem)>& report,
                                                   Places* places = nullptr);

@@ -18,7 +18,7 @@ struct NoRule {};
 /// Reads one JSON object into a struct by the description of that struct, `describe(archive, value)`: finds the members,
 /// goes into optional values, lists and structs, and knows which keys nobody asked for.
 ///
-/// What is demanded of a value, and how a breach is told, is the business of `Reader`, which derives from it and has
+/// What a value must be, and how a breach is reported, is decided by `Reader`, which derives from this and has
 ///
 ///   k_null_is_none                     whether null stands for an optional value that is none
 ///   find(key)                          find_if_there(key), and what it means that a key is missing

@@ -52,7 +52,7 @@ struct DescribedSigner {
 };
 [[nodiscard]] DescribedSigner described_signer(const std::filesystem::path& file);
 
-/// What whoever gets a document does with it, as far as it can be done without his trust store: the signer's
+/// What the receiver of a document checks, as far as it can be done without his trust store: the signer's
 /// certificate leads to the last one of its own file by the rules of verification, at the time of signing, and the file
 /// holds no others. Asked before a document is signed: a signature that can never verify is not made.
 /// \throws gum::InputError  GC-SIGN-0023

@@ -46,6 +46,7 @@ struct Verification {
 
 /// \param now      seconds since 1970-01-01 UTC: used where a signature claims no time, and for claims in the future
 /// \throws gum::InputError  if the file is neither an XML document nor a PDF
+/// Example: examples/api/records.cpp
 [[nodiscard]] Verification verify_signatures(const Bytes& file, const std::string& name, const TrustedMaterial& trusted,
                                              std::int64_t now);
 

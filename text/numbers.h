@@ -8,6 +8,8 @@ namespace gumcert::text {
 /// stands in a document is rounded by gum/rounding.
 
 /// The fewest digits from which the same number is read back (std::to_chars): "0.1", "1e+05", "inf", "NaN".
+/// Accuracy: reads back as the same double (docs/accuracy.md#rounding-and-printing).
+/// Example: examples/api/records.cpp
 [[nodiscard]] std::string shortest(double value);
 /// The same without an exponent where people read it, from `least` up to 1e15: "100000".
 [[nodiscard]] std::string shortest_plain(double value, double least = 1e-4);

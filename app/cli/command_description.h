@@ -9,7 +9,7 @@ class App;
 
 namespace gumcert::cli {
 
-/// An option or a positional argument, as --help tells it.
+/// An option or a positional argument, as --help prints it.
 struct ArgumentDescription {
     std::vector<std::string> names;    ///< "-o", "--output", or "JOB"
     std::string value;                 ///< kind of its value, "FILE"; "" = a flag, or a positional argument

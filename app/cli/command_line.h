@@ -33,7 +33,7 @@ struct Arguments {
 [[nodiscard]] std::unique_ptr<CLI::App> command_line(Arguments& arguments, std::string (*version)());
 
 /// Reads the command line.
-/// \return the exit code where help or version was asked for and told; nothing where there is work to do
+/// \return the exit code where help or version was asked for and printed; nothing where there is work to do
 /// \throws std::invalid_argument  says what is wrong
 [[nodiscard]] std::optional<ExitCode> read_command_line(int argc, char** argv, std::string (*version)(),
                                                         Arguments& arguments);

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// What all documents of one command are made with. The signer is looked at first of all; templates when the first
-/// document is made, so that faults of a job are told before those of the installation.
+/// document is made, so that faults of a job are reported before those of the installation.
 class Issuer {
 public:
     explicit Issuer(DocumentOptions options)
@@ -77,8 +77,8 @@ void print_written(const std::vector<app::OutputFile>& files) {
     }
 }
 
-/// A certificate that is dated later than today is not issued: told here, and not in the record, which is the same on
-/// every day.
+/// A certificate that is dated later than today is not issued: reported here, and not in the record, which is the
+/// same on every day.
 /// Judges what the record cannot know: the day, and the languages that are asked for.
 void judge_issue(reports::EvaluationRecord& record, const std::vector<std::string>& languages,
                  const std::string& share) {

@@ -30,7 +30,7 @@ std::string version_text() {
     try {
         digest = encoding::sha256(app::read_file(cli::executable()));
     } catch (const gum::DiagnosedError&) {
-        // A system without /proc: the version is still told.
+        // A system without /proc: the version is still printed.
     }
     return fmt::format("gumcert {}\ncommit {}\nsha256 {}", k_version, k_commit, digest);
 }
@@ -91,11 +91,11 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
 
 int main(int argc, char** argv) {
 #ifdef SIGXFSZ
-    // A write beyond the limit of file sizes fails as one to a full disk does, and is told and cleaned up as that is.
+    // Without the signal a write beyond the limit of file sizes fails like one to a full disk: reported and cleaned up.
     (void)std::signal(SIGXFSZ, SIG_IGN);
 #endif
     Arguments arguments;
-    // Also a command line that cannot be read to its end is told in the form that it asks for.
+    // Looked for before parsing: messages about a faulty command line, too, have the form that it asks for.
     arguments.common.json_messages = std::any_of(
         argv + 1, argv + argc, [](const char* word) { return std::string_view(word) == "--json-messages"; });
     return explained(arguments.common, [&] { return dispatch(argc, argv, arguments); });

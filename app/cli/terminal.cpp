@@ -72,7 +72,7 @@ ExitCode explained(const CommonOptions& common, const std::function<ExitCode()>&
     } catch (const std::bad_alloc&) {
         return without_memory(common);
     } catch (const std::filesystem::filesystem_error& error) {
-        // A name that the system does not take, a folder that vanished: trouble with files, whoever met it.
+        // A name that the system does not take, a folder that vanished: trouble with files, wherever it arose.
         print_message({.code = "GC-STORE-0006",
                        .where = error.path1().string(),
                        .what = error.code().message(),

@@ -56,7 +56,7 @@ void report_findings(const reports::EvaluationRecord& record, const CommonOption
 /// \throws gum::StorageError  if not all of it arrives
 void write_to_stdout(const std::string& bytes);
 
-/// Does some work; a failure is told and becomes its exit code.
+/// Does some work; a failure is printed and becomes the exit code.
 [[nodiscard]] ExitCode explained(const CommonOptions& common, const std::function<ExitCode()>& work);
 
 /// Progress on a terminal, from the first second on.

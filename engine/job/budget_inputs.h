@@ -18,7 +18,7 @@ namespace gumcert::engine {
 /// The inputs of a budget job while it is read, and the points of its table, which state some of them anew.
 ///
 /// Where there is a table, an input may be left to the points: what is wrong with its statement, or missing in it, is
-/// told only where a point takes it over.
+/// reported only where a point takes it over.
 class BudgetInputs {
 public:
     /// \param covariance  of the job, for the inputs that take their variance from it; must outlive this

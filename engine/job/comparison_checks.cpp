@@ -73,8 +73,8 @@ public:
     }
 
 private:
-    /// What keeps one of several items, or one of its rounds, from being evaluated is told in its place, and the others
-    /// go on.
+    /// What keeps one of several items, or one of its rounds, from being evaluated is reported in place of its result;
+    /// the others are evaluated.
     /// \param round  none: it holds for all rounds of the item
     void refuse_item(std::size_t item, std::optional<std::size_t> round, ProblemList& problems, const InputCode& code,
                      const std::string& where, const std::string& what, const std::string& rule,
@@ -186,7 +186,7 @@ private:
 
     void check_reference(std::size_t item, const gum::AssignedValueRequest& request) {
         if (request.participant.empty()) {
-            return;  // told where the assigned value was read
+            return;  // reported where the assigned value was read
         }
         const auto reference = participants_.participants().find(request.participant);
         if (!reference) {

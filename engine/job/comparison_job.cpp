@@ -72,7 +72,7 @@ private:
         job_.certificate = read_certificate(files_, document, problems);
     }
 
-    /// A record that is taken for a job is told once, and not key by key.
+    /// A record that is taken for a job is refused as such, once, and not key by key.
     static bool is_record(const JsonDocument& document) {
         if (!document.value.is_object() || !document.value.contains("schema")) {
             return false;

@@ -105,7 +105,7 @@ private:
     bool match(SideReading& laboratory, SideReading& reference) {
         bool is_whole = laboratory.is_whole && reference.is_whole;
         for (SideReading* side : {&laboratory, &reference}) {
-            // A number that is none was told while the text was read: then there may be neither points nor a budget.
+            // A faulty number was reported while the text was read: then there may be neither points nor a budget.
             is_whole = are_distinct(*side) && (side->has_points || side->side.budget) && is_whole;
         }
         if (!is_whole) {

@@ -173,7 +173,7 @@ void ParticipantsReader::read_results() {
     }
     const json* participants = root_.find("participants");
     if (participants == nullptr || !participants->is_array()) {
-        return;  // told with the participants
+        return;  // reported with the participants
     }
     if (value->is_object()) {
         if (const auto file = root_.optional_object("results", k_comparison_file_keys)) {

@@ -29,7 +29,7 @@ public:
     [[nodiscard]] ProblemList& problems_of(std::size_t result) const { return *problems_of_result_[result]; }
 
 private:
-    /// Where the keys or cells of one result are told of.
+    /// The place in the job that messages about one result name.
     struct Place {
         std::string where = {};  ///< unless it is a cell, whose text is made only where it is needed
         ProblemList* problems = nullptr;

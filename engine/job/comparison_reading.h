@@ -39,7 +39,7 @@ inline constexpr NumberRange k_correlation_coefficient{
 class ComparisonBudgets {
 public:
     ComparisonBudgets(const FileSource& source, JobFiles& files) : source_(source), files_(files) {}
-    /// \return null when it was refused; the problems are told with the others
+    /// \return null when it was refused; the problems are listed with the others
     [[nodiscard]] std::shared_ptr<const BudgetJob> read(const std::string& name);
     [[nodiscard]] const FileSource& source() const { return source_; }
 
@@ -98,7 +98,7 @@ private:
 
 /// An object with some keys.
 /// \return nothing when the value is no object
-/// \param keys_and_bare  the keys and "uncertainty", which is then told as what it is: a number that does not say
+/// \param keys_and_bare  the keys and "uncertainty", which then has a message of its own: a number that does not say
 ///     whether it is u or U; empty: it is an unknown key as any other
 [[nodiscard]] std::optional<JsonObject> object_at(const ComparisonReading& reading, const std::string& pointer,
                                                   std::span<const std::string_view> keys,
@@ -145,7 +145,7 @@ bool check_uncertainty_columns(const CsvTable& table, const UncertaintyColumns& 
     return table.has_column(column) && !table.cell(row, column).text.empty();
 }
 
-/// The value of a result. "<0.3" and words such as "n/a" are told as what they are.
+/// The value of a result. "<0.3" and words such as "n/a" each have a message of their own.
 /// \param if_none  what to do where no value was measured
 [[nodiscard]] std::optional<double> read_value(const ComparisonReading& reading, const JsonObject& object,
                                                std::string_view if_none);

@@ -23,7 +23,7 @@ namespace {
 std::string DiskFileSource::read(const std::string& name) const {
     encoding::FileBytes file = encoding::read_regular_file(folder_ / std::filesystem::path(name), k_file_limit + 1);
     if (!file.failure.empty()) {
-        // "a/" has no name of a file, "" nothing at all: the place is told as it was given.
+        // "a/" has no name of a file, "" nothing at all: the message names the place as it was given.
         const std::string folder = folder_.string();
         not_readable(!name.empty() ? name : folder.empty() ? "the name \"\"" : folder + "/", file.failure);
     }

@@ -16,7 +16,7 @@ class FileSource {
 public:
     virtual ~FileSource() = default;
 
-    /// The bytes of a file; never more than `k_file_limit` + 1, so that a larger file can be told and refused.
+    /// The bytes of a file; never more than `k_file_limit` + 1, so that a larger file can be recognised and refused.
     /// \param name  as the job names it, relative to the job file
     /// \throws StorageError  if the file cannot be opened or read, or is not a regular file
     [[nodiscard]] virtual std::string read(const std::string& name) const = 0;

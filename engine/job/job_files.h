@@ -17,7 +17,8 @@ namespace gumcert::engine {
 
 /// The files of one job while it is read: their content, and for each the list of its problems.
 ///
-/// Names in a job are relative to it: those of a job "budgets/fixture.json" are looked for, and told, as "budgets/…".
+/// Names in a job are relative to it: those of a job "budgets/fixture.json" are looked for, and named in messages, as
+/// "budgets/…".
 class JobFiles {
 public:
     JobFiles(const FileSource& source, const std::string& job_file);

@@ -32,7 +32,8 @@ struct JobKeys {
 /// \return the kind when it is one of these
 [[nodiscard]] std::optional<std::string> read_kind(const gumcert::json::JsonDocument& document, ProblemList& problems);
 
-/// The kind that a job seems to be of, also where its text has faults: which reader should tell what is wrong with it.
+/// The kind that a job seems to be of, also where its text has faults: the reader of that kind then reports what is
+/// wrong with it.
 /// \return nothing when that cannot be seen
 [[nodiscard]] std::optional<std::string> probable_job_kind(const std::filesystem::path& job_file);
 [[nodiscard]] std::optional<std::string> probable_job_kind(const FileSource& source, const std::string& job_file);

@@ -54,7 +54,7 @@ std::string where_of(const gumcert::json::ParsingProblem& problem, const std::st
     return text::where_in_text(file, problem.place);
 }
 
-/// What helps whoever writes a job.
+/// What the author of a job can do about it.
 std::string action_of(const gumcert::json::ParsingProblem& problem) {
     return problem.fault == gumcert::json::Fault::depth             ? "check that the file is a job"
            : problem.fault == gumcert::json::Fault::too_many_values ? "move tables of numbers to CSV files"

@@ -13,7 +13,7 @@ namespace gumcert::engine {
 ///
 /// The first `k_limit` refusals are kept, and the first `k_limit` warnings; the lists close with "and N more". What was
 /// said already, word for word of the same place, is not said again. One cause in a column of a table is one message:
-/// problems of one `group` with the same code, rule and action are told once, with their number.
+/// problems of one `group` with the same code, rule and action are listed once, with their number.
 class ProblemList {
 public:
     static constexpr std::size_t k_limit = 200;

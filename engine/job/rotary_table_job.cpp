@@ -712,7 +712,7 @@ private:
         return text::visible(file) + " (row " + std::to_string(row + 1) + ")";
     }
 
-    /// The budget job with all its files; its problems are told with the others.
+    /// The budget job with all its files; its problems are listed with the others.
     void read_fixture_budget(const std::optional<std::string>& name) {
         const std::optional<File> file = open(name);
         if (!file) {
@@ -1131,7 +1131,7 @@ private:
                                 "add \"stations\", or \"lengths\" if there are some");
         }
         if (!job_.plan || job_.plan->angles_deg.empty()) {
-            // Angles that were refused are told already.
+            // Angles that were refused are reported already.
             const nlohmann::json* plan = root.find("plan");
             if (plan == nullptr || (plan->is_object() && !plan->contains("angles_deg"))) {
                 root.refuse(k_layout_incomplete, "plan", "neither lengths nor planned angles are given", rule,

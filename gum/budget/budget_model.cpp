@@ -23,7 +23,8 @@ constexpr std::size_t k_streams_an_input = 4096;  // more components than an inp
 
 constexpr double k_attained = 1e-9;  // beyond the largest coefficient of correlation: rounding
 
-/// Of random numbers: of one component of an input, at one point of a table or of all that share it.
+/// Of random numbers: of one component of an input, at one point of a table or of all that share it. An input that all
+/// points share has the same draws at all of them, which makes the results of the points correlated as they are.
 std::uint64_t stream_of(std::size_t input, std::size_t component, std::optional<std::size_t> point) {
     return (point ? std::uint64_t{*point + 1} << 32U : std::uint64_t{0}) + input * k_streams_an_input + component;
 }
@@ -470,6 +471,7 @@ BudgetModel::BudgetModel(std::optional<EquationSystem> system, const std::vector
             outputs_.push_back({system_->output_name(i), coherent_unit(system_->output_unit(i))});
         }
         if (system_->unknown_count() > 0) {
+            // Implicit models are solved anew in each trial, from here: the solutions of the trials lie about it.
             start_ = system_->solve(this->symbols(input_estimates(*this)));
         }
     } else {

@@ -172,7 +172,7 @@ void run_monte_carlo(const Budget& budget, const MonteCarloRequest& asked, unsig
     }
 }
 
-/// Monte Carlo that nobody asked for: what it cannot do is told with the reason for which it was run.
+/// Monte Carlo that the job did not ask for: where it fails, the message gives the reason why it was run.
 void run_monte_carlo_unasked(const Budget& budget, const std::vector<std::string>& evidence, const std::string& where,
                              unsigned threads, const Progress& progress, BudgetPointResult& point,
                              BudgetResult& result) {

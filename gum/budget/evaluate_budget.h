@@ -75,6 +75,8 @@ struct BudgetResult {
 /// sees to.
 /// \param threads  of Monte Carlo; 0: as many as the machine has
 /// \throws InputError, NoResultError
+/// Accuracy: that of its parts, docs/accuracy.md#law-of-propagation and what follows there.
+/// Example: examples/api/uncertainty_budget.cpp
 [[nodiscard]] BudgetResult evaluate_budget(const Budget& budget, unsigned threads, const Progress& progress = {});
 
 /// Names of all results, points one after the other: "l", or "l[20 mm]" at a point of a table.

@@ -28,7 +28,7 @@ struct PointPropagation {
     std::vector<bool> without_derivative;
 };
 
-/// As propagate(), but outputs without a derivative are told instead of refused, where the budget lets Monte Carlo
+/// As propagate(), but outputs without a derivative are listed instead of refused, where the budget lets Monte Carlo
 /// take their place.
 /// \throws NoResultError  as propagate(), where the budget asks for the law of propagation of such an output
 [[nodiscard]] PointPropagation propagate_where_possible(const Budget& budget,

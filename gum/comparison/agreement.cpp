@@ -192,6 +192,8 @@ Whitened whitened(const MatrixXd& R, const MatrixXd& B) {
     if (factor.info() == Eigen::Success && factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() > k_well_conditioned) {
         return {.columns = factor.matrixL().solve(B), .rank = R.rows(), .beyond = VectorXd::Zero(B.cols())};
     }
+    // Cholesky where the matrix allows it; else the pseudo-inverse: points that share everything are one point, and
+    // what differs between them contradicts their covariance (`beyond`).
     return R.rows() > k_most_points_of_eigenvectors ? whitened_by_pivots(R, B) : whitened_by_spectrum(R, B);
 }
 
@@ -253,6 +255,7 @@ void add_test_of_uncertainty(const MethodDifferences& differences, const VectorX
     const std::vector<double> if_too_large = scaled_spectrum(differences, u, R, of_zeta, 1.0 / k_factor);
     result.p_if_too_small = weighted_chi_square_lower_tail(if_too_small, result.sum_of_squared_zeta);
     result.p_if_too_large = weighted_chi_square_upper_tail(if_too_large, result.sum_of_squared_zeta);
+    // The range of Σ ζ² in which both a doubled and a halved uncertainty are refuted while the stated one is not.
     const double high = std::min(weighted_chi_square_quantile(if_too_small, k_error_of_confirmation),
                                  weighted_chi_square_quantile(of_zeta, 1.0 - k_significant));
     const double low = std::max(weighted_chi_square_quantile(if_too_large, 1.0 - k_error_of_confirmation),
@@ -271,6 +274,8 @@ void add_deviations_that_are_found(const MethodDifferences& differences, const V
 void add_distributions(const MethodDifferences& differences, const VectorXd& u, const MatrixXd& R,
                        double coverage_probability, Agreement& result) {
     const auto m = static_cast<double>(u.size());
+    // Σ ζ² of correlated points is a sum of χ² with the eigenvalues of their correlation matrix as weights. As if they
+    // were independent, many sound comparisons would be called suspicious.
     const std::vector<double> of_zeta = spectrum(R);
     result.p_low = weighted_chi_square_lower_tail(of_zeta, result.sum_of_squared_zeta);
     result.p_high = weighted_chi_square_upper_tail(of_zeta, result.sum_of_squared_zeta);
@@ -327,6 +332,8 @@ double largest_en_by_chance(std::size_t points, double coverage_probability) {
                "Give the points that both methods measured.");
     }
     constexpr double k_normal = std::numeric_limits<double>::infinity();
+    // Šidák's limit: all points together stay below it with the probability of one. It holds for correlated points as
+    // well.
     const double of_each = std::pow(coverage_probability, 1.0 / static_cast<double>(points));
     return coverage_factor(of_each, k_normal) / coverage_factor(coverage_probability, k_normal);
 }
@@ -340,6 +347,7 @@ std::size_t count_above_1_by_chance(std::size_t points, double effective_points,
     if (points == 1) {
         return 0;
     }
+    // Correlated points exceed the limit together: they count as fewer, and each of these stands for several points.
     const double independent = std::clamp(std::round(effective_points), 1.0, static_cast<double>(points));
     using Up = boost::math::policies::policy<
         boost::math::policies::discrete_quantile<boost::math::policies::integer_round_up>>;

@@ -56,6 +56,7 @@ struct Agreement {
 ///                     k_most_points_of_agreement points
 /// Directions in which V has no variance (eigenvalue of the correlation matrix below 1e-10 of the largest) are left out
 /// of the Mahalanobis numbers, and the rank tells how many remain.
+/// Accuracy: probabilities within 1e-9 (docs/accuracy.md#comparisons-and-robust-statistics).
 [[nodiscard]] Agreement agreement(const MethodDifferences& differences, double coverage_probability);
 /// The limit that the largest |E_n| of n points exceeds with probability 1 − p at most where all uncertainties are
 /// right: z(1 − p^(1/n)) / z(1 − p), z(α) the two-sided quantile of the normal distribution. 1 for one point.

@@ -211,6 +211,7 @@ void add_results_outside(const LaboratoryData& data, AssignedValue& assigned) {
     const std::vector<std::size_t>& inside = data.contributing;
     const Eigen::VectorXd of_inside = assigned.covariance(inside);
     const Eigen::MatrixXd between = data.covariance(inside, inside);
+    // Results with r = 1 make V_CC singular: of all solutions the one of least norm.
     const Eigen::VectorXd solved = between.completeOrthogonalDecomposition().solve(of_inside);
     for (std::size_t j = 0; j < data.size(); ++j) {
         if (!std::binary_search(inside.begin(), inside.end(), j)) {

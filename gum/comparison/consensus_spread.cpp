@@ -157,6 +157,8 @@ std::vector<SpreadUncertainty> spread_of_others(const VectorXd& x, const VectorX
     std::vector<SpreadUncertainty> spreads;
     for (Index i = 0; i < n; ++i) {
         double variance = 0.0;
+        // What is taken off the sum of all nearly cancels it where one result has most of the weight: one by one, as
+        // long as n² terms are affordable.
         if (n <= k_most_results_one_by_one) {
             variance = variance_of_others(x, weights, i);
         } else {

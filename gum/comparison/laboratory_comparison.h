@@ -42,6 +42,8 @@ struct LaboratoryComparison {
 /// could be computed at all.
 /// \param results  those of one participant for one item in one round at most
 /// \throws InputError  GC-COMPARE-0112 no results, -0113 a position that is not in the scheme
+/// Accuracy: docs/accuracy.md#comparisons-and-robust-statistics
+/// Example: examples/api/proficiency_test.cpp
 [[nodiscard]] LaboratoryComparison evaluate_laboratories(const ComparisonScheme& scheme,
                                                          const std::vector<ParticipantResult>& results,
                                                          const Progress& progress = {});

@@ -41,6 +41,7 @@ void require_few_enough(std::size_t count, const LaboratoryData& data) {
 std::map<Pair, std::vector<SourceCovariance>> covariance_of_sources(const ComparisonScheme& scheme,
                                                                     const LaboratoryData& data) {
     const std::set<std::string> independent(scheme.independent_sources.begin(), scheme.independent_sources.end());
+    // Sources first, then pairs: only those that name a source in common are looked at, not all n² of them.
     std::map<std::string, std::set<std::size_t>> holders;
     for (std::size_t i = 0; i < data.size(); ++i) {
         if (data.has_u(i)) {
@@ -145,6 +146,7 @@ Eigen::MatrixXd laboratory_covariance(const ComparisonScheme& scheme, const Labo
             }
         }
     }
+    // Without any covariance the results stay independent, and the cheaper formulas hold.
     std::erase_if(covariance, [](const auto& entry) { return entry.second == 0.0; });
     if (covariance.empty()) {
         return {};

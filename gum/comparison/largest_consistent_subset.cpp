@@ -22,7 +22,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double k_tie = 1e-9;                      // relative, of chi-square: subsets that nobody can tell apart
+constexpr double k_tie = 1e-9;                      // relative, of chi-square: closer subsets are a tie
 constexpr double k_rounding_of_chi_square = 1e-11;  // relative, of chi-square as it is computed
 constexpr double k_same_result = 1e-13;             // of u: results that are taken as equal
 constexpr double k_largest_alpha = 0.3;
@@ -70,6 +70,7 @@ public:
         for (std::size_t i = 0; i < all.size(); ++i) {
             all[i] = static_cast<std::uint32_t>(i);
         }
+        // A good subset at once makes the bound tight: most intervals are left out at the first look.
         descend_from_each_quantile(all);
         const auto [low, high] = std::minmax_element(x_.begin(), x_.end());
         search(*low, *high, std::move(all));
@@ -289,6 +290,8 @@ private:
                 if (u_[b] < u_[a]) {
                     std::swap(a, b);  // both points lie closer to the more precise one: they round least from there
                 }
+                // |x_a − y|/u_a = |x_b − y|/u_b at one point between both results and, with different u, at one beyond
+                // the more precise.
                 const double gap = x_[b] - x_[a];
                 add(x_[a] + gap * u_[a] / (u_[a] + u_[b]));
                 if (u_[a] != u_[b]) {
@@ -429,6 +432,8 @@ Largest best_of_correlated(const LaboratoryResults& results, std::size_t size) {
 
 std::optional<Largest> largest_of_correlated(const LaboratoryResults& results, double alpha) {
     (void)weighted_mean(results);  // refuses a singular covariance; parts of one that is not are not either
+    // With correlations χ² is no sum of one term per result, which the search by intervals rests on: all subsets of a
+    // size are compared.
     for (auto size = static_cast<std::size_t>(results.x.size()); size >= 2; --size) {
         Largest largest = best_of_correlated(results, size);
         if (largest.subset.chi_square <= critical_value(size, alpha)) {

@@ -153,6 +153,8 @@ MedianTrials median_trials(const LaboratoryResults& results, std::size_t trials,
     const CoverageRanks ranks(coverage_probability, trials);
     WorkerThreads workers(threads);
     const Blocks blocks(results, trials, seed);
+    // The medians first, then the draws once more, block by block: all draws at once may be gigabytes, and counters
+    // give the same numbers again.
     std::vector<double> medians = medians_of_trials(blocks.all(workers), trials, workers);
     MedianTrials outcome{.d = Eigen::VectorXd(n),
                          .u_d = Eigen::VectorXd(n),

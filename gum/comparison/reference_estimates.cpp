@@ -125,6 +125,8 @@ std::vector<ReferenceEstimate> reference_estimates(const LaboratoryData& data, c
     }
     const Eigen::VectorXd x = data.values(data.contributing);
     const std::span<const double> values(x.data(), static_cast<std::size_t>(x.size()));
+    // Means that rest on stated uncertainties need all of them: a laboratory without one would get a weight that nobody
+    // stated.
     const bool weighed = data.all_have_u(data.contributing);
     const LaboratoryResults results = data.at(data.contributing);
     estimates.add(AssignedValueMethod::arithmetic_mean, [&](ReferenceEstimate& estimate) {

@@ -124,6 +124,8 @@ struct CentredResults {
 };
 
 CentredResults centred(const LaboratoryResults& results) {
+    // A common value is taken off and the smallest u is the unit: squares stay in the range of numbers, and a mean far
+    // from 0 costs no digits.
     const Index precise = most_precise(results);
     CentredResults c{.centre = results.x(precise), .unit = results.u(precise)};
     c.x = (results.x.array() - c.centre) / c.unit;
@@ -152,6 +154,8 @@ LeastSquares independent_least_squares(const CentredResults& c) {
 LeastSquares correlated_least_squares(const LaboratoryResults& results, const CentredResults& c) {
     const Eigen::MatrixXd R = correlations_of(results);
     const Eigen::LLT<Eigen::MatrixXd> cholesky(R);
+    // On the correlation matrix, so that laboratories of very different u are judged alike. Results that are fully
+    // correlated give weights without meaning, large and of both signs.
     const double reciprocal_condition = cholesky.info() == Eigen::Success ? cholesky.rcond() : 0.0;
     if (!(reciprocal_condition >= k_smallest_reciprocal_condition)) {
         throw NoResultError(Diagnostic{
@@ -165,6 +169,7 @@ LeastSquares correlated_least_squares(const LaboratoryResults& results, const Ce
     LeastSquares fit;
     const Eigen::VectorXd solved = cholesky.solve(c.inverse);
     const double total = c.inverse.dot(solved);
+    // w = V⁻¹1/(1ᵀV⁻¹1) with V = D R D: the weighted mean of correlated results.
     fit.weights = c.inverse.array() * solved.array() / total;
     fit.u = 1.0 / std::sqrt(total);
     fit.value = fit.weights.dot(c.x);

@@ -40,7 +40,8 @@ struct ReferenceValue {
 /// u² = 1/(1ᵀV⁻¹1).                     (Cox 2002, Metrologia 39, 589-595, procedure A; CIPM MRA-G-11)
 /// \throws InputError     as require_results(). Weights may be negative where correlations are strong
 /// \throws NoResultError  GC-GUM-0132 the covariance is singular (reciprocal condition of the correlations below 1e-12)
-/// Accuracy: relative error of u and the weights below 1e-13 without a covariance, for any range of u.
+/// Accuracy: relative error of u and the weights below 1e-13 without a covariance, for any range of u
+/// (docs/accuracy.md#comparisons-and-robust-statistics).
 [[nodiscard]] ReferenceValue weighted_mean(const LaboratoryResults& results);
 
 /// Arithmetic mean with u = s/√n of the values themselves; stated uncertainties are not used.

@@ -5,7 +5,7 @@
 
 namespace gumcert::gum {
 
-/// Does some work on a part of a comparison; what is refused is told with its place.
+/// Does some work on a part of a comparison; the message of a refusal gets the place of that part.
 /// \throws InputError, NoResultError  those of the work, with `where` before their own place
 void at_place(const std::string& where, const std::function<void()>& work);
 

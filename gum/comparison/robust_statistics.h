@@ -37,6 +37,8 @@ enum class AlgorithmAConstants { published, exact };
 /// from x* = median, s* = MADe on until both stand still (1e-16 of s*).              (ISO 13528:2022, annex C)
 /// Where MADe is 0, because more than half of the results are equal, it begins with their standard deviation.
 /// u = 1.25 s* / √p
+/// Accuracy: relative error below 1e-10, of most results 1e-12 (docs/accuracy.md#comparisons-and-robust-statistics).
+/// Example: examples/api/proficiency_test.cpp
 /// \throws InputError  GC-GUM-0001; GC-GUM-0101 fewer than 2 results; GC-GUM-0102 s* comes out as 0: all results are
 ///                     equal, or so many of them that the others are drawn in to them. Report the median, or use
 ///                     Q/Hampel, or more digits

@@ -61,6 +61,7 @@ double settled_score(double value, double reference, double scale) {
     const double difference = difference_of(value, reference);
     require_positive(scale, "scale of a score");
     const double score = difference / scale;
+    // The stated decimal numbers are meant: a score that misses a limit by what binary numbers lose is on the limit.
     const double rounding =
         std::min(k_most_settled, k_roundings * std::numeric_limits<double>::epsilon() *
                                      (std::abs(score) + (std::abs(value) + std::abs(reference)) / scale));
@@ -73,7 +74,7 @@ double settled_score(double value, double reference, double scale) {
 }
 
 ComparisonScore score(const ComparedValue& laboratory, const ComparedValue& reference, double correlation) {
-    static_cast<void>(difference_of(laboratory.value, reference.value));  // told before the uncertainties
+    static_cast<void>(difference_of(laboratory.value, reference.value));  // a fault of the values is reported first
     const double u = difference_uncertainty_for_score(laboratory.standard_uncertainty, reference.standard_uncertainty,
                                                       correlation, "u");
     const double U = difference_uncertainty_for_score(laboratory.expanded_uncertainty, reference.expanded_uncertainty,
@@ -140,6 +141,7 @@ EnUncertainty en_uncertainty(double u, double U, double k, double degrees_of_fre
     require_not_negative(u, "standard uncertainty");
     require_not_negative(U, "expanded uncertainty");
     const double wanted = coverage_factor(en_coverage_probability(coverage_probability), degrees_of_freedom);
+    // E_n compares intervals of one probability: a U with another k is taken back to u and multiplied anew.
     if (std::abs(k / wanted - 1.0) <= k_same_coverage_factor) {
         return {.U = U, .k = k, .converted = false};
     }

@@ -43,6 +43,9 @@ struct ComparisonScore {
 /// \param correlation  r between x and X; not 0 where both depend on the same standard, sensor or artefact
 /// \throws InputError  for a number that is not finite, a negative uncertainty, r outside [−1, 1] (GC-GUM-0030), or an
 ///                     uncertainty of the difference that is 0 (GC-GUM-0031): no score exists then
+/// Accuracy: relative error below 1e-12; a score that is a limit but for rounding is that limit
+/// (docs/accuracy.md#comparisons-and-robust-statistics).
+/// Example: examples/api/proficiency_test.cpp
 /// |E_n| ≤ 1 says only that |D| is not larger than its expanded uncertainty. An uncertainty stated too large always
 /// passes, and a reference with U_X ≥ U_x validates nothing.
 [[nodiscard]] ComparisonScore score(const ComparedValue& laboratory, const ComparedValue& reference,

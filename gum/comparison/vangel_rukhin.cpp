@@ -236,6 +236,8 @@ Maximum climb(const Likelihood& likelihood, Point start) {
         const Point& here = maximum.point;
         const Likelihood::Derivatives derivatives = likelihood.derivatives(here);
         const double rounding = 1e-14 * static_cast<double>(likelihood.size()) * (1.0 + std::abs(here.deviance));
+        // Newton is quick near a maximum; away from it the second derivatives may be those of a saddle. The expected
+        // ones are always positive, so that a scoring step that is short enough goes up.
         Point next = likelihood.newton_step(here, derivatives);
         if (!(next.deviance <= here.deviance + rounding)) {
             next = likelihood.scoring_step(here, derivatives);
@@ -304,6 +306,7 @@ ReferenceValue vangel_rukhin(const ReplicatedResults& results) {
     require_replicates(results);
     const Index n = results.x.size();
     const double centre = results.x(0);
+    // About one of the results and in a unit of their own size: limits of steps and rounding are relative then.
     const double unit = std::max((results.x.array() - centre).abs().maxCoeff(), results.s.maxCoeff());
     std::vector<Laboratory> laboratories;
     double spread = 0.0;
@@ -320,6 +323,7 @@ ReferenceValue vangel_rukhin(const ReplicatedResults& results) {
     const Likelihood likelihood(std::move(laboratories));
     Maximum best;
     for (const double mean : means) {
+        // The likelihood can have several maxima: a climb from each start, and the highest one counts.
         for (const double part : {1.0, 0.01, 0.0}) {
             Maximum found = climb(likelihood, likelihood.at(mean, part * spread));
             if (found.point.deviance < best.point.deviance) {

@@ -42,6 +42,7 @@ public:
                    "Write \"name = expression\".");
             finish();
         }
+        // Each step notes its problems and goes on with what is sound: finish() refuses with all of them at once.
         declare_quantities();
         parse();
         declare_left_sides();
@@ -96,6 +97,7 @@ private:
                    "Give one of the two another name.");
             return false;
         }
+        // Two names that look alike on paper would make an equation that nobody can check.
         const auto [twin, is_new] = skeletons_.try_emplace(look_alike_skeleton(name), canonical);
         if (!is_new) {
             refuse("GC-MODEL-0029", where, "\"" + name + "\" looks like \"" + twin->second + "\" but is another name",
@@ -133,6 +135,7 @@ private:
         const IsQuantity is_quantity = [&](std::string_view name) {
             return symbols_.contains(canonical_name(name)) || left_sides.find(name) != left_sides.end();
         };
+        // The limit of nodes holds for all equations together; each takes off what it used.
         ExpressionLimits left_over = limits_;
         for (const EquationText& equation : equations_) {
             trees_.push_back(parse_equation(equation, left_over, problems_, is_quantity));
@@ -171,6 +174,7 @@ private:
                            "Remove one of the two, or give it another name.");
             }
         }
+        // The unit may stand in an equation as the factor 1; a quantity of that name goes before.
         if (!symbols_.contains("rad")) {
             symbols_.emplace("rad", Symbol{Symbol::Kind::radian, 0});
         }
@@ -219,6 +223,8 @@ private:
     }
 
     void put_in_order() {
+        // Depth-first search with a path of its own: an equation is put down after all that it uses, whatever the order
+        // in the job, and an open one that is met again closes a cycle. No recursion: jobs can be made long on purpose.
         enum class Mark : std::uint8_t { fresh, open, done };
         std::vector<Mark> marks(trees_.size(), Mark::fresh);
         struct Visit {
@@ -572,6 +578,8 @@ private:
                         const TapeBuilder::Node a = nodes[static_cast<std::size_t>(node.left)];
                         TapeBuilder::Node b = node.right < 0 ? a : nodes[static_cast<std::size_t>(node.right)];
                         if (node.operation == Operation::power) {
+                            // A constant exponent becomes a number of the tape: x^2 is then a product, also for a
+                            // negative x.
                             if (const std::optional<double>& exponent = constants_[i].at(node.right)) {
                                 b = builder.constant(*exponent);
                             }

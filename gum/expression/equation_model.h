@@ -8,6 +8,8 @@
 namespace gumcert::gum {
 
 /// Equations with their inputs as a measurement model.
+/// Accuracy: that of EquationSystem.
+/// Example: examples/api/budget_by_hand.cpp
 class EquationModel final : public MeasurementModel {
 public:
     /// \param groups  inputs in the order of the system's inputs, cut into groups: the sizes add up to its input count

@@ -87,6 +87,8 @@ const std::vector<std::size_t>& EquationSystem::unused_inputs() const {
 }
 
 bool EquationSystem::is_affine_in(std::span<const std::size_t> inputs) const {
+    // Degrees are followed step by step without any value, so that what is found holds everywhere and not at the
+    // estimates only. Where in doubt, a step counts as curved.
     enum Degree : std::uint8_t { independent, affine, curved };
     const Tape& tape = compiled_->tape;
     const std::size_t base = tape.first_step_slot();
@@ -219,6 +221,7 @@ Search EquationSystem::Compiled::search(Workspace& workspace, const double* star
             return Search::no_value;
         }
         for (Eigen::Index i = 0; i < u; ++i) {
+            // A residual cannot be known better than this: a step that only follows its rounding counts as convergence.
             workspace.rounding(i) = k_epsilon * tape.gradient(workspace.tape, index(i));
             workspace.residual(i) = residual_value(i);
             for (Eigen::Index j = 0; j < u; ++j) {
@@ -247,6 +250,8 @@ Search EquationSystem::Compiled::search(Workspace& workspace, const double* star
             lost = lost || workspace.probe(j) > k_lost * magnitude;
             size = magnitude == 0.0 ? size : std::max(size, step / magnitude);
         }
+        // Newton's steps shrink quadratically at a single solution. Steps that only halve tell a double one, where
+        // there are no sensitivity coefficients.
         linear = last_was_whole && size > 0.3 * last_size && size < 1e-3 ? linear + 1 : 0;
         if (linear >= k_linear_steps || (converged && lost)) {
             return Search::singular;

@@ -73,6 +73,9 @@ struct OutputSymbol {
 ///
 /// Evaluation is by one tape of elementary operations: no recursion, no allocation after the first call of a workspace.
 /// An object never changes after compile(); threads may share it.
+/// Accuracy: values to the last bit of the operations as they are written, derivatives by exact rules: 1e-12 of first,
+/// 1e-10 of second ones (docs/accuracy.md#equations-and-their-derivatives).
+/// Example: examples/api/budget_by_hand.cpp
 class EquationSystem {
 public:
     /// \throws InputError  with every problem: syntax (GC-MODEL-0001 …), names and order (GC-MODEL-0019 …; a cycle is

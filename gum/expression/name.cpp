@@ -78,6 +78,7 @@ Script script(char32_t code) {
     return is_in(k_other_letters, code) ? Script::other : Script::none;
 }
 
+/// Micro sign, ohm, kelvin and ångström sign are characters of their own in Unicode, and print as the letters.
 char32_t canonical(char32_t code) {
     switch (code) {
         case 0xB5:

@@ -311,6 +311,8 @@ private:
                 if (stranger != k_strangers.end()) {
                     problems_.add("GC-MODEL-0011", column_, shown, "the character is not part of the equation language",
                                   std::string(stranger->action));
+                    // The meaning is clear: reading goes on with it, and the other faults of the equation are found in
+                    // one go.
                     if (stranger->meant) {
                         push(*stranger->meant, first.bytes);
                         return true;
@@ -321,6 +323,7 @@ private:
                 }
             }
         }
+        // What a skipped character meant is not known: parsing the rest would report faults that are none.
         whole_ = false;
         while (position_ < text_.size()) {  // once is enough for a row of the same
             const text::Character next = text::decode_utf8(text_, position_);
@@ -556,6 +559,8 @@ private:
         const std::uint32_t column = here().column;
         check_depth(depth + 1);
         ++position_;
+        // From the right, with a sign of its own: a^b^c is a^(b^c), 2^-1 is allowed. A sign before the base is read
+        // outside: -x^2 is -(x^2).
         const std::int32_t exponent = signed_power(depth + 1);
         return add_binary(Operation::power, base, exponent, column);
     }
@@ -804,6 +809,7 @@ std::string print_equation(const SyntaxTree& tree) {
         std::string text;
         Operation operation;
     };
+    // Nodes come in postfix order, operands before their operation: a stack does it, without recursion.
     std::vector<Part> stack;
     for (const SyntaxNode& node : tree.nodes) {
         const Operation operation = node.operation;

@@ -54,6 +54,7 @@ First first_partials(double a, double b, double v) {
     } else if constexpr (operation == Operation::tan) {
         return {1.0 + v * v};
     } else if constexpr (operation == Operation::asin) {
+        // (1 − a)(1 + a): 1 − a² loses the digits of an a near 1.
         return {1.0 / std::sqrt((1.0 - a) * (1.0 + a))};
     } else if constexpr (operation == Operation::acos) {
         return {-1.0 / std::sqrt((1.0 - a) * (1.0 + a))};
@@ -75,6 +76,7 @@ First first_partials(double a, double b, double v) {
     } else if constexpr (operation == divide) {
         return {1.0 / b, -v / b};
     } else if constexpr (operation == power) {
+        // By the base b a^(b−1); by the exponent a^b ln a, whose limit at a = 0 is 0 for b > 0 and does not exist else.
         return {b == 0.0 ? 0.0 : b * std::pow(a, b - 1.0), a == 0.0 ? (b > 0.0 ? 0.0 : k_nan) : v * std::log(a)};
     } else if constexpr (operation == Operation::atan2) {
         const double h = std::hypot(a, b);
@@ -369,6 +371,7 @@ std::vector<Eigen::MatrixXd> Tape::second_derivatives(TapeWorkspace& workspace) 
 }
 
 bool Tape::is_finite(const TapeWorkspace& workspace, std::size_t last) const {
+    // x − x is 0 for every number and NaN for what is none: one sum, and no branch for each value.
     double sum = 0.0;  // of zeros, or NaN
     const std::size_t slots = first_step_slot() + last;
     for (std::size_t i = 0; i < slots; ++i) {
@@ -381,6 +384,8 @@ void Tape::plan_trials() {
     const std::size_t base = first_step_slot();
     const std::size_t outputs = roots_.size();
     constexpr std::size_t k_for_ever = std::numeric_limits<std::size_t>::max();
+    // A value lives in a column until it is used for the last time; then the column is free for another one. So a block
+    // of trials stays in the cache, however long the equations are.
     std::vector<std::size_t> last_use(steps_.size(), 0);
     for (std::size_t k = 0; k < steps_.size(); ++k) {
         for (const std::int32_t slot : {steps_[k].a, steps_[k].b}) {

@@ -124,6 +124,7 @@ private:
             return QuantityKind::unknown();
         }
         QuantityKind kind = is_binary(node.operation) ? of_two(node, a, b) : of_one(node, a);
+        // Values of constants are followed as well, because an exponent and the weight of a temperature depend on them.
         if (kind.known && a.constant && b.constant) {
             const double value = apply(node.operation, *a.constant, *b.constant);
             if (std::isfinite(value)) {
@@ -214,6 +215,8 @@ private:
                     return QuantityKind::unknown();
                 }
                 kind.dimension = a.zero ? b.dimension : a.dimension;
+                // The weight of the zero of the Celsius scale is followed like a quantity: t1 − t2 has 0 and is a
+                // difference in K, (t1 + t2)/2 has 1 and is a Celsius temperature, t1 + t2 has 2 and is neither.
                 kind.celsius = node.operation == Operation::add ? a.celsius + b.celsius : a.celsius - b.celsius;
                 kind.zero = a.zero && b.zero;
                 kind.fahrenheit = (a.fahrenheit || b.fahrenheit) && !is_same_weight(kind.celsius, 0.0);

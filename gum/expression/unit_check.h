@@ -18,7 +18,7 @@ struct QuantityKind {
     /// thermodynamic temperature, others are steps on the way, e.g. t1 + t2 in (t1 + t2)/2.
     double celsius = 0.0;
     bool fahrenheit = false;         ///< with the zero of degF, where `celsius` is not 0
-    bool known = true;               ///< false after a problem that was already told
+    bool known = true;               ///< false after a problem that was already reported
     bool zero = false;               ///< the literal 0, which is 0 in every unit
     std::optional<double> constant;  ///< its value, when it is a constant; coherent SI
     std::string unit;                ///< as the user wrote it; empty for sub-expressions

@@ -134,15 +134,19 @@ double standard_deviation(const Distribution& distribution) {
             variance = (1.0 + shape * shape) / 6.0;
             break;
         case DistributionKind::curvilinear_trapezoid:
+            // Half-width uniform on 1 ± d: E[w²]/3 (JCGM 101:2008, 6.4.3).
             variance = 1.0 / 3.0 + shape * shape / 9.0;
             break;
         case DistributionKind::student_t:
+            // Of the t-distribution itself, not u²: its variance is larger than its scale squared, and there is none up
+            // to ν = 2.
             variance = shape > 2.0 ? shape / (shape - 2.0) : std::numeric_limits<double>::infinity();
             break;
         case DistributionKind::gamma:
             variance = shape;
             break;
         case DistributionKind::lognormal: {
+            // expm1: for small shapes exp(s²) − 1 would lose its digits.
             const double s2 = shape * shape;
             variance = std::expm1(s2) * std::exp(s2);
             break;

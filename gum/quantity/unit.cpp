@@ -132,6 +132,7 @@ Magnitude root(const Magnitude& of, int order) {
     const auto floor_rest = [&](int exponent) { return ((exponent % order) + order) % order; };
     const int rest2 = floor_rest(of.exp2);
     const int rest10 = floor_rest(of.exp10);
+    // Powers of 2 and 10 that the order divides come out of the root exactly, the rest goes into the number.
     const double number = std::ldexp(of.number.high, rest2) * power_of_ten(rest10);
     Magnitude result;
     result.number.high = order == 2   ? std::sqrt(number)
@@ -157,6 +158,7 @@ Magnitude size_of(const UnitFactor& factor) {
     return factor.exponent.denominator == 1 ? raised : root(raised, factor.exponent.denominator);
 }
 
+/// With twice the digits, and rounded once at the end: the last digit does not depend on the order of the factors.
 double factor_of(const UnitExpression& expression) {
     Magnitude size;
     for (const UnitFactor& factor : expression.factors) {
@@ -203,7 +205,7 @@ constexpr const char* k_rule = "a unit is a product of names, each with or witho
 constexpr const char* k_action =
     "Write for example um, nm/K, J/(kg K), V/Hz^(1/2), degC, 1/K, percent, or 1 for a bare number.";
 
-/// What is no unit of the grammar, and is told better than as a fault in it.
+/// What people write that is no unit of the grammar: a message of its own helps more than one about syntax.
 void refuse_other_scales(std::string_view text) {
     const auto has = [&](std::string_view part) { return text.find(part) != std::string_view::npos; };
     constexpr std::array<std::string_view, 7> k_levels{"dBm", "dBW", "dBV", "dBu", "dBuV", "dBc", "Np"};

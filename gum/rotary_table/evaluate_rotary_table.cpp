@@ -59,7 +59,7 @@ RotaryTableMonteCarlo monte_carlo_of(const RotaryTableRequest& request, const Ro
     for (std::size_t i = 0; i < monte_carlo.result.outputs.size(); ++i) {
         const Stated law = stated(result, static_cast<Eigen::Index>(i));
         std::optional<Validation> validation;
-        // Of the parameters of ISO 230-2, those that are stated and that Monte Carlo can speak of.
+        // Of the parameters of ISO 230-2, those that are stated and that Monte Carlo can check.
         const bool compared =
             i < positioning || (scope.states(names[i - reported]) && !rests_on_scatter(names[i - reported]));
         if (law.u > 0.0 && compared) {

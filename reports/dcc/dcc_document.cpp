@@ -36,7 +36,7 @@ std::vector<InputSource> sources_of(const EvaluationRecord& record) {
     return sources;
 }
 
-/// What the evaluation rests on, for whoever repeats it: files by their digest, inputs by their source.
+/// What the evaluation rests on, so that it can be repeated: files by their digest, inputs by their source.
 void write_comment(DccWriter& w) {
     const std::vector<InputSource> sources = sources_of(w.record());
     if (w.record().job_files.empty() && sources.empty() && w.record().inputs.empty()) {

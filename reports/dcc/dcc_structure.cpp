@@ -288,7 +288,7 @@ void Structure::children(const XmlElement& e, const ContentModel& model) {
 }
 
 /// The place that a child has in the model, and the words where it stands wrongly.
-/// \param told  names that were told
+/// \param told  names that were reported already
 const ContentModel::Place* Structure::place_of_child(const XmlElement& e, const XmlElement& child, Walk& walk,
                                                      std::set<std::string>& told) {
     if (const ContentModel::Place* const place = walk.step(child.name)) {

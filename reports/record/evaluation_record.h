@@ -560,11 +560,14 @@ struct EvaluationRecord {
 /// Canonical JSON of a record: keys sorted by code point, shortest numbers that read back the same, LF, UTF-8, no NaN.
 /// Its member `digest` is the SHA-256 of the same text without that member.
 /// \throws gum::NoResultError if a number is not finite: it must never reach a document
+/// Accuracy: numbers read back as the same double (docs/accuracy.md#rounding-and-printing).
+/// Example: examples/api/records.cpp
 [[nodiscard]] std::string to_canonical_json(const EvaluationRecord& record);
 
 /// \param where  name of the text for messages
 /// \throws gum::InputError  if the text is not a record of schema gumcert/record/1, with every problem found; and
 ///                          GC-RECORD-0021 if it states another digest than that of its own contents
+/// Example: examples/api/records.cpp
 [[nodiscard]] EvaluationRecord record_from_json(const std::string& text, const std::string& where);
 
 /// A record as JSON with the digest that fits it, whatever digest it had, in canonical text: what a record becomes that

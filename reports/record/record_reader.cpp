@@ -282,7 +282,7 @@ private:
     static constexpr bool k_null_is_none = true;
     RecordProblems& problems_;
 
-    /// Calls read(reader of the object) for each object of an array; whatever else stands there is told and left out.
+    /// Calls read(reader of the object) for each object of an array; anything else in it is reported and left out.
     template <class Read>
     void for_each_row(const char* key, const Read& read) {
         const json* all = find_array(key);

@@ -70,13 +70,13 @@ public:
         object[key] = std::move(all);
     }
 
-    /// What a text holds is the business of those who state it; a record keeps it as it is.
+    /// A record keeps texts as they were stated: their contents are not checked here.
     template <class Type>
     void operator()(const char* key, const Type& v, certificate::TextForm) {
         (*this)(key, v);
     }
 
-    // In a record every key is present, whoever it comes from.
+    // In a record every key is present, so what a job must state is written like the rest.
     template <class Type, class... Rule>
     void needed(const char* key, const Type& v, const Rule&... rule) {
         (*this)(key, v, rule...);

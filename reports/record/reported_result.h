@@ -8,8 +8,8 @@
 
 namespace gumcert::reports {
 
-// From the numbers of a reported result to its printed texts: no state, no other input, so that whoever holds a record
-// can make the texts again and compare.
+// From the numbers of a reported result to its printed texts: no state, no other input, so that the texts can be
+// made again from a record and compared.
 
 /// How documents round.
 struct ReportedRounding {

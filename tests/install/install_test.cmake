@@ -61,6 +61,22 @@ expect_printed(proficiency_test "solution: assigned value 26.81" "solution L18  
 # The truth beside it is that of the drawn table; 76 · 0.95 = 72.2 values are expected within U.
 expect_printed(rotary_table "EXA at  0°: 2.16 µm, U = 0.10, true 2.20" "ECA at 30°: 14.39 ″, U = 0.19, true 14.28"
                "72 of 76 true values lie within U" "length noise: 67.6 % of the variance of EXA")
+# JCGM 100:2008, G.4.1 and table G.2; JCGM 101:2008, 9.2.3; k = (1 − √((1 − p)(1 − β²))) / √((1 + β²)/6) for β = 1/2
+expect_printed(coverage_factor "nu_eff = 19.0, k = 2.09 for 95 %" "k = 2.65 for 95.45 % and 5 degrees of freedom"
+               "95 % within 3.88" "trapezoid: k = 1.77" "lie below 0.9877" "P(Z1^2 + 0.2 Z2^2 >= 5) = 0.028953")
+# JCGM 100:2008, table 1, F.2.2.1 and H.5 (F = 2.26 from the figures of table H.9)
+expect_printed(observations "mean 100.14, s = 1.49, u = 0.33, 19 degrees of freedom" "half-width 4: u = 2.3" "u = 0.29"
+               "F = 2.26, critical value 2.12: an effect between days is taken to exist"
+               "mean 97 uV, u = 18 uV with the effect, 13 uV without it")
+# JCGM 106:2012 (0.92), ILAC-G8 (4.85 %), NCSLI RP-19 (2.85583037 % and 3.63227145 %)
+expect_printed(conformity "probability of conformity 0.92" "DR-01: accepted up to -5.40 V, pass, risk 8.1 %"
+               "DR-03: accepted up to -5.50 V, fail, risk 91.9 %" "conditional_pass" "largest risk 4.85 %"
+               "falsely accepted 2.85583 % of all, 3.63227 % of those accepted")
+# H. Wolf, Ausgleichungsrechnung II (1979), p. 87; closure: u = 0.05" √(n − 1)/n with (n − 1)(n − 2) degrees of freedom
+expect_printed(distances "P = 900.0167 899.9833 1300.0062 m, u = 11.8 11.8 6.2 mm"
+               "T_1 = 1.000\", u = 0.0186\" with 20 degrees of freedom" "order 1: amplitude 2.000\"" "order 2: amplitude 0.000\"")
+expect_printed(records "line 2, column 2: the key \"u\" occurs twice" "capability at 0.1 m: 0.0707 um"
+               "ISO/IEC 17025:2017, 7.8.2.1 b")
 
 # The installed package must not remember the tree that it was built from.
 file(GLOB_RECURSE package_files ${prefix}/lib/cmake/*.cmake ${prefix}/lib/*/cmake/*.cmake)
@@ -92,5 +108,17 @@ run("the example" ${prefix}/bin/gumcert run ${CMAKE_CURRENT_LIST_DIR}/../../exam
 foreach(wanted record.json certificate.html certificate.pdf)
     if(NOT EXISTS ${WORK_DIR}/out/${wanted})
         message(FATAL_ERROR "the installed program did not write ${wanted}")
+    endif()
+endforeach()
+
+# And the example reads what it made: of the end gauge Monte Carlo is reported, because the terms of second order matter
+# (JCGM 100:2008, H.1.7).
+run("the end gauge" ${prefix}/bin/gumcert evaluate ${CMAKE_CURRENT_LIST_DIR}/../../examples/end_gauge/job.json
+    -o ${WORK_DIR}/end_gauge.json)
+run("records" ${WORK_DIR}/api/records ${WORK_DIR}/end_gauge.json ${WORK_DIR}/out/certificate.pdf)
+foreach(wanted "l = 50000838 nm, U = 93 (u = 31.66 nm)" "written again it is the same text: yes" "pdf: 0 signatures")
+    string(FIND "${output}" "${wanted}" position)
+    if(position EQUAL -1)
+        message(FATAL_ERROR "records printed\n${output}and not\n${wanted}")
     endif()
 endforeach()
