@@ -10,7 +10,6 @@
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,7 +17,6 @@
 #include "gum/distribution_quantile.h"
 #include "gum/monte_carlo_statistics.h"
 #include "gum/quantity/diagnostic.h"
-#include "gum/worker_threads.h"
 #include "tests/unit/gum/printed.h"
 
 namespace gumcert::gum {
@@ -660,97 +658,6 @@ TEST(MonteCarlo, ValidationOfTheLawOfPropagation) {
     EXPECT_FALSE(bad.validated);
     EXPECT_FALSE(bad.precise_enough);
     EXPECT_EQ(bad.numerical_limit, 0.01);
-}
-
-// JCGM 101:2008, 7.7.2: ranks counted from 1 there. M = 10^6, p = 0.95: r = 25000, r + q = 975000.
-TEST(MonteCarlo, RanksOfTheSymmetricInterval) {
-    const CoverageRanks ranks(0.95, 1'000'000);
-    EXPECT_EQ(ranks.inside, 950'000U);
-    EXPECT_EQ(ranks.low + 1, 25'000U);
-    const CoverageRanks odd(0.95, 999);  // pM = 949.05: q = 949, (M - q)/2 = 25
-    EXPECT_EQ(odd.inside, 949U);
-    EXPECT_EQ(odd.low + 1, 25U);
-    const CoverageRanks half(0.95, 998);  // pM = 948.1: q = 948, r = 25
-    EXPECT_EQ(half.low + 1, 25U);
-    const CoverageRanks up(0.95, 1010);  // pM = 959.5: q = 960, r = 25
-    EXPECT_EQ(up.inside, 960U);
-    const CoverageRanks not_whole(0.95, 1001);  // q = 951, (M - q)/2 = 25
-    EXPECT_EQ(not_whole.low + 1, 25U);
-    const CoverageRanks rounded(0.95, 1019);  // pM = 968.05: q = 968, (M - q)/2 = 25.5: r = 26
-    EXPECT_EQ(rounded.low + 1, 26U);
-}
-
-TEST(Moments, MergedInParts) {
-    std::vector<double> values;
-    for (int i = 0; i < 1000; ++i) {
-        values.push_back(1e6 + std::sin(i) + 0.001 * i);
-    }
-    const Moments whole = moments_of(values.data(), 1000);
-    Moments parts = moments_of(values.data(), 137);
-    parts.merge(moments_of(values.data() + 137, 1));
-    parts.merge(Moments());
-    parts.merge(moments_of(values.data() + 138, 862));
-    EXPECT_NEAR(parts.mean, whole.mean, 1e-9);
-    EXPECT_NEAR(parts.m2, whole.m2, 1e-9 * whole.m2);
-    EXPECT_NEAR(parts.m3, whole.m3, 1e-7 * whole.m2);
-    EXPECT_NEAR(parts.m4, whole.m4, 1e-9 * whole.m4);
-    EXPECT_EQ(parts.largest, *std::max_element(values.begin(), values.end()));
-}
-
-TEST(RankSearch, AgreesWithSorting) {
-    std::vector<double> values;
-    for (int i = 0; i < 20'000; ++i) {
-        const double x = std::sin(i * 1.7) + std::cos(i * 0.3);
-        values.push_back(i % 7 == 0 ? 1e9 * x : (i % 11 == 0 ? 0.25 : x * x * x));
-    }
-    std::vector<double> sorted = values;
-    std::sort(sorted.begin(), sorted.end());
-    const std::vector<std::uint64_t> ranks{0, 1, 500, 10'000, 19'000, 19'999};
-    for (const std::uint64_t most : std::vector<std::uint64_t>{100'000, 3'000, 300}) {
-        RankSearch search(std::span<const double>(values.data(), 500), 4, most);
-        for (const std::uint64_t rank : ranks) {
-            search.want_rank(rank);
-        }
-        int passes = 0;
-        while (!search.is_done()) {
-            RankSearch::Tally tally = search.tally();
-            search.add(values.data(), 20'000, tally);
-            search.absorb(tally);
-            search.finish_pass(sorted.front(), sorted.back());
-            ASSERT_LT(++passes, 10);
-        }
-        for (const std::uint64_t rank : ranks) {
-            const RankValue found = search.value(rank);
-            EXPECT_NEAR(found.value, sorted[rank], found.resolution * (1.0 + 1e-9)) << rank << " " << most;
-        }
-    }
-}
-
-TEST(WorkerThreads, DoesEveryTaskOnce) {
-    for (const unsigned threads : {1U, 2U, 5U}) {
-        WorkerThreads workers(threads);
-        for (int repeat = 0; repeat < 20; ++repeat) {
-            std::vector<int> done(100, 0);
-            workers.run(done.size(), [&](unsigned worker, std::size_t task) {
-                ASSERT_LT(worker, workers.size());
-                ++done[task];
-            });
-            EXPECT_EQ(done, std::vector<int>(100, 1));
-        }
-        // The failure with the lowest number, whatever thread comes first.
-        for (int repeat = 0; repeat < 20; ++repeat) {
-            try {
-                workers.run(50, [](unsigned /*worker*/, std::size_t task) {
-                    if (task % 10 == 3) {
-                        throw std::runtime_error(std::to_string(task));
-                    }
-                });
-                FAIL() << "no failure";
-            } catch (const std::runtime_error& failure) {
-                EXPECT_STREQ(failure.what(), "3");
-            }
-        }
-    }
 }
 
 }  // namespace

@@ -174,6 +174,21 @@ TEST(TypeA, SimultaneousObservations) {
     EXPECT_EQ(code_of<InputError>([&] { (void)evaluate_simultaneous(constant); }), "GC-GUM-0001");
 }
 
+TEST(TypeA, MeanOfTwentyTemperatures) {
+    // JCGM 100:2008, 4.4.3: s = 1.489 °C of 20 observations, u = 0.333 °C, printed as 0.33.
+    EXPECT_TRUE(prints_as(u_of_mean(1.48884448305954, 20), "0.33"));
+    EXPECT_EQ(u_of_mean(0.25e-6, 1), 0.25e-6);
+    EXPECT_EQ(u_of_mean(0.0, 3), 0.0);
+}
+
+TEST(TypeA, RefusesBadArguments) {
+    EXPECT_EQ(code_of<InputError>([] { (void)u_of_mean(-1.0, 3); }), "GC-GUM-0002");
+    EXPECT_EQ(code_of<InputError>([] { (void)u_of_mean(std::nan(""), 3); }), "GC-GUM-0001");
+    EXPECT_EQ(message_of<InputError>([] { (void)u_of_mean(1.0, 0); }),
+              "number of observations — 0 — a mean needs at least 1 observation — "
+              "Give the observations, or state the uncertainty as a Type B evaluation.");
+}
+
 TEST(TypeA, RefusesBadSeries) {
     const double infinity = std::numeric_limits<double>::infinity();
     EXPECT_EQ(message_of<InputError>([] { (void)evaluate_type_a(std::vector<double>{1.0}); }),

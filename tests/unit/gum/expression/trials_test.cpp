@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "equations.h"
-#include "gum/expression/tape.h"
 
 namespace gumcert::gum {
 namespace {
@@ -140,28 +139,6 @@ TEST(Trials, RegistersOfLongRandomExpressions) {
         expect_same_bits(system_of({"y = " + expression}, numbers({"a", "b", "c", "d"})), random_trials(300, 4, 5),
                          expression.substr(0, 60));
     }
-}
-
-TEST(Trials, RegistersAreUsedAgain) {
-    TapeBuilder builder(2);
-    TapeBuilder::Node sum = builder.leaf(0);
-    for (int i = 1; i < 1000; ++i) {
-        sum = builder.step(Operation::add, sum,
-                           builder.step(Operation::multiply, builder.leaf(1), builder.constant(i + 0.5), {}), {});
-    }
-    const Tape chain = builder.finish({}, {sum});
-    EXPECT_GT(chain.step_count(), 1900U);
-    EXPECT_LE(chain.register_count(), 4U);
-}
-
-TEST(Trials, EqualPartsAreOneStep) {
-    TapeBuilder builder(2);
-    const auto product = [&] { return builder.step(Operation::multiply, builder.leaf(0), builder.leaf(1), {}); };
-    const TapeBuilder::Node first = product();
-    EXPECT_EQ(product(), first);
-    EXPECT_EQ(builder.step(Operation::multiply, builder.leaf(1), builder.leaf(0), {}), first);
-    EXPECT_EQ(builder.step(Operation::add, builder.constant(2), builder.constant(3), {}), builder.constant(5));
-    EXPECT_EQ(builder.finish({}, {builder.step(Operation::subtract, first, first, {})}).step_count(), 2U);
 }
 
 TEST(Trials, ThreadsShareASystem) {

@@ -192,6 +192,14 @@ TEST(Evaluation, RefusesAnotherNumberOfInputs) {
     EXPECT_THROW(system.evaluate_trials(Eigen::MatrixXd::Zero(2, 3), y), InputError);
 }
 
+TEST(EquationNames, AreFoundWithoutCompiling) {
+    const EquationNames names = equation_names({.text = "y = a*sin(b*rad) + a^pi", .where = ""});
+    EXPECT_EQ(names.defines, "y");
+    EXPECT_EQ(names.uses, (std::vector<std::string>{"a", "b", "rad"}));
+    EXPECT_EQ(equation_names({.text = "0 = a - b", .where = ""}).defines, "");
+    EXPECT_THROW((void)equation_names({.text = "y = ", .where = ""}), InputError);
+}
+
 TEST(Derivatives, OfManyOutputs) {
     // Each output needs its own part of the tape only.
     std::vector<std::string> texts;

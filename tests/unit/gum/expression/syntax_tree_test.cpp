@@ -185,26 +185,6 @@ TEST(Grammar, LimitsHoldAgainstExhaustion) {
     EXPECT_EQ(codes(problems_of({"y = a + " + std::string(300, 'x')}, numbers({"a"}))).substr(0, 4), "0014");
 }
 
-TEST(Names, OfOtherScripts) {
-    EXPECT_EQ(codes(problems_of({"Δl = α*θ + T₀ + 長さ + x'"}, numbers({"α", "θ", "T₀", "長さ", "x'"}))), "");
-    // The micro sign and the letter are one.
-    EXPECT_EQ(codes(problems_of({"y = \u00b5 + 1"}, numbers({"\u03bc"}))), "");
-    // ρ and p, ν and v are told apart; Cyrillic а and Latin a are not.
-    EXPECT_EQ(codes(problems_of({"y = ρ + p + ν + v"}, numbers({"ρ", "p", "ν", "v"}))), "");
-    EXPECT_EQ(codes(problems_of({"y = a"}, numbers({"a", "а"}))), "0029 input а");
-    EXPECT_THAT(messages(problems_of({"y = а"}, numbers({"a"}))), HasSubstr("looks the same"));
-    EXPECT_EQ(codes(problems_of({"y = a"}, numbers({"a", "b c", "2x", "", "exp"}))),
-              "0029 input b c; 0029 input 2x; 0029 input ; 0023 input exp");
-}
-
-TEST(Names, AreFoundWithoutCompiling) {
-    const EquationNames names = equation_names({.text = "y = a*sin(b*rad) + a^pi", .where = ""});
-    EXPECT_EQ(names.defines, "y");
-    EXPECT_EQ(names.uses, (std::vector<std::string>{"a", "b", "rad"}));
-    EXPECT_EQ(equation_names({.text = "0 = a - b", .where = ""}).defines, "");
-    EXPECT_THROW((void)equation_names({.text = "y = ", .where = ""}), InputError);
-}
-
 TEST(Printing, HasTheFewestParentheses) {
     const std::vector<std::pair<std::string, std::string>> table{
         {"y=((a)+((b)*(c)))", "y = a + b*c"}, {"y=(a+b)*c", "y = (a + b)*c"},

@@ -1,34 +1,17 @@
+#include "gum/type_b.h"
+
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 
 #include "gum/quantity/diagnostic.h"
-#include "gum/type_a.h"
-#include "gum/type_b.h"
 #include "tests/unit/gum/printed.h"
 
 namespace gumcert::gum {
 namespace {
 
 using test::code_of;
-using test::message_of;
 using test::prints_as;
-
-TEST(TypeA, MeanOfTwentyTemperatures) {
-    // JCGM 100:2008, 4.4.3: s = 1.489 °C of 20 observations, u = 0.333 °C, printed as 0.33.
-    EXPECT_TRUE(prints_as(u_of_mean(1.48884448305954, 20), "0.33"));
-    EXPECT_EQ(u_of_mean(0.25e-6, 1), 0.25e-6);
-    EXPECT_EQ(u_of_mean(0.0, 3), 0.0);
-}
-
-TEST(TypeA, RefusesBadArguments) {
-    EXPECT_EQ(code_of<InputError>([] { (void)u_of_mean(-1.0, 3); }), "GC-GUM-0002");
-    EXPECT_EQ(code_of<InputError>([] { (void)u_of_mean(std::nan(""), 3); }), "GC-GUM-0001");
-    EXPECT_EQ(message_of<InputError>([] { (void)u_of_mean(1.0, 0); }),
-              "number of observations — 0 — a mean needs at least 1 observation — "
-              "Give the observations, or state the uncertainty as a Type B evaluation.");
-}
 
 TEST(TypeB, HalfWidths) {
     // JCGM 100:2008, 4.3.8 (copper, 16.40e-6 to 16.92e-6) and 4.4.5 (96 °C to 104 °C).
