@@ -43,7 +43,7 @@ struct CampaignNoise {
 /// Everything else stays as the layout states it: what is known of fixture, temperature and expansion is the
 /// statement, the truth differs from it.
 /// Accuracy: lengths within 4e-15 m of an independent kinematics (campaign_simulation_test).
-/// Example: examples/api/rotary_table.cpp
+/// Example: examples/api/simulated_campaign.cpp
 [[nodiscard]] RotaryTableMeasurement simulate_campaign(const RotaryTableMeasurement& layout, const CampaignTruth& truth,
                                                        const CampaignNoise& noise);
 

@@ -83,7 +83,7 @@ struct GroupTests {
 };
 
 struct GroupTestOptions {
-    /// Probability that a sound measurement makes any group of any kind suspicious, or makes its fixture so.
+    /// Probability that a sound measurement makes any group of any kind, or its fixture, suspicious.
     double alpha = 0.01;
     /// Probability above a value of chi-square, by value and degrees of freedom.
     std::function<double(double, double)> chi_square_upper_tail;

@@ -135,7 +135,7 @@ using Progress = std::function<void(const std::string&)>;
 /// \throws gum::NoResultError  naming the parameters that are not determined, or when nothing converges
 /// Accuracy: exact distances give the truth back within 1e-10 m and 1e-9 rad
 /// (docs/accuracy.md#covariance-and-trials-of-a-rotary-table).
-/// Example: examples/api/rotary_table.cpp
+/// Example: examples/api/simulated_campaign.cpp
 [[nodiscard]] RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement,
                                                    const EvaluationOptions& options, const Progress& progress = {});
 

@@ -75,6 +75,9 @@ expect_printed(conformity "probability of conformity 0.92" "DR-01: accepted up t
 # H. Wolf, Ausgleichungsrechnung II (1979), p. 87; closure: u = 0.05" √(n − 1)/n with (n − 1)(n − 2) degrees of freedom
 expect_printed(distances "P = 900.0167 899.9833 1300.0062 m, u = 11.8 11.8 6.2 mm"
                "T_1 = 1.000\", u = 0.0186\" with 20 degrees of freedom" "order 1: amplitude 2.000\"" "order 2: amplitude 0.000\"")
+# What was simulated comes back.
+expect_printed(simulated_campaign "EXC at angle number 2: 4.944 um, simulated 4.944 um"
+               "EXC at angle number 3: -0.104 um, simulated -0.104 um" "450 distances and coordinates, 108 parameters")
 expect_printed(records "line 2, column 2: the key \"u\" occurs twice" "capability at 0.1 m: 0.0707 um"
                "ISO/IEC 17025:2017, 7.8.2.1 b")
 
