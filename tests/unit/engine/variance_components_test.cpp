@@ -1,4 +1,6 @@
 // Variance components are recovered from simulated campaigns within what is stated of them.
+#include "engine/variance_components.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -375,6 +377,22 @@ TEST(VarianceComponents, NoiseBelowTheResolutionEndsAtZero) {
     EXPECT_EQ(solution.components[length_noise].value, 0.0);
     EXPECT_GT(solution.components[length_noise].u, 0.0);
     EXPECT_TRUE(solution.covariance.diagonal().allFinite());
+}
+
+TEST(VarianceComponents, StartFromWhatIsStatedOfTheTable) {
+    const StochasticModel given = start_variances({RepeatabilityMode::given, 2e-6, 3e-6, 0.0});
+    EXPECT_DOUBLE_EQ(given.variance_linear, 4e-12);
+    EXPECT_DOUBLE_EQ(given.variance_axial, 9e-12);
+    EXPECT_EQ(given.variance_tilt, 0.0) << "stated as none";
+    EXPECT_EQ(given.length_factor, 1.0);
+    EXPECT_EQ(given.fixture_factor, 1.0);
+    const StochasticModel none = start_variances({RepeatabilityMode::none, 2e-6, 3e-6, 4e-6});
+    EXPECT_EQ(none.variance_linear + none.variance_axial + none.variance_tilt, 0.0);
+    // Where it is to be estimated, a stated value is where that begins, and a guess where there is none.
+    const StochasticModel estimate = start_variances({RepeatabilityMode::estimate, 2e-6, 0.0, 0.0});
+    EXPECT_DOUBLE_EQ(estimate.variance_linear, 4e-12);
+    EXPECT_GT(estimate.variance_axial, 0.0);
+    EXPECT_EQ(estimate.variance_tilt, estimate.variance_axial);
 }
 
 }  // namespace
