@@ -22,6 +22,7 @@
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/special_values.h"
 #include "gum/rounding.h"
+#include "reports/record/record_kinds.h"
 #include "text/csv_field.h"
 #include "text/lists.h"
 #include "text/numbers.h"
@@ -446,7 +447,7 @@ nlohmann::json options_json(const BudgetJob& job, const gum::BudgetResult& resul
 reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetResult& result,
                                         const std::vector<reports::InputFile>& files, const Eigen::MatrixXd& covariance,
                                         const std::string& covariance_file) {
-    reports::EvaluationRecord record = record_head("budget",
+    reports::EvaluationRecord record = record_head(reports::k_budget_kind,
                                                    {.title = job.title,
                                                     .coverage_probability = job.coverage_probability,
                                                     .document = job.document,

@@ -15,6 +15,7 @@
 #include "gum/coverage.h"
 #include "gum/propagation.h"
 #include "gum/rounding.h"
+#include "reports/record/record_kinds.h"
 #include "reports/record/reported_result.h"
 #include "text/numbers.h"
 
@@ -410,7 +411,7 @@ std::vector<std::string> circle_closure_result_names(const CircleClosureJob& job
 reports::EvaluationRecord circle_closure_record(const CircleClosureJob& job, const CircleClosureResult& result,
                                                 const std::vector<reports::InputFile>& files,
                                                 const std::string& covariance_file) {
-    reports::EvaluationRecord record = record_head("circle_closure",
+    reports::EvaluationRecord record = record_head(reports::k_circle_closure_kind,
                                                    {.title = job.title,
                                                     .coverage_probability = job.coverage_probability,
                                                     .document = job.document,

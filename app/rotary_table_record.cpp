@@ -16,6 +16,7 @@
 #include "app/table_parameter_record.h"
 #include "gum/coverage.h"
 #include "gum/rounding.h"
+#include "reports/record/record_kinds.h"
 #include "reports/record/reported_result.h"
 #include "text/numbers.h"
 
@@ -285,7 +286,7 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const R
     const engine::RotaryTableMeasurement& measurement = job.measurement;
     const RotaryTableSolution& solution = result.solution;
     const gum::UncertaintyBudget& propagation = result.reported.budget;
-    reports::EvaluationRecord record = record_head("rotary_table",
+    reports::EvaluationRecord record = record_head(reports::k_rotary_table_kind,
                                                    {.title = job.title,
                                                     .coverage_probability = job.coverage_probability,
                                                     .document = job.document,

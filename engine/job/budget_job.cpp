@@ -14,7 +14,7 @@
 #include "engine/job/certificate_archive.h"
 #include "engine/job/certificate_statement.h"
 #include "engine/job/job_files.h"
-#include "engine/job/job_kinds.h"
+#include "engine/job/job_kind.h"
 #include "engine/job/json_object.h"
 #include "engine/job/monte_carlo_request.h"
 #include "text/visible_text.h"

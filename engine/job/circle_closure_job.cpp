@@ -12,7 +12,7 @@
 #include "engine/job/certificate_statement.h"
 #include "engine/job/csv_table.h"
 #include "engine/job/job_files.h"
-#include "engine/job/job_kinds.h"
+#include "engine/job/job_kind.h"
 #include "engine/job/json_object.h"
 #include "engine/job/monte_carlo_request.h"
 #include "engine/job/statement_keys.h"

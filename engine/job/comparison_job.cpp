@@ -10,7 +10,7 @@
 #include "engine/job/comparison_methods.h"
 #include "engine/job/comparison_participants.h"
 #include "engine/job/comparison_reading.h"
-#include "engine/job/job_kinds.h"
+#include "engine/job/job_kind.h"
 #include "text/visible_text.h"
 
 namespace gumcert::engine {

@@ -14,7 +14,7 @@
 #include "engine/job/certificate_statement.h"
 #include "engine/job/csv_table.h"
 #include "engine/job/job_files.h"
-#include "engine/job/job_kinds.h"
+#include "engine/job/job_kind.h"
 #include "engine/job/json_object.h"
 #include "engine/job/machine_frame_reading.h"
 #include "engine/job/monte_carlo_request.h"
