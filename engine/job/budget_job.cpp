@@ -25,10 +25,11 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 18> k_job_keys{
-    "schema",    "kind",         "title",      "coverage_probability", "certificate", "monte_carlo", "notes",  "model",
-    "inputs",    "correlations", "covariance", "simultaneous",         "solve_for",   "outputs",     "points", "fits",
-    "reporting", "coverage"};
+constexpr std::array<std::string_view, 19> k_job_keys{
+    "$schema",      "schema",      "kind",         "title",     "coverage_probability",
+    "certificate",  "monte_carlo", "notes",        "model",     "inputs",
+    "correlations", "covariance",  "simultaneous", "solve_for", "outputs",
+    "points",       "fits",        "reporting",    "coverage"};
 constexpr std::array<std::string_view, 2> k_reporting_keys{"degrees_of_freedom", "rounding"};
 constexpr std::array<std::string_view, 3> k_unknown_keys{"start", "unit", "description"};
 constexpr std::array<std::string_view, 4> k_output_keys{"unit", "coverage_probability", "coverage", "description"};
@@ -135,7 +136,7 @@ private:
         job_.coverage_probability = root.optional_number("coverage_probability", k_probability).value_or(0.9545);
         job_.coverage =
             root.optional_choice("coverage", gum::k_coverage_choices).value_or(gum::CoverageChoice::as_validated);
-        (void)root.optional_string("notes");
+        read_unused_texts(root);
         if (const auto reporting = root.optional_object("reporting", k_reporting_keys)) {
             constexpr std::array<std::pair<std::string_view, bool>, 2> k_degrees{
                 {{"exact", false}, {"truncated", true}}};

@@ -25,10 +25,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 19> k_job_keys{
-    "schema", "kind",     "title",   "notes",         "coverage_probability", "coverage", "certificate",
-    "steps",  "readings", "unit",    "axis",          "first_angle_deg",      "artefact", "numbering",
-    "sense",  "drift",    "effects", "repeatability", "monte_carlo"};
+constexpr std::array<std::string_view, 20> k_job_keys{
+    "$schema",     "schema", "kind",     "title",   "notes",         "coverage_probability", "coverage",
+    "certificate", "steps",  "readings", "unit",    "axis",          "first_angle_deg",      "artefact",
+    "numbering",   "sense",  "drift",    "effects", "repeatability", "monte_carlo"};
 constexpr std::array<std::string_view, 4> k_repeatability_keys{"u", "nu", "use", "source"};
 constexpr std::array<std::string_view, 16> k_effect_keys{
     "name",        "acts_on",    "unit",       "value",        "u",    "U",      "k",   "p", "nu",
@@ -120,7 +120,7 @@ private:
         if (root.has("title")) {
             job_.title = root.optional_name("title", 1000).value_or("");
         }
-        (void)root.optional_string("notes");
+        read_unused_texts(root);
         job_.coverage_probability = root.optional_number("coverage_probability", k_probability).value_or(0.9545);
         job_.coverage =
             root.optional_choice("coverage", gum::k_coverage_choices).value_or(gum::CoverageChoice::as_validated);

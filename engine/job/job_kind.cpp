@@ -91,4 +91,9 @@ std::string job_kind(const std::filesystem::path& job_file) {
     return job_kind(DiskFileSource(job_file.parent_path()), job_file.filename().string());
 }
 
+void read_unused_texts(const JsonObject& root) {
+    (void)root.optional_string("$schema");
+    (void)root.optional_string("notes");
+}
+
 }  // namespace gumcert::engine

@@ -15,6 +15,7 @@ struct JsonDocument;
 
 namespace gumcert::engine {
 
+class JsonObject;
 class ProblemList;
 
 /// One object of the job document and the keys that it may have.
@@ -43,6 +44,10 @@ inline constexpr std::array<std::string_view, 4> k_job_kinds{k_budget_kind, k_ro
 /// \return the kind when it is one of these
 [[nodiscard]] std::optional<std::string> read_kind(const gumcert::json::JsonDocument& document, ProblemList& problems,
                                                    std::span<const std::string_view> kinds = k_job_kinds);
+
+/// What a job of any kind may say and the program does not look at: `notes`, for people, and `$schema`, where an editor
+/// finds the JSON Schema of the job. Both are texts.
+void read_unused_texts(const JsonObject& root);
 
 /// The kind that a job seems to be of, also where its text has faults: which reader should tell what is wrong with it.
 /// \return nothing when that cannot be seen

@@ -39,7 +39,8 @@ using Words = std::span<const std::string_view>;
 
 // ---- keys -----------------------------------------------------------------------------------------------------------
 
-constexpr std::array<std::string_view, 24> k_job_keys{"schema",
+constexpr std::array<std::string_view, 25> k_job_keys{"$schema",
+                                                      "schema",
                                                       "kind",
                                                       "title",
                                                       "axis",
@@ -384,7 +385,7 @@ private:
                                       .high_open = true,
                                       .hint = "state a probability, not a percentage, such as 0.9545"};
         job_.coverage_probability = root.optional_number("coverage_probability", probability).value_or(0.9545);
-        (void)root.optional_string("notes");
+        read_unused_texts(root);
         job_.monte_carlo = read_monte_carlo(root, job_.coverage_probability, k_validated_digits, *problems_);
         job_.coverage =
             root.optional_choice("coverage", gum::k_coverage_choices).value_or(gum::CoverageChoice::as_validated);
