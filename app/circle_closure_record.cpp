@@ -10,6 +10,7 @@
 #include "app/circle_closure_findings.h"
 #include "app/record_parts.h"
 #include "app/rotary_reported_results.h"
+#include "engine/job/circle_closure_statement.h"
 #include "gum/analysis_of_variance.h"
 #include "gum/convolution.h"
 #include "gum/coverage.h"
@@ -299,7 +300,7 @@ reports::CircleClosure closure_of(const CircleClosureJob& job, const CircleClosu
     closure.artefact = k_artefact_quantity;
     closure.artefact_description = job.artefact;
     closure.unit = job.unit.text();
-    closure.numbering = m.against ? "against" : "with";
+    closure.numbering = engine::word_of(engine::k_closure_numberings, m.against);
     closure.sense = m.sense > 0.0 ? "positive" : "negative";
     closure.drift = m.removes_drift ? "linear" : "none";
     closure.steps = static_cast<std::int64_t>(m.steps);

@@ -9,6 +9,7 @@
 #include "app/document_units.h"
 #include "app/record_parts.h"
 #include "app/table_parameter_record.h"
+#include "engine/job/rotary_table_words.h"
 #include "gum/coverage.h"
 #include "gum/quantity/units.h"
 #include "text/numbers.h"
@@ -117,7 +118,7 @@ void fill_location_errors(reports::RotaryTable& rotary, const engine::RotaryTabl
     const MachineFrame& frame = *job.machine_frame;
     const bool stations = frame.by == MachineFramePoints::stations;
     reports::MachineFrame& record = rotary.machine_frame.emplace();
-    record.by = stations ? "stations" : "probing";
+    record.by = engine::word_of(engine::k_machine_points, frame.by);
     record.source = frame.source;
     for (int c = 0; c < 3; ++c) {
         record.nominal_point_mm[static_cast<std::size_t>(c)] = frame.nominal_point[c] / gum::k_millimetre;
