@@ -22,6 +22,7 @@
 #include "gum/quantity/special_values.h"
 #include "gum/rounding.h"
 #include "reports/record/make/record_parts.h"
+#include "reports/record/record_kinds.h"
 #include "text/csv_field.h"
 #include "text/lists.h"
 #include "text/numbers.h"
@@ -447,13 +448,13 @@ nlohmann::json options_json(const BudgetJob& job, const gum::BudgetResult& resul
 reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetResult& result,
                                         const std::vector<reports::InputFile>& files, const Eigen::MatrixXd& covariance,
                                         const std::string& covariance_file) {
-    reports::EvaluationRecord record = reports::record_head("budget",
-                                                            {.title = job.title,
-                                                             .coverage_probability = job.coverage_probability,
-                                                             .document = job.document,
-                                                             .warnings = job.warnings,
-                                                             .notes = result.notes},
-                                                            options_json(job, result), files);
+    reports::EvaluationRecord record = reports::record_head(reports::k_budget_kind,
+                                                   {.title = job.title,
+                                                    .coverage_probability = job.coverage_probability,
+                                                    .document = job.document,
+                                                    .warnings = job.warnings,
+                                                    .notes = result.notes},
+                                                   options_json(job, result), files);
     for (const BudgetInput& input : job.inputs) {
         const auto described = job.input_descriptions.find(input.name);
         record.inputs.push_back({.name = input.name,

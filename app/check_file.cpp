@@ -6,7 +6,7 @@
 #include "app/read_file.h"
 #include "app/recompute_record.h"
 #include "engine/job/file_source.h"
-#include "engine/job/job_kinds.h"
+#include "engine/job/job_kind.h"
 #include "json/strict_parser.h"
 
 namespace gumcert::app {

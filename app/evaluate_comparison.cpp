@@ -8,6 +8,7 @@
 #include "gum/comparison/reference_estimates.h"
 #include "gum/quantity/progress.h"
 #include "reports/record/make/record_parts.h"
+#include "reports/record/record_kinds.h"
 
 namespace gumcert::app {
 
@@ -55,8 +56,9 @@ reports::EvaluationRecord evaluate_comparison(const engine::ComparisonJob& job,
             .laboratory = data.laboratory.name, .number = data.number, .issued = data.dates.issued};
     }
     const std::vector<gum::Diagnostic> notes = notes_on(job, std::move(found));
-    reports::EvaluationRecord record = reports::record_head(
-        "comparison", {job.title, job.coverage_probability, job.document, job.warnings, notes}, options_of(job), files);
+    reports::EvaluationRecord record =
+        reports::record_head(reports::k_comparison_kind,
+                    {job.title, job.coverage_probability, job.document, job.warnings, notes}, options_of(job), files);
     record.comparison = std::move(comparison);
     return record;
 }

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-#include "engine/job/job_kinds.h"
+#include "engine/job/job_kind.h"
 #include "reports/record_sentences.h"
 
 namespace gumcert::app {

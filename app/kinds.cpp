@@ -14,7 +14,7 @@
 #include "engine/job/budget_job.h"
 #include "engine/job/circle_closure_job.h"
 #include "engine/job/comparison_job.h"
-#include "engine/job/job_kinds.h"
+#include "engine/job/job_kind.h"
 #include "engine/job/rotary_table_job.h"
 #include "gum/budget/evaluate_budget.h"
 #include "gum/budget/reported_covariance.h"

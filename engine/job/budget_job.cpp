@@ -10,13 +10,14 @@
 #include "engine/job/budget_correlation.h"
 #include "engine/job/budget_fit_statement.h"
 #include "engine/job/budget_inputs.h"
+#include "engine/job/budget_job_statement.h"
 #include "engine/job/budget_statement.h"
 #include "engine/job/certificate_archive.h"
 #include "engine/job/certificate_statement.h"
 #include "engine/job/job_files.h"
-#include "engine/job/job_kinds.h"
+#include "engine/job/job_kind.h"
+#include "engine/job/job_reader.h"
 #include "engine/job/json_object.h"
-#include "engine/job/monte_carlo_request.h"
 #include "text/visible_text.h"
 
 namespace gumcert::engine {
@@ -24,20 +25,6 @@ namespace gumcert::engine {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::array<std::string_view, 18> k_job_keys{
-    "schema",    "kind",         "title",      "coverage_probability", "certificate", "monte_carlo", "notes",  "model",
-    "inputs",    "correlations", "covariance", "simultaneous",         "solve_for",   "outputs",     "points", "fits",
-    "reporting", "coverage"};
-constexpr std::array<std::string_view, 2> k_reporting_keys{"degrees_of_freedom", "rounding"};
-constexpr std::array<std::string_view, 3> k_unknown_keys{"start", "unit", "description"};
-constexpr std::array<std::string_view, 4> k_output_keys{"unit", "coverage_probability", "coverage", "description"};
-
-constexpr NumberRange k_probability{.low = 0.0,
-                                    .high = 1.0,
-                                    .low_open = true,
-                                    .high_open = true,
-                                    .hint = "state a probability, not a percentage, such as 0.9545"};
 
 /// Reads one job; every step notes what it finds, and `result` throws or returns at the end.
 class Reader {
@@ -63,7 +50,7 @@ private:
         if (!is_budget()) {
             return;
         }
-        const std::optional<JsonObject> root = JsonObject::root(*document_, k_job_keys, *problems_);
+        const std::optional<JsonObject> root = JsonObject::root(*document_, keys_of<BudgetStatement>(), *problems_);
         if (!root) {
             return;
         }
@@ -129,22 +116,12 @@ private:
     }
 
     void read_common(const JsonObject& root) {
-        if (root.has("title")) {
-            job_.title = root.optional_name("title", 1000).value_or("");
-        }
-        job_.coverage_probability = root.optional_number("coverage_probability", k_probability).value_or(0.9545);
-        job_.coverage =
-            root.optional_choice("coverage", gum::k_coverage_choices).value_or(gum::CoverageChoice::as_validated);
-        (void)root.optional_string("notes");
-        if (const auto reporting = root.optional_object("reporting", k_reporting_keys)) {
-            constexpr std::array<std::pair<std::string_view, bool>, 2> k_degrees{
-                {{"exact", false}, {"truncated", true}}};
-            constexpr std::array<std::pair<std::string_view, gum::RoundingMode>, 2> k_rounding{
-                {{"half_even", gum::RoundingMode::half_even}, {"up", gum::RoundingMode::up}}};
-            job_.truncate_degrees_of_freedom =
-                reporting->optional_choice("degrees_of_freedom", k_degrees).value_or(false);
-            job_.rounding = reporting->optional_choice("rounding", k_rounding).value_or(gum::RoundingMode::half_even);
-        }
+        JobReader reader(root);
+        reader.read(stated_, {"title"});
+        reader.read(stated_, {"coverage_probability"});
+        reader.read(stated_, {"coverage"});
+        read_unused_texts(root);
+        reader.read(stated_, {"reporting"});
     }
 
     void read_model(const JsonObject& root) {
@@ -198,41 +175,45 @@ private:
     }
 
     void read_unknowns(const JsonObject& root) {
-        for_each_member(root, "solve_for", k_unknown_keys, [&](const std::string& name, const JsonObject& object) {
-            const bool is_name = is_quantity_name(name, object.where(), *problems_);
-            const auto unit = read_unit(object, "unit", *problems_);
-            const auto start = object.required_number("start");
-            (void)object.optional_string("description");
-            model_is_whole_ = model_is_whole_ && is_name && unit;
-            if (unit) {
-                job_.unknowns.push_back({name, unit->to_si(start.value_or(0.0)), *unit});
-            }
-        });
+        for_each_member(root, "solve_for", keys_of<UnknownStatement>(),
+                        [&](const std::string& name, const JsonObject& object) {
+                            const bool is_name = is_quantity_name(name, object.where(), *problems_);
+                            const auto unit = read_unit(object, "unit", *problems_);
+                            UnknownStatement stated;
+                            JobReader(object).read(stated);
+                            model_is_whole_ = model_is_whole_ && is_name && unit;
+                            if (unit) {
+                                job_.unknowns.push_back({name, unit->to_si(stated.start), *unit});
+                            }
+                        });
     }
 
     void read_outputs(const JsonObject& root) {
-        for_each_member(root, "outputs", k_output_keys, [&](const std::string& name, const JsonObject& object) {
-            gum::BudgetOutput output;
-            output.name = name;
-            output.where = object.where();
-            const nlohmann::json* const stated = object.find("description");
-            certificate::LocalisedText description;
-            if (stated != nullptr && stated->is_object()) {
-                read_localised(*stated, description, true, {&*document_, object.pointer("description"), problems_});
-            } else {
-                description = object.optional_string("description").value_or("");
-            }
-            if (!description.empty()) {
-                job_.output_descriptions[name] = std::move(description);
-            }
-            output.coverage_probability = object.optional_number("coverage_probability", k_probability);
-            output.coverage = object.optional_choice("coverage", gum::k_coverage_choices);
-            if (object.has("unit")) {
-                output.unit = read_unit(object, "unit", *problems_);
-                model_is_whole_ = model_is_whole_ && output.unit;
-            }
-            job_.outputs.push_back(std::move(output));
-        });
+        for_each_member(
+            root, "outputs", keys_of<OutputStatement>(), [&](const std::string& name, const JsonObject& object) {
+                gum::BudgetOutput output;
+                output.name = name;
+                output.where = object.where();
+                const nlohmann::json* const stated = object.find("description");
+                certificate::LocalisedText description;
+                if (stated != nullptr && stated->is_object()) {
+                    read_localised(*stated, description, true, {&*document_, object.pointer("description"), problems_});
+                } else {
+                    description = object.optional_string("description").value_or("");
+                }
+                if (!description.empty()) {
+                    job_.output_descriptions[name] = std::move(description);
+                }
+                OutputStatement probability;
+                JobReader(object).read(probability);
+                output.coverage_probability = probability.coverage_probability;
+                output.coverage = probability.coverage;
+                if (object.has("unit")) {
+                    output.unit = read_unit(object, "unit", *problems_);
+                    model_is_whole_ = model_is_whole_ && output.unit;
+                }
+                job_.outputs.push_back(std::move(output));
+            });
     }
 
     // ---- the model as a whole ---------------------------------------------------------------------------------------
@@ -339,19 +320,16 @@ private:
     JobFiles files_;
     ProblemList* problems_ = nullptr;
     std::optional<JsonDocument> document_;
-    BudgetJob job_;
+    BudgetStatement stated_;
+    BudgetJob& job_ = stated_.job;
     bool model_is_whole_ = true;  ///< equations, unknowns and outputs could be read
 };
 
 const std::vector<JobKeys>& all_keys() {
     static const std::vector<JobKeys> k_all = [] {
-        std::vector<JobKeys> all{{"", k_job_keys},
-                                 {"/covariance", budget_covariance_keys()},
-                                 {"/solve_for/*", k_unknown_keys},
-                                 {"/outputs/*", k_output_keys},
-                                 {"/monte_carlo", k_monte_carlo_keys},
-                                 {"/monte_carlo/adaptive", k_adaptive_keys},
-                                 {"/reporting", k_reporting_keys}};
+        static const JobKeyTable k_described(budget_fields());
+        std::vector<JobKeys> all(k_described.objects().begin(), k_described.objects().end());
+        all.push_back({"/covariance", budget_covariance_keys()});
         for (const std::span<const JobKeys> part : {budget_statement_keys(), budget_fit_keys()}) {
             all.insert(all.end(), part.begin(), part.end());
         }
@@ -361,6 +339,10 @@ const std::vector<JobKeys>& all_keys() {
 }
 
 }  // namespace
+
+const JobFields& budget_fields() {
+    return fields_of<BudgetStatement>();
+}
 
 std::span<const JobKeys> budget_job_keys() {
     return all_keys();

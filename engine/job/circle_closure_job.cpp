@@ -10,11 +10,11 @@
 #include "engine/job/budget_fit_statement.h"
 #include "engine/job/budget_statement.h"
 #include "engine/job/certificate_statement.h"
+#include "engine/job/circle_closure_statement.h"
 #include "engine/job/csv_table.h"
 #include "engine/job/job_files.h"
-#include "engine/job/job_kinds.h"
+#include "engine/job/job_reader.h"
 #include "engine/job/json_object.h"
-#include "engine/job/monte_carlo_request.h"
 #include "engine/job/statement_keys.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
@@ -25,55 +25,13 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 19> k_job_keys{
-    "schema", "kind",     "title",   "notes",         "coverage_probability", "coverage", "certificate",
-    "steps",  "readings", "unit",    "axis",          "first_angle_deg",      "artefact", "numbering",
-    "sense",  "drift",    "effects", "repeatability", "monte_carlo"};
-constexpr std::array<std::string_view, 4> k_repeatability_keys{"u", "nu", "use", "source"};
-constexpr std::array<std::string_view, 16> k_effect_keys{
-    "name",        "acts_on",    "unit",       "value",        "u",    "U",      "k",   "p", "nu",
-    "reliability", "half_width", "resolution", "distribution", "type", "source", "note"};
 /// Of an effect, what belongs to the statement of its uncertainty.
 constexpr std::array<std::string_view, 13> k_statement_part{
     "value",        "u",    "U",      "k",   "p", "nu", "reliability", "half_width", "resolution",
     "distribution", "type", "source", "note"};
 
-const std::vector<JobKeys>& all_keys() {
-    static const std::vector<JobKeys> k_all{{"", k_job_keys},
-                                            {"/repeatability", k_repeatability_keys},
-                                            {"/effects/*", k_effect_keys},
-                                            {"/monte_carlo", k_monte_carlo_keys},
-                                            {"/monte_carlo/adaptive", k_adaptive_keys}};
-    return k_all;
-}
-
-template <typename E>
-using Choice = std::pair<std::string_view, E>;
-
-constexpr std::array<Choice<char>, 3> k_axis_letters{{{"A", 'A'}, {"B", 'B'}, {"C", 'C'}}};
-constexpr std::array<Choice<bool>, 2> k_numberings{{{"with", false}, {"against", true}}};
-constexpr std::array<Choice<double>, 2> k_senses{{{"positive", 1.0}, {"negative", -1.0}}};
-constexpr std::array<Choice<bool>, 2> k_drifts{{{"none", false}, {"linear", true}}};
-constexpr std::array<Choice<bool>, 2> k_uses{{{"check", false}, {"stated", true}}};
-constexpr std::array<Choice<ClosurePattern>, 6> k_patterns{{{"scale", ClosurePattern::scale},
-                                                            {"reading", ClosurePattern::reading},
-                                                            {"step", ClosurePattern::step},
-                                                            {"side", ClosurePattern::side},
-                                                            {"turn", ClosurePattern::turn},
-                                                            {"once_per_turn", ClosurePattern::once_per_turn}}};
-
-constexpr double k_least_steps = 3.0;
-constexpr double k_most_steps = 360.0;
 constexpr double k_most_coefficients = 2e7;  // of the solution by the readings, 2n·N
-constexpr std::size_t k_most_effects = 100;
 constexpr std::size_t k_least_of_series = 3;
-constexpr NumberRange k_probability{.low = 0.0,
-                                    .high = 1.0,
-                                    .low_open = true,
-                                    .high_open = true,
-                                    .hint = "state a probability, not a percentage, such as 0.9545"};
-constexpr NumberRange k_degrees_of_freedom{.low = 1.0, .high = 1e9, .hint = "leave it out where u is known exactly"};
-
 constexpr std::array<std::string_view, 3> k_columns{"position", "step", "reading"};
 constexpr std::array<std::string_view, 1> k_more_columns{"repetition"};
 enum Column : std::size_t { c_position, c_step, c_reading, c_repetition };
@@ -93,7 +51,7 @@ public:
         problems_ = file.problems;
         document_ = read_json_document(file.bytes, *problems_);
         if (document_ && is_circle_closure()) {
-            if (const auto root = JsonObject::root(*document_, k_job_keys, *problems_)) {
+            if (const auto root = JsonObject::root(*document_, keys_of<CircleClosureStatement>(), *problems_)) {
                 read_job(*root);
             }
         }
@@ -116,28 +74,18 @@ private:
     }
 
     void read_job(const JsonObject& root) {
-        CircleClosureMeasurement& m = job_.measurement;
-        if (root.has("title")) {
-            job_.title = root.optional_name("title", 1000).value_or("");
-        }
-        (void)root.optional_string("notes");
-        job_.coverage_probability = root.optional_number("coverage_probability", k_probability).value_or(0.9545);
-        job_.coverage =
-            root.optional_choice("coverage", gum::k_coverage_choices).value_or(gum::CoverageChoice::as_validated);
-        const auto steps = root.required_integer("steps", {.low = k_least_steps, .high = k_most_steps});
-        m.steps = steps ? static_cast<std::size_t>(*steps) : 0;
-        job_.axis = root.optional_choice("axis", k_axis_letters);
-        job_.first_angle_deg = root.optional_number("first_angle_deg", between(-360.0, 360.0, "°")).value_or(0.0);
-        job_.artefact = root.optional_name("artefact").value_or("");
-        m.against = root.required_choice("numbering", k_numberings).value_or(false);
-        m.sense = root.optional_choice("sense", k_senses).value_or(1.0);
-        m.removes_drift = root.optional_choice("drift", k_drifts).value_or(false);
+        const CircleClosureMeasurement& m = job_.measurement;
+        JobReader reader(root);
+        reader.read(stated_, {"title"});
+        read_unused_texts(root);
+        reader.read(stated_, {"coverage_probability", "coverage"});
+        reader.read(stated_, {"steps", "axis", "first_angle_deg", "artefact", "numbering", "sense", "drift"});
         read_unit_of(root);
         read_repeatability(root);
         read_effects(root);
         read_monte_carlo_of(root);
-        const auto name = JobFiles::file_name(root, "readings", true);
-        auto file = name ? files_.open(*name) : std::nullopt;
+        reader.read(stated_, {"readings"});
+        auto file = stated_.readings ? files_.open(*stated_.readings) : std::nullopt;
         if (file && m.steps > 0) {
             read_readings(std::move(*file), root);
         }
@@ -171,7 +119,7 @@ private:
     // ---- uncertainties ----------------------------------------------------------------------------------------------
 
     void read_repeatability(const JsonObject& root) {
-        const auto object = root.optional_object("repeatability", k_repeatability_keys);
+        const auto object = root.optional_object("repeatability", keys_of<RepeatabilityStatement>());
         if (!object) {
             return;
         }
@@ -179,10 +127,11 @@ private:
         if (const auto u = object->required_number("u", largest_angle(above_zero(job_.unit.text())))) {
             m.stated_u = job_.unit.difference_to_si(*u);
         }
-        m.stated_degrees_of_freedom =
-            object->optional_number("nu", k_degrees_of_freedom).value_or(std::numeric_limits<double>::infinity());
-        m.uses_stated_u = object->optional_choice("use", k_uses).value_or(false) && m.stated_u;
-        job_.repeatability_source = object->optional_name("source").value_or("");
+        RepeatabilityStatement& stated = stated_.repeatability;
+        JobReader(*object).read(stated);
+        m.stated_degrees_of_freedom = stated.degrees_of_freedom.value_or(std::numeric_limits<double>::infinity());
+        m.uses_stated_u = stated.replaces_residuals && m.stated_u;
+        job_.repeatability_source = stated.source;
     }
 
     /// Angles beyond a full turn are no deviations, whatever the unit; smaller than 1e-15 rad is nothing.
@@ -209,7 +158,7 @@ private:
                                   "must be an object", "write {\"name\": …, \"acts_on\": …, \"u\": …}");
                 continue;
             }
-            const JsonObject object(*document_, pointer, k_effect_keys, *problems_);
+            const JsonObject object(*document_, pointer, keys_of<EffectStatement>(), *problems_);
             read_effect(object, pointer);
             const std::string name = job_.measurement.effects.empty() ? "" : job_.measurement.effects.back().name;
             if (!name.empty() && job_.measurement.effects.size() > names.size() && !names.insert(name).second) {
@@ -220,15 +169,18 @@ private:
     }
 
     void read_effect(const JsonObject& object, const std::string& pointer) {
-        const auto name = object.required_name("name");
-        const auto pattern = object.required_choice("acts_on", k_patterns);
-        std::optional<gum::Unit> unit = pattern == ClosurePattern::scale ? gum::Unit() : job_.unit;
+        EffectStatement stated;
+        JobReader reader(object);
+        reader.read(stated);
+        const bool has_pattern = reader.accepted("acts_on");
+        const bool is_scale = has_pattern && stated.pattern == ClosurePattern::scale;
+        std::optional<gum::Unit> unit = is_scale ? gum::Unit() : job_.unit;
         if (object.has("unit")) {
             unit = read_unit(object, "unit", *problems_);
-            const gum::Dimension wanted = pattern == ClosurePattern::scale ? gum::Dimension() : gum::Dimension::angle();
-            if (unit && pattern && !(unit->dimension() == wanted)) {
+            const gum::Dimension wanted = is_scale ? gum::Dimension() : gum::Dimension::angle();
+            if (unit && has_pattern && !(unit->dimension() == wanted)) {
                 object.refuse(k_unit_does_not_fit, "unit", text::in_quotes(unit->text()),
-                              pattern == ClosurePattern::scale ? "a scale is a ratio" : "the effect is an angle",
+                              is_scale ? "a scale is a ratio" : "the effect is an angle",
                               "correct the unit, or \"acts_on\"");
                 unit.reset();
             }
@@ -239,17 +191,17 @@ private:
                           "write \"uniform\", \"triangular\" or \"arcsine\"");
             return;
         }
-        if (!name || !pattern || !unit) {
+        if (!reader.accepted("name") || !has_pattern || !unit) {
             return;
         }
         const StatementKeys keys(*document_, pointer, k_statement_part, *problems_);
-        const StatementContext context{.unit = *unit, .is_component = true, .input = *name, .files = files_};
+        const StatementContext context{.unit = *unit, .is_component = true, .input = stated.name, .files = files_};
         const auto statement = evaluate_statement(keys, context);
         if (!statement) {
             return;
         }
         const gum::StatedQuantity& q = statement->quantity;
-        if (q.stated_value != 0.0 && *pattern != ClosurePattern::scale && *pattern != ClosurePattern::turn) {
+        if (q.stated_value != 0.0 && !is_scale && stated.pattern != ClosurePattern::turn) {
             object.refuse(k_closure_value, "value", "the value is " + text::shortest_plain(q.stated_value),
                           "an effect of this kind has the value 0: what is the same at all readings goes into the "
                           "zero of the series",
@@ -257,15 +209,15 @@ private:
             return;
         }
         constexpr double k_largest_scale = 0.5;
-        if (*pattern == ClosurePattern::scale && !(std::abs(q.value) < k_largest_scale && q.u < k_largest_scale)) {
+        if (is_scale && !(std::abs(q.value) < k_largest_scale && q.u < k_largest_scale)) {
             object.refuse(k_number_out_of_range, "value",
                           "a scale of " + text::shortest_plain(q.value) + " ± " + text::shortest_plain(q.u),
                           "a correction of the scale is small beside 1", "state the correction, not the factor");
             return;
         }
-        job_.measurement.effects.push_back({.name = *name,
+        job_.measurement.effects.push_back({.name = stated.name,
                                             .source = q.source,
-                                            .pattern = *pattern,
+                                            .pattern = stated.pattern,
                                             .evaluation = q.evaluation,
                                             .value = q.value,
                                             .u = q.u,
@@ -395,7 +347,8 @@ private:
     JobFiles files_;
     ProblemList* problems_ = nullptr;
     std::optional<JsonDocument> document_;
-    CircleClosureJob job_;
+    CircleClosureStatement stated_;
+    CircleClosureJob& job_ = stated_.job;
 };
 
 /// A part of a turn in degrees, to a millionth.
@@ -414,8 +367,13 @@ double CircleClosureJob::side_angle_deg(std::size_t side) const {
     return part_of_turn(side, measurement.steps, 0.0);
 }
 
+const JobFields& circle_closure_fields() {
+    return fields_of<CircleClosureStatement>();
+}
+
 std::span<const JobKeys> circle_closure_job_keys() {
-    return all_keys();
+    static const JobKeyTable k_table(circle_closure_fields());
+    return k_table.objects();
 }
 
 CircleClosureJob read_circle_closure_job(const FileSource& source, const std::string& job_file) {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/job/circle_closure_job.h"
-#include "engine/job/job_kinds.h"
+#include "engine/job/job_kind.h"
 #include "engine/job/rotary_table_job.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"

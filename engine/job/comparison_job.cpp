@@ -10,7 +10,7 @@
 #include "engine/job/comparison_methods.h"
 #include "engine/job/comparison_participants.h"
 #include "engine/job/comparison_reading.h"
-#include "engine/job/job_kinds.h"
+#include "engine/job/job_kind.h"
 #include "text/visible_text.h"
 
 namespace gumcert::engine {
@@ -86,7 +86,7 @@ private:
             job_.title = root.optional_name("title", 1000).value_or("");
         }
         job_.coverage_probability = root.optional_number("coverage_probability", k_probability).value_or(0.9545);
-        (void)root.optional_string("notes");
+        read_unused_texts(root);
         job_.organiser = root.optional_name("organiser", 1000).value_or("");
         job_.independent_sources = read_texts(reading, root, "independent_sources");
         job_.different_sources = read_texts(reading, root, "different_sources");

@@ -23,7 +23,8 @@ template <std::size_t n, std::size_t m>
 }
 
 /// Keys of both forms.
-inline constexpr std::array<std::string_view, 10> k_common_comparison_keys{"schema",
+inline constexpr std::array<std::string_view, 11> k_common_comparison_keys{"$schema",
+                                                                           "schema",
                                                                            "kind",
                                                                            "title",
                                                                            "notes",

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "engine/job/job_kinds.h"
 #include "engine/job/json_object.h"
 #include "text/lists.h"
 #include "text/visible_text.h"
@@ -88,20 +87,13 @@ std::optional<std::string> probable_job_kind(const std::filesystem::path& job_fi
     return probable_job_kind(DiskFileSource(job_file.parent_path()), job_file.filename().string());
 }
 
-std::optional<std::string> probable_job_kind(const FileSource& source, const std::string& job_file) {
-    return probable_job_kind(source, job_file, k_job_kinds);
-}
-
 std::string job_kind(const std::filesystem::path& job_file) {
     return job_kind(DiskFileSource(job_file.parent_path()), job_file.filename().string());
 }
 
-std::string job_kind(const FileSource& source, const std::string& job_file) {
-    return job_kind(source, job_file, k_job_kinds);
-}
-
-std::optional<std::string> read_kind(const JsonDocument& document, ProblemList& problems) {
-    return read_kind(document, problems, k_job_kinds);
+void read_unused_texts(const JsonObject& root) {
+    (void)root.optional_string("$schema");
+    (void)root.optional_string("notes");
 }
 
 }  // namespace gumcert::engine

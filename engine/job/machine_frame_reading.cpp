@@ -9,6 +9,8 @@
 #include "engine/job/csv_table.h"
 #include "engine/job/input_codes.h"
 #include "engine/job/input_text.h"
+#include "engine/job/job_reader.h"
+#include "engine/job/rotary_table_fields.h"
 #include "gum/quantity/units.h"
 #include "text/visible_text.h"
 
@@ -19,12 +21,6 @@ namespace {
 using gum::k_micrometre;
 using gum::k_millimetre;
 
-constexpr std::array<std::string_view, 4> k_frame_keys{"by", "coordinates", "nominal_point_mm", "source"};
-constexpr std::array<JobKeys, 1> k_frame_objects{{{"/machine_frame", k_frame_keys}}};
-constexpr std::array<std::pair<std::string_view, MachineFramePoints>, 2> k_points{
-    {{"probing", MachineFramePoints::reflectors}, {"stations", MachineFramePoints::stations}}};
-constexpr NumberRange k_coordinate{
-    .low = -100'000.0, .high = 100'000.0, .unit = "mm", .hint = "check the unit: coordinates are in millimetres"};
 constexpr NumberRange k_u{.low = 0.0,
                           .high = 1e5,
                           .low_open = true,
@@ -35,24 +31,17 @@ constexpr std::size_t k_least_points = 3;
 }  // namespace
 
 std::optional<MachineFrameRequest> read_machine_frame(const JsonObject& root) {
-    const std::optional<JsonObject> object = root.optional_object("machine_frame", k_frame_keys);
+    const std::optional<JsonObject> object = root.optional_object("machine_frame", keys_of<MachineFrameRequest>());
     if (!object) {
         return std::nullopt;
     }
     MachineFrameRequest request;
     request.where = object->where();
-    const auto by = object->required_choice<MachineFramePoints>("by", k_points);
-    request.coordinates = JobFiles::file_name(*object, "coordinates", true);
-    const auto nominal = object->required_numbers("nominal_point_mm", 3, k_coordinate);
-    request.frame.source = object->optional_name("source", 1000).value_or("");
-    if (!by || !request.coordinates || !nominal) {
-        return std::nullopt;
-    }
-    request.frame.by = *by;
-    for (int c = 0; c < 3; ++c) {
-        request.frame.nominal_point[c] = (*nominal)[static_cast<std::size_t>(c)] * k_millimetre;
-    }
-    return request;
+    JobReader reader(*object);
+    reader.read(request);
+    const bool is_whole =
+        reader.accepted("by") && reader.accepted("coordinates") && reader.accepted("nominal_point_mm");
+    return is_whole ? std::optional(std::move(request)) : std::nullopt;
 }
 
 std::optional<MachineFrame> read_machine_points(MachineFrameRequest request, JobFiles::File file,
@@ -90,7 +79,7 @@ std::optional<MachineFrame> read_machine_points(MachineFrameRequest request, Job
         }
         for (std::size_t c = 0; c < 3; ++c) {
             frame.coordinates(at, static_cast<Eigen::Index>(c)) =
-                table->number(row, x + c, k_coordinate).value_or(0.0) * k_millimetre;
+                table->number(row, x + c, k_station_coordinate).value_or(0.0) * k_millimetre;
         }
         frame.u[at] = table->number(row, u, k_u).value_or(1.0) * k_micrometre;
     }
@@ -104,10 +93,6 @@ std::optional<MachineFrame> read_machine_points(MachineFrameRequest request, Job
         return std::nullopt;
     }
     return frame;
-}
-
-std::span<const JobKeys> machine_frame_keys() {
-    return k_frame_objects;
 }
 
 }  // namespace gumcert::engine

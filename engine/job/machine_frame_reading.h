@@ -28,7 +28,4 @@ struct MachineFrameRequest {
 [[nodiscard]] std::optional<MachineFrame> read_machine_points(MachineFrameRequest request, JobFiles::File file,
                                                               const std::vector<std::string>& names);
 
-/// The keys of `machine_frame`, object by object.
-[[nodiscard]] std::span<const JobKeys> machine_frame_keys();
-
 }  // namespace gumcert::engine

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "engine/job/job_reader.h"
 #include "engine/job/json_object.h"
 #include "engine/job/problem_list.h"
 #include "text/numbers.h"
@@ -10,8 +12,6 @@
 namespace gumcert::engine {
 
 namespace {
-
-constexpr double k_most_trials = 1e10;
 
 void check_trials(const JsonObject& object, double count, double p, ProblemList& problems) {
     const double least = 100.0 / (1.0 - p);
@@ -36,41 +36,41 @@ void check_trials(const JsonObject& object, double count, double p, ProblemList&
 
 std::optional<gum::MonteCarloRequest> read_monte_carlo(const JsonObject& root, double coverage_probability,
                                                        int usual_digits, ProblemList& problems) {
-    const auto object = root.optional_object("monte_carlo", k_monte_carlo_keys);
+    const auto object = root.optional_object("monte_carlo", keys_of<MonteCarloStatement>());
     if (!object) {
         return std::nullopt;
     }
     const double p = coverage_probability;
-    gum::MonteCarloRequest request;
+    MonteCarloStatement stated;
+    gum::MonteCarloRequest& request = stated.request;
     request.where = object->where();
-    const NumberRange trials{
-        .low = 1.0, .high = k_most_trials, .hint = "a job has at most 10000000000 trials; 1000000 is usual"};
-    const auto digits = object->optional_integer("digits", between(1.0, 2.0, ""));
-    request.digits = static_cast<int>(digits.value_or(usual_digits));
-    request.seed =
-        static_cast<std::uint64_t>(object->optional_integer("seed", between(0.0, k_largest_seed, "")).value_or(1));
-    request.validate = object->optional_boolean("validate").value_or(false);
+    request.digits = usual_digits;
+    JobReader reader(*object);
+    reader.read(stated, {"digits"});
+    reader.read(stated, {"seed", "validate"});
     if (object->has("trials") && object->has("adaptive")) {
         object->refuse(k_trials_and_adaptive, "adaptive", "\"trials\" and \"adaptive\" are given together",
                        "the number of trials is fixed or adaptive", "keep one of them");
     }
-    if (const auto count = object->optional_integer("trials", trials)) {
-        request.trials = static_cast<std::uint64_t>(*count);
-        check_trials(*object, static_cast<double>(*count), p, problems);
+    reader.read(stated, {"trials"});
+    if (request.trials) {
+        check_trials(*object, static_cast<double>(*request.trials), p, problems);
     }
-    if (const auto adaptive = object->optional_object("adaptive", k_adaptive_keys)) {
-        const auto own = adaptive->optional_integer("digits", between(1.0, 2.0, ""));
-        if (own && digits && *own != *digits) {
+    if (const auto adaptive = object->optional_object("adaptive", keys_of<AdaptiveStatement>())) {
+        JobReader of_adaptive(*adaptive);
+        of_adaptive.read(stated.adaptive, {"digits"});
+        const std::optional<int> own = stated.adaptive.digits;
+        if (own && reader.accepted("digits") && *own != request.digits) {
             adaptive->refuse(
                 k_trials_and_adaptive, "digits",
-                "digits is " + std::to_string(*own) + " here and " + std::to_string(*digits) + " in monte_carlo",
+                "digits is " + std::to_string(*own) + " here and " + std::to_string(request.digits) + " in monte_carlo",
                 "one number of significant digits holds for both", "keep one of them");
         }
-        request.digits = static_cast<int>(own.value_or(request.digits));
-        if (const auto most = adaptive->optional_integer("max_trials", trials)) {
-            request.most_trials = static_cast<std::uint64_t>(*most);
-            // One block of the adaptive procedure is the least that there is.
-            const double least = std::max(1e4, 100.0 / (1.0 - p));
+        request.digits = own.value_or(request.digits);
+        of_adaptive.read(stated.adaptive, {"max_trials"});
+        if (const std::optional<std::uint64_t> most = stated.adaptive.most_trials) {
+            request.most_trials = *most;
+            const double least = std::max(k_least_adaptive_trials, 100.0 / (1.0 - p));
             if (static_cast<double>(*most) < least) {
                 adaptive->refuse(k_too_few_trials, "max_trials",
                                  text::shortest_plain(static_cast<double>(*most)) + " trials",

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "certificate/stated_text.h"
-#include "engine/job/rotary_table_limits.h"
+#include "engine/job/job_reader.h"
+#include "engine/job/rotary_table_fields.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 
@@ -13,40 +14,26 @@ namespace gumcert::engine {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> k_exclusion_keys{"station",   "reflector", "pass",  "direction",
-                                                           "angle_deg", "lines",     "reason"};
-constexpr std::array<JobKeys, 1> k_exclusion_objects{{{"/exclude/*", k_exclusion_keys}}};
-constexpr std::size_t k_longest_reason = 1000;
-constexpr NumberRange k_line{.low = 2.0, .high = 1e7, .hint = "the first line of the file holds the names of columns"};
-
-std::optional<std::pair<std::size_t, std::size_t>> read_lines(const JsonObject& object) {
-    const std::optional<std::vector<double>> lines = object.required_numbers("lines", 2, k_line);
-    if (!lines) {
-        return std::nullopt;
-    }
-    const bool whole = std::ranges::all_of(*lines, [](double line) { return line == std::floor(line); });
-    if (!whole || lines->front() > lines->back()) {
+std::optional<std::pair<std::size_t, std::size_t>> lines_of(const JsonObject& object,
+                                                            const std::array<double, 2>& lines) {
+    const bool whole = std::ranges::all_of(lines, [](double line) { return line == std::floor(line); });
+    if (!whole || lines.front() > lines.back()) {
         object.refuse(k_bad_exclusion, "lines",
-                      "lines " + text::shortest_plain(lines->front()) + " to " + text::shortest_plain(lines->back()),
+                      "lines " + text::shortest_plain(lines.front()) + " to " + text::shortest_plain(lines.back()),
                       "lines are two whole numbers, the first and the last line", "correct the numbers");
         return std::nullopt;
     }
-    return std::pair{static_cast<std::size_t>(lines->front()), static_cast<std::size_t>(lines->back())};
+    return std::pair{static_cast<std::size_t>(lines.front()), static_cast<std::size_t>(lines.back())};
 }
 
 std::optional<Exclusion> read_exclusion(const JsonObject& object) {
-    Exclusion exclusion;
+    ExclusionStatement stated;
+    Exclusion& exclusion = stated.exclusion;
     exclusion.where = object.where();
-    exclusion.station = object.optional_name("station");
-    exclusion.reflector = object.optional_name("reflector");
-    exclusion.pass = object.optional_name("pass");
-    constexpr std::array<std::pair<std::string_view, const char*>, 2> k_directions{{{"+", "+"}, {"-", "-"}}};
-    if (const auto direction = object.optional_choice<const char*>("direction", k_directions)) {
-        exclusion.direction = *direction;
-    }
-    exclusion.angle_deg = object.optional_number("angle_deg", k_angle);
-    if (object.has("lines")) {
-        exclusion.lines = read_lines(object);
+    JobReader reader(object);
+    reader.read(stated, {"station", "reflector", "pass", "direction", "angle_deg", "lines"});
+    if (reader.accepted("lines")) {
+        exclusion.lines = lines_of(object, stated.lines);
     }
     // What could not be read would select more than was meant.
     const bool is_whole = exclusion.station.has_value() == object.has("station") &&
@@ -55,17 +42,16 @@ std::optional<Exclusion> read_exclusion(const JsonObject& object) {
                           exclusion.direction.has_value() == object.has("direction") &&
                           exclusion.angle_deg.has_value() == object.has("angle_deg") &&
                           exclusion.lines.has_value() == object.has("lines");
-    const std::optional<std::string> reason = object.required_name("reason", k_longest_reason);
-    if (!reason || !is_whole) {
+    reader.read(stated, {"reason"});
+    if (!reader.accepted("reason") || !is_whole) {
         return std::nullopt;
     }
-    if (!certificate::is_stated(*reason)) {
-        object.refuse(k_bad_exclusion, "reason", "the reason " + text::in_quotes(*reason) + " says nothing",
+    if (!certificate::is_stated(exclusion.reason)) {
+        object.refuse(k_bad_exclusion, "reason", "the reason " + text::in_quotes(exclusion.reason) + " says nothing",
                       "what is left out is left out for a reason, which the documents print", "state the reason");
     }
-    exclusion.reason = *reason;
-    const bool selects_something =
-        std::ranges::any_of(k_exclusion_keys, [&](std::string_view key) { return key != "reason" && object.has(key); });
+    const bool selects_something = std::ranges::any_of(
+        keys_of<ExclusionStatement>(), [&](std::string_view key) { return key != "reason" && object.has(key); });
     if (!selects_something) {
         object.refuse(k_bad_exclusion, "", "no distance is named",
                       "an entry of \"exclude\" has a station, reflector, pass, direction, angle_deg or lines",
@@ -98,15 +84,11 @@ std::vector<Exclusion> read_exclusions(const JsonDocument& document, const JsonO
             continue;
         }
         if (std::optional<Exclusion> exclusion =
-                read_exclusion(JsonObject(document, pointer, k_exclusion_keys, problems))) {
+                read_exclusion(JsonObject(document, pointer, keys_of<ExclusionStatement>(), problems))) {
             exclusions.push_back(std::move(*exclusion));
         }
     }
     return exclusions;
-}
-
-std::span<const JobKeys> exclusion_keys() {
-    return k_exclusion_objects;
 }
 
 }  // namespace gumcert::engine

@@ -39,7 +39,4 @@ struct ExclusionKeys {
 [[nodiscard]] std::vector<Exclusion> read_exclusions(const JsonDocument& document, const JsonObject& root,
                                                      ProblemList& problems);
 
-/// The keys of `exclude`, object by object.
-[[nodiscard]] std::span<const JobKeys> exclusion_keys();
-
 }  // namespace gumcert::engine

@@ -30,7 +30,4 @@ void check_facing(const gum::PlanRequest& plan, const std::vector<std::string>& 
 /// \param angles_deg  ascending
 void warn_of_same_positions(const std::vector<double>& angles_deg, const std::string& where, ProblemList& problems);
 
-/// The keys of both, object by object.
-[[nodiscard]] std::span<const JobKeys> rotary_table_study_keys();
-
 }  // namespace gumcert::engine

@@ -9,7 +9,7 @@
 
 #include "app/kinds.h"
 #include "engine/job/job_files.h"
-#include "engine/job/job_kinds.h"
+#include "engine/job/job_kind.h"
 #include "gum/coverage.h"
 #include "gum/type_a.h"
 #include "reports/certificate_builder.h"

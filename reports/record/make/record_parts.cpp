@@ -15,7 +15,7 @@
 
 namespace gumcert::reports {
 
-reports::EvaluationRecord record_head(const std::string& kind, const JobHead& job, const nlohmann::json& options,
+reports::EvaluationRecord record_head(std::string_view kind, const JobHead& job, const nlohmann::json& options,
                                       const std::vector<reports::InputFile>& files) {
     reports::EvaluationRecord record;
     record.software.version = k_version;

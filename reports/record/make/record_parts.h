@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gum/monte_carlo.h"
@@ -30,7 +31,7 @@ struct JobHead {
 };
 
 /// A record without results: software, kind, the job and its files, options in force, warnings and then notes.
-[[nodiscard]] reports::EvaluationRecord record_head(const std::string& kind, const JobHead& job,
+[[nodiscard]] reports::EvaluationRecord record_head(std::string_view kind, const JobHead& job,
                                                     const nlohmann::json& options,
                                                     const std::vector<reports::InputFile>& files);
 

@@ -10,7 +10,7 @@
 
 #include "app/evaluate_job.h"
 #include "app/issue_documents.h"
-#include "engine/job/job_kinds.h"
+#include "engine/job/job_kind.h"
 #include "reports/document_kinds.h"
 #include "reports/record/record_kinds.h"
 #include "tests/support/file_content.h"

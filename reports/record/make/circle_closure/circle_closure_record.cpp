@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/job/circle_closure_statement.h"
 #include "gum/analysis_of_variance.h"
 #include "gum/convolution.h"
 #include "gum/coverage.h"
@@ -15,6 +16,7 @@
 #include "reports/record/make/circle_closure/circle_closure_findings.h"
 #include "reports/record/make/record_parts.h"
 #include "reports/record/make/reported_choice.h"
+#include "reports/record/record_kinds.h"
 #include "reports/record/reported_result.h"
 #include "text/numbers.h"
 
@@ -298,7 +300,7 @@ reports::CircleClosure closure_of(const CircleClosureJob& job, const gum::Circle
     closure.artefact = k_artefact_quantity;
     closure.artefact_description = job.artefact;
     closure.unit = job.unit.text();
-    closure.numbering = m.against ? "against" : "with";
+    closure.numbering = engine::word_of(engine::k_closure_numberings, m.against);
     closure.sense = m.sense > 0.0 ? "positive" : "negative";
     closure.drift = m.removes_drift ? "linear" : "none";
     closure.steps = static_cast<std::int64_t>(m.steps);
@@ -410,7 +412,7 @@ std::vector<std::string> circle_closure_result_names(const CircleClosureJob& job
 reports::EvaluationRecord circle_closure_record(const CircleClosureJob& job, const gum::CircleClosureResult& result,
                                                 const std::vector<reports::InputFile>& files,
                                                 const std::string& covariance_file) {
-    reports::EvaluationRecord record = record_head("circle_closure",
+    reports::EvaluationRecord record = record_head(reports::k_circle_closure_kind,
                                                    {.title = job.title,
                                                     .coverage_probability = job.coverage_probability,
                                                     .document = job.document,

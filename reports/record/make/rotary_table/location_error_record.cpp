@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/job/rotary_table_words.h"
 #include "engine/machine_frame.h"
 #include "gum/quantity/units.h"
 #include "reports/record/make/rotary_table/document_units.h"
@@ -17,7 +18,7 @@ void fill_location_errors(reports::RotaryTable& rotary, const engine::RotaryTabl
     const engine::MachineFrame& frame = *job.machine_frame;
     const bool stations = frame.by == engine::MachineFramePoints::stations;
     reports::MachineFrame& record = rotary.machine_frame.emplace();
-    record.by = stations ? "stations" : "probing";
+    record.by = engine::word_of(engine::k_machine_points, frame.by);
     record.source = frame.source;
     for (int c = 0; c < 3; ++c) {
         record.nominal_point_mm[static_cast<std::size_t>(c)] = frame.nominal_point[c] / gum::k_millimetre;

@@ -11,6 +11,7 @@
 #include "engine/anglewise_map.h"
 #include "engine/group_tests.h"
 #include "engine/harmonics.h"
+#include "engine/job/rotary_table_words.h"
 #include "engine/rotary_table_contributions.h"
 #include "engine/sense_deviations.h"
 #include "gum/coverage.h"
@@ -141,7 +142,7 @@ void fill_reversal_model(reports::RotaryTable& rotary, const engine::RotaryTable
         return;
     }
     reports::ReversalModel& model = rotary.reversal_model.emplace();
-    model.model = solution.reversal_model == engine::ReversalModel::by_angle ? "by_angle" : "constant";
+    model.model = engine::word_of(engine::k_reversals, solution.reversal_model);
     model.alpha = engine::k_reversal_test_level;
     for (const engine::ReversalTest& test : solution.reversal_tests) {
         const DocumentUnit& unit = test.motion < 3 ? k_um : k_arcsec;

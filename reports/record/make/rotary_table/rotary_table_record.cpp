@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "engine/job/rotary_table_words.h"
 #include "gum/coverage.h"
 #include "gum/rounding.h"
 #include "reports/record/make/record_parts.h"
@@ -16,6 +17,7 @@
 #include "reports/record/make/rotary_table/rotary_findings.h"
 #include "reports/record/make/rotary_table/rotary_monte_carlo_record.h"
 #include "reports/record/make/rotary_table/table_parameter_record.h"
+#include "reports/record/record_kinds.h"
 #include "reports/record/reported_result.h"
 #include "text/numbers.h"
 
@@ -101,16 +103,9 @@ reports::Result result_of(const gum::QuantityUncertainty& uncertainty, const gum
     return result;
 }
 
-const char* action_name(engine::OutlierAction action) {
-    return action == engine::OutlierAction::remove ? "remove" : "report";
-}
-
 nlohmann::json options_json(const RotaryTableJob& job, const engine::EvaluationOptions& options) {
     const engine::RotaryTableMeasurement& measurement = job.measurement;
-    const char* const scale_models[] = {"fixed", "prior", "free"};
-    const char* const modes[] = {"estimate", "given", "none"};
-    const char* const uses[] = {"given", "check", "estimate"};
-    const char* const shapes[] = {"normal", "uniform"};
+    using engine::word_of;
     return {{"solver",
              {{"linear_solver", "Ceres, Levenberg-Marquardt with Schur complement, one thread, then Gauss-Newton"},
               {"max_iterations", options.solver.max_iterations},
@@ -119,23 +114,22 @@ nlohmann::json options_json(const RotaryTableJob& job, const engine::EvaluationO
               {"rank_tolerance", options.solver.rank_tolerance}}},
             {"variance_components",
              {{"method", "restricted maximum likelihood, Fisher scoring"},
-              {"length_noise", measurement.estimate_length_noise ? "estimate" : "fixed"},
-              {"table_repeatability", modes[static_cast<int>(measurement.table_repeatability.mode)]},
-              {"fixture", uses[static_cast<int>(measurement.fixture_component)]},
+              {"length_noise", word_of(engine::k_length_noises, measurement.estimate_length_noise)},
+              {"table_repeatability", word_of(engine::k_repeatability_modes, measurement.table_repeatability.mode)},
+              {"fixture", word_of(engine::k_fixture_components, measurement.fixture_component)},
               {"max_iterations", options.max_component_iterations},
               {"tolerance", options.component_tolerance}}},
             {"fixture",
-             {{"uncertainty", job.fixture_budget         ? "budget"
-                              : job.source_paper_fixture ? "source_paper"
-                                                         : "stated"},
-              {"distribution", shapes[static_cast<int>(measurement.fixture_shape)]}}},
+             {{"uncertainty", job.fixture_budget ? std::string_view("budget")
+                                                 : word_of(engine::k_fixture_uncertainties, job.source_paper_fixture)},
+              {"distribution", word_of(engine::k_shapes, measurement.fixture_shape)}}},
             {"monte_carlo", monte_carlo_json(job.monte_carlo)},
             {"coverage", gum::coverage_choice_name(job.coverage)},
-            {"scale_model", scale_models[static_cast<int>(measurement.length_uncertainty.scale_model)]},
+            {"scale_model", word_of(engine::k_scale_models, measurement.length_uncertainty.scale_model)},
             {"outliers",
-             {{"test", measurement.outliers.test == engine::OutlierTest::data_snooping ? "data_snooping" : "none"},
+             {{"test", word_of(engine::k_outlier_tests, measurement.outliers.test)},
               {"alpha", measurement.outliers.alpha},
-              {"action", action_name(measurement.outliers.action)},
+              {"action", word_of(engine::k_outlier_actions, measurement.outliers.action)},
               {"critical_value_of_normal_distribution", options.critical_value},
               {"non_centrality", options.non_centrality}}}};
 }
@@ -286,7 +280,7 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const g
     const engine::RotaryTableMeasurement& measurement = job.measurement;
     const RotaryTableSolution& solution = result.solution;
     const gum::UncertaintyBudget& propagation = result.reported.budget;
-    reports::EvaluationRecord record = record_head("rotary_table",
+    reports::EvaluationRecord record = record_head(reports::k_rotary_table_kind,
                                                    {.title = job.title,
                                                     .coverage_probability = job.coverage_probability,
                                                     .document = job.document,
@@ -309,8 +303,8 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const g
 
     reports::RotaryTable rotary;
     rotary.axis = std::string(1, letter);
-    rotary.datum = measurement.datum == engine::Datum::home ? "home" : "axis_average_line";
-    rotary.method = measurement.method == engine::AdjustmentMethod::joint ? "joint" : "sequential";
+    rotary.datum = engine::word_of(engine::k_datums, measurement.datum);
+    rotary.method = engine::word_of(engine::k_methods, measurement.method);
     rotary.home_angle_deg = measurement.angles_deg[measurement.home];
     rotary.error_names = engine::error_motion_names(measurement.axis);
     rotary.error_units = {"um", "um", "um", "arcsec", "arcsec", "arcsec"};

@@ -33,6 +33,8 @@ TEST_F(BudgetSchemaTest, AgreesWithTheReader) {
         {good, true},
         {good + R"j(, "model": "y = X", "outputs": {"y": {"unit": "1", "coverage_probability": 0.99}}, "notes": "n")j",
          true},
+        {good + R"j(, "$schema": "../schemas/job-1.schema.json")j", true},
+        {good + R"j(, "$schema": {})j", false},
         {good + R"j(, "model": [3])j", false},
         {good + R"j(, "coverage_probability": 95)j", false},
         {good + R"j(, "outputs": {"X": {"units": "1"}})j", false},

@@ -170,6 +170,8 @@ TEST_F(CircleClosureSchemaTest, AgreesWithTheReader) {
         {R"(, "steps": 4.5, "numbering": "with")", false},
         {R"(, "steps": 2, "numbering": "with")", false},
         {R"(, "steps": 4, "numbering": "reverse")", false},
+        {k_four + R"(, "$schema": "../schemas/job-1.schema.json")", true},
+        {k_four + R"(, "$schema": 1)", false},
         {k_four + R"(, "axis": "X")", false},
         {k_four + R"(, "sense": "negative", "unit": "urad", "title": "t", "notes": "n", "artefact": "a")", true},
         {k_four + R"(, "repeatability": {"nu": 3})", false},

@@ -66,6 +66,8 @@ TEST_F(ComparisonSchemaTest, AgreesWithTheReader) {
         {R"("title": "none")", false},
         {with(R"("organiser": "o", "notes": "n", "coverage_probability": 0.95, "rounds": [1])"), true},
         {with(R"("organiser": "o", "notes": "n", "coverage_probability": 0.95, "certificate": {})"), true},
+        {with(R"("$schema": "../schemas/job-1.schema.json")"), true},
+        {with(R"("$schema": true)"), false},
         {with(R"("coverage_probability": 95)"), false},
         {with(R"("lab": "l.csv")"), false},
         {with(R"("tolerance": 1)"), false},

@@ -47,7 +47,9 @@ Files complete_campaign(bool with_budget = false) {
             with_budget
                 ? R"({ "monte_carlo": {"adaptive": {"digits": 1, "max_trials": 1e7}, "digits": 1},)"
                 : R"({ "coverage": "as_validated", "monte_carlo": {"trials": 1000000, "seed": 3, "validate": true},)");
-    replace(job, "{", R"({ "home_angle_deg": 0, "datum": "home", "method": "joint", "coverage_probability": 0.95,
+    replace(
+        job, "{",
+        R"({ "$schema": "job-1.schema.json", "home_angle_deg": 0, "datum": "home", "method": "joint", "coverage_probability": 0.95,
         "certificate": {"customer": {}}, "notes": "n", "variance_components": "estimate", "reversal": "auto",
         "table_repeatability": {"mode": "given", "u_linear_um": 0.3, "u_axial_arcsec": 0.2, "u_tilt_arcsec": 0.1},
         "outliers": {"test": "data_snooping", "alpha": 0.001, "action": "remove"},
@@ -216,6 +218,7 @@ TEST_F(JobSchemaTest, AgreesWithTheReaderOnValues) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> values{
         {"/axis", {"\"A\"", "\"C\"", "\"a\"", "\"D\""}},
         {"/schema", {"\"gumcert/job/1\"", "\"gumcert/job/2\""}},
+        {"/$schema", {"\"\"", "3", "null"}},
         {"/title", {"\"t\"", "\"\""}},
         {"/coverage_probability", {"0.5", "0", "1", "95", "-0.1"}},
         {"/home_angle_deg", {"90", "3601"}},

@@ -1,4 +1,4 @@
-#include "engine/job/job_kinds.h"
+#include "engine/job/job_kind.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

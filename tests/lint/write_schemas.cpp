@@ -1,0 +1,42 @@
+// Brings schemas/job-1.schema.json and docs/job_keys.md after the descriptions of jobs: write_schemas [ROOT]
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+#include "engine/job/job_schema.h"
+
+namespace {
+
+std::string content(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) {
+        throw std::runtime_error(path.string() + " cannot be read");
+    }
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void write(const std::filesystem::path& path, const std::string& text) {
+    std::ofstream file(path, std::ios::binary);
+    if (!(file << text)) {
+        throw std::runtime_error(path.string() + " cannot be written");
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        const std::filesystem::path root = argc > 1 ? argv[1] : ".";
+        const std::filesystem::path schema = root / "schemas/job-1.schema.json";
+        write(schema, gumcert::engine::with_described_definitions(content(schema)));
+        write(root / "docs/job_keys.md", gumcert::engine::page_of_job_keys());
+    } catch (const std::exception& error) {
+        std::cerr << "write_schemas: " << error.what() << "\n";
+        return 1;
+    }
+    return 0;
+}
