@@ -6,6 +6,7 @@
 #include <string>
 
 #include "reports/record/reported_result.h"
+#include "reports/record/stated_values.h"
 
 namespace gumcert::app {
 
@@ -96,27 +97,11 @@ void take_set_up(reports::RotaryTable& rotary, const std::string& name, const Ce
 }
 
 void print_rotary(reports::RotaryTable& rotary, const Tables& tables) {
-    for (std::size_t row = 0; row < rotary.errors.size(); ++row) {
-        for (std::size_t i = 0; i < rotary.error_names.size(); ++i) {
-            take(rotary.errors[row].errors[i].printed, tables.at_row("error_motions", rotary.error_names[i], row));
-        }
-    }
-    for (reports::Reversal& reversal : rotary.reversal) {
-        take(reversal.value.printed, tables.find("reversal", "reversal_" + reversal.name));
-    }
-    for (reports::RangeRow& range : rotary.ranges) {
-        take(range.printed, tables.find("ranges", "range_" + range.name));
-    }
-    for (reports::TableParameter& parameter : rotary.axis_line) {
-        take(parameter.printed, tables.find("axis_line", parameter.name));
-    }
-    for (reports::TableParameter& parameter : rotary.location_errors) {
-        take(parameter.printed, tables.find("location_errors", parameter.name));
-    }
-    if (rotary.iso230_2) {
-        for (reports::TableParameter& parameter : rotary.iso230_2->parameters) {
-            take(parameter.printed, tables.find("positioning", parameter.name));
-        }
+    for (const auto& place : reports::stated_values(rotary)) {
+        const std::string table = reports::group_name(place.group);
+        const std::string result = reports::result_name(place.group, place.name);
+        const bool motion = place.group == reports::StatedGroup::error_motions;
+        take(place.stated.printed, motion ? tables.at_row(table, result, place.index) : tables.find(table, result));
     }
 }
 

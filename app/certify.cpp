@@ -23,6 +23,7 @@
 #include "gum/rounding.h"
 #include "reports/record/certified_tables.h"
 #include "reports/record/reported_result.h"
+#include "reports/record/stated_values.h"
 
 namespace gumcert::app {
 
@@ -284,16 +285,6 @@ void note_validation(std::vector<Finding>& findings, const std::string& result,
     }
 }
 
-/// The same of a quantity of a rotary table.
-template <class Quantity>
-void note_reported(std::vector<Finding>& findings, const std::string& result, const Quantity& quantity) {
-    if (!quantity.reported) {
-        note_validation(findings, result, quantity.monte_carlo);
-    } else if (!quantity.reported->against.empty()) {
-        add_against(findings, result, quantity.reported->against);
-    }
-}
-
 std::vector<Finding> validation_findings(const EvaluationRecord& record) {
     std::vector<Finding> findings;
     for (const Result& result : record.results) {
@@ -309,26 +300,12 @@ std::vector<Finding> validation_findings(const EvaluationRecord& record) {
     if (!record.rotary) {
         return findings;
     }
-    const reports::RotaryTable& rotary = *record.rotary;
-    for (const reports::ErrorsAtAngle& at : rotary.errors) {
-        for (std::size_t i = 0; i < at.errors.size(); ++i) {
-            note_reported(findings, rotary.error_names[i], at.errors[i]);
-        }
-    }
-    for (const reports::Reversal& reversal : rotary.reversal) {
-        note_reported(findings, "reversal_" + reversal.name, reversal.value);
-    }
-    for (const reports::RangeRow& range : rotary.ranges) {
-        note_reported(findings, "range_" + range.name, range);
-    }
-    for (const auto* const parameters : {&rotary.axis_line, &rotary.location_errors}) {
-        for (const reports::TableParameter& parameter : *parameters) {
-            note_reported(findings, parameter.name, parameter);
-        }
-    }
-    if (rotary.iso230_2) {
-        for (const reports::TableParameter& parameter : rotary.iso230_2->parameters) {
-            note_reported(findings, parameter.name, parameter);
+    for (const auto& place : reports::stated_values(*record.rotary)) {
+        const std::string name = reports::result_name(place.group, place.name);
+        if (!place.stated.reported) {
+            note_validation(findings, name, place.stated.monte_carlo);
+        } else if (!place.stated.reported->against.empty()) {
+            add_against(findings, name, place.stated.reported->against);
         }
     }
     return findings;

@@ -31,7 +31,7 @@ struct CapabilityInputs {
 
 /// Makes a record a certificate: puts its results into certified tables, prints every value with its capability as the
 /// floor and by the profile, decides on conformity, passes the three gates. Printed texts elsewhere in the record
-/// (Result::printed, ErrorValue::printed …) become the same ones, so that no two places of a document disagree.
+/// (Result::printed, StatedValue::printed …) become the same ones, so that no two places of a document disagree.
 ///
 /// The rounding of a budget job (`reporting.rounding`: up) stays in force where the profile rounds half-even.
 /// \throws gum::InputError  GC-GUM-.. if a number of the record cannot be printed

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 
 #include "gum/propagation.h"
 #include "gum/quantity/measurement_model.h"
@@ -20,6 +19,9 @@ constexpr DocumentUnit k_um{gum::k_micrometre, "um", "µm"};
 constexpr DocumentUnit k_arcsec{gum::k_arcsecond, "arcsec", "″"};
 constexpr DocumentUnit k_mm{gum::k_millimetre, "mm", "mm"};
 
+/// The unit of that name in a record, "um" or "arcsec".
+[[nodiscard]] const DocumentUnit& unit_of(const std::string& record_name);
+
 /// Micrometres for lengths, arcseconds for angles.
 [[nodiscard]] const DocumentUnit& unit_of(const gum::OutputQuantity& quantity);
 
@@ -27,13 +29,8 @@ constexpr DocumentUnit k_mm{gum::k_millimetre, "mm", "mm"};
 /// the value is zero by definition.
 [[nodiscard]] reports::Printed printed(double value, double U, const DocumentUnit& unit);
 
-/// One reported quantity in the unit of the document.
-struct Reported {
-    double value, u, U, k;
-    std::optional<double> nu_eff;
-    reports::Printed text;
-};
-
-[[nodiscard]] Reported reported(const gum::UncertaintyBudget& propagation, Eigen::Index i, const DocumentUnit& unit);
+/// One output of a law of propagation in the unit of the document, as it is stated and printed.
+[[nodiscard]] reports::StatedValue stated_value(const gum::UncertaintyBudget& propagation, Eigen::Index i,
+                                                const DocumentUnit& unit);
 
 }  // namespace gumcert::app

@@ -144,7 +144,7 @@ gum::MethodComparison method_comparison(const RotaryTableJob& job, const Quantit
         const ReferencePoint& at = points[i];
         const gum::ResultUncertainty& of_reference = side.uncertainty[i];
         rows.push_back(static_cast<Eigen::Index>(3 * at.angle + at.direction));
-        const Reported table = reported(displacement.budget, rows.back(), k_um);
+        const reports::StatedValue table = stated_value(displacement.budget, rows.back(), k_um);
         comparison.points.push_back({.direction = k_directions[at.direction],
                                      .angle_deg = job.measurement.angles_deg[at.angle],
                                      .position = job.measurement.angles_deg[at.angle],

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "reports/record/reported_result.h"
+#include "reports/record/stated_values.h"
 
 namespace gumcert::app {
 
@@ -50,11 +51,11 @@ class Reporter {
 public:
     Reporter(CoverageChoice choice, double coverage_probability) : choice_(choice), p_(coverage_probability) {}
 
-    template <class Quantity>
-    void report(Quantity& quantity, const std::string& unit, const std::optional<double>& k) const {
-        quantity.reported =
-            reported_of({quantity.value, quantity.u, quantity.U, k, unit}, quantity.monte_carlo, choice_, p_);
-        print(quantity.reported, quantity.printed);
+    void report(reports::StatedValue& q, const std::string& unit) const {
+        q.reported = reported_of({q.value, q.u, q.U, q.k, unit}, q.monte_carlo, choice_, p_);
+        if (q.reported) {
+            q.printed = q.reported->printed;
+        }
     }
 
     void report(reports::Result& result) const {
@@ -67,12 +68,6 @@ public:
 private:
     CoverageChoice choice_;
     double p_;
-
-    static void print(const std::optional<ReportedResult>& reported, reports::Printed& printed) {
-        if (reported) {
-            printed = reported->printed;
-        }
-    }
 };
 
 /// The set-up as people read it, of the results of the record: "O_y" is coordinate 1 of the offsets.
@@ -99,26 +94,8 @@ void report_result(reports::Result& result, CoverageChoice choice) {
 void report_rotary_results(reports::EvaluationRecord& record, CoverageChoice choice) {
     reports::RotaryTable& rotary = *record.rotary;
     const Reporter reporter(choice, record.coverage_probability);
-    for (reports::ErrorsAtAngle& at : rotary.errors) {
-        for (std::size_t i = 0; i < at.errors.size(); ++i) {
-            reporter.report(at.errors[i], rotary.error_units[i], at.errors[i].k);
-        }
-    }
-    for (std::size_t i = 0; i < rotary.reversal.size(); ++i) {
-        reporter.report(rotary.reversal[i].value, rotary.error_units[i], rotary.reversal[i].value.k);
-    }
-    for (std::size_t i = 0; i < rotary.ranges.size(); ++i) {
-        reporter.report(rotary.ranges[i], rotary.error_units[i], rotary.ranges[i].k);
-    }
-    for (auto* const parameters : {&rotary.axis_line, &rotary.location_errors}) {
-        for (reports::TableParameter& parameter : *parameters) {
-            reporter.report(parameter, parameter.unit, parameter.k);
-        }
-    }
-    if (rotary.iso230_2) {
-        for (reports::TableParameter& parameter : rotary.iso230_2->parameters) {
-            reporter.report(parameter, parameter.unit, parameter.k);
-        }
+    for (const auto& place : reports::stated_values(rotary)) {
+        reporter.report(place.stated, place.unit);
     }
     for (reports::Result& result : record.results) {
         reporter.report(result);

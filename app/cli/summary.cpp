@@ -258,7 +258,8 @@ void print_rotary_table(const reports::EvaluationRecord& record) {
     fmt::print("\nError motions over {} angles, datum {}:\n", rotary.errors.size(),
                rotary.datum == "home" ? "home" : "axis average line");
     for (const reports::RangeRow& range : rotary.ranges) {
-        fmt::print("  {}  range {:>7} ± {} {}\n", range.name, range.printed.value, range.printed.U, range.printed.unit);
+        const reports::Printed& printed = range.stated.printed;
+        fmt::print("  {}  range {:>7} ± {} {}\n", range.name, printed.value, printed.U, printed.unit);
     }
     fmt::print("\nAdjustment: {} observations, {} parameters, chi-square {} on {} degrees of freedom, p = {}\n",
                rotary.adjustment.observations, rotary.adjustment.parameters, rotary.adjustment.printed.chi_square,

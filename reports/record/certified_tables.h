@@ -17,6 +17,8 @@ namespace gumcert::reports {
 /// "reversal" (columns `reversal_EXA` …), "ranges" (`range_EXA` …), "axis_line", "positioning"; those that the
 /// record has.
 ///
+/// Values of a rotary table, but for those of its set-up, stand in the order of stated_values(…, by_motion).
+///
 /// k and effective degrees of freedom are printed as certificate/statement_of_uncertainty.h says. Coverage intervals
 /// are left to whoever certifies.
 [[nodiscard]] std::vector<certificate::CertifiedTable> certified_tables(const EvaluationRecord& record);

@@ -105,10 +105,12 @@ struct Result {
     std::optional<MonteCarloSummary> monte_carlo;
 };
 
-/// One of the six error motions at one angle.
-struct ErrorValue {
-    double value = 0.0, u = 0.0, U = 0.0, k = 2.0;  ///< [µm] or [arcsec]
-    std::optional<double> nu_eff;
+/// A number of a rotary table that is stated with its uncertainty, and the texts that every document prints of it: an
+/// error motion at one angle, its reversal, its range, where the axis is, a parameter of ISO 230-2.
+/// reports/record/stated_values.h lists all of a table.
+struct StatedValue {
+    double value = 0.0, u = 0.0, U = 0.0, k = 2.0;  ///< of the law of propagation, [µm] or [arcsec]
+    std::optional<double> nu_eff;                   ///< none = infinite
     Printed printed;
     std::optional<MonteCarloSummary> monte_carlo = {};  ///< without histogram
     std::optional<ReportedResult> reported = {};        ///< none: the law of propagation, nothing speaks against it
@@ -117,7 +119,7 @@ struct ErrorValue {
 struct ErrorsAtAngle {
     double angle_deg = 0.0;
     std::string printed_angle;
-    std::array<ErrorValue, 6> errors;  ///< in the order of RotaryTable::error_names
+    std::array<StatedValue, 6> errors;  ///< in the order of RotaryTable::error_names
 };
 
 struct SetUp {
@@ -129,7 +131,7 @@ struct SetUp {
 /// Mean difference between the two senses of approach, positive minus negative, of one error motion.
 struct Reversal {
     std::string name;  ///< "EXA" …
-    ErrorValue value;
+    StatedValue stated;
 };
 
 struct Station {
@@ -257,11 +259,7 @@ struct TableParameter {
     std::string name;  ///< "axis_y", "R_up"
     std::string description;
     std::string unit;  ///< "um" or "arcsec"
-    double value = 0.0, u = 0.0, U = 0.0, k = 2.0;
-    std::optional<double> nu_eff;
-    Printed printed;
-    std::optional<MonteCarloSummary> monte_carlo;
-    std::optional<ReportedResult> reported = {};  ///< as ErrorValue::reported
+    StatedValue stated;
 };
 
 /// A point that is known in the frame of the machine.
@@ -321,12 +319,7 @@ struct FixtureBudget {
 /// ISO 230-7 range of one error motion over the angles.
 struct RangeRow {
     std::string name;
-    double value = 0.0, U = 0.0;
-    Printed printed;
-    double u = 0.0;
-    std::optional<MonteCarloSummary> monte_carlo = {};
-    std::optional<double> k = {}, nu_eff = {};    ///< records of earlier releases hold no k; none of ν = infinite
-    std::optional<ReportedResult> reported = {};  ///< as ErrorValue::reported
+    StatedValue stated;
 };
 
 /// Distances that the laboratory left out by the job: those that agree with everything that is named. "" and none: all.

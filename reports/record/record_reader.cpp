@@ -263,8 +263,8 @@ public:
         for (const TableParameter& p : v) {
             names.insert(p.name);
             static_cast<void>(find_if_there(p.name));
-            same(&object_, place_, p.name, p.value);
-            same(U, U_at, p.name, p.U);
+            same(&object_, place_, p.name, p.stated.value);
+            same(U, U_at, p.name, p.stated.U);
         }
         if (U == nullptr) {
             return;

@@ -190,8 +190,8 @@ public:
     void by_name(const std::vector<TableParameter>& v) {
         json U = json::object();
         for (const TableParameter& p : v) {
-            object[p.name] = p.value;
-            U[p.name] = p.U;
+            object[p.name] = p.stated.value;
+            U[p.name] = p.stated.U;
         }
         object["U"] = std::move(U);
     }

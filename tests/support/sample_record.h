@@ -30,8 +30,8 @@ inline reports::Printed printed(double value, double U, const std::string& unit)
     return {.value = decimals(value, count), .U = decimals(U, count), .unit = unit};
 }
 
-inline reports::ErrorValue error_value(double value, double u, const std::string& unit) {
-    reports::ErrorValue e;
+inline reports::StatedValue stated_value(double value, double u, const std::string& unit) {
+    reports::StatedValue e;
     e.value = value;
     e.u = u;
     e.nu_eff = 412.7;
@@ -77,13 +77,9 @@ inline reports::TableParameter table_parameter(const std::string& name, const st
     p.name = name;
     p.description = description;
     p.unit = unit;
-    p.value = value;
-    p.u = u;
-    p.k = 2.0;
-    p.U = p.k * u;
-    p.nu_eff = 380.0;
-    p.printed = printed(value, p.U, unit == "um" ? "µm" : "″");
-    p.monte_carlo = trials_of(value, u);
+    p.stated = stated_value(value, u, unit == "um" ? "µm" : "″");
+    p.stated.nu_eff = 380.0;
+    p.stated.monte_carlo = trials_of(value, u);
     return p;
 }
 
@@ -141,21 +137,19 @@ inline reports::EvaluationRecord sample_record() {
             const double phase = 0.7 * static_cast<double>(m);
             const double value = amplitude[m] * (std::sin(2.0 * theta + phase) + 0.3 * std::cos(5.0 * theta - phase) +
                                                  0.12 * std::sin(17.0 * theta + 2.0 * phase));
-            row.errors[m] = error_value(value, u[m] * (1.0 + 0.15 * std::cos(theta)), units[m]);
+            row.errors[m] = stated_value(value, u[m] * (1.0 + 0.15 * std::cos(theta)), units[m]);
             row.errors[m].monte_carlo = trials_of(value, row.errors[m].u, !(i == 3 && m == 0), !(i == 4 && m == 5));
         }
         t.errors.push_back(row);
     }
     for (std::size_t m = 0; m < 6; ++m) {
-        t.ranges.push_back({.name = t.error_names[m],
-                            .value = 2.3 * amplitude[m],
-                            .U = 2.8 * u[m],
-                            .printed = printed(2.3 * amplitude[m], 2.8 * u[m], units[m]),
-                            .u = 1.4 * u[m],
-                            .monte_carlo = trials_of(2.3 * amplitude[m], 1.4 * u[m], m != 4)});
+        reports::StatedValue range = stated_value(2.3 * amplitude[m], 1.4 * u[m], units[m]);
+        range.nu_eff.reset();
+        range.monte_carlo = trials_of(range.value, range.u, m != 4);
+        t.ranges.push_back({.name = t.error_names[m], .stated = range});
         t.reversal.push_back(
             {.name = t.error_names[m],
-             .value = error_value(m == 3 ? 0.61 : 0.02 * static_cast<double>(m), 0.3 * u[m], units[m])});
+             .stated = stated_value(m == 3 ? 0.61 : 0.02 * static_cast<double>(m), 0.3 * u[m], units[m])});
     }
     t.covariance_file = "covariance.csv";
     t.covariance_order = {"EXA(0)", "EYA(0)", "O_y", "S_y"};
@@ -320,7 +314,7 @@ inline reports::EvaluationRecord sample_record() {
                    table_parameter("axis_z", "position of the axis average line along z", 192.61, 0.151, "um"),
                    table_parameter("axis_b", "orientation of the axis average line about y", -50.782, 0.122, "arcsec"),
                    table_parameter("axis_c", "orientation of the axis average line about z", 108.704, 0.131, "arcsec")};
-    t.axis_line[2].monte_carlo = trials_of(-50.782, 0.122, false);
+    t.axis_line[2].stated.monte_carlo = trials_of(-50.782, 0.122, false);
 
     PositioningAccuracy positioning;
     positioning.runs_up = 5;

@@ -120,7 +120,7 @@ TEST(LocationErrors, OfARecordHaveTheirFrame) {
     ASSERT_TRUE(rotary.machine_frame);
     EXPECT_EQ(rotary.machine_frame->by, "stations");
     EXPECT_EQ(rotary.machine_frame->points.size(), 6U);
-    EXPECT_NEAR(rotary.location_errors[2].value, truth()[2] / gum::k_arcsecond, 20.0);
+    EXPECT_NEAR(rotary.location_errors[2].stated.value, truth()[2] / gum::k_arcsecond, 20.0);
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ std::vector<std::string> expected_rows(const EvaluationRecord& record) {
     std::vector<std::string> rows;
     for (const ErrorsAtAngle& at : record.rotary->errors) {
         std::string row = " " + at.printed_angle + " ";
-        for (const ErrorValue& e : at.errors) {
+        for (const StatedValue& e : at.errors) {
             row += e.printed.value + " " + e.printed.U + " ";
         }
         rows.push_back(row);
@@ -69,7 +69,7 @@ std::vector<std::string> expected_rows(const EvaluationRecord& record) {
                        p.printed.U_D + " " + p.printed.En + " ");
     }
     for (const RangeRow& range : record.rotary->ranges) {
-        rows.push_back(" " + range.name + " " + range.printed.value + " " + range.printed.U + " ");
+        rows.push_back(" " + range.name + " " + range.stated.printed.value + " " + range.stated.printed.U + " ");
     }
     for (const VarianceComponent& v : record.rotary->variance_components) {
         rows.push_back(" " + v.name + " " + v.printed.value + " " + v.printed.U + " " + v.printed.unit + " ");
