@@ -2,19 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "app/budget_findings.h"
 #include "app/certified_conformity.h"
 #include "app/certified_scope.h"
-#include "app/certified_texts.h"
 #include "app/certified_traceability.h"
 #include "app/circle_closure_findings.h"
 #include "app/environment_findings.h"
 #include "app/record_parts.h"
 #include "app/rotary_findings.h"
+#include "app/rotary_reported_results.h"
 #include "certificate/gates.h"
 #include "certificate/result_names.h"
 #include "certificate/statement_of_uncertainty.h"
@@ -41,13 +40,20 @@ using reports::Result;
 
 constexpr double k_about_95_percent = 0.01;  // 95 % and 95.45 % are the same statement
 
-/// Rounding that the job itself asks for.
-bool job_rounds_upwards(const EvaluationRecord& record) {
-    const nlohmann::json options = nlohmann::json::parse(record.options_json, nullptr, false);
-    if (!options.is_object() || !options.contains("reporting") || !options["reporting"].is_object()) {
-        return false;
+/// What is certified, in the place where the record has that number as well.
+void show(reports::Printed& text, const CertifiedValue& value) {
+    text.value = value.printed_value;
+    text.U = value.printed_U;
+}
+
+/// What is certified is what is reported; the law of propagation has the same texts where it is reported itself.
+void show(Result& result, const CertifiedValue& value) {
+    show(result.reported.printed, value);
+    result.reported.printed_low = value.printed_low;
+    result.reported.printed_high = value.printed_high;
+    if (result.reported.method == "law_of_propagation") {
+        show(result.printed, value);
     }
-    return options["reporting"].value("rounding", "") == "up";
 }
 
 /// Makes the tables of one record certified.
@@ -56,17 +62,32 @@ public:
     Certifier(EvaluationRecord& record, const CapabilityInputs& inputs) : record_(record), inputs_(inputs) {
         const certificate::Certificate& c = *record.certificate;
         rule_ = certificate::print_rule(c.profile);
-        if (job_rounds_upwards(record)) {
+        if (inputs.rounding == gum::RoundingMode::up) {
             rule_.rounding = gum::RoundingMode::up;
         }
         scoped_ = c.data.accreditation.has_value() && c.data.status != "not_accredited";
     }
 
+    /// Every value is printed once, and its texts are put into the place of the record that it comes from.
     void certify_tables(std::vector<CertifiedTable>& tables) {
+        reports::StatedPlaces stated;  // in the order of the tables
+        if (record_.rotary) {
+            stated = reports::stated_values(*record_.rotary, reports::ErrorOrder::by_motion);
+        }
+        auto next = stated.begin();
         for (CertifiedTable& table : tables) {
             for (CertifiedColumn& column : table.columns) {
                 for (std::size_t row = 0; row < column.values.size(); ++row) {
-                    certify_value(tables, table, column, row);
+                    Result* const result = reports::result_of(record_, table, column.result, row);
+                    certify_value(tables, table, column, row, result);
+                    if (result != nullptr) {
+                        show(*result, column.values[row]);
+                    } else if (next != stated.end()) {
+                        show((next++)->stated.printed, column.values[row]);
+                    }
+                    if (result != nullptr && record_.rotary) {
+                        print_set_up(*record_.rotary, *result);
+                    }
                 }
             }
         }
@@ -84,9 +105,8 @@ private:
     [[nodiscard]] const CertificateData& data() const { return record_.certificate->data; }
 
     void certify_value(const std::vector<CertifiedTable>& tables, const CertifiedTable& table, CertifiedColumn& column,
-                       std::size_t row) {
+                       std::size_t row, const Result* result) {
         CertifiedValue& value = column.values[row];
-        const Result* result = reports::result_of(record_, table, column.result, row);
         const double p = result != nullptr ? result->coverage_probability : record_.coverage_probability;
         place_in_scope({.tables = tables, .table = table, .column = column, .row = row, .coverage_probability = p},
                        value);
@@ -323,7 +343,6 @@ void certify(EvaluationRecord& record, CertificateData data, Profile profile, co
     std::vector<CertifiedTable> tables = reports::certified_tables(record);
     Certifier certifier(record, inputs);
     certifier.certify_tables(tables);
-    print_as_certified(record, tables);
     record.certificate->tables = std::move(tables);
     std::vector<Finding> audit = certifier.findings();
     std::vector<Finding> validation = validation_findings(record);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "certificate/certificate_data.h"
+#include "gum/rounding.h"
 #include "gum/trial_distribution.h"
 #include "reports/record/evaluation_record.h"
 
@@ -27,6 +28,7 @@ struct CapabilityInputs {
     /// Trials of results whose U comes from Monte Carlo, by Result::name. Counted where a decision needs them, one
     /// result after the other: they take memory.
     std::map<std::string, gum::TrialsOfOutput> trials = {};
+    gum::RoundingMode rounding = gum::RoundingMode::half_even;  ///< of U, as the job asks for it
 };
 
 /// Makes a record a certificate: puts its results into certified tables, prints every value with its capability as the

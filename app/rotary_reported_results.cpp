@@ -70,22 +70,21 @@ private:
     double p_;
 };
 
-/// The set-up as people read it, of the results of the record: "O_y" is coordinate 1 of the offsets.
+}  // namespace
+
 void print_set_up(reports::RotaryTable& rotary, const reports::Result& result) {
-    if (result.reported.method != "monte_carlo" || result.name.size() != 3 || result.name[1] != '_') {
+    const std::string& name = result.name;
+    if (name.size() != 3 || name[1] != '_' || name[2] < 'x' || name[2] > 'z') {
         return;
     }
-    const auto coordinate = static_cast<std::size_t>(result.name[2] - 'x');
-    const bool offset = result.name[0] == 'O';
-    const reports::Printed& printed = result.reported.printed;
-    (offset ? rotary.set_up.printed_O : rotary.set_up.printed_S).at(coordinate) = printed;
-    reports::Printed& seen =
-        (offset ? rotary.axis_in_fixture.printed_O : rotary.axis_in_fixture.printed_S).at(coordinate);
-    seen = printed;
-    seen.value = reports::negated(printed.value);
+    const auto coordinate = static_cast<std::size_t>(name[2] - 'x');
+    for (reports::SetUp* side : {&rotary.set_up, &rotary.axis_in_fixture}) {
+        reports::Printed& printed = (name[0] == 'O' ? side->printed_O : side->printed_S)[coordinate];
+        const std::string& value = result.reported.printed.value;
+        printed.value = side == &rotary.set_up ? value : reports::negated(value);
+        printed.U = result.reported.printed.U;
+    }
 }
-
-}  // namespace
 
 void report_result(reports::Result& result, CoverageChoice choice) {
     Reporter(choice, result.coverage_probability).report(result);
@@ -99,7 +98,9 @@ void report_rotary_results(reports::EvaluationRecord& record, CoverageChoice cho
     }
     for (reports::Result& result : record.results) {
         reporter.report(result);
-        print_set_up(rotary, result);
+        if (result.reported.method == "monte_carlo") {
+            print_set_up(rotary, result);
+        }
     }
 }
 

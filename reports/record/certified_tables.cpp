@@ -177,19 +177,26 @@ void add_stated_values(const RotaryTable& r, std::vector<CertifiedTable>& tables
     }
 }
 
+template <class Results>
+auto* find_result(Results& results, const CertifiedTable& table, const std::string& name, std::size_t row) {
+    const std::string point =
+        table.argument && row < table.argument->printed.size() ? table.argument->printed[row] : "";
+    const bool holds_results = table.id == "results" || table.id == "set_up";
+    const auto found = std::find_if(results.begin(), results.end(), [&](const Result& r) {
+        return holds_results && (r.quantity.empty() ? r.name : r.quantity) == name && r.point == point;
+    });
+    return found == results.end() ? nullptr : &*found;
+}
+
 }  // namespace
+
+Result* result_of(EvaluationRecord& record, const CertifiedTable& table, const std::string& name, std::size_t row) {
+    return find_result(record.results, table, name, row);
+}
 
 const Result* result_of(const EvaluationRecord& record, const CertifiedTable& table, const std::string& name,
                         std::size_t row) {
-    if (table.id != "results" && table.id != "set_up") {
-        return nullptr;
-    }
-    const std::string point =
-        table.argument && row < table.argument->printed.size() ? table.argument->printed[row] : "";
-    const auto found = std::find_if(record.results.begin(), record.results.end(), [&](const Result& r) {
-        return (r.quantity.empty() ? r.name : r.quantity) == name && r.point == point;
-    });
-    return found == record.results.end() ? nullptr : &*found;
+    return find_result(record.results, table, name, row);
 }
 
 std::vector<CertifiedTable> certified_tables(const EvaluationRecord& record) {

@@ -26,6 +26,8 @@ namespace gumcert::reports {
 /// The result that a value of a column stands for: of a budget, or the set-up of a rotary table.
 /// \param name  of the column
 /// \return in the record; none for the other tables of a rotary table
+[[nodiscard]] Result* result_of(EvaluationRecord& record, const certificate::CertifiedTable& table,
+                                const std::string& name, std::size_t row);
 [[nodiscard]] const Result* result_of(const EvaluationRecord& record, const certificate::CertifiedTable& table,
                                       const std::string& name, std::size_t row);
 

@@ -211,9 +211,9 @@ TEST(Certify, RoundsByTheProfileAndByTheJob) {
     profile.rounding = "up";
     EXPECT_EQ(certified(one_result(299792.458, 1450.0, "m"), data, profile).printed_U, "1.5E+3");
     profile.rounding = "half_even";
-    EvaluationRecord record = one_result(299792.458, 1450.0, "m");
-    record.options_json = R"({"reporting": {"rounding": "up"}})";
-    EXPECT_EQ(certified(record, data, profile).printed_U, "1.5E+3");
+    CapabilityInputs by_job;
+    by_job.rounding = gum::RoundingMode::up;
+    EXPECT_EQ(certified(one_result(299792.458, 1450.0, "m"), data, profile, by_job).printed_U, "1.5E+3");
     profile.digits = 1;
     EXPECT_EQ(certified(one_result(299792.458, 1450.0, "m"), data, profile).printed_U, "2E+3");  // 1E+3 is 31 % less
     EXPECT_EQ(certified(one_result(299792.458, 1030.0, "m"), data, profile).printed_U, "1E+3");
