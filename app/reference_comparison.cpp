@@ -169,8 +169,8 @@ void add_published(const ReferenceMethod& reference, reports::Comparison& record
     for (reports::ComparisonSummary& row : record.summary) {
         for (std::size_t d = 0; d < k_directions.size(); ++d) {
             if (row.direction == k_directions[d]) {
-                row.published_mean_abs_En = reference.published_mean_abs_En[d];
-                row.printed.published_mean_abs_En = printed_as_stated(row.published_mean_abs_En);
+                row.published_mean_abs_En.number = reference.published_mean_abs_En[d];
+                row.published_mean_abs_En.text = printed_as_stated(row.published_mean_abs_En.number);
             }
         }
     }

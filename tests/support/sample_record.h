@@ -446,26 +446,27 @@ inline reports::EvaluationRecord sample_record() {
             ComparisonPoint p;
             p.direction = direction;
             p.angle_deg = 10.0 * i;
-            p.value = 3.1 * std::sin(2.0 * theta + direction[0]);
+            p.value.number = 3.1 * std::sin(2.0 * theta + direction[0]);
             p.u = 0.21;
-            p.U = 0.42;
-            p.reference_value = p.value + 0.9 * std::cos(3.0 * theta + direction[0]) + 0.2 * std::sin(23.0 * theta);
+            p.U.number = 0.42;
+            p.reference_value.number =
+                p.value.number + 0.9 * std::cos(3.0 * theta + direction[0]) + 0.2 * std::sin(23.0 * theta);
             p.reference_u = 0.63;
-            p.reference_U = 1.26;
-            p.D = p.value - p.reference_value;
+            p.reference_U.number = 1.26;
+            p.D.number = p.value.number - p.reference_value.number;
             p.u_D = std::hypot(*p.u, *p.reference_u);
-            p.U_D = 2.0 * *p.u_D;
-            p.En =
-                p.D / *p.U_D * (i == 9 && p.direction == "z" ? 1.9 : 1.0) - (i == 30 && p.direction == "x" ? 0.9 : 0.0);
-            p.zeta = 2.0 * *p.En;
-            p.printed = {.angle = decimals(*p.angle_deg, 0),
-                         .value = decimals(p.value, 2),
-                         .U = decimals(*p.U, 2),
-                         .reference_value = decimals(p.reference_value, 1),
-                         .reference_U = decimals(*p.reference_U, 1),
-                         .D = decimals(p.D, 1),
-                         .U_D = decimals(*p.U_D, 1),
-                         .En = decimals(*p.En, 2)};
+            p.U_D.number = 2.0 * *p.u_D;
+            p.En.number = p.D.number / *p.U_D.number * (i == 9 && p.direction == "z" ? 1.9 : 1.0) -
+                          (i == 30 && p.direction == "x" ? 0.9 : 0.0);
+            p.zeta.number = 2.0 * *p.En.number;
+            p.printed_angle = decimals(*p.angle_deg, 0);
+            p.value.text = decimals(p.value.number, 2);
+            p.U.text = decimals(*p.U.number, 2);
+            p.reference_value.text = decimals(p.reference_value.number, 1);
+            p.reference_U.text = decimals(*p.reference_U.number, 1);
+            p.D.text = decimals(p.D.number, 1);
+            p.U_D.text = decimals(*p.U_D.number, 1);
+            p.En.text = decimals(*p.En.number, 2);
             c.points.push_back(p);
         }
     }
@@ -474,10 +475,12 @@ inline reports::EvaluationRecord sample_record() {
         s.direction = direction;
         s.points = s.direction == "all" ? 108 : 36;
         s.count_above_1 = s.direction == "all" ? 1 : 0;
-        s.mean_abs_En = 0.43;
-        s.max_abs_En = 1.12;
-        s.rms_En = 0.5;
-        s.printed = {.mean_abs_En = "0.43", .max_abs_En = "1.12", .rms_En = "0.50"};
+        s.mean_abs_En.number = 0.43;
+        s.max_abs_En.number = 1.12;
+        s.rms_En.number = 0.5;
+        s.mean_abs_En.text = "0.43";
+        s.max_abs_En.text = "1.12";
+        s.rms_En.text = "0.50";
         c.summary.push_back(s);
     }
     c.remarks = {
