@@ -120,6 +120,7 @@ certificate::Profile certificate_profile(const certificate::CertificateData& dat
 
 CapabilityInputs capability_inputs(const engine::BudgetJob& job, const gum::BudgetResult& result, unsigned threads) {
     CapabilityInputs inputs;
+    inputs.rounding = job.rounding;
     for (std::size_t i = 0; i < job.inputs.size(); ++i) {
         inputs.values.emplace(job.inputs[i].name, values_of(job, i));
     }

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "app/budget_findings.h"
 #include "app/certified_conformity.h"
 #include "app/certified_scope.h"
-#include "app/certified_texts.h"
 #include "app/certified_traceability.h"
 #include "app/environment_findings.h"
 #include "certificate/gates.h"
@@ -21,8 +19,10 @@
 #include "reports/record/certified_tables.h"
 #include "reports/record/make/circle_closure/circle_closure_findings.h"
 #include "reports/record/make/record_parts.h"
+#include "reports/record/make/reported_choice.h"
 #include "reports/record/make/rotary_table/rotary_findings.h"
 #include "reports/record/reported_result.h"
+#include "reports/record/stated_values.h"
 
 namespace gumcert::app {
 
@@ -40,13 +40,20 @@ using reports::Result;
 
 constexpr double k_about_95_percent = 0.01;  // 95 % and 95.45 % are the same statement
 
-/// Rounding that the job itself asks for.
-bool job_rounds_upwards(const EvaluationRecord& record) {
-    const nlohmann::json options = nlohmann::json::parse(record.options_json, nullptr, false);
-    if (!options.is_object() || !options.contains("reporting") || !options["reporting"].is_object()) {
-        return false;
+/// What is certified, in the place where the record has that number as well.
+void show(reports::Printed& text, const CertifiedValue& value) {
+    text.value = value.printed_value;
+    text.U = value.printed_U;
+}
+
+/// What is certified is what is reported; the law of propagation has the same texts where it is reported itself.
+void show(Result& result, const CertifiedValue& value) {
+    show(result.reported.printed, value);
+    result.reported.printed_low = value.printed_low;
+    result.reported.printed_high = value.printed_high;
+    if (result.reported.method == "law_of_propagation") {
+        show(result.printed, value);
     }
-    return options["reporting"].value("rounding", "") == "up";
 }
 
 /// Makes the tables of one record certified.
@@ -55,17 +62,32 @@ public:
     Certifier(EvaluationRecord& record, const CapabilityInputs& inputs) : record_(record), inputs_(inputs) {
         const certificate::Certificate& c = *record.certificate;
         rule_ = certificate::print_rule(c.profile);
-        if (job_rounds_upwards(record)) {
+        if (inputs.rounding == gum::RoundingMode::up) {
             rule_.rounding = gum::RoundingMode::up;
         }
         scoped_ = c.data.accreditation.has_value() && c.data.status != "not_accredited";
     }
 
+    /// Every value is printed once, and its texts are put into the place of the record that it comes from.
     void certify_tables(std::vector<CertifiedTable>& tables) {
+        reports::StatedPlaces stated;  // in the order of the tables
+        if (record_.rotary) {
+            stated = reports::stated_values(*record_.rotary, reports::ErrorOrder::by_motion);
+        }
+        auto next = stated.begin();
         for (CertifiedTable& table : tables) {
             for (CertifiedColumn& column : table.columns) {
                 for (std::size_t row = 0; row < column.values.size(); ++row) {
-                    certify_value(tables, table, column, row);
+                    Result* const result = reports::result_of(record_, table, column.result, row);
+                    certify_value(tables, table, column, row, result);
+                    if (result != nullptr) {
+                        show(*result, column.values[row]);
+                    } else if (next != stated.end()) {
+                        show((next++)->stated.printed, column.values[row]);
+                    }
+                    if (result != nullptr && record_.rotary) {
+                        reports::print_set_up(*record_.rotary, *result);
+                    }
                 }
             }
         }
@@ -83,9 +105,8 @@ private:
     [[nodiscard]] const CertificateData& data() const { return record_.certificate->data; }
 
     void certify_value(const std::vector<CertifiedTable>& tables, const CertifiedTable& table, CertifiedColumn& column,
-                       std::size_t row) {
+                       std::size_t row, const Result* result) {
         CertifiedValue& value = column.values[row];
-        const Result* result = reports::result_of(record_, table, column.result, row);
         const double p = result != nullptr ? result->coverage_probability : record_.coverage_probability;
         place_in_scope({.tables = tables, .table = table, .column = column, .row = row, .coverage_probability = p},
                        value);
@@ -284,16 +305,6 @@ void note_validation(std::vector<Finding>& findings, const std::string& result,
     }
 }
 
-/// The same of a quantity of a rotary table.
-template <class Quantity>
-void note_reported(std::vector<Finding>& findings, const std::string& result, const Quantity& quantity) {
-    if (!quantity.reported) {
-        note_validation(findings, result, quantity.monte_carlo);
-    } else if (!quantity.reported->against.empty()) {
-        add_against(findings, result, quantity.reported->against);
-    }
-}
-
 std::vector<Finding> validation_findings(const EvaluationRecord& record) {
     std::vector<Finding> findings;
     for (const Result& result : record.results) {
@@ -309,26 +320,12 @@ std::vector<Finding> validation_findings(const EvaluationRecord& record) {
     if (!record.rotary) {
         return findings;
     }
-    const reports::RotaryTable& rotary = *record.rotary;
-    for (const reports::ErrorsAtAngle& at : rotary.errors) {
-        for (std::size_t i = 0; i < at.errors.size(); ++i) {
-            note_reported(findings, rotary.error_names[i], at.errors[i]);
-        }
-    }
-    for (const reports::Reversal& reversal : rotary.reversal) {
-        note_reported(findings, "reversal_" + reversal.name, reversal.value);
-    }
-    for (const reports::RangeRow& range : rotary.ranges) {
-        note_reported(findings, "range_" + range.name, range);
-    }
-    for (const auto* const parameters : {&rotary.axis_line, &rotary.location_errors}) {
-        for (const reports::TableParameter& parameter : *parameters) {
-            note_reported(findings, parameter.name, parameter);
-        }
-    }
-    if (rotary.iso230_2) {
-        for (const reports::TableParameter& parameter : rotary.iso230_2->parameters) {
-            note_reported(findings, parameter.name, parameter);
+    for (const auto& place : reports::stated_values(*record.rotary)) {
+        const std::string name = reports::result_name(place.group, place.name);
+        if (!place.stated.reported) {
+            note_validation(findings, name, place.stated.monte_carlo);
+        } else if (!place.stated.reported->against.empty()) {
+            add_against(findings, name, place.stated.reported->against);
         }
     }
     return findings;
@@ -346,7 +343,6 @@ void certify(EvaluationRecord& record, CertificateData data, Profile profile, co
     std::vector<CertifiedTable> tables = reports::certified_tables(record);
     Certifier certifier(record, inputs);
     certifier.certify_tables(tables);
-    print_as_certified(record, tables);
     record.certificate->tables = std::move(tables);
     std::vector<Finding> audit = certifier.findings();
     std::vector<Finding> validation = validation_findings(record);

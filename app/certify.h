@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "certificate/certificate_data.h"
+#include "gum/rounding.h"
 #include "gum/trial_distribution.h"
 #include "reports/record/evaluation_record.h"
 
@@ -27,11 +28,12 @@ struct CapabilityInputs {
     /// Trials of results whose U comes from Monte Carlo, by Result::name. Counted where a decision needs them, one
     /// result after the other: they take memory.
     std::map<std::string, gum::TrialsOfOutput> trials = {};
+    gum::RoundingMode rounding = gum::RoundingMode::half_even;  ///< of U, as the job asks for it
 };
 
 /// Makes a record a certificate: puts its results into certified tables, prints every value with its capability as the
 /// floor and by the profile, decides on conformity, passes the three gates. Printed texts elsewhere in the record
-/// (Result::printed, ErrorValue::printed …) become the same ones, so that no two places of a document disagree.
+/// (Result::printed, StatedValue::printed …) become the same ones, so that no two places of a document disagree.
 ///
 /// The rounding of a budget job (`reporting.rounding`: up) stays in force where the profile rounds half-even.
 /// \throws gum::InputError  GC-GUM-.. if a number of the record cannot be printed

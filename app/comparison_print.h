@@ -3,6 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "reports/record/shown.h"
+
 namespace gumcert::app {
 
 // Texts of the numbers of a comparison. Every one is rounded here, once, by gum/rounding.
@@ -21,5 +23,12 @@ namespace gumcert::app {
 [[nodiscard]] std::string printed_score(const std::optional<double>& score);
 /// Two significant digits, not less than 0.0001 in plain decimals, "<1E-300" below that; "" for nothing.
 [[nodiscard]] std::string printed_probability(const std::optional<double>& probability);
+
+/// A number with the text that one of these functions makes of it.
+template <class Number>
+[[nodiscard]] reports::Shown<Number> shown(const Number& number,
+                                           std::string (*printed)(const std::optional<double>& number)) {
+    return {number, printed(number)};
+}
 
 }  // namespace gumcert::app

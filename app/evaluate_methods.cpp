@@ -105,7 +105,7 @@ void add_capability(const ComparisonSide& side, reports::Comparison& record) {
     double largest = 0.0;
     std::size_t below = 0;
     for (reports::ComparisonPoint& point : record.points) {
-        point.U_over_CMC = *point.U / *side.cmc_U;
+        point.U_over_CMC = *point.U.number / *side.cmc_U;
         largest = std::max(largest, *point.U_over_CMC);
         below += *point.U_over_CMC < 1.0 ? 1U : 0U;
     }

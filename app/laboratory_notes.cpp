@@ -80,8 +80,8 @@ bool inconsistent(const gum::ItemResult& item) {
 
 std::string test_text(const ComparisonItemEvaluation& item) {
     const reports::ConsistencySummary& test = *item.consistency;
-    return "the results are not consistent with their uncertainties: chi-square " + test.printed.chi_square + " on " +
-           text::count_of(test.degrees_of_freedom, "degree") + " of freedom, p = " + test.printed.p_value +
+    return "the results are not consistent with their uncertainties: chi-square " + test.chi_square.text + " on " +
+           text::count_of(test.degrees_of_freedom, "degree") + " of freedom, p = " + test.p_value.text +
            ", below alpha = " + text::shortest(test.alpha);
 }
 
@@ -125,8 +125,8 @@ void add_checks_of_items(ItemMessages& messages) {
          .severity = gum::Severity::warning},
         [](const gum::ItemResult& item) { return item.homogeneity && !item.homogeneity->sufficient_expanded; },
         [](const ComparisonItemEvaluation& item) {
-            return "the items differ by s_s = " + with_unit(item.homogeneity->printed.s_s, item) +
-                   ", the expanded limit is " + with_unit(item.homogeneity->printed.expanded_limit, item);
+            return "the items differ by s_s = " + with_unit(item.homogeneity->s_s.text, item) +
+                   ", the expanded limit is " + with_unit(item.homogeneity->expanded_limit.text, item);
         });
     messages.add(
         {.code = "GC-COMPARE-0123",
@@ -138,8 +138,8 @@ void add_checks_of_items(ItemMessages& messages) {
          .severity = gum::Severity::warning},
         [](const gum::ItemResult& item) { return item.stability && !item.stability->stable_expanded; },
         [](const ComparisonItemEvaluation& item) {
-            return "the items changed by " + with_unit(item.stability->printed.difference, item) +
-                   ", the expanded limit is " + with_unit(item.stability->printed.expanded_limit, item);
+            return "the items changed by " + with_unit(item.stability->difference.text, item) +
+                   ", the expanded limit is " + with_unit(item.stability->expanded_limit.text, item);
         });
 }
 
@@ -161,8 +161,8 @@ void add_assigned_value(ItemMessages& messages) {
          .severity = gum::Severity::warning},
         [&](const gum::ItemResult& item) { return item.u && has_inconclusive(messages.comparison(), item); },
         [](const ComparisonItemEvaluation& item) {
-            return "the assigned value, " + item.printed.value +
-                   (item.printed.U.empty() ? "" : " with U = " + with_unit(item.printed.U, item)) +
+            return "the assigned value, " + item.value.text +
+                   (item.U.text.empty() ? "" : " with U = " + with_unit(item.U.text, item)) +
                    ", is too uncertain to clear some of the results";
         });
     messages.add(
@@ -174,7 +174,7 @@ void add_assigned_value(ItemMessages& messages) {
          .severity = gum::Severity::note},
         [](const gum::ItemResult& item) { return !item.criterion_met; },
         [](const ComparisonItemEvaluation& item) {
-            return "u(X) is " + item.printed.criterion + " sigma_pt: z' decides";
+            return "u(X) is " + item.criterion.text + " sigma_pt: z' decides";
         });
     messages.add(
         {.code = "GC-COMPARE-0124",
@@ -187,7 +187,7 @@ void add_assigned_value(ItemMessages& messages) {
         [](const gum::ItemResult& item) { return item.consensus && !item.consensus->consistent; },
         [](const ComparisonItemEvaluation& item) {
             return "the consensus differs from the independent reference value by " +
-                   with_unit(item.consensus->printed.difference, item) + ", " + item.consensus->printed.ratio +
+                   with_unit(item.consensus->difference.text, item) + ", " + item.consensus->ratio.text +
                    " times its standard uncertainty";
         });
     messages.add(
@@ -268,14 +268,13 @@ void add_remarks_on_coverage(const Evaluated& evaluated, std::vector<std::string
             "a result that lies far away does not widen the limit that it is held against.");
     }
     for (const ComparisonItemEvaluation& item : record.items) {
-        if (item.coverage_with_scatter) {
+        if (item.coverage_with_scatter.number) {
             remarks.emplace_back(
                 "A U(X) that comes from the stated uncertainties alone covers what it claims only where these explain "
                 "the whole scatter of the results. If the laboratories differed by a further standard deviation as "
                 "large "
                 "as the median of their u, U(X) would cover " +
-                item.printed.coverage_with_scatter + " of all cases in place of " +
-                in_percent(job.coverage_probability) +
+                item.coverage_with_scatter.text + " of all cases in place of " + in_percent(job.coverage_probability) +
                 (comparison.items.size() > 1 ? " (" + place_of(item) + ")." : "."));
             break;
         }

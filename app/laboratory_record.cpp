@@ -136,48 +136,38 @@ std::vector<std::string> ids(const gum::ComparisonScheme& scheme, const std::vec
     return found;
 }
 
-std::string printed_chi_square(double chi_square) {
-    return gum::round_significant(chi_square, k_digits_of_chi_square);
+std::string printed_chi_square(const std::optional<double>& chi_square) {
+    return gum::round_significant(*chi_square, k_digits_of_chi_square);
 }
 
 reports::ConsistencySummary consistency_record(const gum::ResultConsistency& consistency) {
     const gum::ConsistencyTest& test = consistency.test;
     reports::ConsistencySummary summary;
-    summary.chi_square = test.chi_square;
-    summary.critical_value = test.critical_value;
-    summary.p_value = test.p_value;
+    summary.chi_square = shown(test.chi_square, printed_chi_square);
+    summary.critical_value = shown(test.critical_value, printed_chi_square);
+    summary.p_value = shown(test.p_value, printed_probability);
     summary.alpha = consistency.alpha;
     summary.degrees_of_freedom = static_cast<std::int64_t>(test.degrees_of_freedom);
     summary.consistent = test.consistent;
-    summary.birge_ratio = test.birge_ratio;
-    summary.birge_limit = test.birge_limit;
+    summary.birge_ratio = shown(test.birge_ratio, printed_score);
+    summary.birge_limit = shown(test.birge_limit, printed_score);
     summary.pairs = count(consistency.pairs);
     summary.incompatible_pairs = count(consistency.incompatible_pairs);
-    summary.printed.chi_square = printed_chi_square(test.chi_square);
-    summary.printed.critical_value = printed_chi_square(test.critical_value);
-    summary.printed.p_value = printed_probability(test.p_value);
-    summary.printed.birge_ratio = printed_score(test.birge_ratio);
-    summary.printed.birge_limit = printed_score(test.birge_limit);
     return summary;
 }
 
 reports::ReferenceEstimate estimate_record(const gum::ReferenceEstimate& from) {
     reports::ReferenceEstimate estimate;
     estimate.method = from.method;
-    estimate.value = from.value;
-    estimate.u = from.u;
-    estimate.scale = from.scale;
-    estimate.between = from.between;
-    estimate.U = from.U;
+    estimate.value = {from.value, printed_value(from.value, from.u ? from.u : from.scale)};
+    estimate.u = shown(from.u, printed_uncertainty);
+    estimate.scale = shown(from.scale, printed_uncertainty);
+    estimate.between = shown(from.between, printed_uncertainty);
+    estimate.U = shown(from.U, printed_uncertainty);
     estimate.nu = reports::finite_or_none(from.degrees_of_freedom);
     estimate.u_hartung_knapp = from.u_hartung_knapp;
     estimate.results = static_cast<std::int64_t>(from.results);
     estimate.used = from.used;
-    estimate.printed.value = printed_value(estimate.value, estimate.u ? estimate.u : estimate.scale);
-    estimate.printed.u = printed_uncertainty(estimate.u);
-    estimate.printed.U = printed_uncertainty(estimate.U);
-    estimate.printed.scale = printed_uncertainty(estimate.scale);
-    estimate.printed.between = printed_uncertainty(estimate.between);
     return estimate;
 }
 
@@ -185,54 +175,39 @@ reports::HomogeneitySummary homogeneity_record(const gum::HomogeneityCheck& chec
     reports::HomogeneitySummary summary;
     summary.items = static_cast<std::int64_t>(check.items);
     summary.replicates = static_cast<std::int64_t>(check.replicates);
-    summary.mean = check.mean;
-    summary.s_x = check.s_x;
-    summary.s_w = check.s_w;
-    summary.s_s = check.s_s;
-    summary.limit = check.limit;
-    summary.expanded_limit = check.expanded_limit;
+    summary.mean = {check.mean, printed_value(check.mean, check.s_x > 0.0 ? check.s_x : check.s_w)};
+    summary.s_x = shown(check.s_x, printed_uncertainty);
+    summary.s_w = shown(check.s_w, printed_uncertainty);
+    summary.s_s = shown(check.s_s, printed_uncertainty);
+    summary.limit = shown(check.limit, printed_uncertainty);
+    summary.expanded_limit = shown(check.expanded_limit, printed_uncertainty);
     summary.sufficient = check.sufficient;
     summary.sufficient_expanded = check.sufficient_expanded;
-    summary.printed.mean = printed_value(summary.mean, summary.s_x > 0.0 ? summary.s_x : summary.s_w);
-    summary.printed.s_x = printed_uncertainty(summary.s_x);
-    summary.printed.s_w = printed_uncertainty(summary.s_w);
-    summary.printed.s_s = printed_uncertainty(summary.s_s);
-    summary.printed.limit = printed_uncertainty(summary.limit);
-    summary.printed.expanded_limit = printed_uncertainty(summary.expanded_limit);
     return summary;
 }
 
 reports::StabilitySummary stability_record(const gum::StabilityCheck& later, const gum::HomogeneityCheck& before) {
     reports::StabilitySummary stability;
-    stability.mean = later.mean;
-    stability.difference = later.difference;
+    stability.mean = {later.mean, printed_value(later.mean, before.s_x > 0.0 ? before.s_x : before.s_w)};
+    stability.difference = shown(later.difference, printed_uncertainty);
     stability.u_difference = later.u_difference;
-    stability.limit = later.limit;
-    stability.expanded_limit = later.expanded_limit;
+    stability.limit = shown(later.limit, printed_uncertainty);
+    stability.expanded_limit = shown(later.expanded_limit, printed_uncertainty);
     stability.stable = later.stable;
     stability.stable_expanded = later.stable_expanded;
-    stability.printed.mean = printed_value(later.mean, before.s_x > 0.0 ? before.s_x : before.s_w);
-    stability.printed.difference = printed_uncertainty(later.difference);
-    stability.printed.limit = printed_uncertainty(later.limit);
-    stability.printed.expanded_limit = printed_uncertainty(later.expanded_limit);
     return stability;
 }
 
 reports::ConsensusCheck consensus_record(const gum::ConsensusCheck& from) {
     reports::ConsensusCheck check;
-    check.reference_value = from.reference_value;
+    check.reference_value = {from.reference_value, printed_value(from.reference_value, from.u_reference)};
     check.u_reference = from.u_reference;
-    check.consensus = from.consensus;
+    check.consensus = {from.consensus, printed_value(from.consensus, from.u_consensus)};
     check.u_consensus = from.u_consensus;
-    check.difference = from.difference;
-    check.u_difference = from.u_difference;
-    check.ratio = from.ratio;
+    check.difference = {from.difference, printed_value(from.difference, from.u_difference)};
+    check.u_difference = shown(from.u_difference, printed_uncertainty);
+    check.ratio = shown(from.ratio, printed_score);
     check.consistent = from.consistent;
-    check.printed.reference_value = printed_value(check.reference_value, check.u_reference);
-    check.printed.consensus = printed_value(check.consensus, check.u_consensus);
-    check.printed.difference = printed_value(check.difference, check.u_difference);
-    check.printed.u_difference = printed_uncertainty(check.u_difference);
-    check.printed.ratio = printed_score(check.ratio);
     return check;
 }
 
@@ -240,13 +215,10 @@ reports::PairEquivalence pair_record(const gum::ComparisonScheme& scheme, const 
     reports::PairEquivalence pair;
     pair.first = scheme.participants[from.first].id;
     pair.second = scheme.participants[from.second].id;
-    pair.d = from.d;
+    pair.d = {from.d, printed_difference(from.d, from.U, std::nullopt)};
     pair.u = from.u;
-    pair.U = from.U;
-    pair.En = from.en;
-    pair.printed.d = printed_difference(pair.d, pair.U, std::nullopt);
-    pair.printed.U = printed_uncertainty(pair.U);
-    pair.printed.En = printed_score(pair.En);
+    pair.U = shown(from.U, printed_uncertainty);
+    pair.En = shown(from.en, printed_score);
     return pair;
 }
 
@@ -263,52 +235,52 @@ std::string printed_criterion(double criterion, bool met) {
     return gum::round_to_quantum(criterion, decimals);
 }
 
+/// Degrees of freedom; infinite ones are none, and have no text.
+reports::Shown<std::optional<double>> shown_degrees_of_freedom(double degrees_of_freedom) {
+    const std::optional<double> nu = reports::finite_or_none(degrees_of_freedom);
+    return {nu, nu ? certificate::printed_degrees_of_freedom(nu) : ""};
+}
+
+/// One end of a coverage interval of the value.
+reports::Shown<std::optional<double>> shown_end(const std::optional<double>& end, const std::optional<double>& U) {
+    return {end, end ? printed_value(*end, U) : ""};
+}
+
+std::string printed_share(const std::optional<double>& share) {
+    return share ? gum::percent(*share) + " %" : "";
+}
+
 void add_assigned_value(const gum::ItemResult& from, ComparisonItemEvaluation& item) {
-    item.value = from.value;
-    item.u = from.u;
-    item.U = from.U;
-    item.k = from.k;
-    item.nu = reports::finite_or_none(from.degrees_of_freedom);
+    item.value = {from.value, printed_value(from.value, from.U)};
+    item.u = shown(from.u, printed_uncertainty);
+    item.U = shown(from.U, printed_uncertainty);
+    item.k = shown(from.k, printed_score);
+    item.nu = shown_degrees_of_freedom(from.degrees_of_freedom);
     item.U_rests_on = word_of(from.expanded_by);
-    item.coverage_with_scatter = from.coverage_with_scatter;
-    item.U_of_scores = from.U_of_scores;
-    item.low = from.low;
-    item.high = from.high;
-    item.u_characterisation = from.u_characterisation;
-    item.u_homogeneity = from.u_homogeneity;
-    item.u_stability = from.u_stability;
-    if (item.low) {
-        item.printed.low = printed_value(*item.low, item.U);
-        item.printed.high = printed_value(*item.high, item.U);
-    }
-    item.printed.value = printed_value(item.value, item.U);
-    item.printed.u = printed_uncertainty(item.u);
-    item.printed.U = printed_uncertainty(item.U);
-    item.printed.k = printed_score(item.k);
-    item.printed.nu = item.nu ? certificate::printed_degrees_of_freedom(item.nu) : "";
-    item.printed.U_of_scores = printed_uncertainty(item.U_of_scores);
-    item.printed.coverage_with_scatter =
-        item.coverage_with_scatter ? gum::percent(*item.coverage_with_scatter) + " %" : "";
-    item.printed.u_characterisation = printed_uncertainty(item.u_characterisation);
-    item.printed.u_homogeneity = printed_uncertainty(item.u_homogeneity);
-    item.printed.u_stability = printed_uncertainty(item.u_stability);
+    item.coverage_with_scatter = shown(from.coverage_with_scatter, printed_share);
+    item.U_of_scores = shown(from.U_of_scores, printed_uncertainty);
+    item.low = shown_end(from.low, from.U);
+    item.high = shown_end(from.high, from.U);
+    item.u_characterisation = shown(from.u_characterisation, printed_uncertainty);
+    item.u_homogeneity = shown(from.u_homogeneity, printed_uncertainty);
+    item.u_stability = shown(from.u_stability, printed_uncertainty);
+}
+
+std::string printed_sigma(const std::optional<double>& sigma_pt) {
+    return gum::round_significant(*sigma_pt, k_digits_of_computed_sigma);
 }
 
 void add_limits(const gum::ItemResult& from, ComparisonItemEvaluation& item) {
     item.score = word_of(from.score);
-    item.delta_E = from.delta_E;
-    item.printed.delta_E = printed_as_stated(item.delta_E);
-    item.sigma_pt = from.sigma_pt;
-    if (item.sigma_pt) {
+    item.delta_E = shown(from.delta_E, printed_as_stated);
+    if (from.sigma_pt) {
         item.sigma_pt_method = word_of(*from.sigma_pt_method);
-        item.printed.sigma_pt = from.sigma_pt_method == gum::SigmaPtMethod::given
-                                    ? printed_as_stated(item.sigma_pt)
-                                    : gum::round_significant(*item.sigma_pt, k_digits_of_computed_sigma);
+        item.sigma_pt =
+            shown(from.sigma_pt, from.sigma_pt_method == gum::SigmaPtMethod::given ? printed_as_stated : printed_sigma);
     }
-    item.criterion = from.criterion;
-    if (item.criterion) {
+    if (from.criterion) {
         item.criterion_met = from.criterion_met;
-        item.printed.criterion = printed_criterion(*item.criterion, from.criterion_met);
+        item.criterion = {from.criterion, printed_criterion(*from.criterion, from.criterion_met)};
     }
 }
 
@@ -342,10 +314,8 @@ ComparisonItemEvaluation item_record(const gum::ComparisonScheme& scheme, const 
     for (const gum::ReferenceEstimate& estimate : from.estimates) {
         item.estimates.push_back(estimate_record(estimate));
     }
-    item.s_star = from.s_star;
-    item.printed.s_star = printed_uncertainty(item.s_star);
-    item.pooled_standard_deviation = from.pooled_standard_deviation;
-    item.printed.pooled_standard_deviation = printed_uncertainty(item.pooled_standard_deviation);
+    item.s_star = shown(from.s_star, printed_uncertainty);
+    item.pooled_standard_deviation = shown(from.pooled_standard_deviation, printed_uncertainty);
     if (from.homogeneity) {
         item.homogeneity = homogeneity_record(*from.homogeneity);
     }
@@ -363,34 +333,31 @@ ComparisonItemEvaluation item_record(const gum::ComparisonScheme& scheme, const 
 
 // ---- points ---------------------------------------------------------------------------------------------------------
 
-void print(const ComparisonItemEvaluation& item, ComparisonPoint& point) {
-    const std::optional<double> scale = item.U && *item.U > 0.0 ? item.U : item.sigma_pt;
-    point.printed.value = printed_value(point.value, point.U);
-    point.printed.U = printed_uncertainty(point.U);
-    point.printed.k = printed_score(point.k);
-    point.printed.U_of_scores = printed_uncertainty(point.U_of_scores);
-    point.printed.k_of_scores = printed_score(point.k_of_scores);
-    if (point.D_low) {
-        point.printed.D_low = printed_difference(*point.D_low, point.U_D, scale);
-        point.printed.D_high = printed_difference(*point.D_high, point.U_D, scale);
-    }
-    point.printed.reference_value = item.printed.value;
-    point.printed.reference_U = item.printed.U;
-    point.printed.D = printed_difference(point.D, point.U_D, scale);
-    point.printed.U_D = printed_uncertainty(point.U_D);
-    point.printed.En = printed_score(point.En);
-    point.printed.zeta = printed_score(point.zeta);
-    point.printed.z = printed_score(point.z);
-    point.printed.z_prime = printed_score(point.z_prime);
-    point.printed.P_A = printed_score(point.P_A);
-    point.printed.En_audited = printed_score(point.En_audited);
-    point.printed.En_worst = printed_score(point.En_worst);
-    if (point.D_percent) {
-        const double to_percent = 100.0 / std::abs(point.reference_value);
+/// The difference from the assigned value, its uncertainty and the scores.
+void add_scores(const gum::ScoredResult& from, const ComparisonItemEvaluation& item, ComparisonPoint& point) {
+    const std::optional<double>& U_D = from.U_difference;
+    const std::optional<double> scale = item.U.number && *item.U.number > 0.0 ? item.U.number : item.sigma_pt.number;
+    const auto shown_difference = [&](const std::optional<double>& D) {
+        return reports::Shown<std::optional<double>>{D, D ? printed_difference(*D, U_D, scale) : ""};
+    };
+    point.D = {from.difference, printed_difference(from.difference, U_D, scale)};
+    point.u_D = from.u_difference;
+    point.U_D = shown(U_D, printed_uncertainty);
+    point.D_low = shown_difference(from.low);
+    point.D_high = shown_difference(from.high);
+    point.En = shown(from.en, printed_score);
+    point.zeta = shown(from.zeta, printed_score);
+    point.z = shown(from.z, printed_score);
+    point.z_prime = shown(from.z_prime, printed_score);
+    point.P_A = shown(from.percent_of_allowed, printed_score);
+    point.En_worst = shown(from.en_worst, printed_score);
+    point.En_audited = shown(from.en_audited, printed_score);
+    if (from.percent) {
+        const double to_percent = 100.0 / std::abs(from.assigned_value);
         const auto in_percent = [&](const std::optional<double>& number) {
             return number ? std::optional(*number * to_percent) : std::nullopt;
         };
-        point.printed.D_percent = printed_difference(*point.D_percent, in_percent(point.U_D), in_percent(scale));
+        point.D_percent = {from.percent, printed_difference(*from.percent, in_percent(U_D), in_percent(scale))};
     }
 }
 
@@ -402,24 +369,23 @@ ComparisonPoint point_record(const gum::ComparisonScheme& scheme, const gum::Par
     point.round = item.round;
     point.contributes = result.contributes;
     point.reason = result.reason;
-    point.value = from.value;
+    std::optional<double> U;
     if (from.uncertainty) {
+        U = from.uncertainty->U;
         point.u = from.uncertainty->u;
-        point.U = from.uncertainty->U;
-        point.k = from.uncertainty->k;
+        point.U = shown(U, printed_uncertainty);
+        point.k = shown(from.uncertainty->k, printed_score);
         point.nu = reports::finite_or_none(from.uncertainty->degrees_of_freedom);
     }
+    point.value = {from.value, printed_value(from.value, U)};
     if (from.of_scores) {
-        point.U_of_scores = from.of_scores->U;
-        point.k_of_scores = from.of_scores->k;
+        point.U_of_scores = shown(from.of_scores->U, printed_uncertainty);
+        point.k_of_scores = shown(from.of_scores->k, printed_score);
     }
-    point.reference_value = from.assigned_value;
+    point.reference_value = {from.assigned_value, item.value.text};
     point.reference_u = from.u_assigned;
-    point.reference_U = from.U_assigned;
+    point.reference_U = {from.U_assigned, item.U.text};
     point.reference_k = from.k_assigned;
-    point.D = from.difference;
-    point.u_D = from.u_difference;
-    point.U_D = from.U_difference;
     point.correlation = from.correlation;
     if (from.scatter) {
         point.u_others = from.scatter->others.u;
@@ -429,16 +395,7 @@ ComparisonPoint point_record(const gum::ComparisonScheme& scheme, const gum::Par
         point.factor_D = from.scatter->factor;
         point.nu_D = reports::finite_or_none(from.scatter->degrees_of_freedom);
     }
-    point.D_low = from.low;
-    point.D_high = from.high;
-    point.En = from.en;
-    point.zeta = from.zeta;
-    point.z = from.z;
-    point.z_prime = from.z_prime;
-    point.D_percent = from.percent;
-    point.P_A = from.percent_of_allowed;
-    point.En_worst = from.en_worst;
-    point.En_audited = from.en_audited;
+    add_scores(from, item, point);
     point.signal = word_of(from.verdict);
     for (const gum::Score score : from.verdict_by) {
         point.signal_by.emplace_back(word_of(score));
@@ -446,25 +403,18 @@ ComparisonPoint point_record(const gum::ComparisonScheme& scheme, const gum::Par
     point.realism = word_of(from.realism);
     point.U_over_CMC = from.U_over_cmc;
     point.U_over_median = from.U_over_median;
-    print(item, point);
     return point;
 }
 
 // ---- summaries ------------------------------------------------------------------------------------------------------
 
 void add_agreement(const gum::Agreement& agreement, reports::ComparisonSummary& row) {
-    row.rms_En_low = agreement.rms_en_low;
-    row.rms_En_high = agreement.rms_en_high;
-    row.p_low = agreement.p_low;
-    row.p_high = agreement.p_high;
-    row.effective_points = agreement.effective_points;
-    row.ratio_reference = agreement.ratio_reference;
-    row.printed.rms_En_low = printed_score(row.rms_En_low);
-    row.printed.rms_En_high = printed_score(row.rms_En_high);
-    row.printed.p_low = printed_probability(row.p_low);
-    row.printed.p_high = printed_probability(row.p_high);
-    row.printed.effective_points = printed_uncertainty(row.effective_points);
-    row.printed.ratio_reference = printed_uncertainty(row.ratio_reference);
+    row.rms_En_low = shown(agreement.rms_en_low, printed_score);
+    row.rms_En_high = shown(agreement.rms_en_high, printed_score);
+    row.p_low = shown(agreement.p_low, printed_probability);
+    row.p_high = shown(agreement.p_high, printed_probability);
+    row.effective_points = shown(agreement.effective_points, printed_uncertainty);
+    row.ratio_reference = shown(agreement.ratio_reference, printed_uncertainty);
 }
 
 reports::ComparisonSummary summary_record(const gum::ScoreSummary& from) {
@@ -472,28 +422,20 @@ reports::ComparisonSummary summary_record(const gum::ScoreSummary& from) {
     row.direction = "all";
     row.points = static_cast<std::int64_t>(from.scores.points);
     row.count_above_1 = static_cast<std::int64_t>(from.scores.count_above_1);
-    row.mean_abs_En = from.scores.mean_absolute_en;
-    row.max_abs_En = from.scores.largest_absolute_en;
-    row.rms_En = from.scores.rms_en;
-    row.printed.mean_abs_En = printed_score(row.mean_abs_En);
-    row.printed.max_abs_En = printed_score(row.max_abs_En);
-    row.printed.rms_En = printed_score(row.rms_En);
+    row.mean_abs_En = shown(from.scores.mean_absolute_en, printed_score);
+    row.max_abs_En = shown(from.scores.largest_absolute_en, printed_score);
+    row.rms_En = shown(from.scores.rms_en, printed_score);
     if (from.worst) {
-        row.max_abs_En_worst = from.worst->largest_absolute_en;
+        row.max_abs_En_worst = shown(from.worst->largest_absolute_en, printed_score);
         row.count_above_1_worst = static_cast<std::int64_t>(from.worst->count_above_1);
-        row.printed.max_abs_En_worst = printed_score(row.max_abs_En_worst);
     }
     if (from.audited) {
-        row.mean_abs_En_audited = from.audited->mean_absolute_en;
-        row.max_abs_En_audited = from.audited->largest_absolute_en;
+        row.mean_abs_En_audited = shown(from.audited->mean_absolute_en, printed_score);
+        row.max_abs_En_audited = shown(from.audited->largest_absolute_en, printed_score);
         row.count_above_1_audited = static_cast<std::int64_t>(from.audited->count_above_1);
-        row.printed.mean_abs_En_audited = printed_score(row.mean_abs_En_audited);
-        row.printed.max_abs_En_audited = printed_score(row.max_abs_En_audited);
     }
-    row.D_fail = from.d_fail_smallest;
-    row.D_fail_largest = from.d_fail_largest;
-    row.printed.D_fail = printed_uncertainty(row.D_fail);
-    row.printed.D_fail_largest = printed_uncertainty(row.D_fail_largest);
+    row.D_fail = shown(from.d_fail_smallest, printed_uncertainty);
+    row.D_fail_largest = shown(from.d_fail_largest, printed_uncertainty);
     if (from.agreement) {
         add_agreement(*from.agreement, row);
     }
@@ -512,12 +454,9 @@ reports::ParticipantSummary participant_record(const gum::ComparisonParticipant&
     summary.actions = static_cast<std::int64_t>(from.actions);
     summary.inconclusive = static_cast<std::int64_t>(from.inconclusive);
     if (from.scores) {
-        summary.mean_abs_En = from.scores->mean_absolute_en;
-        summary.max_abs_En = from.scores->largest_absolute_en;
-        summary.rms_En = from.scores->rms_en;
-        summary.printed.mean_abs_En = printed_score(summary.mean_abs_En);
-        summary.printed.max_abs_En = printed_score(summary.max_abs_En);
-        summary.printed.rms_En = printed_score(summary.rms_En);
+        summary.mean_abs_En = shown(from.scores->mean_absolute_en, printed_score);
+        summary.max_abs_En = shown(from.scores->largest_absolute_en, printed_score);
+        summary.rms_En = shown(from.scores->rms_en, printed_score);
     }
     return summary;
 }
@@ -528,11 +467,9 @@ reports::VectorScore vector_record(const gum::ComparisonScheme& scheme, const gu
     score.participant = scheme.participants[from.participant].id;
     score.round = scheme.rounds[from.round];
     score.mahalanobis_square = from.mahalanobis_square;
-    score.vector_En = from.vector_en;
-    score.max_abs_En = from.largest_absolute_en;
+    score.vector_En = shown(from.vector_en, printed_score);
+    score.max_abs_En = shown(from.largest_absolute_en, printed_score);
     score.quantities = static_cast<std::int64_t>(from.quantities);
-    score.printed.vector_En = printed_score(score.vector_En);
-    score.printed.max_abs_En = printed_score(score.max_abs_En);
     return score;
 }
 

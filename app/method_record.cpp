@@ -37,36 +37,42 @@ bool calls_for_action(const std::optional<double>& en) {
     return en && gum::signal_of_en(*en) == gum::Signal::action;
 }
 
+/// Value and U to the same decimal place.
+void put_pair(double value, double U, reports::Shown<double>& shown_value,
+              reports::Shown<std::optional<double>>& shown_U) {
+    const gum::RoundedPair pair = printed_pair(value, U);
+    shown_value = {value, pair.value};
+    shown_U = {U, pair.U};
+}
+
 ComparisonPoint point_record(const gum::ComparedPoint& from, const gum::MethodScore& score) {
     ComparisonPoint point;
     point.name = from.name;
     point.direction = from.direction;
     point.angle_deg = from.angle_deg;
     point.position = from.position;
-    point.value = from.value;
+    point.printed_angle = printed_as_stated(from.angle_deg ? from.angle_deg : from.position);
+    put_pair(from.value, from.U, point.value, point.U);
     point.u = from.u;
-    point.U = from.U;
-    point.k = from.k;
+    point.k = shown(from.k, printed_score);
     point.nu = from.nu;
-    point.reference_value = from.reference_value;
+    put_pair(from.reference_value, from.reference_U, point.reference_value, point.reference_U);
     point.reference_u = from.reference_u;
-    point.reference_U = from.reference_U;
     point.reference_k = from.reference_k;
     if (score.of_scores) {
-        point.U_of_scores = score.of_scores->U;
-        point.k_of_scores = score.of_scores->k;
+        point.U_of_scores = shown(score.of_scores->U, printed_uncertainty);
+        point.k_of_scores = shown(score.of_scores->k, printed_score);
     }
     if (score.reference_of_scores) {
         point.reference_U_of_scores = score.reference_of_scores->U;
     }
     point.correlation = score.correlation;
-    point.D = score.difference;
+    put_pair(score.difference, score.U_difference, point.D, point.U_D);
     point.u_D = score.u_difference;
-    point.U_D = score.U_difference;
-    point.En = score.en;
-    point.zeta = score.zeta;
-    point.En_worst = finite(score.en_worst);
-    point.En_audited = score.en_audited;
+    point.En = shown(score.en, printed_score);
+    point.zeta = shown(score.zeta, printed_score);
+    point.En_worst = shown(finite(score.en_worst), printed_score);
+    point.En_audited = shown(score.en_audited, printed_score);
     point.signal = calls_for_action(score.en) || calls_for_action(score.en_audited) ? "action" : "none";
     if (calls_for_action(score.en)) {
         point.signal_by.emplace_back("En");
@@ -74,24 +80,6 @@ ComparisonPoint point_record(const gum::ComparedPoint& from, const gum::MethodSc
     if (calls_for_action(score.en_audited)) {
         point.signal_by.emplace_back("En_audited");
     }
-
-    const gum::RoundedPair value = printed_pair(point.value, from.U);
-    const gum::RoundedPair reference = printed_pair(point.reference_value, from.reference_U);
-    const gum::RoundedPair difference = printed_pair(point.D, *point.U_D);
-    point.printed.angle = printed_as_stated(from.angle_deg ? from.angle_deg : from.position);
-    point.printed.value = value.value;
-    point.printed.U = value.U;
-    point.printed.reference_value = reference.value;
-    point.printed.reference_U = reference.U;
-    point.printed.D = difference.value;
-    point.printed.U_D = difference.U;
-    point.printed.k = printed_score(point.k);
-    point.printed.U_of_scores = printed_uncertainty(point.U_of_scores);
-    point.printed.k_of_scores = printed_score(point.k_of_scores);
-    point.printed.En = printed_score(point.En);
-    point.printed.zeta = printed_score(point.zeta);
-    point.printed.En_worst = printed_score(point.En_worst);
-    point.printed.En_audited = printed_score(point.En_audited);
     return point;
 }
 
@@ -121,78 +109,59 @@ const char* word_of(gum::AgreementVerdict verdict) {
     return "validated";
 }
 
+std::string printed_points(const std::optional<double>& points) {
+    return gum::round_to_quantum(*points, k_decimals_of_points);
+}
+
+std::string printed_ratio(const std::optional<double>& ratio) {
+    return ratio ? gum::round_significant(*ratio, k_digits_of_ratio) : "";
+}
+
+std::string printed_power(const std::optional<double>& power) {
+    return power ? gum::percent(*power) + " %" : "";
+}
+
 void add_agreement(const gum::Agreement& agreement, ComparisonSummary& row) {
     row.points = static_cast<std::int64_t>(agreement.points);
     row.count_above_1 = static_cast<std::int64_t>(agreement.count_above_1);
-    row.mean_abs_En = agreement.mean_absolute_en;
-    row.max_abs_En = agreement.largest_absolute_en;
-    row.rms_En = agreement.rms_en;
-    row.rms_En_low = agreement.rms_en_low;
-    row.rms_En_high = agreement.rms_en_high;
-    row.p_low = agreement.p_low;
-    row.p_high = agreement.p_high;
-    row.D_fail = agreement.d_fail_smallest;
-    row.D_fail_largest = agreement.d_fail_largest;
-    row.effective_points = agreement.effective_points;
+    row.mean_abs_En = shown(agreement.mean_absolute_en, printed_score);
+    row.max_abs_En = shown(agreement.largest_absolute_en, printed_score);
+    row.rms_En = shown(agreement.rms_en, printed_score);
+    row.rms_En_low = shown(agreement.rms_en_low, printed_score);
+    row.rms_En_high = shown(agreement.rms_en_high, printed_score);
+    row.p_low = shown(agreement.p_low, printed_probability);
+    row.p_high = shown(agreement.p_high, printed_probability);
+    row.D_fail = shown(agreement.d_fail_smallest, printed_uncertainty);
+    row.D_fail_largest = shown(agreement.d_fail_largest, printed_uncertainty);
+    row.effective_points = shown(agreement.effective_points, printed_points);
     row.p_if_too_small = agreement.p_if_too_small;
     row.p_if_too_large = agreement.p_if_too_large;
-    row.power_to_confirm = agreement.power_to_confirm;
+    row.power_to_confirm = shown(agreement.power_to_confirm, printed_power);
     row.count_by_chance = static_cast<std::int64_t>(agreement.count_by_chance);
-    row.found_with_80_percent = agreement.found_with_80_percent;
-    row.found_with_95_percent = agreement.found_with_95_percent;
+    row.found_with_80_percent = shown(agreement.found_with_80_percent, printed_uncertainty);
+    row.found_with_95_percent = shown(agreement.found_with_95_percent, printed_uncertainty);
     row.mahalanobis_square = agreement.mahalanobis_square;
-    row.p_mahalanobis = agreement.p_mahalanobis;
-    row.vector_En = agreement.vector_en;
+    row.p_mahalanobis = shown(agreement.p_mahalanobis, printed_probability);
+    row.vector_En = shown(agreement.vector_en, printed_score);
     row.rank = static_cast<std::int64_t>(agreement.rank);
-    if (std::isfinite(agreement.ratio_reference)) {
-        row.ratio_reference = agreement.ratio_reference;
-    }
+    row.ratio_reference = shown(finite(agreement.ratio_reference), printed_ratio);
 }
 
 reports::BiasLineSummary bias_record(const gum::MethodBias& from) {
     reports::BiasLineSummary bias;
     bias.against = from.against_position ? "position" : "reference_value";
-    bias.centre = from.line.centre;
-    bias.constant = from.line.constant;
+    const gum::RoundedPair constant = printed_pair(from.line.constant, from.U_constant);
+    const gum::RoundedPair slope = printed_pair(from.line.slope, from.U_slope);
+    bias.centre = {from.line.centre, printed_pair(from.line.centre, k_resolution_of_centre * from.span).value};
+    bias.constant = {from.line.constant, constant.value};
     bias.u_constant = from.line.u_constant;
-    bias.U_constant = from.U_constant;
-    bias.slope = from.line.slope;
+    bias.U_constant = {from.U_constant, constant.U};
+    bias.slope = {from.line.slope, slope.value};
     bias.u_slope = from.line.u_slope;
-    bias.U_slope = from.U_slope;
+    bias.U_slope = {from.U_slope, slope.U};
     bias.chi_square = from.line.chi_square;
-    bias.p_value = from.line.p_value;
-    const gum::RoundedPair constant = printed_pair(bias.constant, bias.U_constant);
-    const gum::RoundedPair slope = printed_pair(bias.slope, bias.U_slope);
-    bias.printed.centre = printed_pair(bias.centre, k_resolution_of_centre * from.span).value;
-    bias.printed.constant = constant.value;
-    bias.printed.U_constant = constant.U;
-    bias.printed.slope = slope.value;
-    bias.printed.U_slope = slope.U;
-    bias.printed.p_value = printed_probability(bias.p_value);
+    bias.p_value = shown(from.line.p_value, printed_probability);
     return bias;
-}
-
-void print(ComparisonSummary& row) {
-    row.printed.mean_abs_En = printed_score(row.mean_abs_En);
-    row.printed.max_abs_En = printed_score(row.max_abs_En);
-    row.printed.rms_En = printed_score(row.rms_En);
-    row.printed.rms_En_low = printed_score(row.rms_En_low);
-    row.printed.rms_En_high = printed_score(row.rms_En_high);
-    row.printed.p_low = printed_probability(row.p_low);
-    row.printed.p_high = printed_probability(row.p_high);
-    row.printed.D_fail = printed_uncertainty(row.D_fail);
-    row.printed.D_fail_largest = printed_uncertainty(row.D_fail_largest);
-    row.printed.found_with_80_percent = printed_uncertainty(row.found_with_80_percent);
-    row.printed.found_with_95_percent = printed_uncertainty(row.found_with_95_percent);
-    row.printed.power_to_confirm = row.power_to_confirm ? gum::percent(*row.power_to_confirm) + " %" : "";
-    row.printed.effective_points = gum::round_to_quantum(*row.effective_points, k_decimals_of_points);
-    row.printed.p_mahalanobis = printed_probability(row.p_mahalanobis);
-    row.printed.vector_En = printed_score(row.vector_En);
-    row.printed.ratio_reference =
-        row.ratio_reference ? gum::round_significant(*row.ratio_reference, k_digits_of_ratio) : "";
-    row.printed.max_abs_En_worst = printed_score(row.max_abs_En_worst);
-    row.printed.mean_abs_En_audited = printed_score(row.mean_abs_En_audited);
-    row.printed.max_abs_En_audited = printed_score(row.max_abs_En_audited);
 }
 
 ComparisonSummary summary_record(const gum::MethodSummary& from) {
@@ -201,18 +170,17 @@ ComparisonSummary summary_record(const gum::MethodSummary& from) {
     add_agreement(from.agreement, row);
     if (from.worst) {
         row.count_above_1_worst = static_cast<std::int64_t>(from.worst->count_above_1);
-        row.max_abs_En_worst = finite(from.worst->largest_absolute_en);
+        row.max_abs_En_worst = shown(finite(from.worst->largest_absolute_en), printed_score);
     }
     if (from.audited) {
-        row.mean_abs_En_audited = from.audited->mean_absolute_en;
-        row.max_abs_En_audited = from.audited->largest_absolute_en;
+        row.mean_abs_En_audited = shown(from.audited->mean_absolute_en, printed_score);
+        row.max_abs_En_audited = shown(from.audited->largest_absolute_en, printed_score);
         row.count_above_1_audited = static_cast<std::int64_t>(from.audited->count_above_1);
     }
     row.verdict = word_of(from.verdict);
     if (from.bias) {
         row.bias = bias_record(*from.bias);
     }
-    print(row);
     return row;
 }
 

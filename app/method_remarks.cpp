@@ -92,7 +92,7 @@ private:
         const std::string points = count_of_points();
         if (row.effective_points < k_nearly_all * static_cast<double>(row.points)) {
             say("The " + points + " are not as many independent proofs: they share effects of their set-up, and by " +
-                "their covariance they tell as much as about " + printed_whole().printed.effective_points +
+                "their covariance they tell as much as about " + printed_whole().effective_points.text +
                 " independent points. The band of the rms En, p_low and p_high take the covariance into account.");
         } else {
             say("The covariances say that the " + points + " are independent of each other, or nearly so. Effects of " +
@@ -106,7 +106,7 @@ private:
         for (std::size_t i = 0; i < result_.summaries.size(); ++i) {
             const gum::Agreement& row = result_.summaries[i].agreement;
             if (row.count_above_1 > 0 && row.points > 1) {
-                text += (text.empty() ? "" : "; ") + record_.summary[i].printed.max_abs_En + " against a limit of " +
+                text += (text.empty() ? "" : "; ") + record_.summary[i].max_abs_En.text + " against a limit of " +
                         printed_score(row.largest_en_by_chance) + " for " + std::to_string(row.points) + " points" +
                         direction_of(result_.summaries[i]);
             }
@@ -145,7 +145,7 @@ private:
     }
 
     void reference_uncertainty() {
-        const auto ratio = [](const ComparisonSummary& row) { return row.printed.ratio_reference; };
+        const auto ratio = [](const ComparisonSummary& row) { return row.ratio_reference.text; };
         const std::string larger = clauses(
             [](const gum::Agreement& row) {
                 return std::isfinite(row.ratio_reference) && !(row.ratio_reference < 1.0);
@@ -170,7 +170,7 @@ private:
 
     void too_small_differences() {
         const std::string rows = clauses([](const gum::Agreement& row) { return row.p_low < k_significant; },
-                                         [](const ComparisonSummary& row) { return row.printed.p_low; });
+                                         [](const ComparisonSummary& row) { return row.p_low.text; });
         if (!rows.empty()) {
             say("The differences are smaller than their uncertainties let expect (p_low " + rows +
                 "): the uncertainties are too large, or the points share more than their covariance says. Such an "
@@ -180,7 +180,7 @@ private:
 
     void too_large_differences() {
         const std::string rows = clauses([](const gum::Agreement& row) { return row.p_high < k_significant; },
-                                         [](const ComparisonSummary& row) { return row.printed.p_high; });
+                                         [](const ComparisonSummary& row) { return row.p_high.text; });
         if (!rows.empty()) {
             say("The differences are larger than their uncertainties let expect (p_high " + rows +
                 "): an uncertainty is too small, or an effect is missing.");
@@ -205,10 +205,9 @@ private:
     void failing_differences() {
         const gum::Agreement& row = whole().agreement;
         const ComparisonSummary& texts = printed_whole();
-        say("A deviation of " + texts.printed.found_with_80_percent + unit_ +
-            " is found at every single point with a probability of 80 %, one of " +
-            texts.printed.found_with_95_percent + unit_ +
-            " with 95 %. D_fail is smaller: it bounds the difference that is observed, and a deviation as " +
+        say("A deviation of " + texts.found_with_80_percent.text + unit_ +
+            " is found at every single point with a probability of 80 %, one of " + texts.found_with_95_percent.text +
+            unit_ + " with 95 %. D_fail is smaller: it bounds the difference that is observed, and a deviation as " +
             "large as D_fail is found in about half of all comparisons.");
         if (!record_.tolerance) {
             return;
@@ -231,7 +230,7 @@ private:
         say("To confirm an uncertainty the differences must refute one that should be twice as large, and one that "
             "should be half as large, each with an error of 5 %. Where all uncertainties are right these points do so "
             "with a probability of " +
-            printed_whole().printed.power_to_confirm + ".");
+            printed_whole().power_to_confirm.text + ".");
     }
 
     /// Coverage factors that E_n cannot take as stated.

@@ -144,7 +144,7 @@ gum::MethodComparison method_comparison(const RotaryTableJob& job, const gum::Qu
         const ReferencePoint& at = points[i];
         const gum::ResultUncertainty& of_reference = side.uncertainty[i];
         rows.push_back(static_cast<Eigen::Index>(3 * at.angle + at.direction));
-        const reports::Reported table = reports::reported(displacement.budget, rows.back(), gum::k_um);
+        const reports::StatedValue table = reports::stated_value(displacement.budget, rows.back(), gum::k_um);
         comparison.points.push_back({.direction = k_directions[at.direction],
                                      .angle_deg = job.measurement.angles_deg[at.angle],
                                      .position = job.measurement.angles_deg[at.angle],
@@ -169,8 +169,8 @@ void add_published(const ReferenceMethod& reference, reports::Comparison& record
     for (reports::ComparisonSummary& row : record.summary) {
         for (std::size_t d = 0; d < k_directions.size(); ++d) {
             if (row.direction == k_directions[d]) {
-                row.published_mean_abs_En = reference.published_mean_abs_En[d];
-                row.printed.published_mean_abs_En = printed_as_stated(row.published_mean_abs_En);
+                row.published_mean_abs_En.number = reference.published_mean_abs_En[d];
+                row.published_mean_abs_En.text = printed_as_stated(row.published_mean_abs_En.number);
             }
         }
     }

@@ -34,8 +34,8 @@ Text meaning_of_motion(const RotaryTable& r, std::size_t motion, const Wording& 
 }
 
 std::vector<Text> parameter_row(const TableParameter& p, const std::string& table, const Wording& words) {
-    return {p.name, result_meaning(table, p.name, p.description, words), p.printed.value,
-            stated_uncertainty(p.printed, p.reported, words), p.printed.unit};
+    return {p.name, result_meaning(table, p.name, p.description, words), p.stated.printed.value,
+            stated_uncertainty(p.stated, words), p.stated.printed.unit};
 }
 
 void overview_table(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
@@ -45,8 +45,8 @@ void overview_table(CertificateBuilder& builder, const Wording& words, const Rot
         const auto motion = static_cast<std::size_t>(at - r.error_names.begin());
         if (motion < r.error_names.size()) {
             rows.push_back({range.name, words("label", "range") + ", " + meaning_of_motion(r, motion, words),
-                            range.printed.value, stated_uncertainty(range.printed, range.reported, words),
-                            range.printed.unit});
+                            range.stated.printed.value, stated_uncertainty(range.stated, words),
+                            range.stated.printed.unit});
         }
     }
     if (r.iso230_2) {

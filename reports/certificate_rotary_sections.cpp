@@ -3,6 +3,7 @@
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
 #include "reports/certificate_evidence_sections.h"
+#include "reports/record/stated_values.h"
 #include "reports/reported_results.h"
 #include "reports/result_names.h"
 #include "reports/rotary_plots.h"
@@ -72,21 +73,21 @@ Text verdict_of(const std::optional<MonteCarloSummary>& m, const Wording& words)
                                                 : "not_validated");
 }
 
-bool by_monte_carlo(const TableParameter& p) {
-    return p.reported && p.reported->method == "monte_carlo";
+bool by_monte_carlo(const StatedValue& q) {
+    return q.reported && q.reported->method == "monte_carlo";
 }
 
-std::string printed_k(const TableParameter& p) {
-    if (!by_monte_carlo(p)) {
-        return text::fixed(p.k, 2);
+std::string printed_k(const StatedValue& q) {
+    if (!by_monte_carlo(q)) {
+        return text::fixed(q.k, 2);
     }
-    return p.reported->k ? text::fixed(*p.reported->k, 2) : "";
+    return q.reported->k ? text::fixed(*q.reported->k, 2) : "";
 }
 
 void parameter_table(CertificateBuilder& builder, const Wording& words, const std::string& id, const Text& caption,
                      const std::string& table, const std::vector<TableParameter>& parameters) {
     const bool compared = std::any_of(parameters.begin(), parameters.end(), [](const TableParameter& p) {
-        return p.monte_carlo && p.monte_carlo->validation;
+        return p.stated.monte_carlo && p.stated.monte_carlo->validation;
     });
     std::vector<Column> columns = {{words("label", "name"), ""},        {words("label", "meaning"), ""},
                                    {words("label", "value"), "", true}, {words("label", "U"), "", true},
@@ -97,11 +98,12 @@ void parameter_table(CertificateBuilder& builder, const Wording& words, const st
     }
     Rows rows;
     for (const TableParameter& p : parameters) {
-        rows.push_back({p.name, result_meaning(table, p.name, p.description, words), p.printed.value,
-                        stated_uncertainty(p.printed, p.reported, words), p.printed.unit, printed_k(p),
-                        by_monte_carlo(p) ? Text() : degrees_of_freedom(p.nu_eff, words)});
+        const StatedValue& q = p.stated;
+        rows.push_back({p.name, result_meaning(table, p.name, p.description, words), q.printed.value,
+                        stated_uncertainty(q, words), q.printed.unit, printed_k(q),
+                        by_monte_carlo(q) ? Text() : degrees_of_freedom(q.nu_eff, words)});
         if (compared) {
-            rows.back().push_back(verdict_of(p.monte_carlo, words));
+            rows.back().push_back(verdict_of(q.monte_carlo, words));
         }
     }
     builder.table(id, caption, columns, rows);
@@ -124,10 +126,9 @@ struct Compared {
 };
 
 /// Value and U of the law of propagation as printed, also where Monte Carlo is reported.
-template <class Quantity>
-Printed printed_law(const Quantity& q, const std::optional<ReportedResult>& reported) {
+Printed printed_law(const StatedValue& q) {
     Printed law = q.printed;
-    if (reported && reported->method == "monte_carlo") {
+    if (by_monte_carlo(q)) {
         const gum::RoundedPair pair = gum::round_to_uncertainty(q.value, q.U, 2);
         law.value = pair.value;
         law.U = pair.U;
@@ -135,42 +136,52 @@ Printed printed_law(const Quantity& q, const std::optional<ReportedResult>& repo
     return law;
 }
 
+Text heading_of(const StatedPlace<const StatedValue>& place, const Wording& words) {
+    switch (place.group) {
+        case StatedGroup::error_motions:
+            return place.name;
+        case StatedGroup::ranges:
+            return words("label", "range");
+        case StatedGroup::positioning:
+            return words("heading", "positioning");
+        default:
+            return words("label", group_name(place.group));
+    }
+}
+
+Text compared_name(const StatedPlace<const StatedValue>& place, const RotaryTable& r, const Wording& words) {
+    if (place.group == StatedGroup::error_motions) {
+        return place.name + " (" + words.number(r.errors[place.index].printed_angle) + "°)";
+    }
+    const bool of_motion = place.group == StatedGroup::ranges || place.group == StatedGroup::reversal;
+    return of_motion ? place.name + ", " + heading_of(place, words) : Text(place.name);
+}
+
 std::vector<Compared> all_compared(const Wording& words, const EvaluationRecord& record) {
     std::vector<Compared> all;
-    const RotaryTable& r = *record.rotary;
-    const auto add_printed = [&](const Text& group, const Text& name, const Printed& law,
-                                 const std::optional<MonteCarloSummary>& m) {
-        if (m) {
-            all.push_back({.group = group, .name = name, .law = law, .trials = &*m});
+    const ConstStatedPlaces places = stated_values(*record.rotary, ErrorOrder::by_motion);
+    const auto add_group = [&](StatedGroup group) {
+        for (const auto& place : places) {
+            if (place.group == group && place.stated.monte_carlo) {
+                all.push_back({.group = heading_of(place, words),
+                               .name = compared_name(place, *record.rotary, words),
+                               .law = printed_law(place.stated),
+                               .trials = &*place.stated.monte_carlo});
+            }
         }
     };
-    const auto add = [&](const Text& group, const Text& name, const auto& q) {
-        add_printed(group, name, printed_law(q, q.reported), q.monte_carlo);
-    };
-    for (std::size_t i = 0; i < 6; ++i) {
-        for (const ErrorsAtAngle& at : r.errors) {
-            add(r.error_names[i], r.error_names[i] + " (" + words.number(at.printed_angle) + "°)", at.errors[i]);
-        }
-    }
+    add_group(StatedGroup::error_motions);
     for (const Result& result : record.results) {
-        add_printed(words("heading", "set_up"), result.name, result.printed, result.monte_carlo);
-    }
-    for (const RangeRow& range : r.ranges) {
-        add(words("label", "range"), range.name + ", " + words("label", "range"), range);
-    }
-    for (const Reversal& reversal : r.reversal) {
-        add(words("label", "reversal"), reversal.name + ", " + words("label", "reversal"), reversal.value);
-    }
-    for (const TableParameter& p : r.axis_line) {
-        add(words("label", "axis_line"), p.name, p);
-    }
-    for (const TableParameter& p : r.location_errors) {
-        add(words("label", "location_errors"), p.name, p);
-    }
-    if (r.iso230_2) {
-        for (const TableParameter& p : r.iso230_2->parameters) {
-            add(words("heading", "positioning"), p.name, p);
+        if (result.monte_carlo) {
+            all.push_back({.group = words("heading", "set_up"),
+                           .name = result.name,
+                           .law = result.printed,
+                           .trials = &*result.monte_carlo});
         }
+    }
+    for (const StatedGroup group : {StatedGroup::ranges, StatedGroup::reversal, StatedGroup::axis_line,
+                                    StatedGroup::location_errors, StatedGroup::positioning}) {
+        add_group(group);
     }
     return all;
 }

@@ -28,12 +28,20 @@ CsvColumn text(const char* head, std::string Point::*member) {
     return {head, [member](const Point& p) { return (p.*member); }};
 }
 
-CsvColumn number(const char* head, double Point::*member) {
-    return {head, [member](const Point& p) { return text::shortest(p.*member); }};
+std::string cell(double number) {
+    return text::shortest(number);
+}
+std::string cell(const std::optional<double>& number) {
+    return number ? text::shortest(*number) : std::string();
+}
+template <class Number>
+std::string cell(const Shown<Number>& shown) {
+    return cell(shown.number);
 }
 
-CsvColumn number(const char* head, std::optional<double> Point::*member) {
-    return {head, [member](const Point& p) { return p.*member ? text::shortest(*(p.*member)) : std::string(); }};
+template <class Number>
+CsvColumn number(const char* head, Number Point::*member) {
+    return {head, [member](const Point& p) { return cell(p.*member); }};
 }
 
 /// What a row needs of its item.
@@ -51,10 +59,11 @@ public:
                     return item == nullptr ? std::string() : (item->*member);
                 }};
     }
-    [[nodiscard]] CsvColumn number(const char* head, std::optional<double> ComparisonItemEvaluation::*member) const {
+    template <class Number>
+    [[nodiscard]] CsvColumn number(const char* head, Number ComparisonItemEvaluation::*member) const {
         return {head, [this, member](const Point& p) {
                     const ComparisonItemEvaluation* item = of(p);
-                    return item == nullptr || !(item->*member) ? std::string() : text::shortest(*(item->*member));
+                    return item == nullptr ? std::string() : cell(item->*member);
                 }};
     }
     [[nodiscard]] CsvColumn unit() const {

@@ -35,21 +35,21 @@ Text components_of(const Wording& words, const ComparisonItemEvaluation& item) {
                   printed_quantity(words, printed, item.difference_unit);
         }
     };
-    add("u_characterisation", item.printed.u_characterisation);
-    add("u_homogeneity", item.printed.u_homogeneity);
-    add("u_stability", item.printed.u_stability);
+    add("u_characterisation", item.u_characterisation.text);
+    add("u_homogeneity", item.u_homogeneity.text);
+    add("u_stability", item.u_stability.text);
     return all;
 }
 
 Text criterion_text(const Wording& words, const ComparisonItemEvaluation& item) {
-    return item.printed.criterion.empty()
+    return item.criterion.text.empty()
                ? Text()
                : sentence(words, item.criterion_met.value_or(true) ? "criterion_met" : "criterion_not_met",
-                          {{"criterion", words.number(item.printed.criterion)}});
+                          {{"criterion", words.number(item.criterion.text)}});
 }
 
 Text sigma_pt_text(const Wording& words, const ComparisonItemEvaluation& item) {
-    const Text value = printed_quantity(words, item.printed.sigma_pt, item.difference_unit);
+    const Text value = printed_quantity(words, item.sigma_pt.text, item.difference_unit);
     if (value.empty() || item.sigma_pt_method.empty()) {
         return value;
     }
@@ -66,14 +66,14 @@ void facts_of_value(CertificateBuilder& builder, const Wording& words, const Com
         method += " (" + Text(item.reference_participant) + ")";
     }
     facts.emplace_back(words("comparison", "method"), method);
-    facts.emplace_back("u(X)", printed_quantity(words, item.printed.u, item.difference_unit));
+    facts.emplace_back("u(X)", printed_quantity(words, item.u.text, item.difference_unit));
     if (!item.U_rests_on.empty()) {
         facts.emplace_back(words("comparison", "U_rests_on"), words("comparison_U_rests_on", item.U_rests_on));
     }
-    if (!item.printed.low.empty()) {
-        facts.emplace_back(words("comparison", "interval"), with_unit("[" + words.number(item.printed.low) + "; " +
-                                                                          words.number(item.printed.high) + "]",
-                                                                      gum::unit_for_people(item.unit)));
+    if (!item.low.text.empty()) {
+        facts.emplace_back(words("comparison", "interval"),
+                           with_unit("[" + words.number(item.low.text) + "; " + words.number(item.high.text) + "]",
+                                     gum::unit_for_people(item.unit)));
     }
     add_fact(facts, words("comparison", "components"), components_of(words, item));
     facts.emplace_back(words("comparison", "results"),
@@ -84,13 +84,12 @@ void facts_of_value(CertificateBuilder& builder, const Wording& words, const Com
     add_fact(facts, words("comparison", "not_contributing"), some_of(words, item.not_contributing));
     add_fact(facts, words("comparison", "not_consistent"), some_of(words, item.not_consistent));
     add_fact(facts, words("comparison", "missing"), some_of(words, item.missing));
-    add_fact(facts, words("comparison", "s_star"), printed_quantity(words, item.printed.s_star, item.difference_unit));
+    add_fact(facts, words("comparison", "s_star"), printed_quantity(words, item.s_star.text, item.difference_unit));
     add_fact(facts, words("comparison", "pooled_standard_deviation"),
-             printed_quantity(words, item.printed.pooled_standard_deviation, item.difference_unit));
+             printed_quantity(words, item.pooled_standard_deviation.text, item.difference_unit));
     add_fact(facts, words("comparison", "sigma_pt"), sigma_pt_text(words, item));
     add_fact(facts, words("comparison", "criterion"), criterion_text(words, item));
-    add_fact(facts, words("comparison", "delta_E"),
-             printed_quantity(words, item.printed.delta_E, item.difference_unit));
+    add_fact(facts, words("comparison", "delta_E"), printed_quantity(words, item.delta_E.text, item.difference_unit));
     builder.definitions(facts);
 }
 
@@ -125,15 +124,15 @@ void consistency(CertificateBuilder& builder, const Wording& words, const Compar
     }
     const ConsistencySummary& s = *item.consistency;
     builder.paragraph(sentence(words, s.consistent ? "consistent" : "not_consistent_sentence",
-                               {{"chi_square", words.number(s.printed.chi_square)},
+                               {{"chi_square", words.number(s.chi_square.text)},
                                 {"nu", plain(s.degrees_of_freedom)},
-                                {"critical", words.number(s.printed.critical_value)},
+                                {"critical", words.number(s.critical_value.text)},
                                 {"alpha", percent_of(words, s.alpha)},
-                                {"p", words.number(s.printed.p_value)}}));
-    if (!s.printed.birge_ratio.empty()) {
+                                {"p", words.number(s.p_value.text)}}));
+    if (!s.birge_ratio.text.empty()) {
         builder.paragraph(
             sentence(words, "birge",
-                     {{"ratio", words.number(s.printed.birge_ratio)}, {"limit", words.number(s.printed.birge_limit)}}));
+                     {{"ratio", words.number(s.birge_ratio.text)}, {"limit", words.number(s.birge_limit.text)}}));
     }
     if (s.pairs && s.incompatible_pairs) {
         builder.paragraph(sentence(words, "compatibility",
@@ -145,9 +144,8 @@ void estimates(CertificateBuilder& builder, const Wording& words, const Comparis
                const std::string& id) {
     Rows rows;
     for (const ReferenceEstimate& e : item.estimates) {
-        rows.push_back({reference_value_method(words, e.method), e.printed.value, e.printed.u, e.printed.U,
-                        e.printed.scale, e.printed.between, plain(e.results),
-                        e.used ? words("comparison", "used") : Text("\u00A0")});
+        rows.push_back({reference_value_method(words, e.method), e.value.text, e.u.text, e.U.text, e.scale.text,
+                        e.between.text, plain(e.results), e.used ? words("comparison", "used") : Text("\u00A0")});
     }
     const std::string unit = gum::unit_for_people(item.difference_unit);
     table_of_filled_columns(builder, "estimates-" + id, words("comparison", "estimates_table"),
@@ -175,19 +173,19 @@ void homogeneity_and_stability(CertificateBuilder& builder, const Wording& words
         builder.paragraph(sentence(words, "homogeneity",
                                    {{"items", plain(h.items)},
                                     {"replicates", plain(h.replicates)},
-                                    {"s_s", quantity(h.printed.s_s)},
-                                    {"s_w", quantity(h.printed.s_w)},
-                                    {"limit", quantity(h.printed.limit)},
-                                    {"expanded", quantity(h.printed.expanded_limit)},
+                                    {"s_s", quantity(h.s_s.text)},
+                                    {"s_w", quantity(h.s_w.text)},
+                                    {"limit", quantity(h.limit.text)},
+                                    {"expanded", quantity(h.expanded_limit.text)},
                                     {"outcome", words("comparison", outcome)}}));
     }
     if (item.stability) {
         const StabilitySummary& s = *item.stability;
         const char* outcome = s.stable ? "stable" : s.stable_expanded ? "stable_expanded" : "not_stable";
         builder.paragraph(sentence(words, "stability",
-                                   {{"difference", quantity(s.printed.difference)},
-                                    {"limit", quantity(s.printed.limit)},
-                                    {"expanded", quantity(s.printed.expanded_limit)},
+                                   {{"difference", quantity(s.difference.text)},
+                                    {"limit", quantity(s.limit.text)},
+                                    {"expanded", quantity(s.expanded_limit.text)},
                                     {"outcome", words("comparison", outcome)}}));
     }
     if (!item.homogeneity || !item.stability) {
@@ -203,10 +201,10 @@ void consensus_check(CertificateBuilder& builder, const Wording& words, const Co
     }
     const ConsensusCheck& c = *item.consensus;
     builder.paragraph(sentence(words, c.consistent ? "consensus_agrees" : "consensus_differs",
-                               {{"consensus", printed_quantity(words, c.printed.consensus, item.unit)},
-                                {"reference", printed_quantity(words, c.printed.reference_value, item.unit)},
-                                {"difference", printed_quantity(words, c.printed.difference, item.difference_unit)},
-                                {"u", printed_quantity(words, c.printed.u_difference, item.difference_unit)}}));
+                               {{"consensus", printed_quantity(words, c.consensus.text, item.unit)},
+                                {"reference", printed_quantity(words, c.reference_value.text, item.unit)},
+                                {"difference", printed_quantity(words, c.difference.text, item.difference_unit)},
+                                {"u", printed_quantity(words, c.u_difference.text, item.difference_unit)}}));
 }
 
 }  // namespace
@@ -216,16 +214,16 @@ Text reference_value_method(const Wording& words, const std::string& method) {
 }
 
 Text assigned_value_text(const Wording& words, const ComparisonItemEvaluation& item) {
-    Text text = "X = " + printed_quantity(words, item.printed.value, item.unit);
+    Text text = "X = " + printed_quantity(words, item.value.text, item.unit);
     const Text separator = words("document", "separator");
-    if (!item.printed.U.empty()) {
-        text += separator + "U = " + printed_quantity(words, item.printed.U, item.difference_unit);
+    if (!item.U.text.empty()) {
+        text += separator + "U = " + printed_quantity(words, item.U.text, item.difference_unit);
     }
-    if (!item.printed.k.empty()) {
-        text += separator + "k = " + words.number(item.printed.k);
+    if (!item.k.text.empty()) {
+        text += separator + "k = " + words.number(item.k.text);
     }
-    if (item.U_rests_on == "scatter" && !item.printed.nu.empty()) {
-        text += separator + "ν = " + words.number(item.printed.nu);
+    if (item.U_rests_on == "scatter" && !item.nu.text.empty()) {
+        text += separator + "ν = " + words.number(item.nu.text);
     }
     return text;
 }

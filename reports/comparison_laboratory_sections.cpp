@@ -179,9 +179,9 @@ Text consistency_in_brief(const Wording& words, const ComparisonItemEvaluation& 
                                                         : "consistent_subset_in_brief";
     return words.filled("comparison", outcome,
                         {{"excluded", some_of(words, item.not_consistent)},
-                         {"chi_square", words.number(s.printed.chi_square)},
-                         {"critical", words.number(s.printed.critical_value)},
-                         {"p", words.number(s.printed.p_value)}});
+                         {"chi_square", words.number(s.chi_square.text)},
+                         {"critical", words.number(s.critical_value.text)},
+                         {"p", words.number(s.p_value.text)}});
 }
 
 /// Results whose E_n is above 1 for the worst plausible correlation only: their agreement is open.
@@ -205,9 +205,9 @@ void what_scores_cannot_say(CertificateBuilder& builder, const Wording& words, c
         const ConsistencySummary& s = *item.consistency;
         builder.paragraph(words.filled("comparison_scores", "inconsistent",
                                        {{"item", compared.name},
-                                        {"chi_square", words.number(s.printed.chi_square)},
-                                        {"critical", words.number(s.printed.critical_value)},
-                                        {"p", words.number(s.printed.p_value)}}));
+                                        {"chi_square", words.number(s.chi_square.text)},
+                                        {"critical", words.number(s.critical_value.text)},
+                                        {"p", words.number(s.p_value.text)}}));
         if (item.U_rests_on == "uncertainties") {
             builder.paragraph(words.filled("comparison_scores", "contradicted_U", {{"item", compared.name}}));
         }
@@ -215,7 +215,7 @@ void what_scores_cannot_say(CertificateBuilder& builder, const Wording& words, c
     const std::vector<std::string> names = with_signal(compared.points, "inconclusive");
     if (!names.empty()) {
         builder.paragraph(
-            words.filled("comparison_scores", item.u ? "cannot_clear" : "cannot_clear_unknown",
+            words.filled("comparison_scores", item.u.number ? "cannot_clear" : "cannot_clear_unknown",
                          {{"item", compared.name}, {"count", count(names.size())}, {"names", some_of(words, names)}}));
     }
 }
@@ -292,7 +292,7 @@ void answer_of_items(CertificateBuilder& builder, const Wording& words, const st
 void factors_in_brief(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
     std::vector<std::string> names;
     for (const ComparisonPoint& p : c.points) {
-        if (p.U_of_scores && std::find(names.begin(), names.end(), p.participant) == names.end()) {
+        if (p.U_of_scores.number && std::find(names.begin(), names.end(), p.participant) == names.end()) {
             names.push_back(p.participant);
         }
     }
@@ -331,10 +331,10 @@ void assigned_values_table(CertificateBuilder& builder, const Wording& words, co
     for (const ComparedItem& compared : items) {
         const ComparisonItemEvaluation& item = *compared.item;
         rows.push_back({compared.name, reference_value_method(words, item.method),
-                        printed_quantity(words, item.printed.value, item.unit),
-                        printed_quantity(words, item.printed.U, item.difference_unit), item.printed.k,
-                        printed_quantity(words, item.printed.sigma_pt, item.difference_unit),
-                        printed_quantity(words, item.printed.delta_E, item.difference_unit),
+                        printed_quantity(words, item.value.text, item.unit),
+                        printed_quantity(words, item.U.text, item.difference_unit), item.k.text,
+                        printed_quantity(words, item.sigma_pt.text, item.difference_unit),
+                        printed_quantity(words, item.delta_E.text, item.difference_unit),
                         some_of(words, item.missing)});
     }
     table_of_filled_columns(builder, "assigned-values", words("comparison", "assigned_values_table"),
@@ -355,10 +355,8 @@ void facts_of_only_item(Facts& facts, const Wording& words, const ComparisonItem
                        assigned_value_text(words, item) + " (" + reference_value_method(words, item.method) +
                            (item.reference_participant.empty() ? Text() : " " + Text(item.reference_participant)) +
                            ")");
-    add_fact(facts, words("comparison", "sigma_pt"),
-             printed_quantity(words, item.printed.sigma_pt, item.difference_unit));
-    add_fact(facts, words("comparison", "delta_E"),
-             printed_quantity(words, item.printed.delta_E, item.difference_unit));
+    add_fact(facts, words("comparison", "sigma_pt"), printed_quantity(words, item.sigma_pt.text, item.difference_unit));
+    add_fact(facts, words("comparison", "delta_E"), printed_quantity(words, item.delta_E.text, item.difference_unit));
     if (item.consistency) {
         facts.emplace_back(words("comparison", "consistency"), consistency_in_brief(words, item));
     }
@@ -372,7 +370,7 @@ void one_item_of_answer(CertificateBuilder& builder, const Wording& words, const
     Rows rows;
     for (const ComparisonPoint* p : shown_points(builder, words, compared, k_most_on_first_page)) {
         const bool both = item.score != "D";
-        rows.push_back({p->participant, p->printed.value, p->printed.U, p->printed.D, p->printed.U_D,
+        rows.push_back({p->participant, p->value.text, p->U.text, p->D.text, p->U_D.text,
                         both ? score_text(*p, item.score) : "", signal_name(words, p->signal)});
     }
     table_of_filled_columns(builder, "scores", words("comparison", "scores_table"),
@@ -455,12 +453,12 @@ void items_table(CertificateBuilder& builder, const Wording& words, const std::v
     for (const std::size_t i : shown) {
         const ComparisonItemEvaluation& item = *items[i].item;
         const std::vector<std::string> action = with_signal(items[i].points, "action");
-        rows.push_back({items[i].name, printed_quantity(words, item.printed.value, item.unit),
-                        printed_quantity(words, item.printed.U, item.difference_unit), score_name(words, item.score),
+        rows.push_back({items[i].name, printed_quantity(words, item.value.text, item.unit),
+                        printed_quantity(words, item.U.text, item.difference_unit), score_name(words, item.score),
                         count(items[i].points.size()), count(with_signal(items[i].points, "warning").size()),
                         count(action.size()), some_of(words, action),
                         any_open ? count(static_cast<std::size_t>(open(items[i]))) : Text(),
-                        is_refuted(item) ? "p = " + words.number(item.consistency->printed.p_value) : Text()});
+                        is_refuted(item) ? "p = " + words.number(item.consistency->p_value.text) : Text()});
     }
     say_what_is_shown(builder, words, weights, rows.size());
     table_of_filled_columns(builder, "items", words("comparison", "items_table"),
@@ -487,7 +485,7 @@ void values_figure(CertificateBuilder& builder, const Wording& words, const Comp
 std::map<std::string, std::size_t> numbers_in_figures(const ComparedItem& compared) {
     Points ascending = compared.points;
     std::sort(ascending.begin(), ascending.end(), [](const ComparisonPoint* a, const ComparisonPoint* b) {
-        return a->value != b->value ? a->value < b->value : a->participant < b->participant;
+        return a->value.number != b->value.number ? a->value.number < b->value.number : a->participant < b->participant;
     });
     std::map<std::string, std::size_t> numbers;
     for (std::size_t i = 0; i < ascending.size(); ++i) {
@@ -506,12 +504,12 @@ void results_table(CertificateBuilder& builder, const Wording& words, const Comp
     const bool numbered = compared.points.size() > k_most_named_columns;
     const std::map<std::string, std::size_t> numbers = numbers_in_figures(compared);
     for (const ComparisonPoint* p : shown_points(builder, words, compared, k_most_rows)) {
-        rows.push_back({p->participant, p->printed.value, p->printed.U, p->printed.k, p->printed.D, p->printed.U_D,
-                        p->printed.D_percent, p->printed.P_A, p->printed.zeta, p->printed.En, p->printed.z,
-                        p->printed.z_prime, signal_name(words, p->signal), p->printed.U_of_scores,
-                        p->printed.D_low.empty()
+        rows.push_back({p->participant, p->value.text, p->U.text, p->k.text, p->D.text, p->U_D.text, p->D_percent.text,
+                        p->P_A.text, p->zeta.text, p->En.text, p->z.text, p->z_prime.text,
+                        signal_name(words, p->signal), p->U_of_scores.text,
+                        p->D_low.text.empty()
                             ? Text()
-                            : "[" + words.number(p->printed.D_low) + "; " + words.number(p->printed.D_high) + "]",
+                            : "[" + words.number(p->D_low.text) + "; " + words.number(p->D_high.text) + "]",
                         numbered ? Text(plain(static_cast<std::int64_t>(numbers.at(p->participant)))) : Text()});
     }
     table_of_filled_columns(builder, "results-" + id,
@@ -539,7 +537,7 @@ void realism_table(CertificateBuilder& builder, const Wording& words, const Comp
                    const std::string& id) {
     const auto ratio = [](const std::optional<double>& v) { return v ? gum::round_significant(*v, 2) : ""; };
     const auto judged = [](const ComparisonPoint* p) {
-        return !p->realism.empty() || p->U_over_CMC || !p->printed.En_audited.empty() || !p->printed.En_worst.empty();
+        return !p->realism.empty() || p->U_over_CMC || !p->En_audited.text.empty() || !p->En_worst.text.empty();
     };
     if (std::none_of(compared.points.begin(), compared.points.end(), judged)) {
         return;
@@ -547,9 +545,9 @@ void realism_table(CertificateBuilder& builder, const Wording& words, const Comp
     builder.paragraph(words("comparison", "realism"));
     Rows rows;
     for (const ComparisonPoint* p : shown_points(builder, words, compared, k_most_rows)) {
-        rows.push_back({p->participant, p->printed.U,
+        rows.push_back({p->participant, p->U.text,
                         p->realism.empty() ? Text() : words("comparison_realism", p->realism), ratio(p->U_over_CMC),
-                        ratio(p->U_over_median), p->printed.En, p->printed.En_worst, p->printed.En_audited});
+                        ratio(p->U_over_median), p->En.text, p->En_worst.text, p->En_audited.text});
     }
     table_of_filled_columns(builder, "realism-" + id,
                             words.filled("comparison", "realism_table", {{"item", compared.name}}),
@@ -629,8 +627,8 @@ void participants_section(CertificateBuilder& builder, const Wording& words, con
             names.push_back({p.id, name, p.group});
         }
         rows.push_back({p.id, plain(p.results), plain(p.scored), plain(p.warnings), plain(p.actions),
-                        any_inconclusive ? plain(p.inconclusive) : "", p.printed.mean_abs_En, p.printed.max_abs_En,
-                        p.printed.rms_En, p.printed.p_low, p.printed.p_high});
+                        any_inconclusive ? plain(p.inconclusive) : "", p.mean_abs_En.text, p.max_abs_En.text,
+                        p.rms_En.text, p.p_low.text, p.p_high.text});
     }
     say_what_is_shown(builder, words, weights, shown.size());
     const Column laboratory = {words("comparison", "participant"), ""};
@@ -659,13 +657,12 @@ void vectors_section(CertificateBuilder& builder, const Wording& words, const Co
     builder.paragraph(words("comparison", "vectors"));
     std::vector<double> weights;
     for (const VectorScore& v : c.vectors) {
-        weights.push_back(v.vector_En > 1.0 ? v.vector_En : 0.0);
+        weights.push_back(v.vector_En.number > 1.0 ? v.vector_En.number : 0.0);
     }
     Rows rows;
     for (const std::size_t i : shown_rows(weights, k_most_rows)) {
         const VectorScore& v = c.vectors[i];
-        rows.push_back(
-            {v.name, v.participant, v.round, plain(v.quantities), v.printed.vector_En, v.printed.max_abs_En});
+        rows.push_back({v.name, v.participant, v.round, plain(v.quantities), v.vector_En.text, v.max_abs_En.text});
     }
     say_what_is_shown(builder, words, weights, rows.size());
     table_of_filled_columns(builder, "vectors", words("comparison", "vectors_table"),
@@ -744,10 +741,11 @@ void how_to_read(CertificateBuilder& builder, const Wording& words, const Compar
             facts.emplace_back(label, words("comparison_score_reading", name));
         }
     };
-    add("P_A", "P_A", [](const ComparisonPoint& p) { return !p.printed.P_A.empty(); });
-    add("En_worst", words("comparison", "En_worst"), [](const ComparisonPoint& p) { return p.En_worst.has_value(); });
+    add("P_A", "P_A", [](const ComparisonPoint& p) { return !p.P_A.text.empty(); });
+    add("En_worst", words("comparison", "En_worst"),
+        [](const ComparisonPoint& p) { return p.En_worst.number.has_value(); });
     add("En_audited", words("comparison", "En_audited"),
-        [](const ComparisonPoint& p) { return p.En_audited.has_value(); });
+        [](const ComparisonPoint& p) { return p.En_audited.number.has_value(); });
     if (!facts.empty()) {
         builder.section("how_to_read");
         builder.definitions(facts);
@@ -791,11 +789,11 @@ Text score_name(const Wording& words, const std::string& score) {
 }
 
 std::string score_text(const ComparisonPoint& p, const std::string& score) {
-    return score == "En"        ? p.printed.En
-           : score == "zeta"    ? p.printed.zeta
-           : score == "z"       ? p.printed.z
-           : score == "z_prime" ? p.printed.z_prime
-           : score == "D"       ? p.printed.D
+    return score == "En"        ? p.En.text
+           : score == "zeta"    ? p.zeta.text
+           : score == "z"       ? p.z.text
+           : score == "z_prime" ? p.z_prime.text
+           : score == "D"       ? p.D.text
                                 : "";
 }
 

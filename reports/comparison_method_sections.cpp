@@ -71,13 +71,13 @@ Text verdict_sentence(const Wording& words, const ComparisonSummary& s) {
     return words.filled("comparison_verdict", scatter_only ? "disagreement_scatter" : s.verdict,
                         {{"count", plain(s.count_above_1)},
                          {"points", plain(s.points)},
-                         {"effective", words.number(s.printed.effective_points)},
-                         {"power", words.number(s.printed.power_to_confirm)},
-                         {"largest", words.number(s.printed.max_abs_En)},
-                         {"worst", words.number(s.printed.max_abs_En_worst)},
-                         {"p_low", words.number(s.printed.p_low)},
-                         {"p_high", words.number(s.printed.p_high)},
-                         {"ratio", words.number(s.printed.ratio_reference)}});
+                         {"effective", words.number(s.effective_points.text)},
+                         {"power", words.number(s.power_to_confirm.text)},
+                         {"largest", words.number(s.max_abs_En.text)},
+                         {"worst", words.number(s.max_abs_En_worst.text)},
+                         {"p_low", words.number(s.p_low.text)},
+                         {"p_high", words.number(s.p_high.text)},
+                         {"ratio", words.number(s.ratio_reference.text)}});
 }
 
 void verdict(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
@@ -118,28 +118,28 @@ std::string count(const std::optional<std::int64_t>& v) {
 using Summary = ComparisonSummary;
 constexpr Companion k_companions[] = {
     {"points", [](const Summary& s) { return plain(s.points); }},
-    {"effective_points", [](const Summary& s) { return s.printed.effective_points; }},
-    {"mean_abs_En", [](const Summary& s) { return s.printed.mean_abs_En; }},
-    {"published_mean_abs_En", [](const Summary& s) { return s.printed.published_mean_abs_En; }},
-    {"max_abs_En", [](const Summary& s) { return s.printed.max_abs_En; }},
+    {"effective_points", [](const Summary& s) { return s.effective_points.text; }},
+    {"mean_abs_En", [](const Summary& s) { return s.mean_abs_En.text; }},
+    {"published_mean_abs_En", [](const Summary& s) { return s.published_mean_abs_En.text; }},
+    {"max_abs_En", [](const Summary& s) { return s.max_abs_En.text; }},
     {"count_above_1", [](const Summary& s) { return plain(s.count_above_1); }},
-    {"rms_En", [](const Summary& s) { return s.printed.rms_En; }},
-    {"rms_band", [](const Summary& s) { return band(s.printed.rms_En_low, s.printed.rms_En_high); }},
-    {"p_low", [](const Summary& s) { return s.printed.p_low; }},
-    {"p_high", [](const Summary& s) { return s.printed.p_high; }},
-    {"D_fail", [](const Summary& s) { return s.printed.D_fail; }},
-    {"D_fail_largest", [](const Summary& s) { return s.printed.D_fail_largest; }},
-    {"found_with_80_percent", [](const Summary& s) { return s.printed.found_with_80_percent; }},
-    {"found_with_95_percent", [](const Summary& s) { return s.printed.found_with_95_percent; }},
-    {"power_to_confirm", [](const Summary& s) { return s.printed.power_to_confirm; }},
-    {"ratio_reference", [](const Summary& s) { return s.printed.ratio_reference; }},
-    {"max_abs_En_worst", [](const Summary& s) { return s.printed.max_abs_En_worst; }},
+    {"rms_En", [](const Summary& s) { return s.rms_En.text; }},
+    {"rms_band", [](const Summary& s) { return band(s.rms_En_low.text, s.rms_En_high.text); }},
+    {"p_low", [](const Summary& s) { return s.p_low.text; }},
+    {"p_high", [](const Summary& s) { return s.p_high.text; }},
+    {"D_fail", [](const Summary& s) { return s.D_fail.text; }},
+    {"D_fail_largest", [](const Summary& s) { return s.D_fail_largest.text; }},
+    {"found_with_80_percent", [](const Summary& s) { return s.found_with_80_percent.text; }},
+    {"found_with_95_percent", [](const Summary& s) { return s.found_with_95_percent.text; }},
+    {"power_to_confirm", [](const Summary& s) { return s.power_to_confirm.text; }},
+    {"ratio_reference", [](const Summary& s) { return s.ratio_reference.text; }},
+    {"max_abs_En_worst", [](const Summary& s) { return s.max_abs_En_worst.text; }},
     {"count_above_1_worst", [](const Summary& s) { return count(s.count_above_1_worst); }},
-    {"mean_abs_En_audited", [](const Summary& s) { return s.printed.mean_abs_En_audited; }},
-    {"max_abs_En_audited", [](const Summary& s) { return s.printed.max_abs_En_audited; }},
+    {"mean_abs_En_audited", [](const Summary& s) { return s.mean_abs_En_audited.text; }},
+    {"max_abs_En_audited", [](const Summary& s) { return s.max_abs_En_audited.text; }},
     {"count_above_1_audited", [](const Summary& s) { return count(s.count_above_1_audited); }},
-    {"vector_En", [](const Summary& s) { return s.printed.vector_En; }},
-    {"p_mahalanobis", [](const Summary& s) { return s.printed.p_mahalanobis; }},
+    {"vector_En", [](const Summary& s) { return s.vector_En.text; }},
+    {"p_mahalanobis", [](const Summary& s) { return s.p_mahalanobis.text; }},
 };
 
 bool has_unit(const std::string& companion) {
@@ -223,9 +223,8 @@ void how_to_read_methods(CertificateBuilder& builder, const Wording& words, cons
 void verdict_table(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
     Rows rows;
     for (const ComparisonSummary& s : c.summary) {
-        rows.push_back({direction_name(words, s.direction), plain(s.points), s.printed.mean_abs_En,
-                        s.printed.max_abs_En, s.printed.rms_En, plain(s.count_above_1),
-                        verdict_name(words, c, s.verdict)});
+        rows.push_back({direction_name(words, s.direction), plain(s.points), s.mean_abs_En.text, s.max_abs_En.text,
+                        s.rms_En.text, plain(s.count_above_1), verdict_name(words, c, s.verdict)});
     }
     table_of_filled_columns(builder, "summary", words("sentence", "comparison_summary"),
                             {{words("label", "direction"), ""},
@@ -250,9 +249,8 @@ void bias_lines(CertificateBuilder& builder, const Wording& words, const Compari
     for (const ComparisonSummary& s : c.summary) {
         if (s.bias) {
             against = s.bias->against;
-            rows.push_back({direction_name(words, s.direction), s.bias->printed.centre, s.bias->printed.constant,
-                            s.bias->printed.U_constant, s.bias->printed.slope, s.bias->printed.U_slope,
-                            s.bias->printed.p_value});
+            rows.push_back({direction_name(words, s.direction), s.bias->centre.text, s.bias->constant.text,
+                            s.bias->U_constant.text, s.bias->slope.text, s.bias->U_slope.text, s.bias->p_value.text});
         }
     }
     const bool position = against == "position";
@@ -275,7 +273,7 @@ std::vector<const ComparisonPoint*> shown_points(const Comparison& c) {
     std::vector<const ComparisonPoint*> points;
     const bool all = c.points.size() <= k_most_rows;
     for (const ComparisonPoint& p : c.points) {
-        if ((all || (p.En && (*p.En > 1.0 || *p.En < -1.0))) && points.size() < k_most_rows) {
+        if ((all || (p.En.number && (*p.En.number > 1.0 || *p.En.number < -1.0))) && points.size() < k_most_rows) {
             points.push_back(&p);
         }
     }
@@ -294,10 +292,9 @@ void point_table(CertificateBuilder& builder, const Wording& words, const Compar
     const bool rotary = c.form == "rotary_table";
     Rows rows;
     for (const ComparisonPoint* p : points) {
-        const std::string position = rotary ? p->printed.angle : p->position ? plain(*p->position) : "";
-        rows.push_back({p->name, p->direction, position, p->printed.value, p->printed.U, p->printed.reference_value,
-                        p->printed.reference_U, p->printed.D, p->printed.U_D, p->printed.En, p->printed.En_worst,
-                        p->printed.En_audited});
+        const std::string position = rotary ? p->printed_angle : p->position ? plain(*p->position) : "";
+        rows.push_back({p->name, p->direction, position, p->value.text, p->U.text, p->reference_value.text,
+                        p->reference_U.text, p->D.text, p->U_D.text, p->En.text, p->En_worst.text, p->En_audited.text});
     }
     table_of_filled_columns(
         builder, "comparison-points", words("sentence", "comparison_points"),

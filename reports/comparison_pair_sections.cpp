@@ -35,7 +35,7 @@ void pair_list(CertificateBuilder& builder, const Wording& words, const Compared
     const std::string unit = gum::unit_for_people(compared.item->difference_unit);
     Rows rows;
     for (const PairEquivalence& pair : compared.item->pairs) {
-        rows.push_back({pair.first, pair.second, pair.printed.d, pair.printed.U, pair.printed.En});
+        rows.push_back({pair.first, pair.second, pair.d.text, pair.U.text, pair.En.text});
     }
     table_of_filled_columns(builder, "pairs-" + id, words("comparison", "pairs_table"),
                             {{words("comparison", "laboratory_i"), ""},
@@ -50,7 +50,7 @@ void pair_matrix(CertificateBuilder& builder, const Wording& words, const Compar
                  const std::vector<std::string>& names) {
     std::map<std::pair<std::string, std::string>, std::string> En;
     for (const PairEquivalence& pair : compared.item->pairs) {
-        En[{pair.first, pair.second}] = pair.printed.En;
+        En[{pair.first, pair.second}] = pair.En.text;
     }
     const auto number = [](std::size_t i) { return plain(static_cast<std::int64_t>(i + 1)); };
     // Long names are heads of rows only, and their numbers heads of columns.

@@ -158,9 +158,9 @@ Wording::Values method_names(const Comparison& comparison, const Wording& words)
 PlotSeries score_series(const Direction& direction, const PositionAxis& axis) {
     PlotSeries series;
     for (std::size_t i = 0; i < direction.points.size(); ++i) {
-        if (direction.points[i]->En) {
+        if (direction.points[i]->En.number) {
             series.points.push_back(
-                {.x = axis.of(direction, i), .y = on_axis("En", *direction.points[i]->En), .U = 0.0});
+                {.x = axis.of(direction, i), .y = on_axis("En", *direction.points[i]->En.number), .U = 0.0});
         }
     }
     series.points = visible(std::move(series.points));
@@ -206,8 +206,8 @@ PlotSeries value_series(const Direction& direction, const PositionAxis& axis, co
                       .shift = reference ? 1.5 : -1.5};
     for (std::size_t i = 0; i < direction.points.size(); ++i) {
         const ComparisonPoint& p = *direction.points[i];
-        const double y = on_axis("values", scale(reference ? p.reference_value : p.value));
-        const double U = on_axis("values", scale((reference ? p.reference_U : p.U).value_or(0.0)));
+        const double y = on_axis("values", scale(reference ? p.reference_value.number : p.value.number));
+        const double U = on_axis("values", scale((reference ? p.reference_U.number : p.U.number).value_or(0.0)));
         series.points.push_back({.x = axis.of(direction, i), .y = y, .U = U});
     }
     if (series.points.size() > k_many) {
@@ -317,7 +317,7 @@ std::string method_scores_plot(const Comparison& comparison, const std::string& 
     const std::vector<Direction> directions = directions_of(comparison);
     const PositionAxis axis(comparison, words);
     if (std::none_of(comparison.points.begin(), comparison.points.end(),
-                     [](const ComparisonPoint& p) { return p.En.has_value(); })) {
+                     [](const ComparisonPoint& p) { return p.En.number.has_value(); })) {
         return "";
     }
     // A cross stands for what is beyond the axis, and for no direction.
@@ -359,15 +359,16 @@ std::string method_values_plot(const Comparison& comparison, const std::string& 
     double largest = 0.0;
     std::vector<double> differences;  // or uncertainties, whatever is larger
     for (const ComparisonPoint& p : comparison.points) {
-        differences.push_back(std::max({p.U.value_or(0.0), p.reference_U.value_or(0.0), std::abs(p.D)}));
-        for (const double v : {p.value, p.reference_value}) {
+        differences.push_back(
+            std::max({p.U.number.value_or(0.0), p.reference_U.number.value_or(0.0), std::abs(p.D.number)}));
+        for (const double v : {p.value.number, p.reference_value.number}) {
             largest = std::max(largest, std::abs(v));
         }
     }
     std::vector<double> magnitudes;
     for (const ComparisonPoint& p : comparison.points) {
-        magnitudes.push_back(std::abs(p.value));
-        magnitudes.push_back(std::abs(p.reference_value));
+        magnitudes.push_back(std::abs(p.value.number));
+        magnitudes.push_back(std::abs(p.reference_value.number));
     }
     // A single value far from all others must not take the room of all.
     constexpr double k_spreads = 20.0;
@@ -411,8 +412,8 @@ std::string bias_plot(const Comparison& comparison, const std::string& id, const
     std::vector<double> magnitudes;
     double largest_reference = 0.0;
     for (const ComparisonPoint& p : comparison.points) {
-        magnitudes.push_back(std::max(std::abs(p.D), p.U_D.value_or(0.0)));
-        largest_reference = std::max(largest_reference, std::abs(p.reference_value));
+        magnitudes.push_back(std::max(std::abs(p.D.number), p.U_D.number.value_or(0.0)));
+        largest_reference = std::max(largest_reference, std::abs(p.reference_value.number));
     }
     double largest_D = middle_of(magnitudes);
     largest_D =
@@ -444,9 +445,10 @@ std::string bias_plot(const Comparison& comparison, const std::string& id, const
         AxisRange ends;
         for (std::size_t i = 0; i < direction.points.size(); ++i) {
             const ComparisonPoint& p = *direction.points[i];
-            const double x = by_position ? positions.of(direction, i) : across(p.reference_value);
-            panel.points.push_back(
-                {.x = on_axis(id, x), .y = on_axis(id, scale(p.D)), .U = on_axis(id, scale(p.U_D.value_or(0.0)))});
+            const double x = by_position ? positions.of(direction, i) : across(p.reference_value.number);
+            panel.points.push_back({.x = on_axis(id, x),
+                                    .y = on_axis(id, scale(p.D.number)),
+                                    .U = on_axis(id, scale(p.U_D.number.value_or(0.0)))});
             ends = i == 0 ? AxisRange{.low = x, .high = x} : ends;
             ends.include(x);
         }
@@ -454,9 +456,9 @@ std::string bias_plot(const Comparison& comparison, const std::string& id, const
         x_range = panels.empty() ? ends : x_range;
         x_range.include(ends.low);
         x_range.include(ends.high);
-        const double slope = scale(line->slope) / across(1.0);  // in the units of the axes
+        const double slope = scale(line->slope.number) / across(1.0);  // in the units of the axes
         for (const double x : {ends.low, ends.high}) {
-            const double y = on_axis(id, scale(line->constant) + slope * (x - across(line->centre)));
+            const double y = on_axis(id, scale(line->constant.number) + slope * (x - across(line->centre.number)));
             panel.line.emplace_back(x, y);
         }
         panels.push_back(std::move(panel));

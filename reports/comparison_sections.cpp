@@ -73,8 +73,8 @@ void laboratory_numbers(CertificateBuilder& builder, const Wording& words, const
         const auto weight = weights.find({p.item, p.round, p.participant});
         const Text item = item_of(p.item);
         const Text round = rounds ? p.round : "";
-        rows.push_back({item, round, p.participant, number(p.value), number(p.u), number(p.k), number(p.nu),
-                        number(p.U_of_scores)});
+        rows.push_back({item, round, p.participant, number(p.value.number), number(p.u), number(p.k.number),
+                        number(p.nu), number(p.U_of_scores.number)});
         if (p.u_others) {
             others.push_back({item, round, p.participant, number(p.u_others), number(p.nu_others), number(p.share),
                               number(p.covariance_others), number(p.factor_D)});
@@ -100,8 +100,9 @@ void laboratory_numbers(CertificateBuilder& builder, const Wording& words, const
                             {item, round, laboratory, digits("r"), digits(words("comparison", "weight"))}, ties);
     Rows items;
     for (const ComparisonItemEvaluation& i : c.items) {
-        items.push_back({item_of(i.id), rounds ? i.round : "", gum::unit_for_people(i.unit), number(i.value),
-                         number(i.u), number(i.k), number(i.sigma_pt), number(i.delta_E), number(i.U_of_scores)});
+        items.push_back({item_of(i.id), rounds ? i.round : "", gum::unit_for_people(i.unit), number(i.value.number),
+                         number(i.u.number), number(i.k.number), number(i.sigma_pt.number), number(i.delta_E.number),
+                         number(i.U_of_scores.number)});
     }
     table_of_filled_columns(builder, "unrounded-items", words("comparison", "unrounded_items_table"),
                             {item, round, digits(words("label", "unit")), digits("X"), digits("u(X)"), digits("k"),
@@ -114,10 +115,11 @@ void method_numbers(CertificateBuilder& builder, const Wording& words, const Com
     Rows method;
     Rows reference;  // a table of its own: so many digits do not fit side by side
     for (const ComparisonPoint& p : c.points) {
-        method.push_back({p.name, p.direction, number(p.position), number(p.value), number(p.u), number(p.k),
-                          number(p.nu), number(p.U_of_scores)});
-        reference.push_back({p.name, p.direction, number(p.position), number(p.reference_value), number(p.reference_u),
-                             number(p.reference_k), number(p.correlation), number(p.reference_U_of_scores)});
+        method.push_back({p.name, p.direction, number(p.position), number(p.value.number), number(p.u),
+                          number(p.k.number), number(p.nu), number(p.U_of_scores.number)});
+        reference.push_back({p.name, p.direction, number(p.position), number(p.reference_value.number),
+                             number(p.reference_u), number(p.reference_k), number(p.correlation),
+                             number(p.reference_U_of_scores)});
     }
     const std::string difference_unit = c.unit.empty() ? "" : gum::unit_of_difference(c.unit);
     const Column point = digits(words("label", "point"));
@@ -155,7 +157,8 @@ void numbers_to_recompute(CertificateBuilder& builder, const Wording& words, con
 }  // namespace
 
 bool agreement_is_open(const ComparisonPoint& point) {
-    return point.En && point.En_worst && std::abs(*point.En) <= 1.0 && std::abs(*point.En_worst) > 1.0;
+    return point.En.number && point.En_worst.number && std::abs(*point.En.number) <= 1.0 &&
+           std::abs(*point.En_worst.number) > 1.0;
 }
 
 void comparison_report_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {

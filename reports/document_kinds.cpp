@@ -94,7 +94,7 @@ std::pair<Text, Text> uncertainty_of_set_up(const EvaluationRecord& record, cons
                                             const Printed& printed, const Wording& words) {
     for (const Result& result : record.results) {
         if (result.name == name && result.reported.method == "monte_carlo") {
-            return {stated_uncertainty(result.reported.printed, result.reported, words),
+            return {stated_uncertainty(result.reported, words),
                     result.reported.k ? text::fixed(*result.reported.k, 2) : ""};
         }
     }
@@ -137,14 +137,14 @@ void ranges(CertificateBuilder& builder, const Wording& words, const RotaryTable
         std::vector<Text> row = {r.error_names[i], "", "", "", "", gum::unit_for_people(r.error_units[i])};
         for (const RangeRow& range : r.ranges) {
             if (range.name == r.error_names[i]) {
-                row[1] = range.printed.value;
-                row[2] = stated_uncertainty(range.printed, range.reported, words);
+                row[1] = range.stated.printed.value;
+                row[2] = stated_uncertainty(range.stated, words);
             }
         }
         for (const Reversal& reversal : r.reversal) {
             if (reversal.name == r.error_names[i]) {
-                row[3] = reversal.value.printed.value;
-                row[4] = stated_uncertainty(reversal.value.printed, reversal.value.reported, words);
+                row[3] = reversal.stated.printed.value;
+                row[4] = stated_uncertainty(reversal.stated, words);
             }
         }
         rows.push_back(std::move(row));
@@ -209,9 +209,9 @@ void error_motions(CertificateBuilder& builder, const Wording& words, const Rota
         }
         const ErrorsAtAngle& at = r.errors[i];
         std::vector<Text> row = {at.printed_angle};
-        for (const ErrorValue& e : at.errors) {
+        for (const StatedValue& e : at.errors) {
             row.push_back(e.printed.value);
-            row.push_back(stated_uncertainty(e.printed, e.reported, words));
+            row.push_back(stated_uncertainty(e, words));
         }
         rows.push_back(std::move(row));
     }
@@ -250,7 +250,7 @@ void uncertainty_statement(CertificateBuilder& builder, const Wording& words, co
     Coverage coverage;
     if (record.rotary) {
         for (const ErrorsAtAngle& at : record.rotary->errors) {
-            for (const ErrorValue& e : at.errors) {
+            for (const StatedValue& e : at.errors) {
                 if (!e.printed.U.empty() && (!e.reported || e.reported->method != "monte_carlo")) {
                     coverage.add(e.k, e.nu_eff);
                 }

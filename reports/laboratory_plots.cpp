@@ -48,10 +48,11 @@ std::vector<LaboratoryColumn> columns_of(const Comparison& comparison, const Com
     std::vector<LaboratoryColumn> columns;
     for (const ComparisonPoint& p : comparison.points) {
         if (p.item == item.id && p.round == item.round) {
-            require_finite("result of " + p.participant, {p.value, p.D, p.U.value_or(0.0), p.U_D.value_or(0.0)});
+            require_finite("result of " + p.participant,
+                           {p.value.number, p.D.number, p.U.number.value_or(0.0), p.U_D.number.value_or(0.0)});
             columns.push_back({.name = p.participant,
-                               .value = deviations ? p.D : p.value,
-                               .U = with_U_of_D ? p.U_D.value_or(0.0) : p.U.value_or(0.0),
+                               .value = deviations ? p.D.number : p.value.number,
+                               .U = with_U_of_D ? p.U_D.number.value_or(0.0) : p.U.number.value_or(0.0),
                                .contributes = p.contributes,
                                .score = score_of(p, item.score)});
         }
@@ -282,8 +283,8 @@ std::vector<std::pair<double, std::string>> limits_of(const ComparisonItemEvalua
         return {{1.0, words("label", "En_limit").first()}};
     }
     if (item.score == "D") {
-        return item.delta_E ? std::vector{std::pair(*item.delta_E, words("label", "En_limit").first())}
-                            : std::vector<std::pair<double, std::string>>();
+        return item.delta_E.number ? std::vector{std::pair(*item.delta_E.number, words("label", "En_limit").first())}
+                                   : std::vector<std::pair<double, std::string>>();
     }
     return {{2.0, words("label", "warning_limit").first()}, {3.0, words("label", "action_limit").first()}};
 }
@@ -414,8 +415,8 @@ std::string laboratory_values_plot(const Comparison& comparison, const Compariso
     if (columns.empty()) {
         return "";
     }
-    double assigned = item.value;
-    const double assigned_U = item.U.value_or(0.0);
+    double assigned = item.value.number;
+    const double assigned_U = item.U.number.value_or(0.0);
     AxisRange range = range_of_values(columns, assigned, assigned_U);
     const double magnitude = std::max(std::abs(range.low), std::abs(range.high));
     constexpr double k_close = 2e-5;
@@ -431,7 +432,8 @@ std::string laboratory_values_plot(const Comparison& comparison, const Compariso
 
     PlotKey key;
     add_column_keys(key, columns, Symbol::disc, Symbol::ring, words);
-    key.add(item.U ? Symbol::band : Symbol::line, words("plot", item.U ? "assigned_U_key" : "assigned_key").first());
+    key.add(item.U.number ? Symbol::band : Symbol::line,
+            words("plot", item.U.number ? "assigned_U_key" : "assigned_key").first());
     const bool bars = std::any_of(columns.begin(), columns.end(), [](const LaboratoryColumn& c) { return c.U > 0.0; });
     if (bars) {
         key.add(Symbol::bar, words("plot", "value_U_key").first());
@@ -455,7 +457,7 @@ std::string laboratory_values_plot(const Comparison& comparison, const Compariso
                    : scale.label(words("label", "value").first(), gum::unit_for_people(item.unit)));
     const double low = frame.py_inside(scale(assigned - assigned_U));
     const double high = frame.py_inside(scale(assigned + assigned_U));
-    if (item.U) {
+    if (item.U.number) {
         body.rectangle(frame.x, high, frame.width, low - high, k_band);
     }
     if (columns.size() > k_most_columns) {

@@ -25,9 +25,9 @@ constexpr double k_pair_name_size = 9.5;
 std::vector<std::string> in_ascending_order(const std::vector<PairEquivalence>& pairs) {
     std::map<std::string, double> height;
     for (const PairEquivalence& p : pairs) {
-        require_finite("pair " + p.first + ", " + p.second, {p.d});
-        height[p.first] += p.d;
-        height[p.second] -= p.d;
+        require_finite("pair " + p.first + ", " + p.second, {p.d.number});
+        height[p.first] += p.d.number;
+        height[p.second] -= p.d.number;
     }
     std::vector<std::string> ids;
     for (const auto& [id, sum] : height) {
@@ -88,10 +88,10 @@ std::string pairs_plot(const ComparisonItemEvaluation& item, const std::string& 
                        "fill=\"#ececec\" stroke=\"none\"");
     }
     for (const PairEquivalence& p : item.pairs) {
-        if (!p.En) {
+        if (!p.En.number) {
             continue;
         }
-        const double En = on_axis(id + ", " + p.first + ", " + p.second, *p.En);
+        const double En = on_axis(id + ", " + p.first + ", " + p.second, *p.En.number);
         const double a = cell * (static_cast<double>(place.at(p.first)) + 0.5);
         const double b = cell * (static_cast<double>(place.at(p.second)) + 0.5);
         draw_pair(body, names + a, top + b, cell, std::abs(En));

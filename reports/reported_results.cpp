@@ -1,5 +1,7 @@
 #include "reports/reported_results.h"
 
+#include "reports/record/stated_values.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -50,33 +52,26 @@ std::vector<Text> sentences_of(const std::vector<ReportedQuantity>& quantities, 
     return sentences;
 }
 
+/// "EXA (30°)", "range EXA", "R_up".
+Text quantity_name(const StatedPlace<const StatedValue>& place, const RotaryTable& rotary, const Wording& words) {
+    switch (place.group) {
+        case StatedGroup::error_motions:
+            return place.name + Text(" (") + words.number(rotary.errors[place.index].printed_angle) + "°)";
+        case StatedGroup::reversal:
+            return words("label", "reversal") + Text(" " + place.name);
+        case StatedGroup::ranges:
+            return words("label", "range") + Text(" " + place.name);
+        default:
+            return place.name;
+    }
+}
+
 /// What is reported of the quantities of a rotary table, where that has to be told.
 std::vector<ReportedQuantity> quantities_of(const RotaryTable& rotary, const Wording& words) {
     std::vector<ReportedQuantity> all;
-    const auto add = [&](const Text& name, const std::optional<ReportedResult>& reported) {
-        if (reported) {
-            all.push_back({name, &*reported});
-        }
-    };
-    for (std::size_t i = 0; i < rotary.error_names.size(); ++i) {
-        for (const ErrorsAtAngle& at : rotary.errors) {
-            add(rotary.error_names[i] + Text(" (") + words.number(at.printed_angle) + "°)", at.errors[i].reported);
-        }
-    }
-    for (const Reversal& reversal : rotary.reversal) {
-        add(words("label", "reversal") + Text(" " + reversal.name), reversal.value.reported);
-    }
-    for (const RangeRow& range : rotary.ranges) {
-        add(words("label", "range") + Text(" " + range.name), range.reported);
-    }
-    for (const auto* const parameters : {&rotary.axis_line, &rotary.location_errors}) {
-        for (const TableParameter& parameter : *parameters) {
-            add(parameter.name, parameter.reported);
-        }
-    }
-    if (rotary.iso230_2) {
-        for (const TableParameter& parameter : rotary.iso230_2->parameters) {
-            add(parameter.name, parameter.reported);
+    for (const auto& place : stated_values(rotary, ErrorOrder::by_motion)) {
+        if (place.stated.reported) {
+            all.push_back({quantity_name(place, rotary, words), &*place.stated.reported});
         }
     }
     return all;
@@ -88,6 +83,12 @@ std::vector<ReportedQuantity> quantities_of(const std::vector<Result>& results) 
         all.push_back({result.name, &result.reported});
     }
     return all;
+}
+
+Text interval_or(const std::string& U, const ReportedResult& reported, const Wording& words) {
+    return reported.printed_low.empty()
+               ? Text(U)
+               : words.number(reported.printed_low) + "\u00A0…\u00A0" + words.number(reported.printed_high);
 }
 
 }  // namespace
@@ -105,11 +106,12 @@ std::vector<Text> reasons_for_monte_carlo(const EvaluationRecord& record, const 
     return sentences_of(all, words);
 }
 
-Text stated_uncertainty(const Printed& printed, const std::optional<ReportedResult>& reported, const Wording& words) {
-    if (!reported || reported->printed_low.empty()) {
-        return printed.U;
-    }
-    return words.number(reported->printed_low) + "\u00A0…\u00A0" + words.number(reported->printed_high);
+Text stated_uncertainty(const ReportedResult& reported, const Wording& words) {
+    return interval_or(reported.printed.U, reported, words);
+}
+
+Text stated_uncertainty(const StatedValue& value, const Wording& words) {
+    return value.reported ? interval_or(value.printed.U, *value.reported, words) : Text(value.printed.U);
 }
 
 }  // namespace gumcert::reports

@@ -15,7 +15,7 @@ namespace gumcert::reports {
 [[nodiscard]] std::vector<Text> reasons_for_monte_carlo(const EvaluationRecord& record, const Wording& words);
 
 /// U as printed, or "low … high" where only the coverage interval of Monte Carlo holds.
-[[nodiscard]] Text stated_uncertainty(const Printed& printed, const std::optional<ReportedResult>& reported,
-                                      const Wording& words);
+[[nodiscard]] Text stated_uncertainty(const ReportedResult& reported, const Wording& words);
+[[nodiscard]] Text stated_uncertainty(const StatedValue& value, const Wording& words);
 
 }  // namespace gumcert::reports

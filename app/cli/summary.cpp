@@ -104,11 +104,11 @@ std::string method_in_words(const std::string& method) {
 
 /// The score of a result that decides.
 std::string deciding_score(const reports::ComparisonPoint& point, const std::string& score) {
-    const std::string& text = score == "z"         ? point.printed.z
-                              : score == "z_prime" ? point.printed.z_prime
-                              : score == "zeta"    ? point.printed.zeta
-                              : score == "D"       ? point.printed.P_A
-                                                   : point.printed.En;
+    const std::string& text = score == "z"         ? point.z.text
+                              : score == "z_prime" ? point.z_prime.text
+                              : score == "zeta"    ? point.zeta.text
+                              : score == "D"       ? point.P_A.text
+                                                   : point.En.text;
     return text.empty() ? "–" : text;
 }
 
@@ -132,15 +132,15 @@ void print_item(const reports::Comparison& comparison, const reports::Comparison
         fmt::print("\n{}{}{}\n", name, name.empty() || round.empty() ? "" : ", ", round);
     }
     fmt::print("  assigned value ({}) {}{}\n", method_in_words(item.method),
-               with_uncertainty(item.printed.value, item.printed.U, item.unit, item.difference_unit),
-               item.printed.k.empty()
+               with_uncertainty(item.value.text, item.U.text, item.unit, item.difference_unit),
+               item.k.text.empty()
                    ? ""
-                   : "   (k = " + item.printed.k +
-                         (item.U_rests_on == "scatter" && !item.printed.nu.empty() ? ", nu = " + item.printed.nu : "") +
+                   : "   (k = " + item.k.text +
+                         (item.U_rests_on == "scatter" && !item.nu.text.empty() ? ", nu = " + item.nu.text : "") +
                          ", p = " + coverage + ")");
     if (item.consistency) {
-        fmt::print("  consistency: chi-square {} on {} of freedom, p = {}{}\n", item.consistency->printed.chi_square,
-                   text::count_of(item.consistency->degrees_of_freedom, "degree"), item.consistency->printed.p_value,
+        fmt::print("  consistency: chi-square {} on {} of freedom, p = {}{}\n", item.consistency->chi_square.text,
+                   text::count_of(item.consistency->degrees_of_freedom, "degree"), item.consistency->p_value.text,
                    item.consistency->consistent ? "" : "   NOT consistent");
     }
     print_names("without a result", item.missing);
@@ -156,14 +156,12 @@ void print_item(const reports::Comparison& comparison, const reports::Comparison
             continue;
         }
         fmt::print("  {:<12} {:<26} D {:>10}", point.participant,
-                   with_uncertainty(point.printed.value, point.printed.U, item.unit, item.difference_unit),
-                   point.printed.D);
+                   with_uncertainty(point.value.text, point.U.text, item.unit, item.difference_unit), point.D.text);
         if (!item.score.empty()) {
             fmt::print("   {} {:>6}", score_symbol(item.score), deciding_score(point, item.score));
         }
-        fmt::print(
-            "{}{}\n", point.signal == "none" || point.signal.empty() ? "" : "   " + point.signal,
-            reports::agreement_is_open(point) ? "   " + point.printed.En_worst + " for the worst correlation" : "");
+        fmt::print("{}{}\n", point.signal == "none" || point.signal.empty() ? "" : "   " + point.signal,
+                   reports::agreement_is_open(point) ? "   " + point.En_worst.text + " for the worst correlation" : "");
     }
     if (left_out > 0) {
         fmt::print("  … and {} more, all of them in the record\n", left_out);
@@ -225,10 +223,10 @@ void print_methods(const reports::Comparison& comparison) {
     fmt::print("\n{}{} with {}:\n", comparison.method_name, comparison.method_name.empty() ? "Comparison" : "",
                comparison.reference_name);
     for (const reports::ComparisonSummary& row : comparison.summary) {
-        fmt::print("  {:<6}  mean |En| {}   max |En| {}   above 1: {} of {}", row.direction, row.printed.mean_abs_En,
-                   row.printed.max_abs_En, row.count_above_1, row.points);
-        if (!row.printed.p_low.empty()) {
-            fmt::print("   p_low {}", row.printed.p_low);
+        fmt::print("  {:<6}  mean |En| {}   max |En| {}   above 1: {} of {}", row.direction, row.mean_abs_En.text,
+                   row.max_abs_En.text, row.count_above_1, row.points);
+        if (!row.p_low.text.empty()) {
+            fmt::print("   p_low {}", row.p_low.text);
         }
         if (!row.verdict.empty()) {
             fmt::print("\n          {}", verdict_text(row.verdict));
@@ -258,7 +256,8 @@ void print_rotary_table(const reports::EvaluationRecord& record) {
     fmt::print("\nError motions over {} angles, datum {}:\n", rotary.errors.size(),
                rotary.datum == "home" ? "home" : "axis average line");
     for (const reports::RangeRow& range : rotary.ranges) {
-        fmt::print("  {}  range {:>7} ± {} {}\n", range.name, range.printed.value, range.printed.U, range.printed.unit);
+        const reports::Printed& printed = range.stated.printed;
+        fmt::print("  {}  range {:>7} ± {} {}\n", range.name, printed.value, printed.U, printed.unit);
     }
     fmt::print("\nAdjustment: {} observations, {} parameters, chi-square {} on {} degrees of freedom, p = {}\n",
                rotary.adjustment.observations, rotary.adjustment.parameters, rotary.adjustment.printed.chi_square,

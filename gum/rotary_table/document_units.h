@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "gum/quantity/measurement_model.h"
 #include "gum/quantity/units.h"
 
@@ -15,6 +17,9 @@ struct DocumentUnit {
 inline constexpr DocumentUnit k_um{k_micrometre, "um", "µm"};
 inline constexpr DocumentUnit k_arcsec{k_arcsecond, "arcsec", "″"};
 inline constexpr DocumentUnit k_mm{k_millimetre, "mm", "mm"};
+
+/// The unit of that name in a record, "um" or "arcsec".
+[[nodiscard]] const DocumentUnit& unit_of(const std::string& record_name);
 
 /// Micrometres for lengths, arcseconds for angles.
 [[nodiscard]] const DocumentUnit& unit_of(const OutputQuantity& quantity);

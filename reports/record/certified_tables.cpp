@@ -1,12 +1,14 @@
 #include "reports/record/certified_tables.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/unit.h"
 #include "reports/record/reported_result.h"
+#include "reports/record/stated_values.h"
 
 namespace gumcert::reports {
 
@@ -57,11 +59,9 @@ CertifiedValue value_of(const Result& r) {
     return value_of(reported_result(r), r.nu_eff, r.coverage);
 }
 
-/// Of a quantity of a rotary table.
-template <class Quantity>
-CertifiedValue value_of(const Quantity& q, const std::optional<double>& k) {
+CertifiedValue value_of(const StatedValue& q) {
     return q.reported ? value_of(*q.reported, q.nu_eff, "student_t")
-                      : value_of(q.value, q.u, q.U, k, q.nu_eff, q.printed);
+                      : value_of(q.value, q.u, q.U, q.k, q.nu_eff, q.printed);
 }
 
 CertifiedColumn column(const std::string& result, const certificate::LocalisedText& name, const std::string& unit,
@@ -150,77 +150,53 @@ void put_angles(const CircleClosure& closure, std::vector<CertifiedTable>& table
     }
 }
 
-CertifiedTable error_motions(const RotaryTable& r) {
-    CertifiedTable table{.id = "error_motions",
-                         .argument = CertifiedTable::Argument{.name = "angle",
-                                                              .unit = "deg",
-                                                              .printed_unit = gum::unit_for_people("deg"),
-                                                              .values = {},
-                                                              .printed = {}},
-                         .columns = {}};
+/// The angles of a rotary table, printed.
+CertifiedTable::Argument angles_of(const RotaryTable& r) {
+    CertifiedTable::Argument angles{
+        .name = "angle", .unit = "deg", .printed_unit = gum::unit_for_people("deg"), .values = {}, .printed = {}};
     for (const ErrorsAtAngle& at : r.errors) {
-        table.argument->values.emplace_back(at.angle_deg);
-        table.argument->printed.push_back(at.printed_angle);
+        angles.values.emplace_back(at.angle_deg);
+        angles.printed.push_back(at.printed_angle);
     }
-    for (std::size_t i = 0; i < r.error_names.size(); ++i) {
-        std::vector<CertifiedValue> values;
-        for (const ErrorsAtAngle& at : r.errors) {
-            values.push_back(value_of(at.errors[i], at.errors[i].k));
+    return angles;
+}
+
+/// One table a group, one column a quantity.
+void add_stated_values(const RotaryTable& r, std::vector<CertifiedTable>& tables) {
+    for (const auto& place : stated_values(r, ErrorOrder::by_motion)) {
+        const bool motions = place.group == StatedGroup::error_motions;
+        if (const char* const id = group_name(place.group); tables.empty() || tables.back().id != id) {
+            tables.push_back(
+                {.id = id, .argument = motions ? std::optional(angles_of(r)) : std::nullopt, .columns = {}});
         }
-        table.columns.push_back(column(r.error_names[i], r.error_names[i], r.error_units[i], std::move(values)));
+        std::vector<CertifiedColumn>& columns = tables.back().columns;
+        if (!motions || place.index == 0) {
+            columns.push_back(column(result_name(place.group, place.name), place.meaning, place.unit, {}));
+        }
+        columns.back().values.push_back(value_of(place.stated));
     }
-    return table;
 }
 
-std::string unit_of_motion(const RotaryTable& r, const std::string& name) {
-    const auto found = std::find(r.error_names.begin(), r.error_names.end(), name);
-    return found == r.error_names.end() ? "1" : r.error_units[static_cast<std::size_t>(found - r.error_names.begin())];
-}
-
-CertifiedTable reversal(const RotaryTable& r) {
-    CertifiedTable table{.id = "reversal", .argument = {}, .columns = {}};
-    for (const Reversal& mean : r.reversal) {
-        table.columns.push_back(column("reversal_" + mean.name, mean.name, unit_of_motion(r, mean.name),
-                                       {value_of(mean.value, mean.value.k)}));
-    }
-    return table;
-}
-
-CertifiedTable ranges(const RotaryTable& r) {
-    CertifiedTable table{.id = "ranges", .argument = {}, .columns = {}};
-    for (const RangeRow& range : r.ranges) {
-        // Records of earlier releases hold no k.
-        const std::optional<double> k = range.k         ? range.k
-                                        : range.u > 0.0 ? std::optional(range.U / range.u)
-                                                        : std::nullopt;
-        table.columns.push_back(
-            column("range_" + range.name, range.name, unit_of_motion(r, range.name), {value_of(range, k)}));
-    }
-    return table;
-}
-
-CertifiedTable parameters(const std::string& id, const std::vector<TableParameter>& from) {
-    CertifiedTable table{.id = id, .argument = {}, .columns = {}};
-    for (const TableParameter& p : from) {
-        table.columns.push_back(
-            column(p.name, p.description.empty() ? p.name : p.description, p.unit, {value_of(p, p.k)}));
-    }
-    return table;
+template <class Results>
+auto* find_result(Results& results, const CertifiedTable& table, const std::string& name, std::size_t row) {
+    const std::string point =
+        table.argument && row < table.argument->printed.size() ? table.argument->printed[row] : "";
+    const bool holds_results = table.id == "results" || table.id == "set_up";
+    const auto found = std::find_if(results.begin(), results.end(), [&](const Result& r) {
+        return holds_results && (r.quantity.empty() ? r.name : r.quantity) == name && r.point == point;
+    });
+    return found == results.end() ? nullptr : &*found;
 }
 
 }  // namespace
 
+Result* result_of(EvaluationRecord& record, const CertifiedTable& table, const std::string& name, std::size_t row) {
+    return find_result(record.results, table, name, row);
+}
+
 const Result* result_of(const EvaluationRecord& record, const CertifiedTable& table, const std::string& name,
                         std::size_t row) {
-    if (table.id != "results" && table.id != "set_up") {
-        return nullptr;
-    }
-    const std::string point =
-        table.argument && row < table.argument->printed.size() ? table.argument->printed[row] : "";
-    const auto found = std::find_if(record.results.begin(), record.results.end(), [&](const Result& r) {
-        return (r.quantity.empty() ? r.name : r.quantity) == name && r.point == point;
-    });
-    return found == record.results.end() ? nullptr : &*found;
+    return find_result(record.results, table, name, row);
 }
 
 std::vector<CertifiedTable> certified_tables(const EvaluationRecord& record) {
@@ -231,16 +207,8 @@ std::vector<CertifiedTable> certified_tables(const EvaluationRecord& record) {
         }
         return tables;
     }
-    const RotaryTable& r = *record.rotary;
     std::vector<CertifiedTable> tables = tables_of_results(record.results, "set_up");
-    for (const CertifiedTable& table :
-         {error_motions(r), reversal(r), ranges(r), parameters("axis_line", r.axis_line),
-          parameters("location_errors", r.location_errors),
-          parameters("positioning", r.iso230_2 ? r.iso230_2->parameters : std::vector<TableParameter>())}) {
-        if (!table.columns.empty()) {
-            tables.push_back(table);
-        }
-    }
+    add_stated_values(*record.rotary, tables);
     return tables;
 }
 

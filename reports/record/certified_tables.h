@@ -17,6 +17,8 @@ namespace gumcert::reports {
 /// "reversal" (columns `reversal_EXA` …), "ranges" (`range_EXA` …), "axis_line", "positioning"; those that the
 /// record has.
 ///
+/// Values of a rotary table, but for those of its set-up, stand in the order of stated_values(…, by_motion).
+///
 /// k and effective degrees of freedom are printed as certificate/statement_of_uncertainty.h says. Coverage intervals
 /// are left to whoever certifies.
 [[nodiscard]] std::vector<certificate::CertifiedTable> certified_tables(const EvaluationRecord& record);
@@ -24,6 +26,8 @@ namespace gumcert::reports {
 /// The result that a value of a column stands for: of a budget, or the set-up of a rotary table.
 /// \param name  of the column
 /// \return in the record; none for the other tables of a rotary table
+[[nodiscard]] Result* result_of(EvaluationRecord& record, const certificate::CertifiedTable& table,
+                                const std::string& name, std::size_t row);
 [[nodiscard]] const Result* result_of(const EvaluationRecord& record, const certificate::CertifiedTable& table,
                                       const std::string& name, std::size_t row);
 

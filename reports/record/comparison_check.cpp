@@ -99,7 +99,7 @@ private:
                 report_(at.pointer("id"), in_quotes(of.id), "an item is listed once in a round");
             }
             check_consistency(at, of);
-            if (of.criterion.has_value() != of.criterion_met.has_value()) {
+            if (of.criterion.number.has_value() != of.criterion_met.has_value()) {
                 report_(at.pointer("criterion_met"), of.criterion_met ? "without criterion" : "missing",
                         "criterion and criterion_met stand together");
             }

@@ -9,6 +9,9 @@ namespace gumcert::reports {
 // certificate/certificate_fields.h; the reader and the writer of a record walk it. What an archive has in addition:
 //   a.added(key, member, R)   a key that a later release added: written always, may be missing where it is read
 //   a.summary(key, member)    an object keyed by direction
+//   a(key, Shown member, R)   the number, and its text in the object `printed`
+//   a.text(key, member)       a text of that object that has no number of its key
+//   a.text_added(key, …)      the same, and a number whose text may be missing where it is read
 
 template <class Archive, certificate::Described<BiasLineSummary> Struct>
 void describe(Archive& a, Struct& r) {
@@ -23,14 +26,6 @@ void describe(Archive& a, Struct& r) {
     a("U_slope", r.U_slope, Range::not_negative);
     a("chi_square", r.chi_square, Range::not_negative);
     a("p_value", r.p_value, Range::probability);
-    a.group("printed", [&](auto& b) {
-        b("centre", r.printed.centre);
-        b("constant", r.printed.constant);
-        b("U_constant", r.printed.U_constant);
-        b("slope", r.printed.slope);
-        b("U_slope", r.printed.U_slope);
-        b("p_value", r.printed.p_value);
-    });
 }
 
 template <class Archive, certificate::Described<ReferenceEstimate> Struct>
@@ -49,13 +44,6 @@ void describe(Archive& a, Struct& r) {
     a.added("u_hartung_knapp", r.u_hartung_knapp, Range::not_negative);
     a("results", r.results, Range::not_negative);
     a("used", r.used);
-    a.group("printed", [&](auto& b) {
-        b("value", r.printed.value);
-        b("u", r.printed.u);
-        b("scale", r.printed.scale);
-        b("between", r.printed.between);
-        b.added("U", r.printed.U);
-    });
 }
 
 template <class Archive, certificate::Described<ConsistencySummary> Struct>
@@ -71,13 +59,6 @@ void describe(Archive& a, Struct& r) {
     a("birge_limit", r.birge_limit, Range::not_negative);
     a("pairs", r.pairs, Range::not_negative);
     a("incompatible_pairs", r.incompatible_pairs, Range::not_negative);
-    a.group("printed", [&](auto& b) {
-        b("chi_square", r.printed.chi_square);
-        b("critical_value", r.printed.critical_value);
-        b("p_value", r.printed.p_value);
-        b("birge_ratio", r.printed.birge_ratio);
-        b("birge_limit", r.printed.birge_limit);
-    });
 }
 
 template <class Archive, certificate::Described<HomogeneitySummary> Struct>
@@ -93,14 +74,6 @@ void describe(Archive& a, Struct& r) {
     a("expanded_limit", r.expanded_limit, Range::not_negative);
     a("sufficient", r.sufficient);
     a("sufficient_expanded", r.sufficient_expanded);
-    a.group("printed", [&](auto& b) {
-        b("mean", r.printed.mean);
-        b("s_x", r.printed.s_x);
-        b("s_w", r.printed.s_w);
-        b("s_s", r.printed.s_s);
-        b("limit", r.printed.limit);
-        b("expanded_limit", r.printed.expanded_limit);
-    });
 }
 
 template <class Archive, certificate::Described<StabilitySummary> Struct>
@@ -113,12 +86,6 @@ void describe(Archive& a, Struct& r) {
     a("expanded_limit", r.expanded_limit, Range::not_negative);
     a("stable", r.stable);
     a("stable_expanded", r.stable_expanded);
-    a.group("printed", [&](auto& b) {
-        b("mean", r.printed.mean);
-        b("difference", r.printed.difference);
-        b("limit", r.printed.limit);
-        b("expanded_limit", r.printed.expanded_limit);
-    });
 }
 
 template <class Archive, certificate::Described<ConsensusCheck> Struct>
@@ -132,13 +99,6 @@ void describe(Archive& a, Struct& r) {
     a("u_difference", r.u_difference, Range::not_negative);
     a("ratio", r.ratio);
     a("consistent", r.consistent);
-    a.group("printed", [&](auto& b) {
-        b("reference_value", r.printed.reference_value);
-        b("consensus", r.printed.consensus);
-        b("difference", r.printed.difference);
-        b("u_difference", r.printed.u_difference);
-        b("ratio", r.printed.ratio);
-    });
 }
 
 template <class Archive, certificate::Described<PairEquivalence> Struct>
@@ -150,11 +110,6 @@ void describe(Archive& a, Struct& r) {
     a("u", r.u, Range::not_negative);
     a("U", r.U, Range::not_negative);
     a("En", r.En);
-    a.group("printed", [&](auto& b) {
-        b("d", r.printed.d);
-        b("U", r.printed.U);
-        b("En", r.printed.En);
-    });
 }
 
 template <class Archive, certificate::Described<ResultWeight> Struct>
@@ -211,25 +166,6 @@ void describe(Archive& a, Struct& r) {
     a("stability", r.stability);
     a("consensus", r.consensus);
     a("pairs", r.pairs);
-    a.group("printed", [&](auto& b) {
-        b("value", r.printed.value);
-        b("u", r.printed.u);
-        b("U", r.printed.U);
-        b("k", r.printed.k);
-        b.added("nu", r.printed.nu);
-        b.added("U_of_scores", r.printed.U_of_scores);
-        b.added("low", r.printed.low);
-        b.added("high", r.printed.high);
-        b.added("coverage_with_scatter", r.printed.coverage_with_scatter);
-        b("u_characterisation", r.printed.u_characterisation);
-        b("u_homogeneity", r.printed.u_homogeneity);
-        b("u_stability", r.printed.u_stability);
-        b("sigma_pt", r.printed.sigma_pt);
-        b("delta_E", r.printed.delta_E);
-        b("criterion", r.printed.criterion);
-        b("s_star", r.printed.s_star);
-        b("pooled_standard_deviation", r.printed.pooled_standard_deviation);
-    });
 }
 
 template <class Archive, certificate::Described<ItemWithoutResult> Struct>
@@ -253,10 +189,6 @@ void describe(Archive& a, Struct& r) {
     a("vector_En", r.vector_En, Range::not_negative);
     a("max_abs_En", r.max_abs_En, Range::not_negative);
     a("quantities", r.quantities, Range::not_negative);
-    a.group("printed", [&](auto& b) {
-        b("vector_En", r.printed.vector_En);
-        b("max_abs_En", r.printed.max_abs_En);
-    });
 }
 
 template <class Archive, certificate::Described<ParticipantSummary> Struct>
@@ -275,13 +207,6 @@ void describe(Archive& a, Struct& r) {
     a("rms_En", r.rms_En, Range::not_negative);
     a("p_low", r.p_low, Range::probability);
     a("p_high", r.p_high, Range::probability);
-    a.group("printed", [&](auto& b) {
-        b("mean_abs_En", r.printed.mean_abs_En);
-        b("max_abs_En", r.printed.max_abs_En);
-        b("rms_En", r.printed.rms_En);
-        b("p_low", r.printed.p_low);
-        b("p_high", r.printed.p_high);
-    });
 }
 
 template <class Archive, certificate::Described<YoudenPoint> Struct>
@@ -335,7 +260,7 @@ void describe(Archive& a, Struct& r) {
     a("u_D", r.u_D, Range::not_negative);
     a("U_D", r.U_D, Range::not_negative);
     a("En", r.En);
-    a("zeta", r.zeta);
+    a.text_added("zeta", r.zeta);
     a.added("name", r.name);
     a.added("position", r.position);
     a.added("participant", r.participant);
@@ -369,28 +294,7 @@ void describe(Archive& a, Struct& r) {
     a.added("realism", r.realism, {"", "plausible", "small", "large"});
     a.added("U_over_CMC", r.U_over_CMC, Range::not_negative);
     a.added("U_over_median", r.U_over_median, Range::not_negative);
-    a.group("printed", [&](auto& b) {
-        b("angle", r.printed.angle);
-        b("value", r.printed.value);
-        b("U", r.printed.U);
-        b("reference_value", r.printed.reference_value);
-        b("reference_U", r.printed.reference_U);
-        b("D", r.printed.D);
-        b("U_D", r.printed.U_D);
-        b("En", r.printed.En);
-        b.added("zeta", r.printed.zeta);
-        b.added("U_of_scores", r.printed.U_of_scores);
-        b.added("k_of_scores", r.printed.k_of_scores);
-        b.added("D_low", r.printed.D_low);
-        b.added("D_high", r.printed.D_high);
-        b.added("z", r.printed.z);
-        b.added("z_prime", r.printed.z_prime);
-        b.added("D_percent", r.printed.D_percent);
-        b.added("P_A", r.printed.P_A);
-        b.added("En_audited", r.printed.En_audited);
-        b.added("En_worst", r.printed.En_worst);
-        b.added("k", r.printed.k);
-    });
+    a.text("angle", r.printed_angle);
 }
 
 template <class Archive, certificate::Described<ComparisonSummary> Struct>
@@ -429,28 +333,6 @@ void describe(Archive& a, Struct& r) {
             {"", "validated", "agreement_reference_limited", "agreement_few_points", "uncertainty_not_confirmed",
              "uncertainty_too_large", "reference_not_better", "correlation_unknown", "points_above_1", "disagreement"});
     a.added("bias", r.bias);
-    a.group("printed", [&](auto& b) {
-        b("mean_abs_En", r.printed.mean_abs_En);
-        b("max_abs_En", r.printed.max_abs_En);
-        b("rms_En", r.printed.rms_En);
-        b.added("rms_En_low", r.printed.rms_En_low);
-        b.added("rms_En_high", r.printed.rms_En_high);
-        b.added("p_low", r.printed.p_low);
-        b.added("p_high", r.printed.p_high);
-        b.added("D_fail", r.printed.D_fail);
-        b.added("D_fail_largest", r.printed.D_fail_largest);
-        b.added("effective_points", r.printed.effective_points);
-        b.added("p_mahalanobis", r.printed.p_mahalanobis);
-        b.added("vector_En", r.printed.vector_En);
-        b.added("ratio_reference", r.printed.ratio_reference);
-        b.added("found_with_80_percent", r.printed.found_with_80_percent);
-        b.added("found_with_95_percent", r.printed.found_with_95_percent);
-        b.added("power_to_confirm", r.printed.power_to_confirm);
-        b.added("max_abs_En_worst", r.printed.max_abs_En_worst);
-        b.added("mean_abs_En_audited", r.printed.mean_abs_En_audited);
-        b.added("max_abs_En_audited", r.printed.max_abs_En_audited);
-        b.added("published_mean_abs_En", r.printed.published_mean_abs_En);
-    });
 }
 
 template <class Archive, certificate::Described<ComparisonIssuer> Struct>

@@ -7,6 +7,7 @@
 #include "reports/record/comparison_evaluation.h"
 #include "reports/record/identified_sentence.h"
 #include "reports/record/rotary_evidence.h"
+#include "reports/record/shown.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -105,10 +106,12 @@ struct Result {
     std::optional<MonteCarloSummary> monte_carlo;
 };
 
-/// One of the six error motions at one angle.
-struct ErrorValue {
-    double value = 0.0, u = 0.0, U = 0.0, k = 2.0;  ///< [µm] or [arcsec]
-    std::optional<double> nu_eff;
+/// A number of a rotary table that is stated with its uncertainty, and the texts that every document prints of it: an
+/// error motion at one angle, its reversal, its range, where the axis is, a parameter of ISO 230-2.
+/// reports/record/stated_values.h lists all of a table.
+struct StatedValue {
+    double value = 0.0, u = 0.0, U = 0.0, k = 2.0;  ///< of the law of propagation, [µm] or [arcsec]
+    std::optional<double> nu_eff;                   ///< none = infinite
     Printed printed;
     std::optional<MonteCarloSummary> monte_carlo = {};  ///< without histogram
     std::optional<ReportedResult> reported = {};        ///< none: the law of propagation, nothing speaks against it
@@ -117,7 +120,7 @@ struct ErrorValue {
 struct ErrorsAtAngle {
     double angle_deg = 0.0;
     std::string printed_angle;
-    std::array<ErrorValue, 6> errors;  ///< in the order of RotaryTable::error_names
+    std::array<StatedValue, 6> errors;  ///< in the order of RotaryTable::error_names
 };
 
 struct SetUp {
@@ -129,7 +132,7 @@ struct SetUp {
 /// Mean difference between the two senses of approach, positive minus negative, of one error motion.
 struct Reversal {
     std::string name;  ///< "EXA" …
-    ErrorValue value;
+    StatedValue stated;
 };
 
 struct Station {
@@ -257,11 +260,7 @@ struct TableParameter {
     std::string name;  ///< "axis_y", "R_up"
     std::string description;
     std::string unit;  ///< "um" or "arcsec"
-    double value = 0.0, u = 0.0, U = 0.0, k = 2.0;
-    std::optional<double> nu_eff;
-    Printed printed;
-    std::optional<MonteCarloSummary> monte_carlo;
-    std::optional<ReportedResult> reported = {};  ///< as ErrorValue::reported
+    StatedValue stated;
 };
 
 /// A point that is known in the frame of the machine.
@@ -321,12 +320,7 @@ struct FixtureBudget {
 /// ISO 230-7 range of one error motion over the angles.
 struct RangeRow {
     std::string name;
-    double value = 0.0, U = 0.0;
-    Printed printed;
-    double u = 0.0;
-    std::optional<MonteCarloSummary> monte_carlo = {};
-    std::optional<double> k = {}, nu_eff = {};    ///< records of earlier releases hold no k; none of ν = infinite
-    std::optional<ReportedResult> reported = {};  ///< as ErrorValue::reported
+    StatedValue stated;
 };
 
 /// Distances that the laboratory left out by the job: those that agree with everything that is named. "" and none: all.
@@ -388,41 +382,40 @@ struct RotaryTable {
 struct ComparisonPoint {
     std::string direction = {};            ///< "x", "y", "z" of a rotary table, or what the job calls it; "" without
     std::optional<double> angle_deg = {};  ///< rotary tables
-    double value = 0.0;
-    std::optional<double> u = {}, U = {};  ///< none: the laboratory states no uncertainty
-    double reference_value = 0.0;          ///< or the assigned value
-    std::optional<double> reference_u = {}, reference_U = {};
-    double D = 0.0;
-    std::optional<double> u_D = {}, U_D = {}, En = {}, zeta = {};
-    struct {
-        std::string angle = {}, value = {}, U = {}, reference_value = {}, reference_U = {}, D = {}, U_D = {}, En = {};
-        std::string zeta = {}, z = {}, z_prime = {}, D_percent = {}, P_A = {}, En_audited = {}, En_worst = {}, k = {};
-        std::string U_of_scores = {}, k_of_scores = {}, D_low = {}, D_high = {};
-    } printed = {};
-
+    std::string printed_angle = {};        ///< or position
+    Shown<double> value = {};
+    std::optional<double> u = {};  ///< none: the laboratory states no uncertainty
+    Shown<std::optional<double>> U = {};
+    Shown<double> reference_value = {};  ///< or the assigned value
+    std::optional<double> reference_u = {};
+    Shown<std::optional<double>> reference_U = {};
+    Shown<double> D = {};
+    std::optional<double> u_D = {};
+    Shown<std::optional<double>> U_D = {}, En = {}, zeta = {};
     std::string name = {};                                ///< of the point of a comparison of methods
     std::optional<double> position = {};                  ///< of it, in Comparison::position_unit
     std::string participant = {}, item = {}, round = {};  ///< between laboratories: ids
     bool contributes = true;                              ///< to the assigned value
     std::string reason = {};                              ///< why not
-    std::optional<double> k = {}, nu = {}, reference_k = {};
+    Shown<std::optional<double>> k = {};
+    std::optional<double> nu = {}, reference_k = {};
     std::optional<double> correlation = {};  ///< r of value and reference value, as used in u_D and U_D
-    std::optional<double> z = {}, z_prime = {}, D_percent = {}, P_A = {};
-    std::optional<double> En_worst = {};    ///< for the worst plausible correlation, where r is not known
-    std::optional<double> En_audited = {};  ///< with findings on the uncertainties corrected
+    Shown<std::optional<double>> z = {}, z_prime = {}, D_percent = {}, P_A = {};
+    Shown<std::optional<double>> En_worst = {};    ///< for the worst plausible correlation, where r is not known
+    Shown<std::optional<double>> En_audited = {};  ///< with findings on the uncertainties corrected
     /// "none", "warning" or "action", the strongest of all scores; "inconclusive" where the reference or assigned value
     /// is too uncertain to clear anybody; "" without score.
     std::string signal = {};
     std::vector<std::string> signal_by = {};  ///< scores that give it: "z", "En", "En_audited" …
     /// U and k that E_n takes in place of those stated, so that both sides have about 95 %; none: as stated.
-    std::optional<double> U_of_scores = {}, k_of_scores = {};
+    Shown<std::optional<double>> U_of_scores = {}, k_of_scores = {};
     std::optional<double> reference_U_of_scores = {};  ///< the same of the reference, between methods
     /// Where the assigned value is made of results that scatter: its standard uncertainty as all other results show it,
     /// their degrees of freedom, their covariance with this result, the share of this result in the value, and the
     /// factor of U_D of a median. U_D = factor t_p(nu_D) (1 − share) √(u² + u_others² + u_item² − 2 cov), with u_item
     /// of homogeneity and stability.
     std::optional<double> u_others = {}, nu_others = {}, covariance_others = {}, share = {}, factor_D = {}, nu_D = {};
-    std::optional<double> D_low = {}, D_high = {};  ///< coverage interval of D by trials
+    Shown<std::optional<double>> D_low = {}, D_high = {};  ///< coverage interval of D by trials
     std::string realism = {};  ///< of u: "plausible", "small", "large" against u(X) and 1.5 s*; "" where not judged
     std::optional<double> U_over_CMC = {};
     std::optional<double> U_over_median = {};  ///< of the U of all other laboratories
@@ -432,33 +425,26 @@ struct ComparisonPoint {
 struct ComparisonSummary {
     std::string direction;  ///< "x", "y", "z", "all" …; the key in the record
     std::int64_t points = 0, count_above_1 = 0;
-    double mean_abs_En = 0.0, max_abs_En = 0.0, rms_En = 0.0;
-    struct {
-        std::string mean_abs_En = {}, max_abs_En = {}, rms_En = {};
-        std::string rms_En_low = {}, rms_En_high = {}, p_low = {}, p_high = {}, D_fail = {}, D_fail_largest = {};
-        std::string effective_points = {}, p_mahalanobis = {}, vector_En = {}, ratio_reference = {};
-        std::string max_abs_En_worst = {}, mean_abs_En_audited = {}, max_abs_En_audited = {};
-        std::string published_mean_abs_En = {};
-        std::string found_with_80_percent = {}, found_with_95_percent = {}, power_to_confirm = {};
-    } printed = {};
-    std::optional<double> rms_En_low = {}, rms_En_high = {};  ///< 95 % band where uncertainties are right
-    std::optional<double> p_low = {}, p_high = {};            ///< given the correlations of the points
-    std::optional<double> D_fail = {};  ///< smallest U_D of the points: the smallest deviation that would have failed
-    std::optional<double> D_fail_largest = {};
-    std::optional<double> effective_points = {};
-    std::optional<double> mahalanobis_square = {}, p_mahalanobis = {}, vector_En = {};
+    Shown<double> mean_abs_En = {}, max_abs_En = {}, rms_En = {};
+    Shown<std::optional<double>> rms_En_low = {}, rms_En_high = {};  ///< 95 % band where uncertainties are right
+    Shown<std::optional<double>> p_low = {}, p_high = {};            ///< given the correlations of the points
+    /// Smallest U_D of the points: the smallest deviation that would have failed; and the largest one
+    Shown<std::optional<double>> D_fail = {}, D_fail_largest = {};
+    Shown<std::optional<double>> effective_points = {};
+    std::optional<double> mahalanobis_square = {};
+    Shown<std::optional<double>> p_mahalanobis = {}, vector_En = {};
     std::optional<std::int64_t> rank = {};
-    std::optional<double> ratio_reference = {};                      ///< rms U of the reference / rms U of the method
+    Shown<std::optional<double>> ratio_reference = {};               ///< rms U of the reference / rms U of the method
     std::optional<double> p_if_too_small = {}, p_if_too_large = {};  ///< of Σζ² if U should be twice, or half, as large
-    std::optional<double> power_to_confirm = {};                     ///< share of right U that the points would confirm
+    Shown<std::optional<double>> power_to_confirm = {};              ///< share of right U that the points would confirm
     std::optional<std::int64_t> count_by_chance = {};                ///< limit of count_above_1
     /// Constant deviation that is found at every single point with a probability of 80 % and 95 %.
-    std::optional<double> found_with_80_percent = {}, found_with_95_percent = {};
-    std::optional<double> max_abs_En_worst = {};
+    Shown<std::optional<double>> found_with_80_percent = {}, found_with_95_percent = {};
+    Shown<std::optional<double>> max_abs_En_worst = {};
     std::optional<std::int64_t> count_above_1_worst = {};
-    std::optional<double> mean_abs_En_audited = {}, max_abs_En_audited = {};
+    Shown<std::optional<double>> mean_abs_En_audited = {}, max_abs_En_audited = {};
     std::optional<std::int64_t> count_above_1_audited = {};
-    std::optional<double> published_mean_abs_En = {};  ///< of a publication that the job names
+    Shown<std::optional<double>> published_mean_abs_En = {};  ///< of a publication that the job names
     std::string verdict = {};  ///< word of gum::AgreementVerdict, e.g. "validated"; "" where not judged
     std::optional<BiasLineSummary> bias = {};
 };

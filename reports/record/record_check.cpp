@@ -14,7 +14,7 @@
 #include "json/json_pointer.h"
 #include "reports/record/record_kinds.h"
 #include "reports/record/record_rules.h"
-#include "reports/record/reported_result.h"
+#include "reports/record/stated_values.h"
 
 namespace gumcert::reports {
 
@@ -130,37 +130,18 @@ void check_rotary(const RotaryTable& r, const RecordBreach& report) {
     if (const GlobalTest& test = r.adjustment.global_test; test.lower > test.upper) {
         report("/adjustment/global_test/lower", record_number(test.lower), "must not be above the upper limit");
     }
-    const auto trials = [&](const std::string& at, const std::optional<MonteCarloSummary>& m) {
-        if (m) {
-            check_monte_carlo(*m, at + "/monte_carlo", report);
+    std::set<std::pair<StatedGroup, std::string>> names;
+    for (const auto& place : stated_values(r)) {
+        const std::string at = pointer_of(place);
+        if (place.stated.monte_carlo) {
+            check_monte_carlo(*place.stated.monte_carlo, at + "/monte_carlo", report);
         }
-    };
-    for (std::size_t i = 0; i < r.errors.size(); ++i) {
-        for (std::size_t m = 0; m < r.errors[i].errors.size(); ++m) {
-            trials("/errors/" + std::to_string(i) + "/" + r.error_names[m], r.errors[i].errors[m].monte_carlo);
+        if (place.group >= StatedGroup::axis_line && !names.emplace(place.group, place.name).second) {
+            report(at + "/name", '"' + place.name + '"', "a parameter is listed once");
         }
     }
-    for (std::size_t i = 0; i < r.ranges.size(); ++i) {
-        trials("/ranges/" + std::to_string(i), r.ranges[i].monte_carlo);
-    }
-    for (std::size_t i = 0; i < r.reversal.size(); ++i) {
-        trials("/reversal/" + std::to_string(i), r.reversal[i].value.monte_carlo);
-    }
-    const auto parameters = [&](const std::string& at, const std::vector<TableParameter>& all) {
-        std::set<std::string> names;
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            const std::string one = at + "/" + std::to_string(i);
-            trials(one, all[i].monte_carlo);
-            if (!names.insert(all[i].name).second) {
-                report(one + "/name", '"' + all[i].name + '"', "a parameter is listed once");
-            }
-        }
-    };
-    parameters("/axis_line", r.axis_line);
-    parameters("/location_errors", r.location_errors);
     if (r.iso230_2) {
         const std::vector<TableParameter>& all = r.iso230_2->parameters;
-        parameters("/iso230_2/parameters", all);
         for (std::size_t i = 0; i < all.size(); ++i) {
             if (std::find(k_positioning_names.begin(), k_positioning_names.end(), all[i].name) ==
                 k_positioning_names.end()) {

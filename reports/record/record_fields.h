@@ -1,7 +1,9 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 #include <string>
+#include <type_traits>
 
 #include "certificate/certificate_fields.h"
 #include "reports/record/comparison_fields.h"
@@ -368,14 +370,20 @@ void describe(Archive& a, Struct& r) {
     });
 }
 
-template <class Archive, certificate::Described<ErrorValue> Struct>
-void describe(Archive& a, Struct& r) {
+/// The keys of a stated value that have been in a record from the beginning.
+template <class Archive, certificate::Described<StatedValue> Struct>
+void describe_law(Archive& a, Struct& r) {
     a("value", r.value);
     a("u", r.u, NumberRule::not_negative);
     a("U", r.U, NumberRule::not_negative);
     a("k", r.k, NumberRule::positive);
     a("nu_eff", r.nu_eff, NumberRule::positive);
     a("printed", r.printed);
+}
+
+template <class Archive, certificate::Described<StatedValue> Struct>
+void describe(Archive& a, Struct& r) {
+    describe_law(a, r);
     a.added("monte_carlo", r.monte_carlo);
     a.added("reported", r.reported);
 }
@@ -398,7 +406,7 @@ void describe(Archive& a, Struct& r) {
 template <class Archive, certificate::Described<Reversal> Struct>
 void describe(Archive& a, Struct& r) {
     a("name", r.name);
-    describe(a, r.value);
+    describe(a, r.stated);
 }
 
 template <class Archive, certificate::Described<Station> Struct>
@@ -566,14 +574,9 @@ void describe(Archive& a, Struct& r) {
     a("name", r.name);
     a("description", r.description);
     a("unit", r.unit, {"um", "arcsec"});
-    a("value", r.value);
-    a("u", r.u, NumberRule::not_negative);
-    a("U", r.U, NumberRule::not_negative);
-    a("k", r.k, NumberRule::positive);
-    a("nu_eff", r.nu_eff, NumberRule::positive);
-    a("printed", r.printed);
-    a("monte_carlo", r.monte_carlo);
-    a.added("reported", r.reported);
+    describe_law(a, r.stated);
+    a("monte_carlo", r.stated.monte_carlo);
+    a.added("reported", r.stated.reported);
 }
 
 template <class Archive, certificate::Described<PositioningTarget> Struct>
@@ -634,14 +637,21 @@ void describe(Archive& a, Struct& r) {
 template <class Archive, certificate::Described<RangeRow> Struct>
 void describe(Archive& a, Struct& r) {
     a("name", r.name);
-    a("value", r.value, NumberRule::not_negative);
-    a("U", r.U, NumberRule::not_negative);
-    a("printed", r.printed);
-    a.added("u", r.u, NumberRule::not_negative);
-    a.added("k", r.k, NumberRule::positive);
-    a.added("nu_eff", r.nu_eff, NumberRule::positive);
-    a.added("monte_carlo", r.monte_carlo);
-    a.added("reported", r.reported);
+    a("value", r.stated.value, NumberRule::not_negative);
+    a("U", r.stated.U, NumberRule::not_negative);
+    a("printed", r.stated.printed);
+    a.added("u", r.stated.u, NumberRule::not_negative);
+    std::optional<double> k;  // records of earlier releases hold none
+    if constexpr (std::is_const_v<Struct>) {
+        k = r.stated.k;
+    }
+    a.added("k", k, NumberRule::positive);
+    if constexpr (!std::is_const_v<Struct>) {
+        r.stated.k = k ? *k : r.stated.u > 0.0 && r.stated.U > 0.0 ? r.stated.U / r.stated.u : r.stated.k;
+    }
+    a.added("nu_eff", r.stated.nu_eff, NumberRule::positive);
+    a.added("monte_carlo", r.stated.monte_carlo);
+    a.added("reported", r.stated.reported);
 }
 
 template <class Archive, certificate::Described<GroupTestRow> Struct>

@@ -58,6 +58,25 @@ public:
         problems_.add("GC-RECORD-0016", at.pointer(), '"' + word + '"', rule, k_restore);
     }
 
+    using StructReader::operator();
+
+    template <class Number, class Rule = gumcert::json::NoRule>
+    void operator()(const char* key, Shown<Number>& v, const Rule& rule = {}) {
+        (*this)(key, v.number, rule);
+        text(key, v.text);
+    }
+
+    /// A text of the object `printed`, which finish() reads as a whole.
+    void text(const char* key, std::string& v) { texts_.push_back({key, &v, false}); }
+    void text_added(const char* key, std::string& v) { texts_.push_back({key, &v, true}); }
+
+    /// A number whose text a later release added.
+    template <class Number, class Rule = gumcert::json::NoRule>
+    void text_added(const char* key, Shown<Number>& v, const Rule& rule = {}) {
+        (*this)(key, v.number, rule);
+        text_added(key, v.text);
+    }
+
     template <class Type>
     void filled(const char* key, Type& v) {
         (*this)(key, v);
@@ -86,6 +105,12 @@ public:
         }
     }
 
+    template <class Number, class... Rule>
+    void added(const char* key, Shown<Number>& v, const Rule&... rule) {
+        added(key, v.number, rule...);
+        text_added(key, v.text);
+    }
+
     template <class Describe>
     void group(const char* key, const Describe& describe_group) {
         if (const json* item = find(key)) {
@@ -98,6 +123,18 @@ public:
             describe_group(inner);
             inner.finish();
         }
+    }
+
+    /// To be called when every key was asked for.
+    void finish() {
+        if (!texts_.empty()) {
+            group("printed", [&](Reader& printed) {
+                for (const PrintedText& text : texts_) {
+                    text.added ? printed.added(text.key, *text.value) : printed(text.key, *text.value);
+                }
+            });
+        }
+        StructReader::finish();
     }
 
     void constant(const char* key, const char*) { static_cast<void>(find(key)); }  // the caller has looked at it
@@ -263,8 +300,8 @@ public:
         for (const TableParameter& p : v) {
             names.insert(p.name);
             static_cast<void>(find_if_there(p.name));
-            same(&object_, place_, p.name, p.value);
-            same(U, U_at, p.name, p.U);
+            same(&object_, place_, p.name, p.stated.value);
+            same(U, U_at, p.name, p.stated.U);
         }
         if (U == nullptr) {
             return;
@@ -281,6 +318,12 @@ private:
     friend StructReader;
     static constexpr bool k_null_is_none = true;
     RecordProblems& problems_;
+    struct PrintedText {
+        const char* key;
+        std::string* value;
+        bool added;
+    };
+    std::vector<PrintedText> texts_;
 
     /// Calls read(reader of the object) for each object of an array; anything else in it is reported and left out.
     template <class Read>

@@ -52,6 +52,22 @@ public:
         object[key] = to_json(v, place_.child(key), range);
     }
 
+    template <class Number>
+    void operator()(const char* key, const Shown<Number>& v, Range range = Range::any) {
+        (*this)(key, v.number, range);
+        text(key, v.text);
+    }
+
+    /// What documents print, in the object `printed`.
+    void text(const char* key, const std::string& v) { object["printed"][key] = v; }
+    void text_added(const char* key, const std::string& v) { text(key, v); }
+
+    /// A number whose text a later release added.
+    template <class Number>
+    void text_added(const char* key, const Shown<Number>& v, Range range = Range::any) {
+        (*this)(key, v, range);
+    }
+
     void operator()(const char* key, const std::string& v, std::initializer_list<const char*> allowed) {
         if (std::find(allowed.begin(), allowed.end(), v) == allowed.end()) {
             refuse_record(place_.child(key), '"' + v + '"', "is not one of the names that a record may hold here");
@@ -190,8 +206,8 @@ public:
     void by_name(const std::vector<TableParameter>& v) {
         json U = json::object();
         for (const TableParameter& p : v) {
-            object[p.name] = p.value;
-            U[p.name] = p.U;
+            object[p.name] = p.stated.value;
+            U[p.name] = p.stated.U;
         }
         object["U"] = std::move(U);
     }

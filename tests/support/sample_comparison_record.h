@@ -53,33 +53,33 @@ inline void add_sample_item(reports::Comparison& c, const std::string& id, const
     item.method = "weighted_mean";
     item.reference_participant = laboratory_id(0);
     item.traceability = "SI through the national standard of length of the pilot laboratory";
-    item.value = value;
-    item.u = 0.06 * spread;
-    item.U = 0.12 * spread;
-    item.k = 2.0;
-    item.u_characterisation = 0.05 * spread;
-    item.u_homogeneity = 0.03 * spread;
-    item.u_stability = 0.013 * spread;
-    item.s_star = 0.4 * spread;
-    item.pooled_standard_deviation = 0.1 * spread;
-    item.sigma_pt = 0.5 * spread;
-    item.delta_E = 1.5 * spread;
+    item.value.number = value;
+    item.u.number = 0.06 * spread;
+    item.U.number = 0.12 * spread;
+    item.k.number = 2.0;
+    item.u_characterisation.number = 0.05 * spread;
+    item.u_homogeneity.number = 0.03 * spread;
+    item.u_stability.number = 0.013 * spread;
+    item.s_star.number = 0.4 * spread;
+    item.pooled_standard_deviation.number = 0.1 * spread;
+    item.sigma_pt.number = 0.5 * spread;
+    item.delta_E.number = 1.5 * spread;
     item.sigma_pt_method = "percent";
-    item.criterion = 0.12;
+    item.criterion.number = 0.12;
     item.criterion_met = true;
     item.score = "En";
-    item.printed = {.value = decimals(value, 2),
-                    .u = decimals(*item.u, 3),
-                    .U = decimals(*item.U, 3),
-                    .k = "2.00",
-                    .u_characterisation = decimals(*item.u_characterisation, 3),
-                    .u_homogeneity = decimals(*item.u_homogeneity, 3),
-                    .u_stability = decimals(*item.u_stability, 3),
-                    .sigma_pt = decimals(*item.sigma_pt, 2),
-                    .delta_E = decimals(*item.delta_E, 2),
-                    .criterion = "0.12",
-                    .s_star = decimals(*item.s_star, 2),
-                    .pooled_standard_deviation = decimals(*item.pooled_standard_deviation, 2)};
+    item.value.text = decimals(value, 2);
+    item.u.text = decimals(*item.u.number, 3);
+    item.U.text = decimals(*item.U.number, 3);
+    item.k.text = "2.00";
+    item.u_characterisation.text = decimals(*item.u_characterisation.number, 3);
+    item.u_homogeneity.text = decimals(*item.u_homogeneity.number, 3);
+    item.u_stability.text = decimals(*item.u_stability.number, 3);
+    item.sigma_pt.text = decimals(*item.sigma_pt.number, 2);
+    item.delta_E.text = decimals(*item.delta_E.number, 2);
+    item.criterion.text = "0.12";
+    item.s_star.text = decimals(*item.s_star.number, 2);
+    item.pooled_standard_deviation.text = decimals(*item.pooled_standard_deviation.number, 2);
     for (std::size_t i = 0; i < laboratories; ++i) {
         const auto d = static_cast<double>(i);
         if (i == 5) {
@@ -90,16 +90,16 @@ inline void add_sample_item(reports::Comparison& c, const std::string& id, const
         p.participant = laboratory_id(i);
         p.item = id;
         p.round = round;
-        p.value = value + spread * (0.55 * std::sin(2.39996 * d + value) + 0.1 * std::cos(0.7 * d));
-        p.reference_value = value;
-        p.reference_u = item.u;
-        p.reference_U = item.U;
+        p.value.number = value + spread * (0.55 * std::sin(2.39996 * d + value) + 0.1 * std::cos(0.7 * d));
+        p.reference_value.number = value;
+        p.reference_u = item.u.number;
+        p.reference_U.number = item.U.number;
         p.reference_k = 2.0;
-        p.D = p.value - p.reference_value;
-        p.D_percent = 100.0 * p.D / p.reference_value;
-        p.P_A = 100.0 * p.D / *item.delta_E;
-        p.z = p.D / *item.sigma_pt;
-        p.z_prime = p.D / std::hypot(*item.sigma_pt, *item.u);
+        p.D.number = p.value.number - p.reference_value.number;
+        p.D_percent.number = 100.0 * p.D.number / p.reference_value.number;
+        p.P_A.number = 100.0 * p.D.number / *item.delta_E.number;
+        p.z.number = p.D.number / *item.sigma_pt.number;
+        p.z_prime.number = p.D.number / std::hypot(*item.sigma_pt.number, *item.u.number);
         p.contributes = i != 3;
         p.signal = "none";
         if (!p.contributes) {
@@ -108,37 +108,37 @@ inline void add_sample_item(reports::Comparison& c, const std::string& id, const
         }
         if (i != 4) {
             p.u = spread * (0.15 + 0.05 * std::cos(1.3 * d));
-            p.k = i == 2 ? 2.13 : 2.0;
+            p.k.number = i == 2 ? 2.13 : 2.0;
             p.nu = i == 2 ? std::optional<double>(14.0) : std::nullopt;
-            p.U = *p.k * *p.u;
-            p.correlation = p.contributes ? *item.u / *p.u : 0.0;
-            p.u_D = std::sqrt(*p.u * *p.u + (p.contributes ? -1.0 : 1.0) * *item.u * *item.u);
-            p.U_D = 2.0 * *p.u_D;
-            p.En = p.D / *p.U_D;
-            p.zeta = p.D / *p.u_D;
-            p.En_audited = 0.9 * *p.En;
-            p.En_worst = 1.2 * *p.En;
-            p.signal = std::abs(*p.En) >= 1.0 ? "action" : "none";
+            p.U.number = *p.k.number * *p.u;
+            p.correlation = p.contributes ? *item.u.number / *p.u : 0.0;
+            p.u_D = std::sqrt(*p.u * *p.u + (p.contributes ? -1.0 : 1.0) * *item.u.number * *item.u.number);
+            p.U_D.number = 2.0 * *p.u_D;
+            p.En.number = p.D.number / *p.U_D.number;
+            p.zeta.number = p.D.number / *p.u_D;
+            p.En_audited.number = 0.9 * *p.En.number;
+            p.En_worst.number = 1.2 * *p.En.number;
+            p.signal = std::abs(*p.En.number) >= 1.0 ? "action" : "none";
             p.realism = i % 3 == 0 ? "plausible" : i % 3 == 1 ? "small" : "large";
             p.U_over_CMC = 1.0 + 0.1 * d;
             p.U_over_median = 0.9;
         }
-        p.printed = {.angle = "",
-                     .value = decimals(p.value, 2),
-                     .U = p.U ? decimals(*p.U, 2) : "",
-                     .reference_value = item.printed.value,
-                     .reference_U = item.printed.U,
-                     .D = decimals(p.D, 2),
-                     .U_D = p.U_D ? decimals(*p.U_D, 2) : "",
-                     .En = p.En ? decimals(*p.En, 2) : "",
-                     .zeta = p.zeta ? decimals(*p.zeta, 2) : "",
-                     .z = decimals(*p.z, 2),
-                     .z_prime = decimals(*p.z_prime, 2),
-                     .D_percent = decimals(*p.D_percent, 3),
-                     .P_A = decimals(*p.P_A, 1),
-                     .En_audited = p.En_audited ? decimals(*p.En_audited, 2) : "",
-                     .En_worst = p.En_worst ? decimals(*p.En_worst, 2) : "",
-                     .k = p.k ? decimals(*p.k, 2) : ""};
+        p.printed_angle = "";
+        p.value.text = decimals(p.value.number, 2);
+        p.U.text = p.U.number ? decimals(*p.U.number, 2) : "";
+        p.reference_value.text = item.value.text;
+        p.reference_U.text = item.U.text;
+        p.D.text = decimals(p.D.number, 2);
+        p.U_D.text = p.U_D.number ? decimals(*p.U_D.number, 2) : "";
+        p.En.text = p.En.number ? decimals(*p.En.number, 2) : "";
+        p.zeta.text = p.zeta.number ? decimals(*p.zeta.number, 2) : "";
+        p.z.text = decimals(*p.z.number, 2);
+        p.z_prime.text = decimals(*p.z_prime.number, 2);
+        p.D_percent.text = decimals(*p.D_percent.number, 3);
+        p.P_A.text = decimals(*p.P_A.number, 1);
+        p.En_audited.text = p.En_audited.number ? decimals(*p.En_audited.number, 2) : "";
+        p.En_worst.text = p.En_worst.number ? decimals(*p.En_worst.number, 2) : "";
+        p.k.text = p.k.number ? decimals(*p.k.number, 2) : "";
         c.points.push_back(p);
         ++item.results;
         if (p.contributes && p.u) {
@@ -147,78 +147,55 @@ inline void add_sample_item(reports::Comparison& c, const std::string& id, const
         }
     }
     item.not_consistent = {laboratory_id(1)};
-    item.consistency = {.chi_square = 9.3,
-                        .critical_value = 12.6,
-                        .p_value = 0.16,
+    item.consistency = {.chi_square = {9.3, "9.30"},
+                        .critical_value = {12.6, "12.59"},
+                        .p_value = {0.16, "0.16"},
                         .alpha = 0.05,
                         .degrees_of_freedom = 6,
                         .consistent = true,
-                        .birge_ratio = 1.24,
-                        .birge_limit = 1.47,
+                        .birge_ratio = {1.24, "1.24"},
+                        .birge_limit = {1.47, "1.47"},
                         .pairs = 21,
-                        .incompatible_pairs = 2,
-                        .printed = {.chi_square = "9.30",
-                                    .critical_value = "12.59",
-                                    .p_value = "0.16",
-                                    .birge_ratio = "1.24",
-                                    .birge_limit = "1.47"}};
+                        .incompatible_pairs = 2};
     item.estimates = {{.method = "weighted_mean",
-                       .value = value,
-                       .u = item.u,
-                       .scale = {},
-                       .between = {},
+                       .value = {value, decimals(value, 2)},
+                       .u = {item.u.number, decimals(*item.u.number, 3)},
+                       .scale = {{}, ""},
+                       .between = {{}, ""},
                        .results = item.contributing,
-                       .used = true,
-                       .printed = {.value = decimals(value, 2), .u = decimals(*item.u, 3), .scale = "", .between = ""}},
+                       .used = true},
                       {.method = "dersimonian_laird",
-                       .value = value + 0.02 * spread,
-                       .u = 0.08 * spread,
-                       .scale = 0.4 * spread,
-                       .between = 0.21 * spread,
+                       .value = {value + 0.02 * spread, decimals(value + 0.02 * spread, 2)},
+                       .u = {0.08 * spread, decimals(0.08 * spread, 3)},
+                       .scale = {0.4 * spread, decimals(0.4 * spread, 2)},
+                       .between = {0.21 * spread, decimals(0.21 * spread, 3)},
                        .results = item.contributing,
-                       .used = false,
-                       .printed = {.value = decimals(value + 0.02 * spread, 2),
-                                   .u = decimals(0.08 * spread, 3),
-                                   .scale = decimals(0.4 * spread, 2),
-                                   .between = decimals(0.21 * spread, 3)}}};
+                       .used = false}};
     item.homogeneity = {.items = 10,
                         .replicates = 2,
-                        .mean = value,
-                        .s_x = 0.04 * spread,
-                        .s_w = 0.03 * spread,
-                        .s_s = 0.03 * spread,
-                        .limit = 0.15 * spread,
-                        .expanded_limit = 0.18 * spread,
+                        .mean = {value, decimals(value, 2)},
+                        .s_x = {0.04 * spread, "0.040"},
+                        .s_w = {0.03 * spread, "0.030"},
+                        .s_s = {0.03 * spread, "0.030"},
+                        .limit = {0.15 * spread, "0.15"},
+                        .expanded_limit = {0.18 * spread, "0.18"},
                         .sufficient = true,
-                        .sufficient_expanded = true,
-                        .printed = {.mean = decimals(value, 2),
-                                    .s_x = "0.040",
-                                    .s_w = "0.030",
-                                    .s_s = "0.030",
-                                    .limit = "0.15",
-                                    .expanded_limit = "0.18"}};
-    item.stability = {
-        .mean = value,
-        .difference = 0.02 * spread,
-        .u_difference = 0.01 * spread,
-        .limit = 0.15 * spread,
-        .expanded_limit = 0.17 * spread,
-        .stable = true,
-        .stable_expanded = true,
-        .printed = {.mean = decimals(value, 2), .difference = "0.020", .limit = "0.15", .expanded_limit = "0.17"}};
-    item.consensus = {.reference_value = value + 0.05 * spread,
+                        .sufficient_expanded = true};
+    item.stability = {.mean = {value, decimals(value, 2)},
+                      .difference = {0.02 * spread, "0.020"},
+                      .u_difference = 0.01 * spread,
+                      .limit = {0.15 * spread, "0.15"},
+                      .expanded_limit = {0.17 * spread, "0.17"},
+                      .stable = true,
+                      .stable_expanded = true};
+    item.consensus = {.reference_value = {value + 0.05 * spread, decimals(value + 0.05 * spread, 2)},
+                      .consensus = {value, decimals(value, 2)},
                       .u_reference = 0.05 * spread,
-                      .consensus = value,
-                      .u_consensus = *item.u,
-                      .difference = -0.05 * spread,
-                      .u_difference = 0.078 * spread,
-                      .ratio = -0.64,
-                      .consistent = true,
-                      .printed = {.reference_value = decimals(value + 0.05 * spread, 2),
-                                  .consensus = decimals(value, 2),
-                                  .difference = "\u22120.050",
-                                  .u_difference = "0.078",
-                                  .ratio = "\u22120.64"}};
+                      .u_consensus = *item.u.number,
+                      .difference = {-0.05 * spread, "\u22120.050"},
+                      .u_difference = {0.078 * spread, "0.078"},
+                      .ratio = {-0.64, "\u22120.64"},
+                      .consistent = true};
     if (laboratories <= 40) {
         for (std::size_t i = 0; i < c.points.size(); ++i) {
             for (std::size_t j = i + 1; j < c.points.size(); ++j) {
@@ -228,11 +205,13 @@ inline void add_sample_item(reports::Comparison& c, const std::string& id, const
                     continue;
                 }
                 PairEquivalence pair{.first = a.participant, .second = b.participant};
-                pair.d = a.value - b.value;
+                pair.d.number = a.value.number - b.value.number;
                 pair.u = std::hypot(*a.u, *b.u);
-                pair.U = 2.0 * pair.u;
-                pair.En = pair.d / pair.U;
-                pair.printed = {.d = decimals(pair.d, 2), .U = decimals(pair.U, 2), .En = decimals(*pair.En, 2)};
+                pair.U.number = 2.0 * pair.u;
+                pair.En.number = pair.d.number / pair.U.number;
+                pair.d.text = decimals(pair.d.number, 2);
+                pair.U.text = decimals(pair.U.number, 2);
+                pair.En.text = decimals(*pair.En.number, 2);
                 item.pairs.push_back(pair);
             }
         }
@@ -261,13 +240,16 @@ inline reports::EvaluationRecord sample_laboratories_record(std::size_t laborato
             p.scored = 2;
             p.warnings = 0;
             p.actions = static_cast<std::int64_t>(i % 3);
-            p.mean_abs_En = 0.4;
-            p.max_abs_En = 0.9;
-            p.rms_En = 0.5;
-            p.p_low = 0.3;
-            p.p_high = 0.7;
-            p.printed = {
-                .mean_abs_En = "0.40", .max_abs_En = "0.90", .rms_En = "0.50", .p_low = "0.30", .p_high = "0.70"};
+            p.mean_abs_En.number = 0.4;
+            p.max_abs_En.number = 0.9;
+            p.rms_En.number = 0.5;
+            p.p_low.number = 0.3;
+            p.p_high.number = 0.7;
+            p.mean_abs_En.text = "0.40";
+            p.max_abs_En.text = "0.90";
+            p.rms_En.text = "0.50";
+            p.p_low.text = "0.30";
+            p.p_high.text = "0.70";
         }
         c.participants.push_back(p);
     }
@@ -275,10 +257,9 @@ inline reports::EvaluationRecord sample_laboratories_record(std::size_t laborato
                   .participant = laboratory_id(0),
                   .round = "1",
                   .mahalanobis_square = 1.9,
-                  .vector_En = 0.55,
-                  .max_abs_En = 0.61,
-                  .quantities = 2,
-                  .printed = {.vector_En = "0.55", .max_abs_En = "0.61"}}};
+                  .vector_En = {0.55, "0.55"},
+                  .max_abs_En = {0.61, "0.61"},
+                  .quantities = 2}};
     YoudenDiagram youden{.first_item = "A", .second_item = "B", .round = "1", .first_unit = "um", .second_unit = "um"};
     youden.centre_first = 0.01;
     youden.centre_second = -0.03;
@@ -298,7 +279,8 @@ inline reports::EvaluationRecord sample_laboratories_record(std::size_t laborato
             return p.item == "B" && p.participant == first.participant;
         });
         if (first.item == "A" && second != c.points.end()) {
-            youden.points.push_back({.participant = first.participant, .first = first.D, .second = second->D});
+            youden.points.push_back(
+                {.participant = first.participant, .first = first.D.number, .second = second->D.number});
         }
         if (youden.points.size() >= 1000) {
             break;  // the search above is for samples of ordinary size
@@ -351,36 +333,36 @@ inline reports::EvaluationRecord sample_methods_record(std::size_t points_of_dir
             p.direction = direction;
             p.name = std::string(direction) + " " + std::to_string(i + 1);
             p.position = 30.0 * d;
-            p.value = 3.1 * std::sin(0.5 * d + direction[0]);
+            p.value.number = 3.1 * std::sin(0.5 * d + direction[0]);
             p.u = 0.21;
-            p.k = 2.0;
+            p.k.number = 2.0;
             p.nu = 45.0;
-            p.U = 0.42;
-            p.reference_value = p.value + 0.7 * std::cos(1.1 * d + direction[0]);
+            p.U.number = 0.42;
+            p.reference_value.number = p.value.number + 0.7 * std::cos(1.1 * d + direction[0]);
             p.reference_u = 0.63;
             p.reference_k = 2.0;
-            p.reference_U = 1.26;
-            p.D = p.value - p.reference_value;
+            p.reference_U.number = 1.26;
+            p.D.number = p.value.number - p.reference_value.number;
             p.correlation = 0.15;
             p.u_D = std::sqrt(0.21 * 0.21 + 0.63 * 0.63 - 2.0 * 0.15 * 0.21 * 0.63);
-            p.U_D = 2.0 * *p.u_D;
-            p.En = p.D / *p.U_D;
-            p.zeta = p.D / *p.u_D;
-            p.En_worst = 1.3 * *p.En;
-            p.En_audited = 0.8 * *p.En;
+            p.U_D.number = 2.0 * *p.u_D;
+            p.En.number = p.D.number / *p.U_D.number;
+            p.zeta.number = p.D.number / *p.u_D;
+            p.En_worst.number = 1.3 * *p.En.number;
+            p.En_audited.number = 0.8 * *p.En.number;
             p.signal = "none";
-            p.printed = {.angle = decimals(*p.position, 0),
-                         .value = decimals(p.value, 2),
-                         .U = decimals(*p.U, 2),
-                         .reference_value = decimals(p.reference_value, 1),
-                         .reference_U = decimals(*p.reference_U, 1),
-                         .D = decimals(p.D, 1),
-                         .U_D = decimals(*p.U_D, 1),
-                         .En = decimals(*p.En, 2),
-                         .zeta = decimals(*p.zeta, 2),
-                         .En_audited = decimals(*p.En_audited, 2),
-                         .En_worst = decimals(*p.En_worst, 2),
-                         .k = "2.00"};
+            p.printed_angle = decimals(*p.position, 0);
+            p.value.text = decimals(p.value.number, 2);
+            p.U.text = decimals(*p.U.number, 2);
+            p.reference_value.text = decimals(p.reference_value.number, 1);
+            p.reference_U.text = decimals(*p.reference_U.number, 1);
+            p.D.text = decimals(p.D.number, 1);
+            p.U_D.text = decimals(*p.U_D.number, 1);
+            p.En.text = decimals(*p.En.number, 2);
+            p.zeta.text = decimals(*p.zeta.number, 2);
+            p.En_audited.text = decimals(*p.En_audited.number, 2);
+            p.En_worst.text = decimals(*p.En_worst.number, 2);
+            p.k.text = "2.00";
             c.points.push_back(p);
         }
     }
@@ -388,61 +370,55 @@ inline reports::EvaluationRecord sample_methods_record(std::size_t points_of_dir
         ComparisonSummary s;
         s.direction = direction;
         s.points = static_cast<std::int64_t>(points_of_direction) * (s.direction == "all" ? 2 : 1);
-        s.mean_abs_En = 0.33;
-        s.max_abs_En = 0.56;
-        s.rms_En = 0.39;
-        s.rms_En_low = 0.21;
-        s.rms_En_high = 0.82;
-        s.p_low = 0.21;
-        s.p_high = 0.79;
-        s.D_fail = 1.25;
-        s.D_fail_largest = 1.31;
-        s.effective_points = 5.4;
+        s.mean_abs_En.number = 0.33;
+        s.max_abs_En.number = 0.56;
+        s.rms_En.number = 0.39;
+        s.rms_En_low.number = 0.21;
+        s.rms_En_high.number = 0.82;
+        s.p_low.number = 0.21;
+        s.p_high.number = 0.79;
+        s.D_fail.number = 1.25;
+        s.D_fail_largest.number = 1.31;
+        s.effective_points.number = 5.4;
         s.mahalanobis_square = 8.2;
-        s.p_mahalanobis = 0.77;
-        s.vector_En = 0.61;
+        s.p_mahalanobis.number = 0.77;
+        s.vector_En.number = 0.61;
         s.rank = 12;
-        s.ratio_reference = 3.0;
-        s.max_abs_En_worst = 0.73;
+        s.ratio_reference.number = 3.0;
+        s.max_abs_En_worst.number = 0.73;
         s.count_above_1_worst = 0;
-        s.mean_abs_En_audited = 0.26;
-        s.max_abs_En_audited = 0.45;
+        s.mean_abs_En_audited.number = 0.26;
+        s.max_abs_En_audited.number = 0.45;
         s.count_above_1_audited = 0;
-        s.published_mean_abs_En = 0.39;
+        s.published_mean_abs_En.number = 0.39;
         s.verdict = "reference_not_better";
         s.bias = {.against = "position",
-                  .centre = 165.0,
-                  .constant = -0.02,
+                  .centre = {165.0, "165"},
+                  .constant = {-0.02, "\u22120.02"},
+                  .U_constant = {0.4, "0.40"},
                   .u_constant = 0.2,
-                  .U_constant = 0.4,
-                  .slope = 0.001,
+                  .slope = {0.001, "0.001"},
+                  .U_slope = {0.004, "0.004"},
                   .u_slope = 0.002,
-                  .U_slope = 0.004,
                   .chi_square = 7.9,
-                  .p_value = 0.64,
-                  .printed = {.centre = "165",
-                              .constant = "\u22120.02",
-                              .U_constant = "0.40",
-                              .slope = "0.001",
-                              .U_slope = "0.004",
-                              .p_value = "0.64"}};
-        s.printed = {.mean_abs_En = "0.33",
-                     .max_abs_En = "0.56",
-                     .rms_En = "0.39",
-                     .rms_En_low = "0.21",
-                     .rms_En_high = "0.82",
-                     .p_low = "0.21",
-                     .p_high = "0.79",
-                     .D_fail = "1.3",
-                     .D_fail_largest = "1.3",
-                     .effective_points = "5.4",
-                     .p_mahalanobis = "0.77",
-                     .vector_En = "0.61",
-                     .ratio_reference = "3.0",
-                     .max_abs_En_worst = "0.73",
-                     .mean_abs_En_audited = "0.26",
-                     .max_abs_En_audited = "0.45",
-                     .published_mean_abs_En = "0.39"};
+                  .p_value = {0.64, "0.64"}};
+        s.mean_abs_En.text = "0.33";
+        s.max_abs_En.text = "0.56";
+        s.rms_En.text = "0.39";
+        s.rms_En_low.text = "0.21";
+        s.rms_En_high.text = "0.82";
+        s.p_low.text = "0.21";
+        s.p_high.text = "0.79";
+        s.D_fail.text = "1.3";
+        s.D_fail_largest.text = "1.3";
+        s.effective_points.text = "5.4";
+        s.p_mahalanobis.text = "0.77";
+        s.vector_En.text = "0.61";
+        s.ratio_reference.text = "3.0";
+        s.max_abs_En_worst.text = "0.73";
+        s.mean_abs_En_audited.text = "0.26";
+        s.max_abs_En_audited.text = "0.45";
+        s.published_mean_abs_En.text = "0.39";
         c.summary.push_back(s);
     }
     c.remarks = {"The uncertainty of the reference is not smaller than that of the method."};

@@ -30,8 +30,8 @@ inline reports::Printed printed(double value, double U, const std::string& unit)
     return {.value = decimals(value, count), .U = decimals(U, count), .unit = unit};
 }
 
-inline reports::ErrorValue error_value(double value, double u, const std::string& unit) {
-    reports::ErrorValue e;
+inline reports::StatedValue stated_value(double value, double u, const std::string& unit) {
+    reports::StatedValue e;
     e.value = value;
     e.u = u;
     e.nu_eff = 412.7;
@@ -77,13 +77,9 @@ inline reports::TableParameter table_parameter(const std::string& name, const st
     p.name = name;
     p.description = description;
     p.unit = unit;
-    p.value = value;
-    p.u = u;
-    p.k = 2.0;
-    p.U = p.k * u;
-    p.nu_eff = 380.0;
-    p.printed = printed(value, p.U, unit == "um" ? "µm" : "″");
-    p.monte_carlo = trials_of(value, u);
+    p.stated = stated_value(value, u, unit == "um" ? "µm" : "″");
+    p.stated.nu_eff = 380.0;
+    p.stated.monte_carlo = trials_of(value, u);
     return p;
 }
 
@@ -141,21 +137,19 @@ inline reports::EvaluationRecord sample_record() {
             const double phase = 0.7 * static_cast<double>(m);
             const double value = amplitude[m] * (std::sin(2.0 * theta + phase) + 0.3 * std::cos(5.0 * theta - phase) +
                                                  0.12 * std::sin(17.0 * theta + 2.0 * phase));
-            row.errors[m] = error_value(value, u[m] * (1.0 + 0.15 * std::cos(theta)), units[m]);
+            row.errors[m] = stated_value(value, u[m] * (1.0 + 0.15 * std::cos(theta)), units[m]);
             row.errors[m].monte_carlo = trials_of(value, row.errors[m].u, !(i == 3 && m == 0), !(i == 4 && m == 5));
         }
         t.errors.push_back(row);
     }
     for (std::size_t m = 0; m < 6; ++m) {
-        t.ranges.push_back({.name = t.error_names[m],
-                            .value = 2.3 * amplitude[m],
-                            .U = 2.8 * u[m],
-                            .printed = printed(2.3 * amplitude[m], 2.8 * u[m], units[m]),
-                            .u = 1.4 * u[m],
-                            .monte_carlo = trials_of(2.3 * amplitude[m], 1.4 * u[m], m != 4)});
+        reports::StatedValue range = stated_value(2.3 * amplitude[m], 1.4 * u[m], units[m]);
+        range.nu_eff.reset();
+        range.monte_carlo = trials_of(range.value, range.u, m != 4);
+        t.ranges.push_back({.name = t.error_names[m], .stated = range});
         t.reversal.push_back(
             {.name = t.error_names[m],
-             .value = error_value(m == 3 ? 0.61 : 0.02 * static_cast<double>(m), 0.3 * u[m], units[m])});
+             .stated = stated_value(m == 3 ? 0.61 : 0.02 * static_cast<double>(m), 0.3 * u[m], units[m])});
     }
     t.covariance_file = "covariance.csv";
     t.covariance_order = {"EXA(0)", "EYA(0)", "O_y", "S_y"};
@@ -320,7 +314,7 @@ inline reports::EvaluationRecord sample_record() {
                    table_parameter("axis_z", "position of the axis average line along z", 192.61, 0.151, "um"),
                    table_parameter("axis_b", "orientation of the axis average line about y", -50.782, 0.122, "arcsec"),
                    table_parameter("axis_c", "orientation of the axis average line about z", 108.704, 0.131, "arcsec")};
-    t.axis_line[2].monte_carlo = trials_of(-50.782, 0.122, false);
+    t.axis_line[2].stated.monte_carlo = trials_of(-50.782, 0.122, false);
 
     PositioningAccuracy positioning;
     positioning.runs_up = 5;
@@ -452,26 +446,27 @@ inline reports::EvaluationRecord sample_record() {
             ComparisonPoint p;
             p.direction = direction;
             p.angle_deg = 10.0 * i;
-            p.value = 3.1 * std::sin(2.0 * theta + direction[0]);
+            p.value.number = 3.1 * std::sin(2.0 * theta + direction[0]);
             p.u = 0.21;
-            p.U = 0.42;
-            p.reference_value = p.value + 0.9 * std::cos(3.0 * theta + direction[0]) + 0.2 * std::sin(23.0 * theta);
+            p.U.number = 0.42;
+            p.reference_value.number =
+                p.value.number + 0.9 * std::cos(3.0 * theta + direction[0]) + 0.2 * std::sin(23.0 * theta);
             p.reference_u = 0.63;
-            p.reference_U = 1.26;
-            p.D = p.value - p.reference_value;
+            p.reference_U.number = 1.26;
+            p.D.number = p.value.number - p.reference_value.number;
             p.u_D = std::hypot(*p.u, *p.reference_u);
-            p.U_D = 2.0 * *p.u_D;
-            p.En =
-                p.D / *p.U_D * (i == 9 && p.direction == "z" ? 1.9 : 1.0) - (i == 30 && p.direction == "x" ? 0.9 : 0.0);
-            p.zeta = 2.0 * *p.En;
-            p.printed = {.angle = decimals(*p.angle_deg, 0),
-                         .value = decimals(p.value, 2),
-                         .U = decimals(*p.U, 2),
-                         .reference_value = decimals(p.reference_value, 1),
-                         .reference_U = decimals(*p.reference_U, 1),
-                         .D = decimals(p.D, 1),
-                         .U_D = decimals(*p.U_D, 1),
-                         .En = decimals(*p.En, 2)};
+            p.U_D.number = 2.0 * *p.u_D;
+            p.En.number = p.D.number / *p.U_D.number * (i == 9 && p.direction == "z" ? 1.9 : 1.0) -
+                          (i == 30 && p.direction == "x" ? 0.9 : 0.0);
+            p.zeta.number = 2.0 * *p.En.number;
+            p.printed_angle = decimals(*p.angle_deg, 0);
+            p.value.text = decimals(p.value.number, 2);
+            p.U.text = decimals(*p.U.number, 2);
+            p.reference_value.text = decimals(p.reference_value.number, 1);
+            p.reference_U.text = decimals(*p.reference_U.number, 1);
+            p.D.text = decimals(p.D.number, 1);
+            p.U_D.text = decimals(*p.U_D.number, 1);
+            p.En.text = decimals(*p.En.number, 2);
             c.points.push_back(p);
         }
     }
@@ -480,10 +475,12 @@ inline reports::EvaluationRecord sample_record() {
         s.direction = direction;
         s.points = s.direction == "all" ? 108 : 36;
         s.count_above_1 = s.direction == "all" ? 1 : 0;
-        s.mean_abs_En = 0.43;
-        s.max_abs_En = 1.12;
-        s.rms_En = 0.5;
-        s.printed = {.mean_abs_En = "0.43", .max_abs_En = "1.12", .rms_En = "0.50"};
+        s.mean_abs_En.number = 0.43;
+        s.max_abs_En.number = 1.12;
+        s.rms_En.number = 0.5;
+        s.mean_abs_En.text = "0.43";
+        s.max_abs_En.text = "1.12";
+        s.rms_En.text = "0.50";
         c.summary.push_back(s);
     }
     c.remarks = {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "reports/record/reported_result.h"
+#include "reports/record/stated_values.h"
 
 namespace gumcert::reports {
 
@@ -50,11 +51,11 @@ class Reporter {
 public:
     Reporter(CoverageChoice choice, double coverage_probability) : choice_(choice), p_(coverage_probability) {}
 
-    template <class Quantity>
-    void report(Quantity& quantity, const std::string& unit, const std::optional<double>& k) const {
-        quantity.reported =
-            reported_of({quantity.value, quantity.u, quantity.U, k, unit}, quantity.monte_carlo, choice_, p_);
-        print(quantity.reported, quantity.printed);
+    void report(reports::StatedValue& q, const std::string& unit) const {
+        q.reported = reported_of({q.value, q.u, q.U, q.k, unit}, q.monte_carlo, choice_, p_);
+        if (q.reported) {
+            q.printed = q.reported->printed;
+        }
     }
 
     void report(reports::Result& result) const {
@@ -67,30 +68,23 @@ public:
 private:
     CoverageChoice choice_;
     double p_;
-
-    static void print(const std::optional<ReportedResult>& reported, reports::Printed& printed) {
-        if (reported) {
-            printed = reported->printed;
-        }
-    }
 };
 
-/// The set-up as people read it, of the results of the record: "O_y" is coordinate 1 of the offsets.
+}  // namespace
+
 void print_set_up(reports::RotaryTable& rotary, const reports::Result& result) {
-    if (result.reported.method != "monte_carlo" || result.name.size() != 3 || result.name[1] != '_') {
+    const std::string& name = result.name;
+    if (name.size() != 3 || name[1] != '_' || name[2] < 'x' || name[2] > 'z') {
         return;
     }
-    const auto coordinate = static_cast<std::size_t>(result.name[2] - 'x');
-    const bool offset = result.name[0] == 'O';
-    const reports::Printed& printed = result.reported.printed;
-    (offset ? rotary.set_up.printed_O : rotary.set_up.printed_S).at(coordinate) = printed;
-    reports::Printed& seen =
-        (offset ? rotary.axis_in_fixture.printed_O : rotary.axis_in_fixture.printed_S).at(coordinate);
-    seen = printed;
-    seen.value = reports::negated(printed.value);
+    const auto coordinate = static_cast<std::size_t>(name[2] - 'x');
+    for (reports::SetUp* side : {&rotary.set_up, &rotary.axis_in_fixture}) {
+        reports::Printed& printed = (name[0] == 'O' ? side->printed_O : side->printed_S)[coordinate];
+        const std::string& value = result.reported.printed.value;
+        printed.value = side == &rotary.set_up ? value : reports::negated(value);
+        printed.U = result.reported.printed.U;
+    }
 }
-
-}  // namespace
 
 void report_result(reports::Result& result, CoverageChoice choice) {
     Reporter(choice, result.coverage_probability).report(result);
@@ -99,30 +93,14 @@ void report_result(reports::Result& result, CoverageChoice choice) {
 void report_rotary_results(reports::EvaluationRecord& record, CoverageChoice choice) {
     reports::RotaryTable& rotary = *record.rotary;
     const Reporter reporter(choice, record.coverage_probability);
-    for (reports::ErrorsAtAngle& at : rotary.errors) {
-        for (std::size_t i = 0; i < at.errors.size(); ++i) {
-            reporter.report(at.errors[i], rotary.error_units[i], at.errors[i].k);
-        }
-    }
-    for (std::size_t i = 0; i < rotary.reversal.size(); ++i) {
-        reporter.report(rotary.reversal[i].value, rotary.error_units[i], rotary.reversal[i].value.k);
-    }
-    for (std::size_t i = 0; i < rotary.ranges.size(); ++i) {
-        reporter.report(rotary.ranges[i], rotary.error_units[i], rotary.ranges[i].k);
-    }
-    for (auto* const parameters : {&rotary.axis_line, &rotary.location_errors}) {
-        for (reports::TableParameter& parameter : *parameters) {
-            reporter.report(parameter, parameter.unit, parameter.k);
-        }
-    }
-    if (rotary.iso230_2) {
-        for (reports::TableParameter& parameter : rotary.iso230_2->parameters) {
-            reporter.report(parameter, parameter.unit, parameter.k);
-        }
+    for (const auto& place : reports::stated_values(rotary)) {
+        reporter.report(place.stated, place.unit);
     }
     for (reports::Result& result : record.results) {
         reporter.report(result);
-        print_set_up(rotary, result);
+        if (result.reported.method == "monte_carlo") {
+            print_set_up(rotary, result);
+        }
     }
 }
 

@@ -17,4 +17,8 @@ void report_rotary_results(reports::EvaluationRecord& record, gum::CoverageChoic
 /// say.
 void report_result(reports::Result& result, gum::CoverageChoice choice);
 
+/// Puts the texts of a result of the set-up, "O_y", into the set-up of the table as people read it, and with the other
+/// sign into the axis as seen from the fixture. Other results have no place there.
+void print_set_up(reports::RotaryTable& rotary, const reports::Result& result);
+
 }  // namespace gumcert::reports

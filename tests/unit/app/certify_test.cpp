@@ -12,6 +12,7 @@
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/monte_carlo.h"
 #include "reports/record/reported_result.h"
+#include "reports/record/stated_values.h"
 #include "tests/support/sample_budget_record.h"
 #include "tests/support/sample_certificate.h"
 
@@ -210,9 +211,9 @@ TEST(Certify, RoundsByTheProfileAndByTheJob) {
     profile.rounding = "up";
     EXPECT_EQ(certified(one_result(299792.458, 1450.0, "m"), data, profile).printed_U, "1.5E+3");
     profile.rounding = "half_even";
-    EvaluationRecord record = one_result(299792.458, 1450.0, "m");
-    record.options_json = R"({"reporting": {"rounding": "up"}})";
-    EXPECT_EQ(certified(record, data, profile).printed_U, "1.5E+3");
+    CapabilityInputs by_job;
+    by_job.rounding = gum::RoundingMode::up;
+    EXPECT_EQ(certified(one_result(299792.458, 1450.0, "m"), data, profile, by_job).printed_U, "1.5E+3");
     profile.digits = 1;
     EXPECT_EQ(certified(one_result(299792.458, 1450.0, "m"), data, profile).printed_U, "2E+3");  // 1E+3 is 31 % less
     EXPECT_EQ(certified(one_result(299792.458, 1030.0, "m"), data, profile).printed_U, "1E+3");
@@ -616,24 +617,8 @@ EvaluationRecord confirmed(EvaluationRecord record) {
         confirm(result.monte_carlo);
     }
     if (record.rotary) {
-        for (reports::ErrorsAtAngle& at : record.rotary->errors) {
-            for (reports::ErrorValue& value : at.errors) {
-                confirm(value.monte_carlo);
-            }
-        }
-        for (reports::RangeRow& range : record.rotary->ranges) {
-            confirm(range.monte_carlo);
-        }
-        for (reports::Reversal& reversal : record.rotary->reversal) {
-            confirm(reversal.value.monte_carlo);
-        }
-        for (reports::TableParameter& parameter : record.rotary->axis_line) {
-            confirm(parameter.monte_carlo);
-        }
-        if (record.rotary->iso230_2) {
-            for (reports::TableParameter& parameter : record.rotary->iso230_2->parameters) {
-                confirm(parameter.monte_carlo);
-            }
+        for (const auto& place : reports::stated_values(*record.rotary)) {
+            confirm(place.stated.monte_carlo);
         }
     }
     return record;
@@ -711,7 +696,7 @@ TEST(Certify, PrintsOneTextForOneNumberEverywhere) {
 
 TEST(Certify, PrintsTheDegreesOfFreedomOfARange) {
     EvaluationRecord record = test::sample_record();
-    reports::RangeRow& range = record.rotary->ranges[0];
+    reports::StatedValue& range = record.rotary->ranges[0].stated;
     range.k = 2.28;
     range.nu_eff = 10.0;
     certify(record, test::sample_certificate_data(), {});
@@ -733,7 +718,7 @@ TEST(Certify, HoldsTheSetUpToTheRangeOfAllAngles) {
 
 TEST(Certify, LeavesValuesWithoutUncertaintyByDefinitionAsTheyAre) {
     EvaluationRecord record = confirmed(test::sample_record());
-    reports::ErrorValue& home = record.rotary->errors[0].errors[0];
+    reports::StatedValue& home = record.rotary->errors[0].errors[0];
     home.value = home.u = home.U = 0.0;
     home.monte_carlo.reset();
     home.printed = {.value = "0", .U = "", .unit = "µm"};

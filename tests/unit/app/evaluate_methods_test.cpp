@@ -75,9 +75,9 @@ TEST(EvaluateMethods, OfStatedValues) {
     EXPECT_EQ(record.printed_tolerance, "5");
     EXPECT_EQ(record.audit_finding, "Laser method: limit taken as standard uncertainty");
     ASSERT_EQ(record.points.size(), 3U);
-    EXPECT_EQ(record.points[0].printed.D, "0.9");
+    EXPECT_EQ(record.points[0].D.text, "0.9");
     EXPECT_NEAR(*record.points[0].U_over_CMC, 2.5, 1e-12);
-    EXPECT_TRUE(record.points[0].En_audited);
+    EXPECT_TRUE(record.points[0].En_audited.number);
     EXPECT_THAT(all_remarks(record), HasSubstr("up to 2.5 times its stated capability"));
     EXPECT_THAT(record.method_budget, IsEmpty());
 }
@@ -89,7 +89,7 @@ TEST(EvaluateMethods, GivenCorrelationHoldsAtEqualPoints) {
     EXPECT_EQ(record.correlation, "given");
     EXPECT_EQ(*record.correlation_given, 0.5);
     EXPECT_NEAR(*record.points[0].correlation, 0.5, 1e-15);
-    EXPECT_NEAR(*record.summary.front().effective_points, 3.0, 1e-12);
+    EXPECT_NEAR(*record.summary.front().effective_points.number, 3.0, 1e-12);
     EXPECT_THAT(all_remarks(record), HasSubstr("The stated correlation 0.5 of both methods is taken to hold at equal"));
 }
 
@@ -119,7 +119,7 @@ TEST(EvaluateMethods, GivenCorrelationThatCannotBe) {
 TEST(EvaluateMethods, UnknownCorrelation) {
     const reports::Comparison record = evaluate_methods(stated_job(engine::MethodCorrelation::unknown));
     EXPECT_EQ(record.correlation, "unknown");
-    EXPECT_TRUE(record.points[0].En_worst);
+    EXPECT_TRUE(record.points[0].En_worst.number);
 }
 
 /// Method y = l + t with a laser that all points share and a thermometer that each point reads anew; reference z = g.
@@ -158,16 +158,16 @@ TEST(EvaluateMethods, ComputesTheCovarianceFromSharedSources) {
     const reports::Comparison record = evaluate_methods(job);
     ASSERT_EQ(record.points.size(), 2U);
     EXPECT_EQ(record.correlation, "shared_sources");
-    EXPECT_NEAR(record.points[0].value, 10.1, 1e-12);
-    EXPECT_NEAR(record.points[0].reference_value, 10.1, 1e-12);
-    EXPECT_NEAR(record.points[1].reference_value, 10.3, 1e-12);
+    EXPECT_NEAR(record.points[0].value.number, 10.1, 1e-12);
+    EXPECT_NEAR(record.points[0].reference_value.number, 10.1, 1e-12);
+    EXPECT_NEAR(record.points[1].reference_value.number, 10.3, 1e-12);
     // Point A: u = 0.5 and √0.02, covariance 0.4 · 0.1.
     EXPECT_NEAR(*record.points[0].correlation, 0.04 / (0.5 * std::sqrt(0.02)), 1e-12);
     EXPECT_NEAR(*record.points[0].u_D, std::sqrt(0.25 + 0.02 - 0.08), 1e-12);
     EXPECT_NEAR(*record.points[1].u_D, std::sqrt(0.41 + 0.02 - 0.08), 1e-12);
     // cov(D_A, D_B) = 0.16 + 0.01 − 2 · 0.04.
     const double r = 0.09 / (*record.points[0].u_D * *record.points[1].u_D);
-    EXPECT_NEAR(*record.summary.front().effective_points, 4.0 / (2.0 + 2.0 * r * r), 1e-12);
+    EXPECT_NEAR(*record.summary.front().effective_points.number, 4.0 / (2.0 + 2.0 * r * r), 1e-12);
     ASSERT_EQ(record.shared_sources.size(), 1U);
     EXPECT_EQ(record.shared_sources[0].source, "laser");
     EXPECT_EQ(record.shared_sources[0].first, "Method");
@@ -234,11 +234,11 @@ TEST(EvaluateMethods, TablesOfBudgetsAreInTheUnitOfTheComparison) {
     const engine::ComparisonJob job = job_with_budgets(
         R"("g": {"value": 10, "unit": "um", "u": 0.1, "source": "gauge"}, )" + k_offset, "z = g + o", "nm");
     const reports::Comparison record = evaluate_methods(job);
-    EXPECT_NEAR(record.points[0].value, 10100.0, 1e-8);
+    EXPECT_NEAR(record.points[0].value.number, 10100.0, 1e-8);
     EXPECT_NEAR(*record.points[0].u, 500.0, 1e-9);
     EXPECT_NEAR(record.method_budget[0].contribution, 400.0, 1e-9);
     EXPECT_NEAR(record.method_budget[0].sensitivity.value(), 1000.0, 1e-9);
-    EXPECT_NEAR(*record.summary.front().D_fail, *record.points[0].U_D, 1e-9);
+    EXPECT_NEAR(*record.summary.front().D_fail.number, *record.points[0].U_D.number, 1e-9);
 }
 
 TEST(EvaluateMethods, ABudgetAgainstStatedValues) {
@@ -250,7 +250,7 @@ TEST(EvaluateMethods, ABudgetAgainstStatedValues) {
     job.methods->reference.uncertainty.resize(2);
     job.methods->reference.covariance = 0.04 * MatrixXd::Identity(2, 2);
     const reports::Comparison record = evaluate_methods(job);
-    EXPECT_NEAR(record.points[1].D, 0.2, 1e-12);
+    EXPECT_NEAR(record.points[1].D.number, 0.2, 1e-12);
     EXPECT_NEAR(*record.points[1].u_D, std::sqrt(0.41 + 0.04), 1e-12);
     EXPECT_EQ(record.method_budget.size(), 2U);
     EXPECT_THAT(record.reference_budget, IsEmpty());

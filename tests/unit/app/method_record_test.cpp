@@ -84,11 +84,11 @@ TEST(MethodRecord, ADifferenceThatIsItsUncertaintyButForRoundingIsNotAboveIt) {
     comparison.points.front().value = 10.3;
     comparison.points.front().reference_value = 10.1;
     const reports::Comparison record = compared(comparison);
-    EXPECT_EQ(*record.points.front().En, 1.0);
-    EXPECT_EQ(record.points.front().D, *record.points.front().U_D);
+    EXPECT_EQ(*record.points.front().En.number, 1.0);
+    EXPECT_EQ(record.points.front().D.number, *record.points.front().U_D.number);
     EXPECT_EQ(record.points.front().signal, "none");
     EXPECT_EQ(record.summary.front().count_above_1, 0);
-    EXPECT_EQ(record.summary.front().max_abs_En, 1.0);
+    EXPECT_EQ(record.summary.front().max_abs_En.number, 1.0);
     EXPECT_NE(record.summary.front().verdict, "disagreement");
 }
 
@@ -99,19 +99,19 @@ TEST(MethodRecord, MaximumPermissibleErrorAsOnlyTerm) {
     const reports::Comparison record = compared(comparison);
     ASSERT_EQ(record.points.size(), 1U);
     const reports::ComparisonPoint& point = record.points.front();
-    EXPECT_NEAR(*point.En, 0.873, 5e-4);
-    EXPECT_NEAR(*point.En_audited, 1.430, 5e-4);
-    EXPECT_EQ(point.printed.D, "18");
-    EXPECT_EQ(point.printed.U_D, "21");
-    EXPECT_EQ(point.printed.En, "0.87");
-    EXPECT_EQ(point.printed.zeta, "1.75");
-    EXPECT_EQ(point.printed.En_audited, "1.43");
+    EXPECT_NEAR(*point.En.number, 0.873, 5e-4);
+    EXPECT_NEAR(*point.En_audited.number, 1.430, 5e-4);
+    EXPECT_EQ(point.D.text, "18");
+    EXPECT_EQ(point.U_D.text, "21");
+    EXPECT_EQ(point.En.text, "0.87");
+    EXPECT_EQ(point.zeta.text, "1.75");
+    EXPECT_EQ(point.En_audited.text, "1.43");
     EXPECT_EQ(point.signal, "action") << "by the corrected uncertainty";
     EXPECT_EQ(point.signal_by, std::vector<std::string>{"En_audited"});
     ASSERT_EQ(record.summary.size(), 1U);
     EXPECT_EQ(record.summary.front().direction, "all");
     EXPECT_EQ(*record.summary.front().count_above_1_audited, 1);
-    EXPECT_EQ(record.summary.front().printed.D_fail, "21");
+    EXPECT_EQ(record.summary.front().D_fail.text, "21");
     EXPECT_THAT(all_remarks(record), HasSubstr("corrected, |En| is above 1 at 1 of 1 point instead of 0."));
 }
 
@@ -122,21 +122,21 @@ TEST(MethodRecord, FillsEveryNumberOfASoundComparison) {
     EXPECT_EQ(all.verdict, "agreement_few_points");
     EXPECT_EQ(all.points, 6);
     EXPECT_EQ(all.count_above_1, 0);
-    EXPECT_EQ(all.printed.ratio_reference, "0.100");
-    EXPECT_EQ(all.printed.effective_points, "6.0");
+    EXPECT_EQ(all.ratio_reference.text, "0.100");
+    EXPECT_EQ(all.effective_points.text, "6.0");
     EXPECT_EQ(*all.rank, 6);
-    EXPECT_LT(*all.rms_En_low, all.rms_En);
-    EXPECT_LT(all.rms_En, *all.rms_En_high);
-    EXPECT_NEAR(*all.p_low + *all.p_high, 1.0, 1e-9);
-    EXPECT_FALSE(all.max_abs_En_worst);
-    EXPECT_FALSE(all.mean_abs_En_audited);
+    EXPECT_LT(*all.rms_En_low.number, all.rms_En.number);
+    EXPECT_LT(all.rms_En.number, *all.rms_En_high.number);
+    EXPECT_NEAR(*all.p_low.number + *all.p_high.number, 1.0, 1e-9);
+    EXPECT_FALSE(all.max_abs_En_worst.number);
+    EXPECT_FALSE(all.mean_abs_En_audited.number);
     ASSERT_TRUE(all.bias);
     EXPECT_EQ(all.bias->against, "reference_value");
-    EXPECT_EQ(all.bias->printed.centre, "250.0");
-    EXPECT_EQ(record.points[1].printed.reference_value, "100.00");
-    EXPECT_EQ(record.points[1].printed.value, "98.9");
-    EXPECT_EQ(record.points[1].printed.D, "-1.1");
-    EXPECT_EQ(record.points[1].printed.k, "2.00");
+    EXPECT_EQ(all.bias->centre.text, "250.0");
+    EXPECT_EQ(record.points[1].reference_value.text, "100.00");
+    EXPECT_EQ(record.points[1].value.text, "98.9");
+    EXPECT_EQ(record.points[1].D.text, "-1.1");
+    EXPECT_EQ(record.points[1].k.text, "2.00");
     EXPECT_EQ(*record.points[1].correlation, 0.0);
 }
 
@@ -166,10 +166,10 @@ TEST(MethodRecord, OneNamedDirectionHasNoRowForAll) {
 TEST(MethodRecord, CorrelationOfBothMethodsMakesTheDifferenceMoreCertain) {
     // D = 1, U_x = 1, U_X = 0.8, r = 0.5: E_n 1.091, which r = 0 hides (0.781).
     MethodComparison comparison = comparison_of({{1.0, 1.0, 0.8}});
-    EXPECT_EQ(compared(comparison).points.front().printed.En, "0.78");
+    EXPECT_EQ(compared(comparison).points.front().En.text, "0.78");
     comparison.cross_covariance = MatrixXd::Constant(1, 1, 0.5 * 0.5 * 0.4);
     const reports::Comparison record = compared(comparison);
-    EXPECT_EQ(record.points.front().printed.En, "1.09");
+    EXPECT_EQ(record.points.front().En.text, "1.09");
     EXPECT_NEAR(*record.points.front().correlation, 0.5, 1e-15);
     EXPECT_NEAR(*record.points.front().u_D, std::sqrt(0.25 + 0.16 - 2.0 * 0.1), 1e-15);
     EXPECT_EQ(record.summary.front().verdict, "disagreement");
@@ -181,7 +181,7 @@ TEST(MethodRecord, CrossCovarianceOfDifferentPointsCounts) {
     comparison.cross_covariance = MatrixXd::Zero(2, 2);
     comparison.cross_covariance(0, 1) = comparison.cross_covariance(1, 0) = 0.5;
     const reports::Comparison record = compared(comparison);
-    EXPECT_NEAR(*record.summary.front().effective_points, 4.0 / (2.0 + 2.0 * 0.25), 1e-12);
+    EXPECT_NEAR(*record.summary.front().effective_points.number, 4.0 / (2.0 + 2.0 * 0.25), 1e-12);
     // dᵀV⁻¹d with V = [[2, −1], [−1, 2]] is 2.
     EXPECT_NEAR(*record.summary.front().mahalanobis_square, 2.0, 1e-12);
 }
@@ -189,13 +189,13 @@ TEST(MethodRecord, CrossCovarianceOfDifferentPointsCounts) {
 TEST(MethodRecord, CorrelatedPointsAreCountedAsWhatTheyAre) {
     std::vector<Stated> points(20, {0.3, 2.0, 0.2});
     MethodComparison comparison = comparison_of(points);
-    const double p_independent = *compared(comparison).summary.front().p_low;
+    const double p_independent = *compared(comparison).summary.front().p_low.number;
     comparison.covariance.setConstant(0.99);
     comparison.covariance.diagonal().setConstant(1.0);
     const reports::Comparison record = compared(comparison);
     EXPECT_LT(p_independent, 1e-6);
-    EXPECT_GT(*record.summary.front().p_low, 0.025);
-    EXPECT_LT(*record.summary.front().effective_points, 1.1);
+    EXPECT_GT(*record.summary.front().p_low.number, 0.025);
+    EXPECT_LT(*record.summary.front().effective_points.number, 1.1);
     EXPECT_THAT(all_remarks(record), HasSubstr("they tell as much as about 1.0 independent points."));
 }
 
@@ -205,9 +205,9 @@ TEST(MethodRecord, UnknownCorrelationIsShownForTheWorst) {
     MethodComparison comparison = comparison_of(points);
     comparison.correlation_unknown = true;
     const reports::Comparison record = compared(comparison);
-    EXPECT_EQ(record.points[0].printed.En, "0.69");
-    EXPECT_EQ(record.points[0].printed.En_worst, "3.04");
-    EXPECT_EQ(record.summary.front().printed.max_abs_En_worst, "3.04");
+    EXPECT_EQ(record.points[0].En.text, "0.69");
+    EXPECT_EQ(record.points[0].En_worst.text, "3.04");
+    EXPECT_EQ(record.summary.front().max_abs_En_worst.text, "3.04");
     EXPECT_EQ(*record.summary.front().count_above_1_worst, 1);
     EXPECT_EQ(record.summary.front().verdict, "correlation_unknown");
     EXPECT_THAT(all_remarks(record), HasSubstr("It is not known whether both methods share"));
@@ -220,9 +220,9 @@ TEST(MethodRecord, EqualUncertaintiesOfUnknownCorrelationHaveNoBound) {
     MethodComparison comparison = comparison_of(points);
     comparison.correlation_unknown = true;
     const reports::Comparison record = compared(comparison);
-    EXPECT_FALSE(record.points[0].En_worst);
-    EXPECT_EQ(record.points[0].printed.En_worst, "");
-    EXPECT_FALSE(record.summary.front().max_abs_En_worst);
+    EXPECT_FALSE(record.points[0].En_worst.number);
+    EXPECT_EQ(record.points[0].En_worst.text, "");
+    EXPECT_FALSE(record.summary.front().max_abs_En_worst.number);
     EXPECT_EQ(*record.summary.front().count_above_1_worst, 1);
     EXPECT_EQ(record.summary.front().verdict, "correlation_unknown");
     EXPECT_THAT(all_remarks(record), HasSubstr("no finite En bounds"));
@@ -305,8 +305,8 @@ TEST(MethodRecord, CoverageFactorsOfBothSidesAreBroughtToOne) {
     }
     const reports::Comparison brought = compared(comparison);
     for (std::size_t i = 0; i < brought.points.size(); ++i) {
-        EXPECT_NEAR(*brought.points[i].En, *with_2.points[i].En, 1e-4);
-        EXPECT_DOUBLE_EQ(*brought.points[i].U, 3.0 * *brought.points[i].u) << "as stated";
+        EXPECT_NEAR(*brought.points[i].En.number, *with_2.points[i].En.number, 1e-4);
+        EXPECT_DOUBLE_EQ(*brought.points[i].U.number, 3.0 * *brought.points[i].u) << "as stated";
     }
     EXPECT_THAT(all_remarks(brought), HasSubstr("At 6 of 6 points a stated coverage factor is not that of about 95 %"));
     EXPECT_THAT(all_remarks(with_2), Not(HasSubstr("stated coverage factor")));
@@ -355,14 +355,14 @@ TEST(MethodRecord, BiasLineAgainstThePosition) {
     const reports::Comparison record = compared(comparison);
     const reports::BiasLineSummary& bias = *record.summary.front().bias;
     EXPECT_EQ(bias.against, "position");
-    EXPECT_NEAR(bias.slope, 0.005, 1e-15);
-    EXPECT_NEAR(bias.constant, 2.25, 1e-12);
+    EXPECT_NEAR(bias.slope.number, 0.005, 1e-15);
+    EXPECT_NEAR(bias.constant.number, 2.25, 1e-12);
     EXPECT_NEAR(bias.chi_square, 0.0, 1e-20);
     // u of one D is √(1 + 0.01); u(a) = u/√6, u(b) = u/√175000.
     EXPECT_NEAR(bias.u_constant, std::sqrt(1.01 / 6.0), 1e-12);
     EXPECT_NEAR(bias.u_slope, std::sqrt(1.01 / 175000.0), 1e-12);
-    EXPECT_EQ(bias.printed.slope, "0.0050");
-    EXPECT_EQ(bias.printed.U_slope, "0.0048");
+    EXPECT_EQ(bias.slope.text, "0.0050");
+    EXPECT_EQ(bias.U_slope.text, "0.0048");
     EXPECT_THAT(all_remarks(record), HasSubstr("have a systematic part"));
     EXPECT_THAT(all_remarks(record), Not(HasSubstr("no evidence of a scale error")));
     comparison.points[2].position.reset();
@@ -388,7 +388,7 @@ TEST(MethodRecord, SlopeThatTheReferenceAloneExplains) {
         comparison.points[i].value = comparison.points[i].reference_value * 0.93;
     }
     reports::Comparison record = compared(comparison);
-    EXPECT_GT(std::abs(record.summary.front().bias->slope), record.summary.front().bias->U_slope);
+    EXPECT_GT(std::abs(record.summary.front().bias->slope.number), record.summary.front().bias->U_slope.number);
     EXPECT_THAT(all_remarks(record), HasSubstr("turns the bias line by about this slope: -0.0071."));
     EXPECT_THAT(all_remarks(record), HasSubstr("have a systematic part"));
     // A slope above its U that the noise explains is not called systematic.
@@ -399,7 +399,7 @@ TEST(MethodRecord, SlopeThatTheReferenceAloneExplains) {
         point.value = 1.615 + point.reference_value * 0.83;
     }
     record = compared(comparison);
-    EXPECT_GT(std::abs(record.summary.front().bias->slope), record.summary.front().bias->U_slope);
+    EXPECT_GT(std::abs(record.summary.front().bias->slope.number), record.summary.front().bias->U_slope.number);
     EXPECT_THAT(all_remarks(record), Not(HasSubstr("have a systematic part")));
     EXPECT_THAT(all_remarks(record), HasSubstr("about this slope: -0.11."));
     // What all points share turns nothing.
@@ -416,7 +416,7 @@ TEST(MethodRecord, SingularCovariances) {
     const reports::Comparison record = compared(comparison);
     const reports::ComparisonSummary& all = record.summary.front();
     EXPECT_EQ(*all.rank, 1);
-    EXPECT_EQ(all.printed.effective_points, "1.0");
+    EXPECT_EQ(all.effective_points.text, "1.0");
     EXPECT_FALSE(all.bias);
     EXPECT_THAT(all_remarks(record), HasSubstr("has rank 1 for 6 points"));
     EXPECT_THAT(all_remarks(record), Not(HasSubstr("share less than the covariance says")));
@@ -426,9 +426,9 @@ TEST(MethodRecord, SingularCovariances) {
 
 TEST(MethodRecord, PrintsNoUncertaintyWhereOneSideHasNone) {
     const reports::Comparison record = compared(comparison_of({{0.25, 0.5, 0.0}, {0.5, 0.0, 1.0}}));
-    EXPECT_EQ(record.points[0].printed.reference_U, "0");
-    EXPECT_EQ(record.points[0].printed.reference_value, "0");
-    EXPECT_EQ(record.points[1].printed.value, "100.5");
+    EXPECT_EQ(record.points[0].reference_U.text, "0");
+    EXPECT_EQ(record.points[0].reference_value.text, "0");
+    EXPECT_EQ(record.points[1].value.text, "100.5");
 }
 
 TEST(MethodRecord, Refusals) {

@@ -104,20 +104,20 @@ TEST(ReferenceComparison, TakesTheMaximumPermissibleErrorAsCommonToADirection) {
     EXPECT_EQ(comparison.points[1].position, 45.0);
     EXPECT_NEAR(*comparison.points[0].u, 0.3, 1e-12);
     EXPECT_NEAR(*comparison.points[0].reference_u, 0.4, 1e-12);
-    EXPECT_NEAR(*comparison.points[0].reference_U, 0.4 * k_factor, 1e-12);
-    EXPECT_NEAR(comparison.points[0].D, 0.5, 1e-12);
+    EXPECT_NEAR(*comparison.points[0].reference_U.number, 0.4 * k_factor, 1e-12);
+    EXPECT_NEAR(comparison.points[0].D.number, 0.5, 1e-12);
     EXPECT_NEAR(*comparison.points[0].u_D, 0.5, 1e-12);
-    EXPECT_NEAR(*comparison.points[0].En, 1.0 / k_factor, 1e-12);
+    EXPECT_NEAR(*comparison.points[0].En.number, 1.0 / k_factor, 1e-12);
 
     // V = 0.09 I + 0.16 1 1ᵀ: r = 0.64, 9/(3 + 6 · 0.64²) points; DᵀV⁻¹D = (0.30 - 0.16/0.57 · 0.36)/0.09 by the
     // formula of Woodbury. p_low by Imhof's integral in numpy/scipy: 0.3401060236.
     const reports::ComparisonSummary& x = row(comparison, "x");
     EXPECT_EQ(x.points, 3);
-    EXPECT_NEAR(x.mean_abs_En, 0.8 / 3.0 / k_factor * 2.0, 1e-12);
-    EXPECT_NEAR(*x.effective_points, 9.0 / (3.0 + 6.0 * 0.64 * 0.64), 1e-9);
+    EXPECT_NEAR(x.mean_abs_En.number, 0.8 / 3.0 / k_factor * 2.0, 1e-12);
+    EXPECT_NEAR(*x.effective_points.number, 9.0 / (3.0 + 6.0 * 0.64 * 0.64), 1e-9);
     EXPECT_NEAR(*x.mahalanobis_square, (0.30 - 0.16 / 0.57 * 0.36) / 0.09, 1e-9);
-    EXPECT_NEAR(*x.p_low, 0.3401060236, 1e-7);
-    EXPECT_NEAR(*x.p_high, 1.0 - 0.3401060236, 1e-7);
+    EXPECT_NEAR(*x.p_low.number, 0.3401060236, 1e-7);
+    EXPECT_NEAR(*x.p_high.number, 1.0 - 0.3401060236, 1e-7);
     EXPECT_THAT(joined(comparison.remarks), HasSubstr("that all points of a direction have in common"));
 }
 
@@ -127,10 +127,10 @@ TEST(ReferenceComparison, TakesAnErrorOfEachPointApartWhereTheDescriptionSaysSo)
     const reports::Comparison comparison = reference_comparison(read(files), displacement());
     const reports::ComparisonSummary& x = row(comparison, "x");
     // V = 0.25 I: chi-square with 3 degrees of freedom at 0.30/0.25.
-    EXPECT_NEAR(*x.effective_points, 3.0, 1e-9);
+    EXPECT_NEAR(*x.effective_points.number, 3.0, 1e-9);
     EXPECT_NEAR(*x.mahalanobis_square, 1.2, 1e-9);
-    EXPECT_NEAR(*x.p_low, 0.2469956883, 1e-7);
-    EXPECT_NEAR(*comparison.points[0].En, 1.0 / k_factor, 1e-12);
+    EXPECT_NEAR(*x.p_low.number, 0.2469956883, 1e-7);
+    EXPECT_NEAR(*comparison.points[0].En.number, 1.0 / k_factor, 1e-12);
     EXPECT_THAT(joined(comparison.remarks), HasSubstr("\"mpe_common\": false"));
 }
 
@@ -140,10 +140,10 @@ TEST(ReferenceComparison, TakesDirectionsAsIndependentOfEachOther) {
     ASSERT_EQ(comparison.points.size(), 5U);
     EXPECT_EQ(comparison.points[3].direction, "y");
     EXPECT_EQ(comparison.points[3].angle_deg, 0.0);
-    EXPECT_NEAR(comparison.points[3].D, 0.3, 1e-12);
-    EXPECT_NEAR(*row(comparison, "x").effective_points, 9.0 / (3.0 + 6.0 * 0.64 * 0.64), 1e-9);
-    EXPECT_NEAR(*row(comparison, "y").effective_points, 4.0 / (2.0 + 2.0 * 0.64 * 0.64), 1e-9);
-    EXPECT_NEAR(*row(comparison, "all").effective_points, 25.0 / (5.0 + 8.0 * 0.64 * 0.64), 1e-9);
+    EXPECT_NEAR(comparison.points[3].D.number, 0.3, 1e-12);
+    EXPECT_NEAR(*row(comparison, "x").effective_points.number, 9.0 / (3.0 + 6.0 * 0.64 * 0.64), 1e-9);
+    EXPECT_NEAR(*row(comparison, "y").effective_points.number, 4.0 / (2.0 + 2.0 * 0.64 * 0.64), 1e-9);
+    EXPECT_NEAR(*row(comparison, "all").effective_points.number, 25.0 / (5.0 + 8.0 * 0.64 * 0.64), 1e-9);
     EXPECT_NEAR(*row(comparison, "all").mahalanobis_square,
                 *row(comparison, "x").mahalanobis_square + *row(comparison, "y").mahalanobis_square, 1e-9);
 }
@@ -155,7 +155,7 @@ TEST(ReferenceComparison, DividesTheRepeatabilityByTheRunsOfThePoint) {
     files["dial_indicator.csv"] += "x,0,2,0.3\nx,0,3,0.3\nx,0,4,0.6\n";
     const reports::Comparison comparison = reference_comparison(read(files), displacement());
     const double of_indicator = 0.3 * 0.3 / 3.0 + 0.12 * 0.12 / 12.0;
-    EXPECT_NEAR(comparison.points[0].reference_value, 0.3, 1e-12);
+    EXPECT_NEAR(comparison.points[0].reference_value.number, 0.3, 1e-12);
     EXPECT_NEAR(*comparison.points[0].reference_u, std::sqrt(of_indicator + 0.04 / 4.0), 1e-12);
     EXPECT_NEAR(*comparison.points[1].reference_u, std::sqrt(of_indicator + 0.04), 1e-12);
     ASSERT_EQ(comparison.reference_budget.size(), 3U);
@@ -164,7 +164,7 @@ TEST(ReferenceComparison, DividesTheRepeatabilityByTheRunsOfThePoint) {
     // Resolution and repeatability are of each point apart.
     const double r01 = 0.03 / std::sqrt((0.09 + of_indicator + 0.01) * (0.09 + of_indicator + 0.04));
     const double r12 = 0.03 / (0.09 + of_indicator + 0.04);
-    EXPECT_NEAR(*row(comparison, "x").effective_points, 9.0 / (3.0 + 4.0 * r01 * r01 + 2.0 * r12 * r12), 1e-9);
+    EXPECT_NEAR(*row(comparison, "x").effective_points.number, 9.0 / (3.0 + 4.0 * r01 * r01 + 2.0 * r12 * r12), 1e-9);
 }
 
 TEST(ReferenceComparison, UsesTheCovarianceOfTheDisplacement) {
@@ -176,7 +176,7 @@ TEST(ReferenceComparison, UsesTheCovarianceOfTheDisplacement) {
     replace(files["dial_indicator.json"], "\"resolution_um\"", "\"mpe_common\": false, \"resolution_um\"");
     const reports::Comparison comparison = reference_comparison(read(files), table);
     const double r = 0.5 * 0.09 / 0.25;
-    EXPECT_NEAR(*row(comparison, "x").effective_points, 9.0 / (3.0 + 2.0 * r * r), 1e-9);
+    EXPECT_NEAR(*row(comparison, "x").effective_points.number, 9.0 / (3.0 + 2.0 * r * r), 1e-9);
 }
 
 // ---- correlation, published figures, audit --------------------------------------------------------------------------
@@ -184,13 +184,13 @@ TEST(ReferenceComparison, UsesTheCovarianceOfTheDisplacement) {
 TEST(ReferenceComparison, PrintsTheWorstPlausibleScoreWhereTheCorrelationIsNotKnown) {
     const reports::Comparison comparison = reference_comparison(read(campaign(k_three_of_x)), displacement());
     // r = U/U_ref = 0.75: U² = 0.36 + 0.64 - 2 · 0.75 · 0.48 = 0.28, in the unit of k = 2.
-    ASSERT_TRUE(comparison.points[0].En_worst);
-    EXPECT_NEAR(*comparison.points[0].En_worst, 0.5 / (k_factor * std::sqrt(0.07)), 1e-9);
+    ASSERT_TRUE(comparison.points[0].En_worst.number);
+    EXPECT_NEAR(*comparison.points[0].En_worst.number, 0.5 / (k_factor * std::sqrt(0.07)), 1e-9);
     const reports::Comparison none =
         reference_comparison(read(campaign(k_three_of_x, R"("correlation": "none")")), displacement());
     EXPECT_EQ(none.correlation, "none");
-    EXPECT_FALSE(none.points[0].En_worst);
-    EXPECT_NEAR(*none.points[0].En, *comparison.points[0].En, 1e-15);
+    EXPECT_FALSE(none.points[0].En_worst.number);
+    EXPECT_NEAR(*none.points[0].En.number, *comparison.points[0].En.number, 1e-15);
 }
 
 TEST(ReferenceComparison, TakesAStatedCorrelationAsOneEffectOfTheDirection) {
@@ -198,12 +198,12 @@ TEST(ReferenceComparison, TakesAStatedCorrelationAsOneEffectOfTheDirection) {
         reference_comparison(read(campaign(k_three_of_x, R"("correlation": 0.25)")), displacement());
     EXPECT_EQ(comparison.correlation, "given");
     EXPECT_EQ(comparison.correlation_given, 0.25);
-    EXPECT_FALSE(comparison.points[0].En_worst);
+    EXPECT_FALSE(comparison.points[0].En_worst.number);
     EXPECT_NEAR(*comparison.points[0].correlation, 0.25, 1e-12);
     // u² = 0.09 + 0.16 - 2 · 0.25 · 0.3 · 0.4 = 0.19, off the diagonal 0.16 - 0.06 = 0.1.
     EXPECT_NEAR(*comparison.points[0].u_D, std::sqrt(0.19), 1e-12);
     const double r = 0.1 / 0.19;
-    EXPECT_NEAR(*row(comparison, "x").effective_points, 9.0 / (3.0 + 6.0 * r * r), 1e-9);
+    EXPECT_NEAR(*row(comparison, "x").effective_points.number, 9.0 / (3.0 + 6.0 * r * r), 1e-9);
     EXPECT_THAT(joined(comparison.remarks), HasSubstr("0.25 of both methods is taken to come from an effect that all"));
 }
 
@@ -212,7 +212,7 @@ TEST(ReferenceComparison, TakesAStatedCorrelationPointByPointWhereNothingIsCommo
     replace(files["dial_indicator.json"], "\"resolution_um\"", "\"mpe_common\": false, \"resolution_um\"");
     const reports::Comparison comparison = reference_comparison(read(files), displacement());
     EXPECT_NEAR(*comparison.points[0].u_D, std::sqrt(0.25 - 2.0 * 0.9 * 0.12), 1e-12);
-    EXPECT_NEAR(*row(comparison, "x").effective_points, 3.0, 1e-9);
+    EXPECT_NEAR(*row(comparison, "x").effective_points.number, 3.0, 1e-9);
     EXPECT_THAT(joined(comparison.remarks), HasSubstr("is taken to hold at equal points"));
 }
 
@@ -236,10 +236,10 @@ TEST(ReferenceComparison, HandsOnPublishedFiguresAndFindings) {
         displacement());
     EXPECT_EQ(comparison.published_source, "a paper");
     EXPECT_EQ(comparison.audit_finding, "bound taken as a standard uncertainty");
-    EXPECT_EQ(row(comparison, "x").published_mean_abs_En, 0.77);
-    EXPECT_EQ(row(comparison, "x").printed.published_mean_abs_En, "0.77");
-    ASSERT_TRUE(comparison.points[0].En_audited);
-    EXPECT_NEAR(*comparison.points[0].En_audited, 0.5 / (k_factor * std::sqrt(0.09 + 0.04)), 1e-9);
+    EXPECT_EQ(row(comparison, "x").published_mean_abs_En.number, 0.77);
+    EXPECT_EQ(row(comparison, "x").published_mean_abs_En.text, "0.77");
+    ASSERT_TRUE(comparison.points[0].En_audited.number);
+    EXPECT_NEAR(*comparison.points[0].En_audited.number, 0.5 / (k_factor * std::sqrt(0.09 + 0.04)), 1e-9);
 }
 
 // ---- the reference by its budget ------------------------------------------------------------------------------------
@@ -275,10 +275,10 @@ TEST(ReferenceComparison, EvaluatesTheBudgetAtEveryPoint) {
     const double u0 = std::sqrt(0.25 + 0.09 + 0.04);
     const double u1 = std::sqrt(0.04 + 0.09 + 0.04);
     const double u2 = std::sqrt(0.01 + 0.09 + 0.04);
-    EXPECT_NEAR(comparison.points[0].reference_value, 5.0, 1e-12);
+    EXPECT_NEAR(comparison.points[0].reference_value.number, 5.0, 1e-12);
     EXPECT_NEAR(*comparison.points[0].reference_u, u0, 1e-12);
-    EXPECT_NEAR(*comparison.points[0].reference_U, k_factor * u0, 1e-12);
-    EXPECT_NEAR(comparison.points[1].reference_value, -2.0, 1e-12);
+    EXPECT_NEAR(*comparison.points[0].reference_U.number, k_factor * u0, 1e-12);
+    EXPECT_NEAR(comparison.points[1].reference_value.number, -2.0, 1e-12);
     EXPECT_NEAR(*comparison.points[1].reference_u, u1, 1e-12);
     EXPECT_NEAR(*comparison.points[2].reference_u, u2, 1e-12);
     const auto r = [](double covariance, double a, double b) {
@@ -287,10 +287,10 @@ TEST(ReferenceComparison, EvaluatesTheBudgetAtEveryPoint) {
     const double r01 = r(0.01 * 5.0 * -2.0 + 0.09, u0, u1);
     const double r02 = r(0.01 * 5.0 * 1.0 + 0.09, u0, u2);
     const double r12 = r(0.01 * -2.0 * 1.0 + 0.09, u1, u2);
-    EXPECT_NEAR(*row(comparison, "x").effective_points, 4.0 / (2.0 + 2.0 * r01 * r01), 1e-9);
+    EXPECT_NEAR(*row(comparison, "x").effective_points.number, 4.0 / (2.0 + 2.0 * r01 * r01), 1e-9);
     // What a budget has in common, the directions have in common too.
-    EXPECT_NEAR(*row(comparison, "all").effective_points, 9.0 / (3.0 + 2.0 * (r01 * r01 + r02 * r02 + r12 * r12)),
-                1e-9);
+    EXPECT_NEAR(*row(comparison, "all").effective_points.number,
+                9.0 / (3.0 + 2.0 * (r01 * r01 + r02 * r02 + r12 * r12)), 1e-9);
     ASSERT_EQ(comparison.reference_budget.size(), 4U);
     EXPECT_EQ(comparison.reference_budget[0].input, "reading");
     EXPECT_NEAR(comparison.reference_budget[1].contribution, 0.5, 1e-12);
@@ -304,7 +304,7 @@ TEST(ReferenceComparison, TakesABudgetInAnyUnitOfLength) {
     replace(budget, R"("X": {"unit": "um")", R"("X": {"unit": "mm")");
     replace(budget, R"("value": 0, "unit": "um", "constant")", R"("value": 0, "unit": "m", "constant")");
     const reports::Comparison comparison = reference_comparison(read(campaign_with_budget(budget)), displacement());
-    EXPECT_NEAR(comparison.points[0].reference_value, 5.0, 1e-12);
+    EXPECT_NEAR(comparison.points[0].reference_value.number, 5.0, 1e-12);
     EXPECT_NEAR(*comparison.points[0].reference_u, std::sqrt(0.38), 1e-12);
     EXPECT_NEAR(comparison.reference_budget[1].contribution, 0.5, 1e-12);
 }

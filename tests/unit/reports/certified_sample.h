@@ -81,7 +81,7 @@ inline reports::EvaluationRecord certified_rotary_record() {
         column.unit = r.error_units[i];
         column.printed_unit = gum::unit_for_people(column.unit);
         for (const reports::ErrorsAtAngle& at : r.errors) {
-            const reports::ErrorValue& e = at.errors[i];
+            const reports::StatedValue& e = at.errors[i];
             column.values.push_back(certified_value(e.value, e.u, e.k, e.nu_eff, e.printed, i < 3 ? "R1" : "R2"));
             if (column.result == "EAA") {
                 column.values.back().verdict = sample_verdict(column.values.back());
@@ -95,8 +95,8 @@ inline reports::EvaluationRecord certified_rotary_record() {
         certificate::CertifiedColumn column;
         column.result = "range_" + row.name;
         column.name = "Range of " + row.name;
-        column.printed_unit = row.printed.unit;
-        column.values.push_back(certified_value(row.value, row.u, 2.0, 412.7, row.printed, ""));
+        column.printed_unit = row.stated.printed.unit;
+        column.values.push_back(certified_value(row.stated.value, row.stated.u, 2.0, 412.7, row.stated.printed, ""));
         ranges.columns.push_back(std::move(column));
     }
     c.tables = {errors, ranges};

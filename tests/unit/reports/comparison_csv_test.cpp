@@ -74,13 +74,14 @@ TEST(ComparisonCsv, HoldsEveryNumberOfEveryResult) {
         auto row = row_of(rows, i + 1);
         const ComparisonPoint& p = r.comparison->points[i];
         EXPECT_EQ(row["participant"], p.participant);
-        EXPECT_EQ(number(row["value"]), p.value);
-        EXPECT_EQ(number(row["D"]), p.D);
-        EXPECT_EQ(row["En"].empty(), !p.En.has_value());
+        EXPECT_EQ(number(row["value"]), p.value.number);
+        EXPECT_EQ(number(row["D"]), p.D.number);
+        EXPECT_EQ(row["En"].empty(), !p.En.number.has_value());
         EXPECT_EQ(row["contributes"], p.contributes ? "true" : "false");
-        if (p.En) {
-            EXPECT_EQ(number(row["En"]), *p.En);
-            EXPECT_NEAR(number(row["D"]) / number(row["U_D"]), number(row["En"]), 1e-15 + 1e-14 * std::abs(*p.En));
+        if (p.En.number) {
+            EXPECT_EQ(number(row["En"]), *p.En.number);
+            EXPECT_NEAR(number(row["D"]) / number(row["U_D"]), number(row["En"]),
+                        1e-15 + 1e-14 * std::abs(*p.En.number));
         }
         EXPECT_NEAR(number(row["D"]) / number(row["sigma_pt"]), number(row["z"]), 1e-14);
     }
@@ -131,8 +132,8 @@ TEST(ComparisonCsv, NoTextBecomesAFormula) {
 
 TEST(ComparisonCsv, NumbersAreTheShortestThatReadBackTheSame) {
     EvaluationRecord r = test::sample_methods_record(1);
-    r.comparison->points[0].value = 0.1;
-    r.comparison->points[0].D = -2.5e-7;
+    r.comparison->points[0].value.number = 0.1;
+    r.comparison->points[0].D.number = -2.5e-7;
     const auto rows = parse(comparison_csv(r));
     EXPECT_EQ(row_of(rows, 1)["value"], "0.1");
     EXPECT_EQ(row_of(rows, 1)["D"], "-2.5e-07");

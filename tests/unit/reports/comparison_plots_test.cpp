@@ -86,7 +86,8 @@ TEST_F(ComparisonPlots, LaboratoriesStandInAscendingOrder) {
     const std::string svg = laboratory_values_plot(c, c.items[0], "p", words());
     std::size_t last = 0;
     std::vector<ComparisonPoint> points(c.points.begin(), c.points.begin() + 8);
-    std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+    std::sort(points.begin(), points.end(),
+              [](const auto& a, const auto& b) { return a.value.number < b.value.number; });
     for (const ComparisonPoint& p : points) {
         const std::size_t at = svg.find(">" + p.participant + "</text>");
         ASSERT_NE(at, std::string::npos) << p.participant;
@@ -106,7 +107,7 @@ TEST_F(ComparisonPlots, EveryLaboratoryIsFoundInEveryFigure) {
         for (const std::string& svg : {laboratory_values_plot(some, some.items[0], "p", words()),
                                        laboratory_differences_plot(some, some.items[0], "p", words())}) {
             for (const ComparisonPoint& p : some.points) {
-                if (p.item == some.items[0].id && p.round == some.items[0].round && p.U_D) {
+                if (p.item == some.items[0].id && p.round == some.items[0].round && p.U_D.number) {
                     EXPECT_THAT(svg, HasSubstr(">" + p.participant + "</text>")) << laboratories;
                 }
             }
@@ -140,9 +141,9 @@ TEST_F(ComparisonPlots, OutliersStandAtTheEdge) {
     EXPECT_THAT(before, Not(HasSubstr("beyond the axis")));
     EXPECT_THAT(before, HasSubstr(">10.3</text>"));
     for (const double huge : {1e6, 1e17, -1e300}) {
-        c.points[0].value = huge;
-        c.points[0].D = huge;
-        c.points[0].En = huge;
+        c.points[0].value.number = huge;
+        c.points[0].D.number = huge;
+        c.points[0].En.number = huge;
         c.youden[0].points[0].first = huge;
         for (const std::string& svg : laboratory_plots(c)) {
             expect_sound(svg);
@@ -151,24 +152,24 @@ TEST_F(ComparisonPlots, OutliersStandAtTheEdge) {
         EXPECT_THAT(svg, HasSubstr("beyond the axis"));
         EXPECT_THAT(svg, HasSubstr(">10.3</text>"));  // the others keep their axis
     }
-    c.points[1].U = 1e18;
+    c.points[1].U.number = 1e18;
     expect_sound(laboratory_values_plot(c, c.items[0], "p", words()));
 }
 
 TEST_F(ComparisonPlots, MissingUncertaintiesAndEqualValues) {
     Comparison c = *test::sample_laboratories_record(9).comparison;
     for (ComparisonPoint& p : c.points) {
-        p.u = p.U = p.En = p.zeta = {};
+        p.u = p.U.number = p.En.number = p.zeta.number = {};
     }
     EXPECT_EQ(laboratory_scores_plot(c, c.items[0], "p", words()), "");
-    c.items[0].u = c.items[0].U = {};
+    c.items[0].u.number = c.items[0].U.number = {};
     const std::string svg = laboratory_values_plot(c, c.items[0], "p", words());
     expect_sound(svg);
     EXPECT_THAT(svg, HasSubstr(">assigned value</text>"));
     EXPECT_THAT(svg, Not(HasSubstr("#d9d9d9")));
     for (ComparisonPoint& p : c.points) {
-        p.value = c.items[0].value;
-        p.D = 0.0;
+        p.value.number = c.items[0].value.number;
+        p.D.number = 0.0;
     }
     expect_sound(laboratory_values_plot(c, c.items[0], "p", words()));
     for (YoudenPoint& p : c.youden[0].points) {
@@ -184,9 +185,9 @@ TEST_F(ComparisonPlots, MissingUncertaintiesAndEqualValues) {
 TEST_F(ComparisonPlots, ValuesThatDifferInTheirLastDigitsAreShownAsDifferences) {
     Comparison c = *test::sample_laboratories_record(9).comparison;
     for (ComparisonPoint& p : c.points) {
-        p.value += 50'000'613.0;
+        p.value.number += 50'000'613.0;
     }
-    c.items[0].value += 50'000'613.0;
+    c.items[0].value.number += 50'000'613.0;
     const std::string svg = laboratory_values_plot(c, c.items[0], "p", words());
     EXPECT_THAT(svg, HasSubstr(">difference D / µm</text>"));
     EXPECT_THAT(svg, HasSubstr(">\u22120.2</text>"));
@@ -196,12 +197,12 @@ TEST_F(ComparisonPlots, VerySmallAndVeryLargeNumbersHaveAPowerOfTen) {
     for (const auto& [factor, power] : {std::pair(1e-12, "10⁻¹²"), std::pair(1e20, "10²¹")}) {
         Comparison c = *test::sample_laboratories_record(9).comparison;
         for (ComparisonPoint& p : c.points) {
-            p.value *= factor;
-            p.D *= factor;
-            p.U = p.U ? std::optional(*p.U * factor) : std::nullopt;
+            p.value.number *= factor;
+            p.D.number *= factor;
+            p.U.number = p.U.number ? std::optional(*p.U.number * factor) : std::nullopt;
         }
-        c.items[0].value *= factor;
-        c.items[0].U = *c.items[0].U * factor;
+        c.items[0].value.number *= factor;
+        c.items[0].U.number = *c.items[0].U.number * factor;
         c.items[0].unit = "V";
         const std::string svg = laboratory_values_plot(c, c.items[0], "p", words());
         expect_sound(svg);
@@ -246,12 +247,12 @@ TEST_F(ComparisonPlots, PairsAboveOneAreBlack) {
     Comparison c = *test::sample_laboratories_record(9).comparison;
     std::size_t above = 0;
     for (const PairEquivalence& p : c.items[0].pairs) {
-        above += std::abs(*p.En) > 1.0 ? 1U : 0U;
+        above += std::abs(*p.En.number) > 1.0 ? 1U : 0U;
     }
     ASSERT_GT(above, 0U);
     const std::string svg = pairs_plot(c.items[0], "p", words());
     EXPECT_EQ(occurrences(svg, "fill=\"#000000\" stroke=\"none\"/>"), 2 * above + 1);  // both halves, and the key
-    c.items[0].pairs[0].En = {};
+    c.items[0].pairs[0].En.number = {};
     expect_sound(pairs_plot(c.items[0], "p", words()));
     c.items[0].pairs.clear();
     EXPECT_EQ(pairs_plot(c.items[0], "p", words()), "");
@@ -294,10 +295,10 @@ TEST_F(ComparisonPlots, AnyNumberOfPointsAndDirections) {
     }
     expect_sound(method_scores_plot(c, "p", words()));
     EXPECT_EQ(method_values_plot(c, "p", words()), "");  // twenty panels are no graph
-    c.points[3].En = -1e12;
+    c.points[3].En.number = -1e12;
     EXPECT_THAT(method_scores_plot(c, "p", words()), HasSubstr("beyond the axis"));
     for (ComparisonPoint& p : c.points) {
-        p.En = {};
+        p.En.number = {};
     }
     EXPECT_EQ(method_scores_plot(c, "p", words()), "");
 }
@@ -320,7 +321,7 @@ TEST_F(ComparisonPlots, NoPointLiesOnTheFrame) {
         p.direction = "x";
     }
     c.summary[0].direction = "x";
-    c.points[1].En = 1.5;  // a tick
+    c.points[1].En.number = 1.5;  // a tick
     for (const std::string& svg : method_plots(c)) {
         const std::string panel = "\" fill=\"none\" stroke=\"#000000\" stroke-width=\"0.9\"/>";
         const std::size_t frame = svg.rfind("<rect", svg.find(panel));
@@ -438,18 +439,18 @@ TEST_F(ComparisonPlots, NumbersThatAreNotFiniteAreRefused) {
         };
         const auto values = [&](const Comparison& c) { return laboratory_values_plot(c, c.items[0], "p", words()); };
         const auto scores = [&](const Comparison& c) { return laboratory_scores_plot(c, c.items[0], "p", words()); };
-        refused([&](Comparison& c) { c.points[1].value = bad; }, values);
-        refused([&](Comparison& c) { c.points[1].U = bad; }, values);
-        refused([&](Comparison& c) { c.items[0].value = bad; }, values);
-        refused([&](Comparison& c) { c.points[1].En = bad; }, scores);
-        refused([&](Comparison& c) { c.items[0].pairs[2].En = bad; },
+        refused([&](Comparison& c) { c.points[1].value.number = bad; }, values);
+        refused([&](Comparison& c) { c.points[1].U.number = bad; }, values);
+        refused([&](Comparison& c) { c.items[0].value.number = bad; }, values);
+        refused([&](Comparison& c) { c.points[1].En.number = bad; }, scores);
+        refused([&](Comparison& c) { c.items[0].pairs[2].En.number = bad; },
                 [&](const Comparison& c) { return pairs_plot(c.items[0], "p", words()); });
         refused([&](Comparison& c) { c.youden[0].points[2].second = bad; },
                 [&](const Comparison& c) { return youden_plot(c.youden[0], "p", words()); });
         Comparison m = *test::sample_methods_record().comparison;
-        m.points[2].D = bad;
+        m.points[2].D.number = bad;
         EXPECT_THROW(static_cast<void>(bias_plot(m, "p", words())), gum::NoResultError);
-        m.points[2].En = bad;
+        m.points[2].En.number = bad;
         EXPECT_THROW(static_cast<void>(method_scores_plot(m, "p", words())), gum::NoResultError);
     }
 }

@@ -135,7 +135,7 @@ TEST(ComparisonReport, FirstPageSaysHowTheAssignedValueWasFoundAndWhoReportedNot
     EvaluationRecord several = test::sample_laboratories_record();
     const auto rows = rows_of(view_of(several), "assigned-values");
     ASSERT_EQ(rows.size(), several.comparison->items.size());
-    EXPECT_THAT(rows[0], Contains(HasSubstr(several.comparison->items[0].printed.value)));
+    EXPECT_THAT(rows[0], Contains(HasSubstr(several.comparison->items[0].value.text)));
 }
 
 TEST(ComparisonReport, TestOfASubsetNamesThoseOutsideIt) {
@@ -153,14 +153,14 @@ TEST(ComparisonReport, TestOfASubsetNamesThoseOutsideIt) {
 TEST(ComparisonReport, FirstPageNamesResultsWhoseAgreementIsOpen) {
     EvaluationRecord record = one_item(6);
     for (ComparisonPoint& p : record.comparison->points) {
-        p.En_worst = std::nullopt;
+        p.En_worst.number = std::nullopt;
     }
     ComparisonPoint& p = record.comparison->points[1];
     EXPECT_THAT(answer_of(record), Not(HasSubstr("cannot be said")));
-    p.En = 0.8;
-    p.En_worst = -1.3;
+    p.En.number = 0.8;
+    p.En_worst.number = -1.3;
     EXPECT_THAT(answer_of(record), HasSubstr("above 1 for " + p.participant + " as well"));
-    p.En = 1.1;  // then it has a signal already
+    p.En.number = 1.1;  // then it has a signal already
     EXPECT_THAT(answer_of(record), Not(HasSubstr("cannot be said")));
 }
 
@@ -291,23 +291,23 @@ TEST(ComparisonReport, HoldsEveryPrintedNumberOfTheResults) {
                 continue;
             }
             const auto or_absent = [](const std::string& text) { return text.empty() ? "–" : text; };
-            const auto& t = p.printed;
             EXPECT_THAT(rows[at],
-                        ElementsAre(p.participant, t.value, or_absent(t.U), or_absent(t.k), t.D, or_absent(t.U_D),
-                                    t.D_percent, t.P_A, or_absent(t.zeta), or_absent(t.En), t.z, t.z_prime, p.signal));
+                        ElementsAre(p.participant, p.value.text, or_absent(p.U.text), or_absent(p.k.text), p.D.text,
+                                    or_absent(p.U_D.text), p.D_percent.text, p.P_A.text, or_absent(p.zeta.text),
+                                    or_absent(p.En.text), p.z.text, p.z_prime.text, p.signal));
             ++at;
         }
         EXPECT_EQ(at, rows.size());
         const std::string text = text_of(record);
         for (const std::string& printed :
-             {item.printed.value, item.printed.u, item.printed.U, item.printed.u_characterisation,
-              item.printed.u_homogeneity, item.printed.u_stability, item.printed.sigma_pt, item.printed.delta_E,
-              item.printed.s_star, item.consistency->printed.chi_square, item.consistency->printed.critical_value,
-              item.consistency->printed.birge_ratio, item.homogeneity->printed.limit, item.stability->printed.limit}) {
+             {item.value.text, item.u.text, item.U.text, item.u_characterisation.text, item.u_homogeneity.text,
+              item.u_stability.text, item.sigma_pt.text, item.delta_E.text, item.s_star.text,
+              item.consistency->chi_square.text, item.consistency->critical_value.text,
+              item.consistency->birge_ratio.text, item.homogeneity->limit.text, item.stability->limit.text}) {
             EXPECT_THAT(text, HasSubstr(" " + printed)) << printed;
         }
         for (const ReferenceEstimate& e : item.estimates) {
-            EXPECT_THAT(text, HasSubstr(e.printed.value + " " + e.printed.u));
+            EXPECT_THAT(text, HasSubstr(e.value.text + " " + e.u.text));
         }
     }
 }
@@ -319,9 +319,9 @@ TEST(ComparisonReport, HoldsEveryPrintedNumberOfThePoints) {
     ASSERT_EQ(rows.size(), record.comparison->points.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const ComparisonPoint& p = record.comparison->points[i];
-        EXPECT_THAT(rows[i], ElementsAre(p.name, p.direction, p.printed.angle, p.printed.value, p.printed.U,
-                                         p.printed.reference_value, p.printed.reference_U, p.printed.D, p.printed.U_D,
-                                         p.printed.En, p.printed.En_worst, p.printed.En_audited));
+        EXPECT_THAT(rows[i], ElementsAre(p.name, p.direction, p.printed_angle, p.value.text, p.U.text,
+                                         p.reference_value.text, p.reference_U.text, p.D.text, p.U_D.text, p.En.text,
+                                         p.En_worst.text, p.En_audited.text));
     }
     const auto companions = rows_of(view, "companion");
     const auto& s = record.comparison->summary;
@@ -332,22 +332,20 @@ TEST(ComparisonReport, HoldsEveryPrintedNumberOfThePoints) {
         }
         EXPECT_THAT(companions, Contains(cells)) << name;
     };
-    row("mean |Eₙ|", [](const auto& one) { return one.printed.mean_abs_En; });
-    row("mean |Eₙ|, published", [](const auto& one) { return one.printed.published_mean_abs_En; });
-    row("95 % band of rms Eₙ",
-        [](const auto& one) { return one.printed.rms_En_low + " – " + one.printed.rms_En_high; });
-    row("p_low", [](const auto& one) { return one.printed.p_low; });
-    row("p_high", [](const auto& one) { return one.printed.p_high; });
-    row("D_fail, smallest / µm", [](const auto& one) { return one.printed.D_fail; });
-    row("Effective number of points", [](const auto& one) { return one.printed.effective_points; });
-    row("vector Eₙ", [](const auto& one) { return one.printed.vector_En; });
-    row("largest |Eₙ|, worst plausible r", [](const auto& one) { return one.printed.max_abs_En_worst; });
-    row("mean |Eₙ|, audited", [](const auto& one) { return one.printed.mean_abs_En_audited; });
+    row("mean |Eₙ|", [](const auto& one) { return one.mean_abs_En.text; });
+    row("mean |Eₙ|, published", [](const auto& one) { return one.published_mean_abs_En.text; });
+    row("95 % band of rms Eₙ", [](const auto& one) { return one.rms_En_low.text + " – " + one.rms_En_high.text; });
+    row("p_low", [](const auto& one) { return one.p_low.text; });
+    row("p_high", [](const auto& one) { return one.p_high.text; });
+    row("D_fail, smallest / µm", [](const auto& one) { return one.D_fail.text; });
+    row("Effective number of points", [](const auto& one) { return one.effective_points.text; });
+    row("vector Eₙ", [](const auto& one) { return one.vector_En.text; });
+    row("largest |Eₙ|, worst plausible r", [](const auto& one) { return one.max_abs_En_worst.text; });
+    row("mean |Eₙ|, audited", [](const auto& one) { return one.mean_abs_En_audited.text; });
     ASSERT_TRUE(s[0].bias);
-    EXPECT_THAT(rows_of(view, "bias")[0],
-                ElementsAre(s[0].direction, s[0].bias->printed.centre, s[0].bias->printed.constant,
-                            s[0].bias->printed.U_constant, s[0].bias->printed.slope, s[0].bias->printed.U_slope,
-                            s[0].bias->printed.p_value));
+    EXPECT_THAT(rows_of(view, "bias")[0], ElementsAre(s[0].direction, s[0].bias->centre.text, s[0].bias->constant.text,
+                                                      s[0].bias->U_constant.text, s[0].bias->slope.text,
+                                                      s[0].bias->U_slope.text, s[0].bias->p_value.text));
 }
 
 /// A reader who looks for the word must find it only where it is meant, in any form of the word.
@@ -418,7 +416,7 @@ TEST(ComparisonReport, TheGravestObjectionIsTheVerdict) {
     EvaluationRecord scatter = with_verdicts({"disagreement"});
     for (ComparisonSummary& s : scatter.comparison->summary) {
         s.count_above_1 = 0;
-        s.printed.p_high = "0.004";
+        s.p_high.text = "0.004";
     }
     EXPECT_THAT(first(scatter), HasSubstr("p_high = 0.004"));
 }
@@ -468,8 +466,8 @@ TEST(ComparisonReport, SaysWhatIsAbsentWhereAReaderLooksForIt) {
     EvaluationRecord methods = test::sample_methods_record();
     for (ComparisonSummary& s : methods.comparison->summary) {
         s.bias.reset();
-        s.p_low.reset();
-        s.printed.p_low.clear();
+        s.p_low.number.reset();
+        s.p_low.text.clear();
     }
     const std::string without = text_of(methods);
     EXPECT_THAT(without, HasSubstr("No bias line was fitted"));
@@ -509,7 +507,7 @@ TEST(ComparisonReport, ThePairsAreListedDrawnOrBoth) {
     ASSERT_EQ(matrix.size(), 10U);
     EXPECT_EQ(matrix[0].size(), 11U);
     const PairEquivalence pair = one_item(12).comparison->items[0].pairs[0];
-    EXPECT_EQ(matrix[0][2], pair.printed.En);
+    EXPECT_EQ(matrix[0][2], pair.En.text);
     EXPECT_TRUE(block(view(20), "table", "pairs-1").is_null());
     for (const std::size_t laboratories : {6U, 12U, 20U}) {
         EXPECT_FALSE(block(view(laboratories), "figure", "plot-pairs-1").is_null());
@@ -526,7 +524,7 @@ TEST(ComparisonReport, LongNamesAreNoHeadsOfColumns) {
     const auto rows = rows_of(view, "pairs-1");
     EXPECT_EQ(rows[0][0], "1: Calibration Laboratory L001");
     EXPECT_EQ(rows[9][0], "10: Calibration Laboratory L012");
-    EXPECT_EQ(rows[0][2], record.comparison->items[0].pairs[0].printed.En);
+    EXPECT_EQ(rows[0][2], record.comparison->items[0].pairs[0].En.text);
     const json columns = block(view, "table", "pairs-1")["columns"];
     EXPECT_EQ(columns[1]["head"], "1");
     EXPECT_EQ(columns[10]["head"], "10");
@@ -536,8 +534,8 @@ TEST(ComparisonReport, APlotThatShowsNothingIsLeftOut) {
     EvaluationRecord record = test::sample_methods_record();
     EXPECT_FALSE(block(view_of(record), "figure", "plot-values").is_null());
     for (ComparisonPoint& p : record.comparison->points) {
-        p.value += 1e6;  // no difference can be seen beside it
-        p.reference_value += 1e6;
+        p.value.number += 1e6;  // no difference can be seen beside it
+        p.reference_value.number += 1e6;
     }
     const json view = view_of(record);
     EXPECT_TRUE(block(view, "figure", "plot-values").is_null());
@@ -553,7 +551,7 @@ TEST(ComparisonReport, NumbersToRecomputeAreUnrounded) {
     const EvaluationRecord record = one_item(6);
     const auto rows = rows_of(view_of(record), "unrounded");
     ASSERT_EQ(rows.size(), record.comparison->points.size());
-    EXPECT_EQ(std::stod(rows[0][1]), record.comparison->points[0].value);
+    EXPECT_EQ(std::stod(rows[0][1]), record.comparison->points[0].value.number);
     EXPECT_EQ(std::stod(rows[0][2]), *record.comparison->points[0].u);
     EXPECT_EQ(rows_of(view_of(record), "unrounded-weights")[0].back(), "0.1");
     const EvaluationRecord methods = test::sample_methods_record();
@@ -561,7 +559,7 @@ TEST(ComparisonReport, NumbersToRecomputeAreUnrounded) {
     ASSERT_EQ(reference.size(), methods.comparison->points.size());
     const std::string& last = reference.back()[3];  // U+2212 is the minus sign of documents
     EXPECT_EQ(std::stod(last.starts_with("\u2212") ? "-" + last.substr(3) : last),
-              methods.comparison->points.back().reference_value);
+              methods.comparison->points.back().reference_value.number);
     const json large = view_of(one_item(150));
     EXPECT_TRUE(block(large, "table", "unrounded").is_null());
     EXPECT_THAT(text_of(one_item(150)),
@@ -574,7 +572,7 @@ TEST(ComparisonReport, OfManyLaboratoriesItShowsThoseWithSignals) {
     std::vector<double> magnitudes;
     for (const ComparisonPoint& p : points) {
         if (p.signal == "action") {
-            magnitudes.push_back(std::abs(*p.En));
+            magnitudes.push_back(std::abs(*p.En.number));
         }
     }
     std::sort(magnitudes.rbegin(), magnitudes.rend());
@@ -585,7 +583,7 @@ TEST(ComparisonReport, OfManyLaboratoriesItShowsThoseWithSignals) {
     ASSERT_EQ(rows.size(), 200U);
     std::size_t at = 0;
     for (const ComparisonPoint& p : points) {  // the 200 largest, in the order of the record
-        if (p.signal == "action" && std::abs(*p.En) >= magnitudes[199]) {
+        if (p.signal == "action" && std::abs(*p.En.number) >= magnitudes[199]) {
             EXPECT_EQ(rows.at(at++)[0], p.participant);
         }
     }
@@ -593,7 +591,7 @@ TEST(ComparisonReport, OfManyLaboratoriesItShowsThoseWithSignals) {
                 HasSubstr("Of 499 rows 357 have a signal or an open judgement; the table shows the 200"));
     for (std::size_t i = 0; i < points.size(); ++i) {
         points[i].signal = i == 17 || i == 230 ? "action" : "none";
-        points[i].En_worst = std::nullopt;  // an open judgement is shown as well
+        points[i].En_worst.number = std::nullopt;  // an open judgement is shown as well
     }
     EXPECT_EQ(rows_of(view_of(record), "results-1").size(), 2U);
     EXPECT_THAT(text_of(record), HasSubstr("Of 499 rows the table shows 2 with a signal or an open judgement."));
@@ -695,9 +693,9 @@ TEST(ComparisonReport, PdfHasTheNumbersOfTheTable) {
         GTEST_SKIP() << "pdftotext is missing: the numbers of the PDF were not read back";
     }
     for (const ComparisonPoint& p : record.comparison->points) {
-        if (p.En) {
-            EXPECT_THAT(text, HasSubstr(" " + p.participant + " " + p.printed.value + " " + p.printed.U + " " +
-                                        p.printed.D + " " + p.printed.U_D + " " + p.printed.En + " "));
+        if (p.En.number) {
+            EXPECT_THAT(text, HasSubstr(" " + p.participant + " " + p.value.text + " " + p.U.text + " " + p.D.text +
+                                        " " + p.U_D.text + " " + p.En.text + " "));
         }
     }
     EXPECT_THAT(text, HasSubstr("End of comparison report"));

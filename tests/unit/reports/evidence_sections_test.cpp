@@ -47,7 +47,7 @@ TEST(EvidenceSections, BeginWithWhatTheTableDoes) {
     EXPECT_EQ(view["sections"][0]["id"], "overview");
     const auto rows = rows_of(view, "overview");
     ASSERT_EQ(rows.size(), 6U + 3U + 4U);
-    const RangeRow& range = record.rotary->ranges[0];
+    const StatedValue& range = record.rotary->ranges[0].stated;
     EXPECT_THAT(rows[0],
                 ElementsAre("EXA", "Range, linear, along x (axial)", range.printed.value, range.printed.U, "µm"));
     EXPECT_EQ(rows[6][0], "A");

@@ -51,7 +51,7 @@ std::vector<std::string> expected_rows(const EvaluationRecord& record) {
     std::vector<std::string> rows;
     for (const ErrorsAtAngle& at : record.rotary->errors) {
         std::string row = " " + at.printed_angle + " ";
-        for (const ErrorValue& e : at.errors) {
+        for (const StatedValue& e : at.errors) {
             row += e.printed.value + " " + e.printed.U + " ";
         }
         rows.push_back(row);
@@ -64,12 +64,12 @@ std::vector<std::string> expected_rows(const EvaluationRecord& record) {
                        r.set_up.printed_S[i].U + " ″ ");
     }
     for (const ComparisonPoint& p : record.comparison->points) {
-        rows.push_back(" " + p.direction + " " + p.printed.angle + " " + p.printed.value + " " + p.printed.U + " " +
-                       p.printed.reference_value + " " + p.printed.reference_U + " " + p.printed.D + " " +
-                       p.printed.U_D + " " + p.printed.En + " ");
+        rows.push_back(" " + p.direction + " " + p.printed_angle + " " + p.value.text + " " + p.U.text + " " +
+                       p.reference_value.text + " " + p.reference_U.text + " " + p.D.text + " " + p.U_D.text + " " +
+                       p.En.text + " ");
     }
     for (const RangeRow& range : record.rotary->ranges) {
-        rows.push_back(" " + range.name + " " + range.printed.value + " " + range.printed.U + " ");
+        rows.push_back(" " + range.name + " " + range.stated.printed.value + " " + range.stated.printed.U + " ");
     }
     for (const VarianceComponent& v : record.rotary->variance_components) {
         rows.push_back(" " + v.name + " " + v.printed.value + " " + v.printed.U + " " + v.printed.unit + " ");

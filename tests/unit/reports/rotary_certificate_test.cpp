@@ -41,8 +41,8 @@ TEST(RotaryCertificate, AxisLineSaysWhereMonteCarloAgrees) {
     EXPECT_EQ(rows[2].back(), "not validated");
     EvaluationRecord without = test::sample_record();
     for (TableParameter& p : without.rotary->axis_line) {
-        p.monte_carlo.reset();
-        p.nu_eff.reset();
+        p.stated.monte_carlo.reset();
+        p.stated.nu_eff.reset();
     }
     EXPECT_EQ(rows_of(view_of(without), "axis-line")[0].size(), 7U);
     EXPECT_EQ(rows_of(view_of(without), "axis-line")[0].back(), "∞");
@@ -56,7 +56,7 @@ EvaluationRecord in_a_machine(const std::string& by) {
     const std::vector<std::string> names{"EY0A", "EZ0A", "EB0A", "EC0A"};
     for (std::size_t i = 0; i < names.size(); ++i) {
         rotary.location_errors[i].name = names[i];
-        rotary.location_errors[i].monte_carlo.reset();
+        rotary.location_errors[i].stated.monte_carlo.reset();
     }
     rotary.machine_frame = MachineFrame{.by = by,
                                         .source = "probe",
@@ -169,7 +169,7 @@ TEST(RotaryCertificate, MonteCarloNamesWhatIsNotValidated) {
     EXPECT_THAT(groups.back(), ElementsAre("Accuracy and repeatability of positioning", "12", "12", "0", "0"));
     const auto rows = rows_of(view, "monte-carlo-exceptions");
     ASSERT_EQ(rows.size(), 3U);
-    const ErrorValue& e = r.rotary->errors[3].errors[0];
+    const StatedValue& e = r.rotary->errors[3].errors[0];
     EXPECT_THAT(rows[0], ElementsAre("EXA (30°)", e.printed.value, e.printed.U, e.monte_carlo->printed.mean,
                                      e.monte_carlo->printed.u, e.monte_carlo->printed.symmetric[0],
                                      e.monte_carlo->printed.symmetric[1], e.monte_carlo->printed.shortest[0],
@@ -186,7 +186,7 @@ TEST(RotaryCertificate, MonteCarloNamesWhatIsNotValidated) {
     EXPECT_THAT(text_of(r), HasSubstr("The record holds 14 more."));
 
     for (ErrorsAtAngle& at : r.rotary->errors) {
-        for (ErrorValue& value : at.errors) {
+        for (StatedValue& value : at.errors) {
             value.monte_carlo = test::trials_of(value.value, value.u);
         }
     }

@@ -13,14 +13,14 @@ reports::Printed printed(double value, double U, const DocumentUnit& unit) {
     return {pair.value, pair.U, unit.print};
 }
 
-Reported reported(const gum::UncertaintyBudget& propagation, Eigen::Index i, const DocumentUnit& unit) {
-    Reported result;
+reports::StatedValue stated_value(const gum::UncertaintyBudget& propagation, Eigen::Index i, const DocumentUnit& unit) {
+    reports::StatedValue result;
     result.value = propagation.value[i] / unit.si;
     result.u = propagation.standard_uncertainty[i] / unit.si;
     result.U = propagation.expanded_uncertainty[i] / unit.si;
     result.k = propagation.coverage_factor[i];
     result.nu_eff = finite_or_none(propagation.effective_degrees_of_freedom[i]);
-    result.text = printed(result.value, result.U, unit);
+    result.printed = printed(result.value, result.U, unit);
     return result;
 }
 

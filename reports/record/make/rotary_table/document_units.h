@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 
 #include "gum/propagation.h"
 #include "gum/rotary_table/document_units.h"
@@ -19,13 +18,8 @@ using gum::unit_of;
 /// the value is zero by definition.
 [[nodiscard]] reports::Printed printed(double value, double U, const DocumentUnit& unit);
 
-/// One reported quantity in the unit of the document.
-struct Reported {
-    double value, u, U, k;
-    std::optional<double> nu_eff;
-    reports::Printed text;
-};
-
-[[nodiscard]] Reported reported(const gum::UncertaintyBudget& propagation, Eigen::Index i, const DocumentUnit& unit);
+/// One output of a law of propagation in the unit of the document, as it is stated and printed.
+[[nodiscard]] reports::StatedValue stated_value(const gum::UncertaintyBudget& propagation, Eigen::Index i,
+                                                const DocumentUnit& unit);
 
 }  // namespace gumcert::reports

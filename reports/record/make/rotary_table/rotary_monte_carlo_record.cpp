@@ -1,6 +1,7 @@
 #include "reports/record/make/rotary_table/rotary_monte_carlo_record.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,59 @@
 #include "gum/rounding.h"
 #include "reports/record/make/record_parts.h"
 #include "reports/record/make/rotary_table/document_units.h"
+#include "reports/record/stated_values.h"
 
 namespace gumcert::reports {
+
+namespace {
+
+using TrialPlace = reports::StatedPlace<reports::StatedValue>;
+using reports::StatedGroup;
+
+/// Which output of the trials a stated value is; none where they hold none for it.
+/// \param position  among the stated values of the table, where the error motions come first as in the outputs
+std::optional<Eigen::Index> output_of(const TrialPlace& place, std::size_t position, const gum::RotaryTableResult& result) {
+    const engine::ReportedQuantities& quantities = result.solution.quantities;
+    const auto derived = static_cast<Eigen::Index>(quantities.outputs.size());
+    const engine::TableParameters& parameters = *result.parameter_model->parameters();
+    const auto index = static_cast<Eigen::Index>(place.index);
+    switch (place.group) {
+        case StatedGroup::error_motions:
+            return quantities.errors + static_cast<Eigen::Index>(position);
+        case StatedGroup::reversal:
+            return quantities.reversal + index;
+        case StatedGroup::ranges:
+            return derived + parameters.layout().ranges + index;
+        case StatedGroup::axis_line:
+            return derived + parameters.layout().axis_line + index;
+        case StatedGroup::location_errors:
+            return std::nullopt;
+        case StatedGroup::positioning:
+            break;
+    }
+    if (gum::rests_on_scatter(place.name)) {
+        return std::nullopt;
+    }
+    const std::vector<std::string>& names = parameters.short_names();
+    const auto found = std::find(names.begin() + parameters.layout().positioning, names.end(), place.name);
+    return derived + (found - names.begin());
+}
+
+/// "EXA at 30°", "range of EXA", "axis_y".
+std::string quantity_name(const TrialPlace& place, const reports::RotaryTable& rotary) {
+    switch (place.group) {
+        case StatedGroup::error_motions:
+            return place.name + " at " + rotary.errors[place.index].printed_angle + "°";
+        case StatedGroup::reversal:
+            return "reversal of " + place.name;
+        case StatedGroup::ranges:
+            return "range of " + place.name;
+        default:
+            return place.name;
+    }
+}
+
+}  // namespace
 
 void fill_monte_carlo(reports::EvaluationRecord& record, const engine::RotaryTableJob& job,
                       const gum::RotaryTableResult& result) {
@@ -43,44 +95,24 @@ void fill_monte_carlo(reports::EvaluationRecord& record, const engine::RotaryTab
                                    validation);
     };
 
-    Eigen::Index next = quantities.errors;
-    for (reports::ErrorsAtAngle& row : rotary.errors) {
-        for (std::size_t c = 0; c < 6; ++c, ++next) {
-            row.errors[c].monte_carlo =
-                of(next, c < 3 ? k_um : k_arcsec, rotary.error_names[c] + " at " + row.printed_angle + "°");
+    const reports::StatedPlaces places = reports::stated_values(rotary);
+    const auto fill = [&](bool error_motions) {
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const TrialPlace& place = places[i];
+            if ((place.group == reports::StatedGroup::error_motions) == error_motions) {
+                if (const auto output = output_of(place, i, result)) {
+                    place.stated.monte_carlo = of(*output, unit_of(place.unit), quantity_name(place, rotary));
+                }
+            }
         }
-    }
+    };
+    fill(true);
     for (std::size_t i = 0; i < record.results.size(); ++i) {
         const Eigen::Index output = quantities.set_up + static_cast<Eigen::Index>(i);
         record.results[i].monte_carlo =
             of(output, unit_of(quantities.outputs[static_cast<std::size_t>(output)]), record.results[i].name);
     }
-    for (std::size_t c = 0; c < rotary.reversal.size(); ++c) {
-        rotary.reversal[c].value.monte_carlo = of(quantities.reversal + static_cast<Eigen::Index>(c),
-                                                  c < 3 ? k_um : k_arcsec, "reversal of " + rotary.reversal[c].name);
-    }
-    const auto first = static_cast<Eigen::Index>(quantities.outputs.size());
-    const engine::TableParameterLayout& layout = result.parameter_model->parameters()->layout();
-    const auto parameter_unit = [&](const reports::TableParameter& parameter) -> const DocumentUnit& {
-        return parameter.unit == k_um.record ? k_um : k_arcsec;
-    };
-    for (std::size_t c = 0; c < rotary.ranges.size(); ++c) {
-        rotary.ranges[c].monte_carlo = of(first + layout.ranges + static_cast<Eigen::Index>(c), c < 3 ? k_um : k_arcsec,
-                                          "range of " + rotary.ranges[c].name);
-    }
-    for (std::size_t i = 0; i < rotary.axis_line.size(); ++i) {
-        reports::TableParameter& parameter = rotary.axis_line[i];
-        parameter.monte_carlo =
-            of(first + layout.axis_line + static_cast<Eigen::Index>(i), parameter_unit(parameter), parameter.name);
-    }
-    const std::vector<std::string>& names = result.parameter_model->parameters()->short_names();
-    for (std::size_t i = 0; rotary.iso230_2 && i < rotary.iso230_2->parameters.size(); ++i) {
-        reports::TableParameter& parameter = rotary.iso230_2->parameters[i];
-        if (!gum::rests_on_scatter(parameter.name)) {
-            const auto found = std::find(names.begin() + layout.positioning, names.end(), parameter.name);
-            parameter.monte_carlo = of(first + (found - names.begin()), parameter_unit(parameter), parameter.name);
-        }
-    }
+    fill(false);
 
     summary.statement =
         "Every input was drawn from its own distribution and the adjustment was solved again, with the exact "

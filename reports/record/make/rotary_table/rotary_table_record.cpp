@@ -29,10 +29,6 @@ using engine::RotaryTableJob;
 using engine::RotaryTableSolution;
 using reports::Printed;
 
-reports::ErrorValue error_value(const Reported& from) {
-    return {from.value, from.u, from.U, from.k, from.nu_eff, from.text};
-}
-
 const std::vector<std::string>& budget_sources() {
     static const std::vector<std::string> sources{"length noise", "scale",           "dead path",
                                                   "fixture CMM",  "fixture thermal", "table repeatability"};
@@ -62,7 +58,7 @@ reports::Result result_of(const gum::QuantityUncertainty& uncertainty, const gum
                           Eigen::Index output, const std::string& name, const std::string& description) {
     const gum::UncertaintyBudget& propagation = uncertainty.budget;
     const DocumentUnit& unit = unit_of(model.outputs()[static_cast<std::size_t>(output)]);
-    const Reported numbers = reported(propagation, output, unit);
+    const reports::StatedValue numbers = stated_value(propagation, output, unit);
     reports::Result result;
     result.name = name;
     result.description = description;
@@ -74,7 +70,7 @@ reports::Result result_of(const gum::QuantityUncertainty& uncertainty, const gum
     result.coverage_probability = propagation.coverage_probability;
     result.U = numbers.U;
     result.distribution = numbers.nu_eff ? "student_t" : "normal";
-    result.printed = numbers.text;
+    result.printed = numbers.printed;
     for (std::size_t g = 0; g < model.inputs().size(); ++g) {
         const gum::InputGroup& group = model.inputs()[g];
         const Eigen::VectorXd variance = group.is_diagonal() ? Eigen::VectorXd(group.covariance.col(0))
@@ -142,7 +138,7 @@ void fill_set_up(reports::RotaryTable& rotary, const RotaryTableSolution& soluti
     rotary.axis_in_fixture = rotary.set_up;
     const auto place = [&](Eigen::Index output, const DocumentUnit& unit, std::size_t coordinate, auto value, auto u,
                            auto U, auto text) {
-        Reported numbers = reported(propagation, output, unit);
+        const reports::StatedValue numbers = stated_value(propagation, output, unit);
         (rotary.set_up.*value)[coordinate] = numbers.value;
         (rotary.axis_in_fixture.*value)[coordinate] = -numbers.value;  // the axis as seen from the fixture
         for (reports::SetUp* side : {&rotary.set_up, &rotary.axis_in_fixture}) {
@@ -314,16 +310,15 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const g
         row.angle_deg = measurement.angles_deg[i];
         row.printed_angle = text::shortest(row.angle_deg);
         for (std::size_t c = 0; c < 6; ++c) {
-            row.errors[c] =
-                error_value(reported(propagation, static_cast<Eigen::Index>(6 * i + c), c < 3 ? k_um : k_arcsec));
+            row.errors[c] = stated_value(propagation, static_cast<Eigen::Index>(6 * i + c), c < 3 ? k_um : k_arcsec);
         }
         rotary.errors.push_back(std::move(row));
     }
     for (std::size_t c = 0; c < 6 && solution.quantities.has_reversal; ++c) {
         rotary.reversal.push_back(
             {rotary.error_names[c],
-             error_value(reported(propagation, solution.quantities.reversal + static_cast<Eigen::Index>(c),
-                                  c < 3 ? k_um : k_arcsec))});
+             stated_value(propagation, solution.quantities.reversal + static_cast<Eigen::Index>(c),
+                          c < 3 ? k_um : k_arcsec)});
     }
     fill_table_parameters(rotary, *result.parameter_model, measurement, result.parameters);
     if (result.location_errors) {

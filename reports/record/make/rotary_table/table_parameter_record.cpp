@@ -121,17 +121,10 @@ reports::PositioningAccuracy positioning_of(const engine::TableParameterModel& m
 reports::TableParameter table_parameter(const gum::UncertaintyBudget& propagation, Eigen::Index index,
                                         const DocumentUnit& unit, const std::string& name,
                                         const std::string& description) {
-    const Reported numbers = reported(propagation, index, unit);
     return {.name = name,
             .description = description,
             .unit = unit.record,
-            .value = numbers.value,
-            .u = numbers.u,
-            .U = numbers.U,
-            .k = numbers.k,
-            .nu_eff = numbers.nu_eff,
-            .printed = numbers.text,
-            .monte_carlo = {}};
+            .stated = stated_value(propagation, index, unit)};
 }
 
 void fill_table_parameters(reports::RotaryTable& rotary, const engine::TableParameterModel& model,
@@ -141,16 +134,9 @@ void fill_table_parameters(reports::RotaryTable& rotary, const engine::TablePara
     const engine::TableParameterLayout& layout = from.layout();
     for (std::size_t c = 0; c < 6; ++c) {
         const Eigen::Index index = layout.ranges + static_cast<Eigen::Index>(c);
-        const Reported numbers = reported(parameters, index, unit_of(from.outputs()[static_cast<std::size_t>(index)]));
-        reports::RangeRow row;
-        row.name = rotary.error_names[c];
-        row.value = numbers.value;
-        row.u = numbers.u;
-        row.U = numbers.U;
-        row.k = numbers.k;
-        row.nu_eff = numbers.nu_eff;
-        row.printed = numbers.text;
-        rotary.ranges.push_back(std::move(row));
+        rotary.ranges.push_back(
+            {.name = rotary.error_names[c],
+             .stated = stated_value(parameters, index, unit_of(from.outputs()[static_cast<std::size_t>(index)]))});
     }
     for (Eigen::Index i = 0; i < 4; ++i) {
         rotary.axis_line.push_back(parameter_of(from, parameters, layout.axis_line + i));

@@ -43,12 +43,12 @@ TEST(ComparisonRecord, ReadsBackToTheSameBytes) {
     const Comparison expected = *test::sample_laboratories_record().comparison;
     EXPECT_EQ(c.points[2].nu, 14.0);
     EXPECT_FALSE(c.points[4].u.has_value());
-    EXPECT_FALSE(c.points[4].En.has_value());
+    EXPECT_FALSE(c.points[4].En.number.has_value());
     EXPECT_FALSE(c.points[3].contributes);
     EXPECT_EQ(c.points[3].reason, expected.points[3].reason);
     EXPECT_EQ(c.items[1].missing, std::vector<std::string>{"L006"});
     EXPECT_EQ(c.items[1].consistency->incompatible_pairs, 2);
-    EXPECT_EQ(c.items[1].consensus->ratio, -0.64);
+    EXPECT_EQ(c.items[1].consensus->ratio.number, -0.64);
     EXPECT_EQ(c.items[0].pairs.size(), expected.items[0].pairs.size());
     EXPECT_EQ(c.youden[0].ellipse[17], expected.youden[0].ellipse[17]);
     EXPECT_EQ(c.youden[0].points.back().participant, "L009");
@@ -62,7 +62,7 @@ TEST(ComparisonRecord, DirectionsKeepTheOrderOfTheJob) {
         names.push_back(s.direction);
     }
     EXPECT_EQ(names, (std::vector<std::string>{"up", "down", "all"}));
-    EXPECT_EQ(again.comparison->summary[1].bias->U_slope, 0.004);
+    EXPECT_EQ(again.comparison->summary[1].bias->U_slope.number, 0.004);
 
     json r = json::parse(text);
     for (json& s : r["comparison"]["summary"]) {
@@ -120,9 +120,9 @@ TEST(ComparisonRecord, ARecordOfAnEarlierReleaseIsRead) {
     EXPECT_EQ(r.comparison->form, "rotary_table");
     EXPECT_EQ(r.comparison->unit, "um");
     EXPECT_TRUE(r.comparison->points[0].contributes);
-    EXPECT_EQ(r.comparison->points[40].En, test::sample_record().comparison->points[40].En);
+    EXPECT_EQ(r.comparison->points[40].En.number, test::sample_record().comparison->points[40].En.number);
     EXPECT_EQ(r.comparison->summary[3].direction, "all");
-    EXPECT_FALSE(r.comparison->summary[3].p_low.has_value());
+    EXPECT_FALSE(r.comparison->summary[3].p_low.number.has_value());
     // What it said is said again, unchanged, beside the keys that came later.
     for (const json& step : json::diff(old, json::parse(to_canonical_json(r)))) {
         EXPECT_EQ(step["op"], "add") << step.dump();
@@ -249,9 +249,9 @@ TEST(ComparisonRecord, WriterRefusesWhatTheReaderWouldRefuse) {
         alter(*r.comparison);
         return write_refusal(r);
     };
-    EXPECT_THAT(refused([](Comparison& c) { c.points[7].En = std::numeric_limits<double>::quiet_NaN(); }),
+    EXPECT_THAT(refused([](Comparison& c) { c.points[7].En.number = std::numeric_limits<double>::quiet_NaN(); }),
                 HasSubstr("GC-RECORD-0001 record#/comparison/points/7/En — NaN"));
-    EXPECT_THAT(refused([](Comparison& c) { c.items[1].pairs[3].U = -1.0; }),
+    EXPECT_THAT(refused([](Comparison& c) { c.items[1].pairs[3].U.number = -1.0; }),
                 HasSubstr("record#/comparison/items/1/pairs/3/U — -1 — must be 0 or greater"));
     EXPECT_THAT(refused([](Comparison& c) { c.points[0].signal = "alarm"; }),
                 HasSubstr("record#/comparison/points/0/signal"));

@@ -68,7 +68,7 @@ TEST(EvaluationRecord, HoldsTheKeysOfTheContract) {
     EXPECT_EQ(r["rotary"]["covariance"]["file"], "covariance.csv");
     EXPECT_EQ(r["rotary"]["reliability"][14]["flagged"], true);
     EXPECT_EQ(r["comparison"]["summary"]["all"]["points"], 108);
-    EXPECT_EQ(r["comparison"]["points"][0]["printed"]["En"], test::sample_record().comparison->points[0].printed.En);
+    EXPECT_EQ(r["comparison"]["points"][0]["printed"]["En"], test::sample_record().comparison->points[0].En.text);
 }
 
 TEST(EvaluationRecord, PositioningHasTheFormOfTheContract) {

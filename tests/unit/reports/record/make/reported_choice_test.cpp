@@ -20,7 +20,7 @@ EvaluationRecord record_with(const std::function<void(MonteCarloSummary&)>& chan
     return record;
 }
 
-const reports::ErrorValue& changed(const EvaluationRecord& record) {
+const reports::StatedValue& changed(const EvaluationRecord& record) {
     return record.rotary->errors[2].errors[1];
 }
 
@@ -88,7 +88,7 @@ TEST(ReportedChoice, AreAllThoseOfMonteCarloWhereTheJobAsksForIt) {
     EvaluationRecord record = test::sample_record();
     report_rotary_results(record, CoverageChoice::monte_carlo);
     for (const reports::ErrorsAtAngle& at : record.rotary->errors) {
-        for (const reports::ErrorValue& error : at.errors) {
+        for (const reports::StatedValue& error : at.errors) {
             ASSERT_EQ(error.reported.has_value(), error.monte_carlo.has_value());
             if (error.reported) {
                 EXPECT_EQ(error.reported->because, "asked");
