@@ -43,7 +43,7 @@ TEST(LocationErrorRecord, HasTheFrameThePointsAndTheErrors) {
     ASSERT_EQ(with.location_errors.size(), 4U);
     EXPECT_EQ(with.location_errors[0].name, "EX0B");
     EXPECT_EQ(with.location_errors[0].unit, "um");
-    EXPECT_DOUBLE_EQ(with.location_errors[1].value, 2.0);
+    EXPECT_DOUBLE_EQ(with.location_errors[1].stated.value, 2.0);
     EXPECT_EQ(with.location_errors[1].description, "position of the axis along z in the frame of the machine");
     EXPECT_EQ(with.location_errors[3].unit, "arcsec");
     EXPECT_EQ(with.location_errors[3].description, "tilt of the axis about z in the frame of the machine");
