@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "engine/curve_fit.h"
-#include "engine/job/budget_job.h"
 #include "gum/quantity/unit.h"
+#include "jobs/budget/budget_job.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {

@@ -21,9 +21,9 @@ namespace gumcert::app {
 
 namespace {
 
-using engine::BudgetJob;
 using gum::BudgetInput;
 using gum::StatedQuantity;
+using jobs::BudgetJob;
 
 constexpr double k_test_level = 0.05;  // of the F test
 constexpr std::size_t k_longest_lag_list = 100;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/job/budget_job.h"
+#include "jobs/budget/budget_job.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -11,6 +11,6 @@ namespace gumcert::app {
 ///
 /// Fills `readings` (autocorrelation), `variance_analyses` and `outliers` (Grubbs' test of observations, of the
 /// readings in each group, and of the means of groups).
-void add_readings(const engine::BudgetJob& job, reports::EvaluationRecord& record);
+void add_readings(const jobs::BudgetJob& job, reports::EvaluationRecord& record);
 
 }  // namespace gumcert::app

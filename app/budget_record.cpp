@@ -31,10 +31,10 @@ namespace gumcert::app {
 
 namespace {
 
-using engine::BudgetJob;
 using gum::BudgetInput;
 using gum::StatedQuantity;
 using gum::Unit;
+using jobs::BudgetJob;
 using reports::BudgetRow;
 using reports::Printed;
 
@@ -449,12 +449,12 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
                                         const std::vector<reports::InputFile>& files, const Eigen::MatrixXd& covariance,
                                         const std::string& covariance_file) {
     reports::EvaluationRecord record = reports::record_head(reports::k_budget_kind,
-                                                   {.title = job.title,
-                                                    .coverage_probability = job.coverage_probability,
-                                                    .document = job.document,
-                                                    .warnings = job.warnings,
-                                                    .notes = result.notes},
-                                                   options_json(job, result), files);
+                                                            {.title = job.title,
+                                                             .coverage_probability = job.coverage_probability,
+                                                             .document = job.document,
+                                                             .warnings = job.warnings,
+                                                             .notes = result.notes},
+                                                            options_json(job, result), files);
     for (const BudgetInput& input : job.inputs) {
         const auto described = job.input_descriptions.find(input.name);
         record.inputs.push_back({.name = input.name,

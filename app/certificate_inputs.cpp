@@ -10,10 +10,10 @@
 
 #include "app/budget_record.h"
 #include "app/read_file.h"
-#include "engine/job/certificate_statement.h"
 #include "gum/budget/budget_model.h"
-#include "gum/convolution.h"
+#include "gum/monte_carlo/convolution.h"
 #include "gum/quantity/diagnostic.h"
+#include "jobs/certificate/certificate_statement.h"
 #include "reports/record/make/record_parts.h"
 #include "text/lists.h"
 
@@ -50,7 +50,7 @@ void refuse_a_name_of_the_program(const certificate::Profile& own, const fs::pat
     if (!is_file_stem(own.id) || !fs::exists(file, error)) {
         return;
     }
-    if (!(engine::parse_profile(read_file(file), file.filename().string()) == own)) {
+    if (!(jobs::parse_profile(read_file(file), file.filename().string()) == own)) {
         throw gum::InputError(
             gum::Diagnostic{.code = "GC-CERT-0301",
                             .where = "certificate/profile",
@@ -60,7 +60,7 @@ void refuse_a_name_of_the_program(const certificate::Profile& own, const fs::pat
     }
 }
 
-InputValues values_of(const engine::BudgetJob& job, std::size_t input) {
+InputValues values_of(const jobs::BudgetJob& job, std::size_t input) {
     InputValues out{.unit = job.inputs[input].unit.text(), .values = {}};
     const auto add = [&](std::optional<std::size_t> point) {
         out.values.push_back(job.inputs[input].unit.from_si(gum::input_total(gum::input_at(job, input, point)).value));
@@ -115,10 +115,10 @@ certificate::Profile certificate_profile(const certificate::CertificateData& dat
                                               .rule = "the profiles are " + known_profiles(folder),
                                               .action = "name one of them, or a file of your own beside the job"});
     }
-    return engine::parse_profile(read_file(file), file.filename().string());
+    return jobs::parse_profile(read_file(file), file.filename().string());
 }
 
-CapabilityInputs capability_inputs(const engine::BudgetJob& job, const gum::BudgetResult& result, unsigned threads) {
+CapabilityInputs capability_inputs(const jobs::BudgetJob& job, const gum::BudgetResult& result, unsigned threads) {
     CapabilityInputs inputs;
     inputs.rounding = job.rounding;
     for (std::size_t i = 0; i < job.inputs.size(); ++i) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "certificate/statement_of_uncertainty.h"
-#include "gum/conformity.h"
+#include "gum/conformity/conformity.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"

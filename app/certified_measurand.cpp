@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <string>
 
-#include "certificate/finding_list.h"
-#include "certificate/held_against.h"
+#include "certificate/gates/finding_list.h"
+#include "certificate/gates/held_against.h"
 #include "gum/argument_check.h"
 #include "gum/quantity/unit.h"
 #include "reports/record/certified_tables.h"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "app/certified_measurand.h"
-#include "certificate/finding_list.h"
+#include "certificate/gates/finding_list.h"
 #include "certificate/stated_text.h"
 #include "certificate/text_words.h"
 #include "gum/quantity/unit.h"

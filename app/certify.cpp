@@ -10,7 +10,7 @@
 #include "app/certified_scope.h"
 #include "app/certified_traceability.h"
 #include "app/environment_findings.h"
-#include "certificate/gates.h"
+#include "certificate/gates/gates.h"
 #include "certificate/result_names.h"
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/budget/evaluation_choice.h"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "certificate/certificate_data.h"
+#include "gum/monte_carlo/trial_distribution.h"
 #include "gum/rounding.h"
-#include "gum/trial_distribution.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {

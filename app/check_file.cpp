@@ -5,8 +5,8 @@
 
 #include "app/read_file.h"
 #include "app/recompute_record.h"
-#include "engine/job/file_source.h"
-#include "engine/job/job_kind.h"
+#include "jobs/file_source.h"
+#include "jobs/job_kind.h"
 #include "json/strict_parser.h"
 
 namespace gumcert::app {
@@ -15,14 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-FileCheck check_job(const engine::FileSource& files, const std::string& name) {
-    const std::string word = engine::probable_job_kind(files, name).value_or(std::string(engine::k_rotary_table_kind));
+FileCheck check_job(const jobs::FileSource& files, const std::string& name) {
+    const std::string word = jobs::probable_job_kind(files, name).value_or(std::string(jobs::k_rotary_table_kind));
     FileCheck check{.kind = "job of kind " + word, .findings = {}};
     try {
         if (const Kind* const kind = find_kind(program_kinds(), word)) {
             check.findings = kind->read(files, name);
         } else {
-            (void)engine::job_kind(files, name);  // its message lists the kinds there are
+            (void)jobs::job_kind(files, name);  // its message lists the kinds there are
         }
     } catch (const gum::InputError& refused) {
         check.findings = refused.diagnostics();
@@ -75,8 +75,8 @@ FileCheck check_file(const fs::path& file, unsigned threads, const fs::path& tem
     if (says_record || (!document && is_record)) {
         return check_record(text, file.string(), threads, templates, progress);
     }
-    const engine::DiskFileSource disk(file.parent_path());
-    return check_job(engine::ReadOnceSource(disk), file.filename().string());
+    const jobs::DiskFileSource disk(file.parent_path());
+    return check_job(jobs::ReadOnceSource(disk), file.filename().string());
 }
 
 }  // namespace gumcert::app

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/job/circle_closure_job.h"
-#include "engine/job/rotary_table_job.h"
 #include "gum/circle_closure/evaluate_circle_closure.h"
 #include "gum/coverage.h"
 #include "gum/rotary_table/evaluate_rotary_table.h"
+#include "jobs/circle_closure/circle_closure_job.h"
+#include "jobs/rotary_table/rotary_table_job.h"
 
 namespace gumcert::app {
 
@@ -34,13 +34,13 @@ MethodSide side_of_outputs(const gum::UncertaintyBudget& propagation, const Eige
 
 }  // namespace
 
-MethodSide side_of_job(const engine::ComparisonSide& side, const gum::Unit& unit, double coverage_probability) {
+MethodSide side_of_job(const jobs::ComparisonSide& side, const gum::Unit& unit, double coverage_probability) {
     constexpr std::size_t k_motions = 6;
     constexpr std::size_t k_first_rotation = 3;
     std::vector<Index> rows;
     MethodSide out;
     if (side.circle_closure) {
-        engine::CircleClosureJob job = *side.circle_closure;
+        jobs::CircleClosureJob job = *side.circle_closure;
         job.monte_carlo.reset();
         for (const std::size_t angle : side.job_angles) {
             rows.push_back(static_cast<Index>(angle + (side.of_artefact ? job.measurement.steps : 0)));
@@ -48,7 +48,7 @@ MethodSide side_of_job(const engine::ComparisonSide& side, const gum::Unit& unit
         const gum::Propagation propagation = gum::evaluate_circle_closure(job, 1).propagation;
         out = side_of_outputs(propagation, propagation.covariance(rows, rows), rows, unit, coverage_probability);
     } else {
-        engine::RotaryTableJob job = *side.rotary_table;
+        jobs::RotaryTableJob job = *side.rotary_table;
         job.monte_carlo.reset();
         job.reference.reset();
         const auto axial = static_cast<std::size_t>(engine::axial_coordinate(job.measurement.axis));

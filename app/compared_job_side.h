@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/method_side.h"
-#include "engine/job/comparison_job.h"
+#include "jobs/comparison/comparison_job.h"
 
 namespace gumcert::app {
 
@@ -9,7 +9,7 @@ namespace gumcert::app {
 /// motion of a rotary table, or one of the two circles of a circle closure.
 /// \param unit  of the comparison, an angle
 /// \throws InputError, NoResultError  of the evaluation of the job
-[[nodiscard]] MethodSide side_of_job(const engine::ComparisonSide& side, const gum::Unit& unit,
+[[nodiscard]] MethodSide side_of_job(const jobs::ComparisonSide& side, const gum::Unit& unit,
                                      double coverage_probability);
 
 /// Brings a side to the datum in which its values have the mean 0: two methods take their zero from different readings,

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/anglewise_covariance.h"
+#include "engine/rotary_table/anglewise_covariance.h"
 
 namespace gumcert::app {
 

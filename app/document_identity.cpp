@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "certificate/text_words.h"
-#include "reports/certificate_view.h"
 #include "reports/dcc/dcc_reader.h"
+#include "reports/view/certificate_view.h"
 
 namespace gumcert::app {
 

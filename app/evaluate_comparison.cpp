@@ -15,7 +15,7 @@ namespace gumcert::app {
 namespace {
 
 /// Limits and constants in force that the job does not state.
-nlohmann::json options_of(const engine::ComparisonJob& job) {
+nlohmann::json options_of(const jobs::ComparisonJob& job) {
     if (job.methods) {
         return {{"form", "methods"}};
     }
@@ -29,7 +29,7 @@ nlohmann::json options_of(const engine::ComparisonJob& job) {
 }
 
 /// A job of this kind may carry certificate data by mistake.
-std::vector<gum::Diagnostic> notes_on(const engine::ComparisonJob& job, std::vector<gum::Diagnostic> notes) {
+std::vector<gum::Diagnostic> notes_on(const jobs::ComparisonJob& job, std::vector<gum::Diagnostic> notes) {
     if (job.certificate) {
         notes.push_back({.code = "GC-COMPARE-0125",
                          .where = "job, certificate",
@@ -43,7 +43,7 @@ std::vector<gum::Diagnostic> notes_on(const engine::ComparisonJob& job, std::vec
 
 }  // namespace
 
-reports::EvaluationRecord evaluate_comparison(const engine::ComparisonJob& job,
+reports::EvaluationRecord evaluate_comparison(const jobs::ComparisonJob& job,
                                               const std::vector<reports::InputFile>& files,
                                               const gum::Progress& progress) {
     std::vector<gum::Diagnostic> found;
@@ -56,9 +56,9 @@ reports::EvaluationRecord evaluate_comparison(const engine::ComparisonJob& job,
             .laboratory = data.laboratory.name, .number = data.number, .issued = data.dates.issued};
     }
     const std::vector<gum::Diagnostic> notes = notes_on(job, std::move(found));
-    reports::EvaluationRecord record =
-        reports::record_head(reports::k_comparison_kind,
-                    {job.title, job.coverage_probability, job.document, job.warnings, notes}, options_of(job), files);
+    reports::EvaluationRecord record = reports::record_head(
+        reports::k_comparison_kind, {job.title, job.coverage_probability, job.document, job.warnings, notes},
+        options_of(job), files);
     record.comparison = std::move(comparison);
     return record;
 }

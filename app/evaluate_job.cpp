@@ -3,15 +3,15 @@
 #include <optional>
 #include <string_view>
 
-#include "engine/job/job_kind.h"
-#include "reports/record_sentences.h"
+#include "jobs/job_kind.h"
+#include "reports/forms/record_sentences.h"
 
 namespace gumcert::app {
 
 void require_comparison_job(const std::filesystem::path& job_file) {
-    const std::optional<std::string> kind = engine::probable_job_kind(job_file);
+    const std::optional<std::string> kind = jobs::probable_job_kind(job_file);
     // The reader reports an unknown kind, and lists those that there are.
-    if (kind && *kind != engine::k_comparison_kind && find_kind(program_kinds(), *kind) != nullptr) {
+    if (kind && *kind != jobs::k_comparison_kind && find_kind(program_kinds(), *kind) != nullptr) {
         throw gum::InputError(gum::Diagnostic{.code = "GC-COMPARE-0140",
                                               .where = job_file.string() + "#/kind",
                                               .what = "a job of kind \"" + *kind + "\" is not a comparison",
@@ -32,14 +32,14 @@ std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_
 Evaluation evaluate_job(const std::filesystem::path& job_file, const CovarianceOutput& covariance, unsigned threads,
                         const std::filesystem::path& templates, const gum::Progress& progress,
                         std::span<const Kind> kinds) {
-    return evaluate_job(engine::DiskFileSource(job_file.parent_path()), job_file.filename().string(), covariance,
-                        threads, templates, progress, kinds);
+    return evaluate_job(jobs::DiskFileSource(job_file.parent_path()), job_file.filename().string(), covariance, threads,
+                        templates, progress, kinds);
 }
 
-Evaluation evaluate_job(const engine::FileSource& source, const std::string& job_file,
-                        const CovarianceOutput& covariance, unsigned threads, const std::filesystem::path& templates,
-                        const gum::Progress& progress, std::span<const Kind> kinds) {
-    const engine::ReadOnceSource files(source);
+Evaluation evaluate_job(const jobs::FileSource& source, const std::string& job_file, const CovarianceOutput& covariance,
+                        unsigned threads, const std::filesystem::path& templates, const gum::Progress& progress,
+                        std::span<const Kind> kinds) {
+    const jobs::ReadOnceSource files(source);
     const EvaluationTask task{.files = files,
                               .job_file = job_file,
                               .covariance = covariance,
@@ -49,10 +49,10 @@ Evaluation evaluate_job(const engine::FileSource& source, const std::string& job
     const std::vector<std::string_view> words = words_of(kinds);
     const Kind* kind = nullptr;
     try {
-        kind = find_kind(kinds, engine::job_kind(files, job_file, words));
+        kind = find_kind(kinds, jobs::job_kind(files, job_file, words));
     } catch (const gum::InputError&) {
         // The reader of its kind reports the other problems of the job together with this one.
-        kind = find_kind(kinds, engine::probable_job_kind(files, job_file, words).value_or(""));
+        kind = find_kind(kinds, jobs::probable_job_kind(files, job_file, words).value_or(""));
         if (kind != nullptr) {
             (void)kind->read(files, job_file);
         }

@@ -7,8 +7,8 @@
 
 #include "app/evaluation_task.h"
 #include "app/kinds.h"
-#include "engine/job/file_source.h"
 #include "gum/quantity/progress.h"
+#include "jobs/file_source.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -34,7 +34,7 @@ void require_comparison_job(const std::filesystem::path& job_file);
                                       std::span<const Kind> kinds = program_kinds());
 /// The same of a job in any source of files, under its name there. Every file is read once, so that the digests in the
 /// record are those of the bytes that were evaluated.
-[[nodiscard]] Evaluation evaluate_job(const engine::FileSource& source, const std::string& job_file,
+[[nodiscard]] Evaluation evaluate_job(const jobs::FileSource& source, const std::string& job_file,
                                       const CovarianceOutput& covariance, unsigned threads,
                                       const std::filesystem::path& templates, const gum::Progress& progress = {},
                                       std::span<const Kind> kinds = program_kinds());

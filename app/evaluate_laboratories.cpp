@@ -16,14 +16,14 @@ namespace gumcert::app {
 namespace {
 
 /// The unit of all items; "" where they differ.
-std::string unit_of_items(const engine::ComparisonJob& job) {
+std::string unit_of_items(const jobs::ComparisonJob& job) {
     const std::string& unit = job.items.front().unit.text();
     const bool one = std::all_of(job.items.begin(), job.items.end(),
                                  [&](const gum::ComparisonItem& item) { return item.unit.text() == unit; });
     return one ? unit : "";
 }
 
-std::string reference_name(const engine::ComparisonJob& job) {
+std::string reference_name(const jobs::ComparisonJob& job) {
     const gum::AssignedValueRequest& request = job.items.front().assigned_value;
     for (const gum::ComparisonParticipant& participant : job.participants) {
         if (request.method == gum::AssignedValueMethod::reference && participant.id == request.participant) {
@@ -33,9 +33,9 @@ std::string reference_name(const engine::ComparisonJob& job) {
     return "";
 }
 
-std::string audit_findings(const engine::ComparisonJob& job) {
+std::string audit_findings(const jobs::ComparisonJob& job) {
     std::vector<std::string> findings;
-    for (const engine::ComparisonResult& result : job.results) {
+    for (const jobs::ComparisonResult& result : job.results) {
         if (result.audited && !result.audited->finding.empty()) {
             std::string finding = job.participants[result.participant].id + ": " + result.audited->finding;
             if (std::find(findings.begin(), findings.end(), finding) == findings.end()) {
@@ -62,7 +62,7 @@ reports::ItemWithoutResult without_result(const gum::ComparisonItem& item, const
 }
 
 /// Items for which it is known before that nothing can be computed.
-void add_refused_items(const engine::ComparisonJob& job, const engine::RefusedItems& refused,
+void add_refused_items(const jobs::ComparisonJob& job, const jobs::RefusedItems& refused,
                        reports::Comparison& comparison, std::vector<gum::Diagnostic>& problems) {
     for (const auto& [part, because] : refused) {
         comparison.items_without_result.push_back(
@@ -72,7 +72,7 @@ void add_refused_items(const engine::ComparisonJob& job, const engine::RefusedIt
 }
 
 /// The results of items for which nothing is refused yet.
-std::vector<gum::ParticipantResult> without_refused(const engine::RefusedItems& refused,
+std::vector<gum::ParticipantResult> without_refused(const jobs::RefusedItems& refused,
                                                     const std::vector<gum::ParticipantResult>& results) {
     std::vector<gum::ParticipantResult> kept;
     std::copy_if(results.begin(), results.end(), std::back_inserter(kept), [&](const gum::ParticipantResult& result) {
@@ -83,7 +83,7 @@ std::vector<gum::ParticipantResult> without_refused(const engine::RefusedItems& 
 
 /// Items of which the numbers give no result.
 /// \return whether their input is to blame
-bool add_items_without_result(const engine::ComparisonJob& job, const gum::LaboratoryComparison& evaluated,
+bool add_items_without_result(const jobs::ComparisonJob& job, const gum::LaboratoryComparison& evaluated,
                               reports::Comparison& comparison, std::vector<gum::Diagnostic>& problems) {
     bool is_input = false;
     for (const gum::ItemWithoutResult& item : evaluated.without_result) {
@@ -96,8 +96,7 @@ bool add_items_without_result(const engine::ComparisonJob& job, const gum::Labor
 }
 
 /// The names of all sources that results and assigned values state.
-std::set<std::string> source_names(const engine::ComparisonJob& job,
-                                   const std::vector<gum::ParticipantResult>& results) {
+std::set<std::string> source_names(const jobs::ComparisonJob& job, const std::vector<gum::ParticipantResult>& results) {
     std::set<std::string> names;
     const auto add = [&](const std::vector<gum::UncertaintySource>& sources) {
         for (const gum::UncertaintySource& source : sources) {
@@ -135,9 +134,9 @@ void tell_problems(const std::vector<gum::Diagnostic>& problems, const reports::
 
 }  // namespace
 
-reports::Comparison evaluate_laboratories(const engine::ComparisonJob& job, const gum::Progress& progress,
+reports::Comparison evaluate_laboratories(const jobs::ComparisonJob& job, const gum::Progress& progress,
                                           std::vector<gum::Diagnostic>* notes) {
-    engine::RefusedItems refused_items = job.refused_items;
+    jobs::RefusedItems refused_items = job.refused_items;
     const std::vector<gum::ParticipantResult> results = results_with_budgets(job, progress, refused_items);
     const std::vector<gum::ParticipantResult> kept = without_refused(refused_items, results);
     const bool all_refused = kept.empty() && !results.empty();

@@ -18,13 +18,13 @@ namespace gumcert::app {
 
 namespace {
 
-using engine::ComparisonJob;
-using engine::ComparisonSide;
-using engine::MethodComparisonRequest;
+using jobs::ComparisonJob;
+using jobs::ComparisonSide;
+using jobs::MethodComparisonRequest;
 
 constexpr double k_suspicious_capability_ratio = 2.0;
 
-std::string name_of(const engine::MethodPoint& point) {
+std::string name_of(const jobs::MethodPoint& point) {
     return point.direction.empty() ? point.name : point.name + ", direction " + point.direction;
 }
 
@@ -34,7 +34,7 @@ MethodSide side_of(const ComparisonJob& job, const MethodComparisonRequest& requ
     }
     if (side.budget) {
         MethodBudget budget{*side.budget, side.budget_file, side.name, side.budget_points, {}};
-        for (const engine::MethodPoint& point : request.points) {
+        for (const jobs::MethodPoint& point : request.points) {
             budget.name.push_back(name_of(point));
         }
         return side_of_budget(budget, request.unit, job.coverage_probability);

@@ -10,8 +10,8 @@
 #include "app/covariance_file.h"
 #include "certificate/certificate_data.h"
 #include "certificate/profile.h"
-#include "engine/job/file_source.h"
 #include "gum/quantity/progress.h"
+#include "jobs/file_source.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -47,7 +47,7 @@ struct Evaluation {
 
 /// What the evaluation of a job is given, whatever its kind.
 struct EvaluationTask {
-    const engine::ReadOnceSource& files;
+    const jobs::ReadOnceSource& files;
     const std::string& job_file;  ///< name in `files`
     const CovarianceOutput& covariance;
     unsigned threads = 0;  ///< of Monte Carlo; 0: as many as the machine has

@@ -3,12 +3,11 @@
 #include <utility>
 
 #include "app/budget_record.h"
-#include "engine/job/budget_job.h"
+#include "jobs/budget/budget_job.h"
 
 namespace gumcert::app {
 
-reports::FixtureBudget fixture_budget_record(const engine::RotaryTableJob& job,
-                                             const gum::FixtureUncertainty& fixture) {
+reports::FixtureBudget fixture_budget_record(const jobs::RotaryTableJob& job, const gum::FixtureUncertainty& fixture) {
     reports::FixtureBudget record;
     record.method = "stated";
     if (job.source_paper_fixture) {
@@ -23,7 +22,7 @@ reports::FixtureBudget fixture_budget_record(const engine::RotaryTableJob& job,
             "The square of 0.4 + 1.176·10⁻⁷ L is taken without its cross term."};
     } else if (fixture.budget) {
         const std::vector<std::string>& reflectors = job.measurement.reflectors;
-        engine::BudgetJob budget = *job.fixture_budget_job;
+        jobs::BudgetJob budget = *job.fixture_budget_job;
         budget.points = gum::in_order_of_coordinates(std::move(budget.points), reflectors, job.fixture_budget_file);
         budget.monte_carlo.reset();
         record.method = "budget";

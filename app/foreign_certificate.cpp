@@ -14,9 +14,9 @@
 #include "certificate/dates.h"
 #include "certificate/placeholder_text.h"
 #include "certificate/stated_text.h"
-#include "reports/certificate_view.h"
 #include "reports/dcc/dcc_document.h"
 #include "reports/dcc/dcc_element.h"
+#include "reports/view/certificate_view.h"
 #include "signing/verify.h"
 
 namespace gumcert::app {

@@ -12,8 +12,8 @@
 
 #include "gum/expression/syntax_tree.h"
 #include "json/strict_parser.h"
-#include "reports/certificate_view.h"
 #include "reports/dcc/dcc_reader.h"
+#include "reports/view/certificate_view.h"
 
 namespace gumcert::app {
 

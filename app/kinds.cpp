@@ -11,16 +11,16 @@
 #include "app/evaluate_comparison.h"
 #include "app/fixture_budget_record.h"
 #include "app/reference_comparison.h"
-#include "engine/job/budget_job.h"
-#include "engine/job/circle_closure_job.h"
-#include "engine/job/comparison_job.h"
-#include "engine/job/job_kind.h"
-#include "engine/job/rotary_table_job.h"
 #include "gum/budget/evaluate_budget.h"
 #include "gum/budget/reported_covariance.h"
 #include "gum/circle_closure/evaluate_circle_closure.h"
 #include "gum/rotary_table/document_units.h"
 #include "gum/rotary_table/evaluate_rotary_table.h"
+#include "jobs/budget/budget_job.h"
+#include "jobs/circle_closure/circle_closure_job.h"
+#include "jobs/comparison/comparison_job.h"
+#include "jobs/job_kind.h"
+#include "jobs/rotary_table/rotary_table_job.h"
 #include "reports/record/make/circle_closure/circle_closure_record.h"
 #include "reports/record/make/rotary_table/rotary_table_record.h"
 
@@ -33,7 +33,7 @@ constexpr std::size_t k_most_results_in_record = 100;
 constexpr std::size_t k_most_correlated_results = 2000;
 
 Evaluation evaluate_budget_job(const EvaluationTask& task) {
-    const engine::BudgetJob job = engine::read_budget_job(task.files, task.job_file);
+    const jobs::BudgetJob job = jobs::read_budget_job(task.files, task.job_file);
     const std::optional<certificate::Profile> profile = task.profile_of(job.certificate);
     gum::BudgetResult result = gum::evaluate_budget(job, task.threads, task.progress);
     const std::size_t results = result.points.size() * result.output_names.size();
@@ -64,7 +64,7 @@ Evaluation evaluate_budget_job(const EvaluationTask& task) {
 }
 
 Evaluation evaluate_rotary_table_job(const EvaluationTask& task) {
-    engine::RotaryTableJob job = engine::read_rotary_table_job(task.files, task.job_file);
+    jobs::RotaryTableJob job = jobs::read_rotary_table_job(task.files, task.job_file);
     const std::optional<certificate::Profile> profile = task.profile_of(job.certificate);
     const gum::RotaryTableResult result = gum::evaluate_rotary_table(job, task.threads, task.progress);
     Evaluation evaluation;
@@ -91,7 +91,7 @@ Evaluation evaluate_rotary_table_job(const EvaluationTask& task) {
 }
 
 Evaluation evaluate_circle_closure_job(const EvaluationTask& task) {
-    const engine::CircleClosureJob job = engine::read_circle_closure_job(task.files, task.job_file);
+    const jobs::CircleClosureJob job = jobs::read_circle_closure_job(task.files, task.job_file);
     const std::optional<certificate::Profile> profile = task.profile_of(job.certificate);
     const gum::CircleClosureResult result = gum::evaluate_circle_closure(job, task.threads, task.progress);
     Evaluation evaluation;
@@ -113,7 +113,7 @@ Evaluation evaluate_circle_closure_job(const EvaluationTask& task) {
 }
 
 Evaluation evaluate_comparison_job(const EvaluationTask& task) {
-    const engine::ComparisonJob job = engine::read_comparison_job(task.files, task.job_file);
+    const jobs::ComparisonJob job = jobs::read_comparison_job(task.files, task.job_file);
     Evaluation evaluation;
     evaluation.record = evaluate_comparison(job, task.held_files(job.files), task.progress);
     evaluation.negative = !evaluation.record.comparison->items_without_result.empty();
@@ -123,30 +123,29 @@ Evaluation evaluate_comparison_job(const EvaluationTask& task) {
 constexpr std::array<std::string_view, 3> k_certificate_forms{"html", "pdf", "dcc"};
 constexpr std::array<std::string_view, 3> k_comparison_forms{"html", "pdf", "csv"};
 
-using engine::FileSource;
+using jobs::FileSource;
 
 const std::array<Kind, 4> k_kinds{{
-    {.word = engine::k_budget_kind,
-     .read = [](const FileSource& files,
-                const std::string& job) { return engine::read_budget_job(files, job).warnings; },
+    {.word = jobs::k_budget_kind,
+     .read = [](const FileSource& files, const std::string& job) { return jobs::read_budget_job(files, job).warnings; },
      .evaluate = evaluate_budget_job,
      .document = "certificate",
      .forms = k_certificate_forms},
-    {.word = engine::k_rotary_table_kind,
+    {.word = jobs::k_rotary_table_kind,
      .read = [](const FileSource& files,
-                const std::string& job) { return engine::read_rotary_table_job(files, job).warnings; },
+                const std::string& job) { return jobs::read_rotary_table_job(files, job).warnings; },
      .evaluate = evaluate_rotary_table_job,
      .document = "certificate",
      .forms = k_certificate_forms},
-    {.word = engine::k_circle_closure_kind,
+    {.word = jobs::k_circle_closure_kind,
      .read = [](const FileSource& files,
-                const std::string& job) { return engine::read_circle_closure_job(files, job).warnings; },
+                const std::string& job) { return jobs::read_circle_closure_job(files, job).warnings; },
      .evaluate = evaluate_circle_closure_job,
      .document = "certificate",
      .forms = k_certificate_forms},
-    {.word = engine::k_comparison_kind,
+    {.word = jobs::k_comparison_kind,
      .read = [](const FileSource& files,
-                const std::string& job) { return engine::read_comparison_job(files, job).warnings; },
+                const std::string& job) { return jobs::read_comparison_job(files, job).warnings; },
      .evaluate = evaluate_comparison_job,
      .document = "comparison",
      .forms = k_comparison_forms},

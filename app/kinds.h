@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/evaluation_task.h"
-#include "engine/job/file_source.h"
 #include "gum/quantity/diagnostic.h"
+#include "jobs/file_source.h"
 
 namespace gumcert::app {
 
@@ -18,7 +18,7 @@ struct Kind {
     /// \param job_file  its name in the source
     /// \return what the reader warns of
     /// \throws gum::InputError  with all that the reader refuses
-    std::vector<gum::Diagnostic> (*read)(const engine::FileSource& source, const std::string& job_file);
+    std::vector<gum::Diagnostic> (*read)(const jobs::FileSource& source, const std::string& job_file);
     /// Reads a job, evaluates it and makes its record.
     /// \throws gum::InputError, gum::NoResultError, gum::StorageError
     Evaluation (*evaluate)(const EvaluationTask& task);

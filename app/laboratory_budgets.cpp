@@ -10,8 +10,7 @@ namespace gumcert::app {
 namespace {
 
 /// Value, uncertainty and sources of a result from its budget.
-void take_over(const engine::ComparisonJob& job, const engine::ComparisonResult& stated,
-               gum::ParticipantResult& result) {
+void take_over(const jobs::ComparisonJob& job, const jobs::ComparisonResult& stated, gum::ParticipantResult& result) {
     const std::string where = stated.where + " (" + stated.budget_file + ")";
     const MethodBudget budget{*stated.budget, where, job.participants[stated.participant].id, {0}, {""}};
     MethodSide side = side_of_budget(budget, job.items[stated.item].unit, job.coverage_probability);
@@ -23,11 +22,11 @@ void take_over(const engine::ComparisonJob& job, const engine::ComparisonResult&
 
 }  // namespace
 
-std::vector<gum::ParticipantResult> results_with_budgets(const engine::ComparisonJob& job,
-                                                         const gum::Progress& progress, engine::RefusedItems& refused) {
+std::vector<gum::ParticipantResult> results_with_budgets(const jobs::ComparisonJob& job, const gum::Progress& progress,
+                                                         jobs::RefusedItems& refused) {
     std::vector<gum::ParticipantResult> results;
     results.reserve(job.results.size());
-    for (const engine::ComparisonResult& stated : job.results) {
+    for (const jobs::ComparisonResult& stated : job.results) {
         gum::ParticipantResult& result = results.emplace_back(stated);
         if (stated.budget == nullptr) {
             continue;

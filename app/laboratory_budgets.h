@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "engine/job/comparison_job.h"
 #include "gum/quantity/progress.h"
+#include "jobs/comparison/comparison_job.h"
 
 namespace gumcert::app {
 
@@ -11,8 +11,8 @@ namespace gumcert::app {
 /// its uncertainty and the sources of it.
 /// \param refused  receives the items with a budget that gives no result
 /// \throws InputError, NoResultError  those of side_of_budget(), where the job has no other item
-[[nodiscard]] std::vector<gum::ParticipantResult> results_with_budgets(const engine::ComparisonJob& job,
+[[nodiscard]] std::vector<gum::ParticipantResult> results_with_budgets(const jobs::ComparisonJob& job,
                                                                        const gum::Progress& progress,
-                                                                       engine::RefusedItems& refused);
+                                                                       jobs::RefusedItems& refused);
 
 }  // namespace gumcert::app

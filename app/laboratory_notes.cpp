@@ -31,7 +31,7 @@ std::string in_percent(double probability) {
 
 /// The numbers of a comparison, and their texts in its record.
 struct Evaluated {
-    const engine::ComparisonJob& job;
+    const jobs::ComparisonJob& job;
     const gum::LaboratoryComparison& comparison;
     const reports::Comparison& record;
 };
@@ -341,7 +341,7 @@ void add_remarks_on_value(const Evaluated& evaluated, std::vector<std::string>& 
     }
 }
 
-void add_remarks_on_correlation(const engine::ComparisonJob& job, const gum::LaboratoryComparison& comparison,
+void add_remarks_on_correlation(const jobs::ComparisonJob& job, const gum::LaboratoryComparison& comparison,
                                 std::vector<std::string>& remarks) {
     if (!comparison.shared_sources.empty()) {
         remarks.emplace_back(
@@ -440,8 +440,7 @@ void add_remarks_on_what_is_left_out(const gum::LaboratoryComparison& comparison
 
 }  // namespace
 
-std::vector<std::string> laboratory_remarks(const engine::ComparisonJob& job,
-                                            const gum::LaboratoryComparison& comparison,
+std::vector<std::string> laboratory_remarks(const jobs::ComparisonJob& job, const gum::LaboratoryComparison& comparison,
                                             const reports::Comparison& record) {
     std::vector<std::string> remarks;
     add_remarks_on_value({job, comparison, record}, remarks);
@@ -452,7 +451,7 @@ std::vector<std::string> laboratory_remarks(const engine::ComparisonJob& job,
     return remarks;
 }
 
-std::vector<gum::Diagnostic> laboratory_diagnostics(const engine::ComparisonJob& job,
+std::vector<gum::Diagnostic> laboratory_diagnostics(const jobs::ComparisonJob& job,
                                                     const gum::LaboratoryComparison& comparison,
                                                     const reports::Comparison& record) {
     const Evaluated evaluated{job, comparison, record};

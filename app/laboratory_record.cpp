@@ -507,7 +507,7 @@ reports::SharedSource shared_record(const gum::ComparisonScheme& scheme, const g
 
 }  // namespace
 
-reports::Comparison laboratory_record(const engine::ComparisonJob& job,
+reports::Comparison laboratory_record(const jobs::ComparisonJob& job,
                                       const std::vector<gum::ParticipantResult>& results,
                                       const gum::LaboratoryComparison& comparison) {
     reports::Comparison record;

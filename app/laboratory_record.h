@@ -1,7 +1,7 @@
 #pragma once
 
-#include "engine/job/comparison_job.h"
 #include "gum/comparison/laboratory_comparison.h"
+#include "jobs/comparison/comparison_job.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -10,7 +10,7 @@ namespace gumcert::app {
 /// summaries, vectors, diagrams and shared sources. Nothing is computed here but texts.
 /// \param job      whose scheme was evaluated
 /// \param results  that were evaluated
-[[nodiscard]] reports::Comparison laboratory_record(const engine::ComparisonJob& job,
+[[nodiscard]] reports::Comparison laboratory_record(const jobs::ComparisonJob& job,
                                                     const std::vector<gum::ParticipantResult>& results,
                                                     const gum::LaboratoryComparison& comparison);
 

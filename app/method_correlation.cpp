@@ -14,9 +14,9 @@ namespace gumcert::app {
 
 namespace {
 
-using engine::ComparisonJob;
-using engine::MethodComparisonRequest;
-using engine::MethodCorrelation;
+using jobs::ComparisonJob;
+using jobs::MethodComparisonRequest;
+using jobs::MethodCorrelation;
 
 /// One entry a source, at the point where it ties both methods most. None where a side has no budget.
 std::vector<reports::SharedSource> found_sources(const MethodComparisonRequest& request, const MethodSide& method,

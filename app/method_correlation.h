@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "app/method_side.h"
-#include "engine/job/comparison_job.h"
 #include "gum/comparison/method_correlation.h"
+#include "jobs/comparison/comparison_job.h"
 
 namespace gumcert::app {
 
@@ -21,7 +21,7 @@ namespace gumcert::app {
 /// What the job says of the correlation of both methods: none, a number, unknown, or through the sources that both
 /// budgets name. Fills the cross covariance of the comparison, and the record and its remarks with what was found.
 /// \throws InputError  GC-COMPARE-0204, -0207 what both budgets say of a source cannot hold together
-void add_correlation(const engine::ComparisonJob& job, const MethodSide& method, const MethodSide& reference,
+void add_correlation(const jobs::ComparisonJob& job, const MethodSide& method, const MethodSide& reference,
                      gum::MethodComparison& comparison, reports::Comparison& record);
 
 }  // namespace gumcert::app

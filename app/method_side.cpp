@@ -60,7 +60,7 @@ void add_notes(const MethodBudget& budget, const std::vector<gum::Diagnostic>& n
 }  // namespace
 
 MethodSide side_of_budget(const MethodBudget& budget, const gum::Unit& unit, double coverage_probability) {
-    engine::BudgetJob job = budget.job;
+    jobs::BudgetJob job = budget.job;
     // U of both sides for one probability; Monte Carlo of single points would not be looked at.
     job.coverage_probability = coverage_probability;
     for (gum::BudgetOutput& output : job.outputs) {

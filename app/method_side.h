@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/job/budget_job.h"
-#include "engine/job/comparison_job.h"
 #include "gum/comparison/shared_sources.h"
+#include "jobs/budget/budget_job.h"
+#include "jobs/comparison/comparison_job.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -24,7 +24,7 @@ struct MethodSide {
 
 /// A method whose values and uncertainties follow from a budget.
 struct MethodBudget {
-    const engine::BudgetJob& job;
+    const jobs::BudgetJob& job;
     std::string file;                ///< for messages
     std::string method;              ///< its name, for remarks
     std::vector<std::size_t> point;  ///< one a point of the comparison: its position in the table of points

@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "gum/quantity/diagnostic.h"
-#include "reports/comparison_csv.h"
 #include "reports/dcc/dcc_document.h"
+#include "reports/forms/comparison_csv.h"
 
 namespace gumcert::app {
 

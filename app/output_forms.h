@@ -6,9 +6,9 @@
 #include <string_view>
 
 #include "app/kinds.h"
-#include "reports/pdf_worker.h"
+#include "reports/forms/pdf_worker.h"
+#include "reports/forms/render.h"
 #include "reports/record/evaluation_record.h"
-#include "reports/render.h"
 #include "signing/signer.h"
 
 namespace gumcert::app {

@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/job/rotary_table_job.h"
+#include "gum/monte_carlo/worker_threads.h"
 #include "gum/rotary_table/studies/plan_study.h"
-#include "gum/worker_threads.h"
+#include "jobs/rotary_table/rotary_table_job.h"
 #include "reports/studies/plan_document.h"
 
 namespace gumcert::app {
@@ -17,7 +17,7 @@ reports::StudyDocument plan_job(const std::filesystem::path& job, unsigned threa
             progress(text);
         }
     };
-    const engine::RotaryTableJob read = engine::read_rotary_table_job(job, engine::JobUse::plan);
+    const jobs::RotaryTableJob read = jobs::read_rotary_table_job(job, jobs::JobUse::plan);
     gum::plan::Setting setting = gum::plan::setting_of(read, read.plan.value_or(gum::PlanRequest{}), progress);
     gum::WorkerThreads workers(threads);
     report("expected uncertainties");

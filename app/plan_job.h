@@ -4,7 +4,7 @@
 
 #include "app/evaluate_job.h"
 #include "gum/quantity/progress.h"
-#include "reports/study_document.h"
+#include "reports/forms/study_document.h"
 
 namespace gumcert::app {
 

@@ -248,7 +248,7 @@ std::optional<gum::Diagnostic> not_recomputable(const EvaluationRecord& record, 
 EvaluationRecord evaluated_again(const EvaluationRecord& record, const std::string& where, unsigned threads,
                                  const std::filesystem::path& templates, const gum::Progress& progress,
                                  std::span<const Kind> kinds) {
-    const engine::MemoryFileSource files(files_of(record, where));
+    const jobs::MemoryFileSource files(files_of(record, where));
     std::string reason;
     try {
         return evaluate_job(files, record.job_files.front().name, covariance_of(record), threads, templates, progress,

@@ -12,13 +12,13 @@
 #include "app/method_correlation.h"
 #include "app/method_record.h"
 #include "app/method_side.h"
-#include "engine/job/reference_budget.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
 #include "gum/type_a.h"
 #include "gum/type_b.h"
+#include "jobs/rotary_table/reference_budget.h"
 #include "reports/record/make/record_parts.h"
 #include "reports/record/make/rotary_table/document_units.h"
 
@@ -28,8 +28,8 @@ namespace {
 
 using engine::ReferenceCorrelation;
 using engine::ReferenceMethod;
-using engine::ReferencePoint;
-using engine::RotaryTableJob;
+using jobs::ReferencePoint;
+using jobs::RotaryTableJob;
 
 constexpr std::array<const char*, 3> k_directions{"x", "y", "z"};
 
@@ -180,7 +180,7 @@ void add_published(const ReferenceMethod& reference, reports::Comparison& record
 
 reports::Comparison reference_comparison(const RotaryTableJob& job, const gum::QuantityUncertainty& displacement) {
     const ReferenceMethod& reference = *job.reference;
-    const std::vector<ReferencePoint> points = engine::reference_points(reference.readings);
+    const std::vector<ReferencePoint> points = jobs::reference_points(reference.readings);
     MethodSide side = job.reference_budget ? side_of_budget(job) : side_of_indicator(job, points);
 
     reports::Comparison record;

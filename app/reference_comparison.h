@@ -1,7 +1,7 @@
 #pragma once
 
-#include "engine/job/rotary_table_job.h"
 #include "gum/rotary_table/evaluate_rotary_table.h"
+#include "jobs/rotary_table/rotary_table_job.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -15,7 +15,7 @@ namespace gumcert::app {
 /// \param displacement  of the contact point, angle by angle, x, y, z, [m]
 /// \throws InputError, NoResultError  those of side_of_budget(), covariance_of_stated_correlation() and
 ///                                    compare_methods()
-[[nodiscard]] reports::Comparison reference_comparison(const engine::RotaryTableJob& job,
+[[nodiscard]] reports::Comparison reference_comparison(const jobs::RotaryTableJob& job,
                                                        const gum::QuantityUncertainty& displacement);
 
 }  // namespace gumcert::app

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/campaign_layout.h"
+#include "engine/rotary_table/studies/campaign_layout.h"
 #include "gum/rotary_table/fixture_budget.h"
 #include "gum/rotary_table/studies/simulation_basis.h"
 #include "gum/rotary_table/studies/simulation_study.h"
@@ -28,14 +28,14 @@ void require_a_result(const std::vector<gum::AngleStudy>& studies) {
 reports::StudyDocument simulate_job(const std::filesystem::path& job, std::optional<std::size_t> runs,
                                     std::optional<std::uint64_t> seed, unsigned threads,
                                     const gum::Progress& progress) {
-    const engine::RotaryTableJob read = engine::read_rotary_table_job(job, engine::JobUse::simulate);
+    const jobs::RotaryTableJob read = jobs::read_rotary_table_job(job, jobs::JobUse::simulate);
     return simulate_job(read, job.filename().string(), runs, seed, threads, progress);
 }
 
-reports::StudyDocument simulate_job(const engine::RotaryTableJob& stated, const std::string& job_name,
+reports::StudyDocument simulate_job(const jobs::RotaryTableJob& stated, const std::string& job_name,
                                     std::optional<std::size_t> runs, std::optional<std::uint64_t> seed,
                                     unsigned threads, const gum::Progress& progress) {
-    engine::RotaryTableJob job = stated;
+    jobs::RotaryTableJob job = stated;
     (void)gum::apply_fixture_budget(job);
     gum::SimulationRequest asked = job.simulation.value_or(gum::SimulationRequest{});
     asked.runs = runs.value_or(asked.runs);

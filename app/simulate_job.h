@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "app/evaluate_job.h"
-#include "engine/job/rotary_table_job.h"
 #include "gum/quantity/progress.h"
-#include "reports/study_document.h"
+#include "jobs/rotary_table/rotary_table_job.h"
+#include "reports/forms/study_document.h"
 
 namespace gumcert::app {
 
@@ -26,7 +26,7 @@ namespace gumcert::app {
 
 /// The same for a job that is read already.
 /// \param job_name  for the document
-[[nodiscard]] reports::StudyDocument simulate_job(const engine::RotaryTableJob& job, const std::string& job_name,
+[[nodiscard]] reports::StudyDocument simulate_job(const jobs::RotaryTableJob& job, const std::string& job_name,
                                                   std::optional<std::size_t> runs, std::optional<std::uint64_t> seed,
                                                   unsigned threads, const gum::Progress& progress = {});
 

@@ -25,9 +25,9 @@
 #include <vector>
 
 #include "reports/dcc/dcc_document.h"
-#include "reports/pdf_conformity.h"
-#include "reports/pdf_worker.h"
-#include "reports/render.h"
+#include "reports/forms/pdf_conformity.h"
+#include "reports/forms/pdf_worker.h"
+#include "reports/forms/render.h"
 #include "signing/signer.h"
 
 namespace {

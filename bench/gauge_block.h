@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gum/expression/equation_model.h"
-#include "gum/monte_carlo.h"
+#include "gum/monte_carlo/monte_carlo.h"
 
 namespace gumcert::gum {
 

@@ -17,7 +17,7 @@
 
 #include "bench/gauge_block.h"
 #include "gum/expression/equation_model.h"
-#include "gum/monte_carlo.h"
+#include "gum/monte_carlo/monte_carlo.h"
 #include "gum/propagation.h"
 
 namespace gumcert::gum {

@@ -17,12 +17,12 @@
 #include <string>
 #include <string_view>
 
-#include "engine/anglewise_map.h"
-#include "engine/rotary_table_evaluation.h"
-#include "engine/rotary_table_trials.h"
-#include "gum/monte_carlo.h"
+#include "engine/rotary_table/anglewise_map.h"
+#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/trials/rotary_table_trials.h"
+#include "gum/monte_carlo/monte_carlo.h"
+#include "gum/monte_carlo/random_draws.h"
 #include "gum/propagation.h"
-#include "gum/random_draws.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {

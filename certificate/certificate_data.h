@@ -136,7 +136,7 @@ struct AgreedSpecification {
     std::string unit;
     std::string document, edition, clause;
     struct Rule {
-        std::string id;                      ///< "DR-01" … "DR-13": gum/conformity.h
+        std::string id;                      ///< "DR-01" … "DR-13": gum/conformity/conformity.h
         std::optional<double> guard_factor;  ///< r of w = r U
         std::optional<double> guard_band;    ///< w itself, in `unit`
         std::optional<double> probability;   ///< conformance probability or largest risk that the rule demands

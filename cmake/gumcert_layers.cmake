@@ -79,7 +79,7 @@ set(GUMCERT_NOT_IN_HEADERS boost ceres sqlite3.h)
 # A header of ours, and the headers from outside that stand nowhere else: what they bring is compiled once, behind it.
 set(GUMCERT_ONLY_IN gum/quantity/dense_factors.h Eigen/Eigenvalues Eigen/QR Eigen/SVD)
 # Headers of ours that only their own layer may include. They are not installed, and the line above leaves them alone.
-set(GUMCERT_PRIVATE_HEADERS gum/quantity/unit_expression.h reports/qpdf_objects.h signing/certificates.h signing/checked_signature.h signing/cms.h
+set(GUMCERT_PRIVATE_HEADERS gum/quantity/unit_expression.h reports/forms/qpdf_objects.h signing/certificates.h signing/checked_signature.h signing/cms.h
                             signing/document_verification.h signing/external_program.h
                             signing/openssl_handles.h signing/qpdf_objects.h signing/signing_files.h signing/time_texts.h
                             signing/xml_tree.h)

@@ -18,10 +18,10 @@
 #include "app/output_files.h"
 #include "app/read_file.h"
 #include "app/recompute_record.h"
-#include "certificate/day_of_issue.h"
-#include "certificate/printed_languages.h"
+#include "certificate/gates/day_of_issue.h"
+#include "certificate/gates/printed_languages.h"
+#include "reports/forms/record_sentences.h"
 #include "reports/record/evaluation_record.h"
-#include "reports/record_sentences.h"
 
 namespace gumcert::cli {
 

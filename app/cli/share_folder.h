@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/render.h"
+#include "reports/forms/render.h"
 
 namespace gumcert::cli {
 

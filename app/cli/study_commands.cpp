@@ -7,7 +7,7 @@
 #include "app/plan_job.h"
 #include "app/simulate_job.h"
 #include "app/study_inputs.h"
-#include "reports/study_document.h"
+#include "reports/forms/study_document.h"
 
 namespace gumcert::cli {
 

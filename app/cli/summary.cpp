@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "gum/quantity/unit.h"
-#include "reports/comparison_sections.h"
 #include "reports/record/make/record_parts.h"
 #include "reports/record/record_kinds.h"
+#include "reports/view/comparison_sections.h"
 #include "text/lists.h"
 
 namespace gumcert::cli {

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <string>
 
-#include "gum/conformity.h"
+#include "gum/conformity/conformity.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 

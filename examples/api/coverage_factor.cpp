@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <vector>
 
-#include "gum/convolution.h"
 #include "gum/coverage.h"
 #include "gum/distribution_quantile.h"
+#include "gum/monte_carlo/convolution.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/weighted_chi_square.h"
 

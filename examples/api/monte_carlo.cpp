@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "gum/monte_carlo.h"
+#include "gum/monte_carlo/monte_carlo.h"
 #include "gum/propagation.h"
 #include "gum/quantity/diagnostic.h"
 

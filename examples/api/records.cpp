@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "certificate/capability.h"
-#include "certificate/gates.h"
+#include "certificate/gates/gates.h"
 #include "encoding/file_bytes.h"
 #include "gum/quantity/diagnostic.h"
 #include "json/strict_parser.h"

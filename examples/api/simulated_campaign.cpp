@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/campaign_layout.h"
-#include "engine/campaign_simulation.h"
+#include "engine/rotary_table/studies/campaign_layout.h"
+#include "engine/rotary_table/studies/campaign_simulation.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/rotary_table/document_units.h"
 #include "gum/rotary_table/evaluate_rotary_table.h"

@@ -11,7 +11,7 @@
 #include "gum/budget/stated_quantity.h"
 #include "gum/coverage_choice.h"
 #include "gum/expression/equation_system.h"
-#include "gum/monte_carlo_request.h"
+#include "gum/monte_carlo/monte_carlo_request.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
 

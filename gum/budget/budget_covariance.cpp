@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "gum/correlated_normal.h"
+#include "gum/monte_carlo/correlated_normal.h"
 #include "gum/propagation.h"
 
 namespace gumcert::gum {
@@ -24,7 +24,7 @@ using Deviate = std::pair<std::uint64_t, Eigen::Index>;
 using PointFactor = std::vector<std::pair<Deviate, Eigen::VectorXd>>;
 
 /// How the quantities of a group move with its shared deviates: D L, for quantities that are drawn at this point alone
-/// D G L of those that are shared. It is what gum/random_draws.h draws.
+/// D G L of those that are shared. It is what gum/monte_carlo/random_draws.h draws.
 Eigen::MatrixXd shared_root(const InputGroup& group) {
     const Eigen::MatrixXd R = correlation_matrix(group.covariance);
     Eigen::MatrixXd root = semidefinite_root(R);

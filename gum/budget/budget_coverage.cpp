@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include "gum/convolution.h"
 #include "gum/coverage.h"
+#include "gum/monte_carlo/convolution.h"
 #include "gum/rounding.h"
 
 namespace gumcert::gum {

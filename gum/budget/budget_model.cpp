@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
-#include "gum/copula_correlation.h"
 #include "gum/coverage.h"
+#include "gum/monte_carlo/copula_correlation.h"
 #include "gum/nearest_correlation.h"
 #include "gum/propagation.h"
 #include "gum/quantity/decimal_rounding.h"

@@ -10,8 +10,8 @@
 #include "gum/budget/evaluation_choice.h"
 #include "gum/budget/fit_scatter.h"
 #include "gum/budget/zero_uncertainty.h"
+#include "gum/monte_carlo/validation_in_unit.h"
 #include "gum/quantity/progress.h"
-#include "gum/validation_in_unit.h"
 
 namespace gumcert::gum {
 

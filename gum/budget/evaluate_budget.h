@@ -9,9 +9,9 @@
 #include "engine/curve_fit.h"
 #include "gum/budget/budget.h"
 #include "gum/budget/budget_model.h"
-#include "gum/convolution.h"
-#include "gum/joint_validation.h"
-#include "gum/monte_carlo.h"
+#include "gum/monte_carlo/convolution.h"
+#include "gum/monte_carlo/joint_validation.h"
+#include "gum/monte_carlo/monte_carlo.h"
 #include "gum/propagation.h"
 #include "gum/quantity/progress.h"
 

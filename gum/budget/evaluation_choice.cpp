@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "gum/linearity_check.h"
-#include "gum/trial_distribution.h"
-#include "gum/validation_in_unit.h"
+#include "gum/monte_carlo/trial_distribution.h"
+#include "gum/monte_carlo/validation_in_unit.h"
 #include "text/lists.h"
 
 namespace gumcert::gum {

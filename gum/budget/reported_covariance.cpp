@@ -10,8 +10,8 @@
 
 #include "gum/budget/budget_covariance.h"
 #include "gum/budget/evaluation_choice.h"
+#include "gum/monte_carlo/random_draws.h"
 #include "gum/propagation.h"
-#include "gum/random_draws.h"
 #include "text/lists.h"
 
 namespace gumcert::gum {

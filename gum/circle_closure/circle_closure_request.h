@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "engine/circle_closure.h"
-#include "gum/monte_carlo_request.h"
+#include "gum/monte_carlo/monte_carlo_request.h"
 #include "gum/quantity/unit.h"
 
 namespace gumcert::gum {

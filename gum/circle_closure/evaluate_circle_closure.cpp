@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "gum/budget/budget_coverage.h"
-#include "gum/convolution.h"
+#include "gum/monte_carlo/convolution.h"
+#include "gum/monte_carlo/validation_in_unit.h"
 #include "gum/quantity/progress.h"
-#include "gum/validation_in_unit.h"
 
 namespace gumcert::gum {
 

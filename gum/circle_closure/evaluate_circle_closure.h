@@ -9,7 +9,7 @@
 
 #include "engine/circle_closure.h"
 #include "gum/circle_closure/circle_closure_request.h"
-#include "gum/monte_carlo.h"
+#include "gum/monte_carlo/monte_carlo.h"
 #include "gum/propagation.h"
 #include "gum/quantity/progress.h"
 

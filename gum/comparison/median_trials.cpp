@@ -9,9 +9,9 @@
 #include "gum/argument_check.h"
 #include "gum/comparison/correlated_results.h"
 #include "gum/comparison/reference_value.h"
-#include "gum/monte_carlo_statistics.h"
-#include "gum/random_draws.h"
-#include "gum/worker_threads.h"
+#include "gum/monte_carlo/monte_carlo_statistics.h"
+#include "gum/monte_carlo/random_draws.h"
+#include "gum/monte_carlo/worker_threads.h"
 
 namespace gumcert::gum {
 namespace {
@@ -20,7 +20,7 @@ using Eigen::Index;
 
 constexpr std::size_t k_most_kept = std::size_t{1} << 24;  // numbers: draws of some laboratories over all trials
 constexpr std::size_t k_task = std::size_t{1} << 17;       // numbers: draws of all laboratories over some trials
-constexpr std::size_t k_trials_of_counter = 8;             // that one random counter serves (gum/random_draws.h)
+constexpr std::size_t k_trials_of_counter = 8;  // that one random counter serves (gum/monte_carlo/random_draws.h)
 
 void require_possible_trials(const LaboratoryResults& results, std::size_t trials) {
     const auto n = static_cast<std::size_t>(results.x.size());

@@ -6,18 +6,18 @@
 #include <string>
 #include <utility>
 
-#include "engine/contact_point_model.h"
-#include "engine/rotary_table_contributions.h"
-#include "engine/rotary_table_trials.h"
-#include "engine/sequential_evaluation.h"
+#include "engine/rotary_table/contact_point_model.h"
+#include "engine/rotary_table/rotary_table_contributions.h"
+#include "engine/rotary_table/sequential_evaluation.h"
+#include "engine/rotary_table/trials/rotary_table_trials.h"
 #include "gum/analysis_of_variance.h"
 #include "gum/coverage.h"
+#include "gum/monte_carlo/validation_in_unit.h"
+#include "gum/monte_carlo/worker_threads.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/progress.h"
 #include "gum/rotary_table/document_units.h"
 #include "gum/rotary_table/positioning_scope.h"
-#include "gum/validation_in_unit.h"
-#include "gum/worker_threads.h"
 
 namespace gumcert::gum {
 

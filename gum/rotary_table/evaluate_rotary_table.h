@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/anglewise_covariance.h"
-#include "engine/rotary_table_evaluation.h"
-#include "engine/table_parameters.h"
-#include "gum/monte_carlo.h"
+#include "engine/rotary_table/anglewise_covariance.h"
+#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/table_parameters.h"
+#include "gum/monte_carlo/monte_carlo.h"
 #include "gum/propagation.h"
 #include "gum/quantity/progress.h"
 #include "gum/rotary_table/fixture_budget.h"

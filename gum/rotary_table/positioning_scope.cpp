@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "engine/positioning_accuracy.h"
+#include "engine/rotary_table/positioning_accuracy.h"
 
 namespace gumcert::gum {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "engine/table_parameters.h"
+#include "engine/rotary_table/table_parameters.h"
 
 namespace gumcert::gum {
 

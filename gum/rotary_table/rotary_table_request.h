@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "engine/machine_frame.h"
-#include "engine/rotary_table_measurement.h"
+#include "engine/rotary_table/machine_frame.h"
+#include "engine/rotary_table/rotary_table_measurement.h"
 #include "gum/budget/budget.h"
-#include "gum/monte_carlo_request.h"
+#include "gum/monte_carlo/monte_carlo_request.h"
 
 namespace gumcert::gum {
 

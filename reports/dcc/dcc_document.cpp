@@ -4,10 +4,10 @@
 #include <set>
 #include <utility>
 
-#include "reports/asset_files.h"
 #include "reports/dcc/dcc_element.h"
 #include "reports/dcc/dcc_rules.h"
 #include "reports/dcc/dcc_writer.h"
+#include "reports/forms/asset_files.h"
 #include "reports/result_names.h"
 
 namespace gumcert::reports {

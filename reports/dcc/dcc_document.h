@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "gum/quantity/diagnostic.h"
+#include "reports/forms/render.h"
 #include "reports/record/evaluation_record.h"
-#include "reports/render.h"
 
 namespace gumcert::reports {
 

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "gum/quantity/diagnostic.h"
-#include "reports/certificate_view.h"
+#include "reports/view/certificate_view.h"
 
 namespace gumcert::reports {
 

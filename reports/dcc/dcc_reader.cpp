@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "gum/coverage.h"
-#include "reports/certificate_view.h"
 #include "reports/dcc/d_si_unit.h"
 #include "reports/dcc/dcc_element.h"
+#include "reports/view/certificate_view.h"
 
 namespace gumcert::reports {
 

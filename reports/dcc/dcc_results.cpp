@@ -7,8 +7,8 @@
 #include "reports/dcc/dcc_joint_results.h"
 #include "reports/dcc/dcc_quantity.h"
 #include "reports/dcc/dcc_writer.h"
-#include "reports/decision_formula.h"
 #include "reports/result_names.h"
+#include "reports/view/decision_formula.h"
 
 namespace gumcert::reports {
 

@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "gum/quantity/unit.h"
-#include "reports/certificate_view.h"
 #include "reports/dcc/breach_limits.h"
 #include "reports/dcc/d_si_unit.h"
 #include "reports/dcc/dcc_document.h"
@@ -17,6 +16,7 @@
 #include "reports/dcc/dcc_statements.h"
 #include "reports/dcc/dcc_structure.h"
 #include "reports/dcc/printed_number.h"
+#include "reports/view/certificate_view.h"
 
 namespace gumcert::reports {
 

@@ -11,11 +11,11 @@
 
 #include "gum/coverage.h"
 #include "gum/quantity/unit.h"
-#include "reports/certificate_view.h"
 #include "reports/dcc/breach_limits.h"
 #include "reports/dcc/d_si_unit.h"
 #include "reports/dcc/dcc_element.h"
 #include "reports/dcc/printed_number.h"
+#include "reports/view/certificate_view.h"
 
 namespace gumcert::reports {
 

@@ -7,11 +7,11 @@
 #include <set>
 #include <utility>
 
-#include "reports/certificate_view.h"
 #include "reports/dcc/breach_limits.h"
 #include "reports/dcc/content_model.h"
 #include "reports/dcc/dcc_schema_facts.h"
 #include "reports/dcc/dcc_text_types.h"
+#include "reports/view/certificate_view.h"
 
 namespace gumcert::reports {
 

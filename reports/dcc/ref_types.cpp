@@ -6,8 +6,8 @@
 
 #include "gum/quantity/diagnostic.h"
 #include "json/strict_parser.h"
-#include "reports/asset_files.h"
 #include "reports/dcc/xml_document.h"
+#include "reports/forms/asset_files.h"
 #include "text/place.h"
 
 namespace gumcert::reports {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "reports/render.h"
+#include "reports/forms/render.h"
 
 namespace gumcert::reports {
 

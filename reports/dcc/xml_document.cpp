@@ -12,7 +12,7 @@
 #include <optional>
 
 #include "gum/quantity/diagnostic.h"
-#include "reports/certificate_view.h"
+#include "reports/view/certificate_view.h"
 #include "text/markup.h"
 
 namespace gumcert::reports {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/geometry_check.h"
+#include "engine/rotary_table/geometry_check.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/rotary_table/positioning_scope.h"
 #include "gum/rotary_table/studies/plan_texts.h"

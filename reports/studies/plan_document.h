@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "gum/rotary_table/studies/plan_study.h"
+#include "reports/forms/study_document.h"
 #include "reports/studies/studied_job.h"
-#include "reports/study_document.h"
 
 namespace gumcert::reports::plan {
 

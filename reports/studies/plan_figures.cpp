@@ -1,8 +1,8 @@
 #include "reports/studies/plan_figures.h"
 
 #include "gum/rotary_table/studies/plan_texts.h"
-#include "reports/layout_plot.h"
-#include "reports/svg_plot.h"
+#include "reports/plots/layout_plot.h"
+#include "reports/plots/svg_plot.h"
 
 namespace gumcert::reports::plan {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "gum/rotary_table/studies/plan_study.h"
-#include "reports/study_document.h"
+#include "reports/forms/study_document.h"
 
 namespace gumcert::reports::plan {
 

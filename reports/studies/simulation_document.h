@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "reports/forms/study_document.h"
 #include "reports/studies/simulation_texts.h"
 #include "reports/studies/studied_job.h"
-#include "reports/study_document.h"
 
 namespace gumcert::reports::simulation {
 

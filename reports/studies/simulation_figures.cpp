@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "reports/svg_plot.h"
+#include "reports/plots/svg_plot.h"
 
 namespace gumcert::reports::simulation {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/rotary_table_model.h"
+#include "engine/rotary_table/rotary_table_model.h"
 #include "gum/quantity/units.h"
 #include "gum/rounding.h"
 

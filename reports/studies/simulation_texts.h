@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/rotary_table_measurement.h"
+#include "engine/rotary_table/rotary_table_measurement.h"
 #include "gum/rotary_table/studies/difference_tally.h"
 #include "gum/rotary_table/studies/simulation_basis.h"
 #include "gum/rotary_table/studies/simulation_request.h"

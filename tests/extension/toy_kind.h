@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "app/kinds.h"
-#include "engine/job/job_files.h"
-#include "engine/job/job_kind.h"
 #include "gum/coverage.h"
 #include "gum/type_a.h"
-#include "reports/certificate_builder.h"
-#include "reports/document_kinds.h"
+#include "jobs/job_files.h"
+#include "jobs/job_kind.h"
 #include "reports/record/make/record_parts.h"
 #include "reports/record/reported_result.h"
+#include "reports/view/certificate_builder.h"
+#include "reports/view/document_kinds.h"
 
 // A kind of jobs that the program does not have, added with public headers alone: the mean of repeated readings in
 // millimetres. docs/extending.md says the steps; each stands below once: reader, evaluation with maker, sections, rows.
@@ -34,14 +34,14 @@ struct ToyJob {
 };
 
 /// \throws gum::InputError  with every problem of the job
-inline ToyJob read_toy_job(const engine::FileSource& source, const std::string& job_file) {
+inline ToyJob read_toy_job(const jobs::FileSource& source, const std::string& job_file) {
     constexpr std::array<std::string_view, 4> k_keys{"schema", "kind", "title", "readings_mm"};
-    engine::JobFiles files(source, job_file);
-    const engine::JobFiles::File file = files.job();
+    jobs::JobFiles files(source, job_file);
+    const jobs::JobFiles::File file = files.job();
     ToyJob job;
-    if (auto document = engine::read_json_document(file.bytes, *file.problems)) {
-        if (engine::read_kind(*document, *file.problems, k_words)) {
-            if (const auto root = engine::JsonObject::root(*document, k_keys, *file.problems)) {
+    if (auto document = jobs::read_json_document(file.bytes, *file.problems)) {
+        if (jobs::read_kind(*document, *file.problems, k_words)) {
+            if (const auto root = jobs::JsonObject::root(*document, k_keys, *file.problems)) {
                 job.title = root->required_name("title").value_or("");
                 job.readings_mm = root->required_numbers("readings_mm", 5).value_or(std::vector<double>());
             }
@@ -102,7 +102,7 @@ inline constexpr std::array<std::string_view, 2> k_forms{"html", "text"};
 /// Its row in the table of kinds …
 inline constexpr app::Kind k_kind{
     .word = k_toy_kind,
-    .read = [](const engine::FileSource& source,
+    .read = [](const jobs::FileSource& source,
                const std::string& job_file) { return read_toy_job(source, job_file).warnings; },
     .evaluate = evaluate_toy_job,
     .document = "toy",

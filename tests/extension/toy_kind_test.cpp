@@ -41,8 +41,8 @@ protected:
     ~ToyKind() override { fs::remove_all(templates_); }
 
     [[nodiscard]] app::Evaluation evaluated(const std::string& job) const {
-        return app::evaluate_job(engine::MemoryFileSource({{"job.json", job}}), "job.json", app::CovarianceFile::none,
-                                 1, templates_, {}, kinds_);
+        return app::evaluate_job(jobs::MemoryFileSource({{"job.json", job}}), "job.json", app::CovarianceFile::none, 1,
+                                 templates_, {}, kinds_);
     }
     [[nodiscard]] app::IssueOptions options() const {
         app::IssueOptions options;
@@ -101,7 +101,7 @@ TEST_F(ToyKind, ItsRecordIsReadAndEvaluatedAgain) {
 }
 
 TEST_F(ToyKind, IsUnknownToTheProgram) {
-    const engine::MemoryFileSource source({{"job.json", std::string(k_job)}});
+    const jobs::MemoryFileSource source({{"job.json", std::string(k_job)}});
     EXPECT_THROW((void)app::evaluate_job(source, "job.json", app::CovarianceFile::none, 1, templates_),
                  gum::InputError);
     const std::string text = reports::to_canonical_json(evaluated(k_job).record);

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <string_view>
 
-#include "engine/job/budget_job.h"
+#include "jobs/budget/budget_job.h"
 #include "tests/fuzz/job_targets.h"
 
-namespace gumcert::engine::fuzz {
+namespace gumcert::jobs::fuzz {
 
 inline void demand_consistent(const gum::BudgetInput& input) {
     demand(!input.name.empty() && !input.components.empty(), "an input without a statement");
@@ -51,4 +51,4 @@ inline bool budget_job(std::string_view bundle) {
         bundle, [](const MemoryFileSource& files) { demand_consistent(read_budget_job(files, "job.json")); });
 }
 
-}  // namespace gumcert::engine::fuzz
+}  // namespace gumcert::jobs::fuzz

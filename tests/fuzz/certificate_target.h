@@ -6,10 +6,10 @@
 #include <string_view>
 
 #include "certificate/dates.h"
-#include "engine/job/certificate_statement.h"
+#include "jobs/certificate/certificate_statement.h"
 #include "tests/fuzz/job_targets.h"
 
-namespace gumcert::engine::fuzz {
+namespace gumcert::jobs::fuzz {
 
 inline void demand_consistent(const certificate::CertificateData& data) {
     demand(data.status == "accredited" || data.status == "not_accredited" || data.status == "specimen", "a status");
@@ -77,4 +77,4 @@ inline bool certificate_data(std::string_view bundle) {
     return accepted;
 }
 
-}  // namespace gumcert::engine::fuzz
+}  // namespace gumcert::jobs::fuzz

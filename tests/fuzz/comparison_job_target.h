@@ -3,10 +3,10 @@
 #include <cmath>
 #include <string_view>
 
-#include "engine/job/comparison_job.h"
+#include "jobs/comparison/comparison_job.h"
 #include "tests/fuzz/job_targets.h"
 
-namespace gumcert::engine::fuzz {
+namespace gumcert::jobs::fuzz {
 
 inline void demand_consistent(const gum::ResultUncertainty& uncertainty) {
     demand(uncertainty.u >= 1e-60 && uncertainty.u <= 1e60 && uncertainty.U >= 1e-60 && uncertainty.U <= 1e60 &&
@@ -86,4 +86,4 @@ inline bool comparison_job(std::string_view bundle) {
         bundle, [](const MemoryFileSource& files) { demand_consistent(read_comparison_job(files, "job.json")); });
 }
 
-}  // namespace gumcert::engine::fuzz
+}  // namespace gumcert::jobs::fuzz

@@ -8,14 +8,14 @@
 #include <string>
 #include <string_view>
 
-#include "engine/job/budget_job.h"
-#include "engine/job/csv_table.h"
-#include "engine/job/rotary_table_job.h"
+#include "jobs/budget/budget_job.h"
+#include "jobs/csv_table.h"
+#include "jobs/rotary_table/rotary_table_job.h"
 #include "tests/fuzz/json_target.h"
 
 /// What must hold for any bytes, for the fuzz targets and for the test that replays their corpus. Every function ends
 /// in a result or in a refusal; anything else throws std::logic_error or is caught by the sanitizers.
-namespace gumcert::engine::fuzz {
+namespace gumcert::jobs::fuzz {
 
 using gumcert::json::fuzz::demand;
 
@@ -81,7 +81,7 @@ inline std::map<std::string, std::string> files_of_bundle(std::string_view bundl
 }
 
 inline void demand_consistent(const RotaryTableJob& job) {
-    const RotaryTableMeasurement& m = job.measurement;
+    const engine::RotaryTableMeasurement& m = job.measurement;
     const auto stations = static_cast<Eigen::Index>(m.stations.size());
     const auto reflectors = static_cast<Eigen::Index>(m.reflectors.size());
     demand(job.coverage_probability > 0.0 && job.coverage_probability < 1.0, "coverage probability");
@@ -118,7 +118,7 @@ inline void demand_consistent(const RotaryTableJob& job) {
         demand(sight.obstacles.size() == sight.obstacles_where.size() && sight.reflector_diameter >= 0.0 &&
                    sight.acceptance_angle.value_or(1.0) > 0.0,
                "lines of sight");
-        for (const Obstacle& obstacle : sight.obstacles) {
+        for (const engine::Obstacle& obstacle : sight.obstacles) {
             demand(obstacle.radius >= 0.0 && (obstacle.high - obstacle.low).minCoeff() > 0.0, "an obstacle");
         }
         for (const gum::SightStatement::Facing& facing : sight.facing) {
@@ -133,14 +133,14 @@ inline void demand_consistent(const RotaryTableJob& job) {
     if (job.monte_carlo && job.monte_carlo->trials) {
         demand(*job.monte_carlo->trials > 0, "trials");
     }
-    for (const LengthObservation& length : m.lengths) {
+    for (const engine::LengthObservation& length : m.lengths) {
         demand(length.station < m.stations.size() && length.reflector < m.reflectors.size() &&
                    length.pass < m.passes.size() && length.angle < m.angles.size() &&
                    length.dead_path < m.dead_paths.size() && std::isfinite(length.length) && length.line > 1,
                "a length");
     }
     if (job.reference) {
-        for (const ReferenceReading& reading : job.reference->readings) {
+        for (const engine::ReferenceReading& reading : job.reference->readings) {
             demand(reading.direction < 3 && reading.angle < m.angles.size() && std::isfinite(reading.reading),
                    "a reading");
         }
@@ -179,4 +179,4 @@ inline bool rotary_table_job(std::string_view bundle) {
     return any_read;
 }
 
-}  // namespace gumcert::engine::fuzz
+}  // namespace gumcert::jobs::fuzz

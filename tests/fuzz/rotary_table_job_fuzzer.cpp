@@ -6,6 +6,6 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string bytes(data, data + size);
-    (void)gumcert::engine::fuzz::rotary_table_job(bytes);
+    (void)gumcert::jobs::fuzz::rotary_table_job(bytes);
     return 0;
 }

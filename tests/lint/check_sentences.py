@@ -18,10 +18,10 @@ LANGUAGES = ("en", "de", "es", "zh-Hant")
 
 # Sources of the sentences in records. A file that is added here has all of its sentences in the catalogue.
 SOURCES = (
-    "certificate/completeness_gate.cpp",
-    "certificate/language_gate.cpp",
-    "certificate/symbol_gate.cpp",
-    "certificate/uncertainty_gate.cpp",
+    "certificate/gates/completeness_gate.cpp",
+    "certificate/gates/language_gate.cpp",
+    "certificate/gates/symbol_gate.cpp",
+    "certificate/gates/uncertainty_gate.cpp",
     "reports/record/make/rotary_table/adjustment_record.cpp",
     "app/budget_findings.cpp",
     "app/budget_record.cpp",
@@ -36,8 +36,8 @@ SOURCES = (
     "reports/record/make/rotary_table/rotary_findings.cpp",
     "reports/record/make/rotary_table/rotary_monte_carlo_record.cpp",
     "reports/record/make/rotary_table/table_parameter_record.cpp",
-    "engine/group_notes.cpp",
-    "engine/reversal_choice.cpp",
+    "engine/rotary_table/group_notes.cpp",
+    "engine/rotary_table/reversal_choice.cpp",
     "gum/budget/budget_coverage.cpp",
     "gum/budget/evaluate_budget.cpp",
     "gum/budget/evaluation_choice.cpp",

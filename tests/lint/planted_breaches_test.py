@@ -101,7 +101,7 @@ class Includes(PlantedTree):
     def test_package_that_stands_in_one_header_only(self):
         self.plant("gum/quantity/dense_factors.h", "#pragma once\n#include <Eigen/SVD>\n")
         self.expect(self.scan(), 0)
-        self.refused("engine/datum.cpp", "#include <Eigen/SVD>\n", 1, "include gum/quantity/dense_factors.h in its place")
+        self.refused("engine/rotary_table/datum.cpp", "#include <Eigen/SVD>\n", 1, "include gum/quantity/dense_factors.h in its place")
 
     def test_include_in_a_comment_does_not_count(self):
         self.plant("gum/coverage.cpp", '/*\n#include "engine/adjustment.h"\n*/ // std::cout << 1\n')

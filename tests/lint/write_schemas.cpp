@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "engine/job/job_schema.h"
+#include "jobs/job_schema.h"
 
 namespace {
 
@@ -32,8 +32,8 @@ int main(int argc, char** argv) {
     try {
         const std::filesystem::path root = argc > 1 ? argv[1] : ".";
         const std::filesystem::path schema = root / "schemas/job-1.schema.json";
-        write(schema, gumcert::engine::with_described_definitions(content(schema)));
-        write(root / "docs/job_keys.md", gumcert::engine::page_of_job_keys());
+        write(schema, gumcert::jobs::with_described_definitions(content(schema)));
+        write(root / "docs/job_keys.md", gumcert::jobs::page_of_job_keys());
     } catch (const std::exception& error) {
         std::cerr << "write_schemas: " << error.what() << "\n";
         return 1;

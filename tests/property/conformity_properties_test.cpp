@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "gum/conformity.h"
+#include "gum/conformity/conformity.h"
 
 namespace gumcert::gum {
 namespace {

@@ -22,7 +22,7 @@
 #include "gum/expression/equation_model.h"
 #include "gum/expression/equation_system.h"
 #include "gum/expression/syntax_tree.h"
-#include "gum/monte_carlo.h"
+#include "gum/monte_carlo/monte_carlo.h"
 #include "gum/propagation.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"

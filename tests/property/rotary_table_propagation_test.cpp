@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/rotary_table_evaluation.h"
-#include "engine/table_parameters.h"
+#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/table_parameters.h"
 #include "gum/propagation.h"
 #include "tests/support/synthetic_campaign.h"
 

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "engine/joint_adjustment.h"
+#include "engine/rotary_table/joint_adjustment.h"
 
 namespace gumcert::engine {
 namespace {

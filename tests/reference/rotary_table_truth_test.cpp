@@ -11,12 +11,12 @@
 #include <set>
 #include <string>
 
-#include "engine/job/rotary_table_job.h"
-#include "engine/rotary_table_evaluation.h"
-#include "engine/sequential_evaluation.h"
+#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/sequential_evaluation.h"
 #include "gum/coverage.h"
 #include "gum/propagation.h"
 #include "gum/quantity/units.h"
+#include "jobs/rotary_table/rotary_table_job.h"
 
 namespace gumcert {
 namespace {
@@ -26,7 +26,7 @@ using engine::RotaryTableSolution;
 const std::filesystem::path k_data = std::filesystem::path(GUMCERT_SHARED_DIR) / "data" / "rotary_table";
 
 struct Set {
-    engine::RotaryTableJob job;
+    jobs::RotaryTableJob job;
     nlohmann::json truth;
     RotaryTableSolution solution;
     gum::Propagation propagation;
@@ -55,7 +55,7 @@ const Set* evaluated(const std::string& name) {
         set = std::make_unique<Set>();
         std::ifstream stream(folder / "truth.json");
         set->truth = nlohmann::json::parse(stream);
-        set->job = engine::read_rotary_table_job(folder / "job.json");
+        set->job = jobs::read_rotary_table_job(folder / "job.json");
         set->solution = engine::evaluate_jointly(set->job.measurement, options_of(set->job.measurement));
         set->propagation = gum::propagate(*set->solution.model, set->job.coverage_probability);
     }

@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "engine/campaign_layout.h"
-#include "engine/rotary_table_evaluation.h"
+#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/studies/campaign_layout.h"
+#include "gum/monte_carlo/worker_threads.h"
 #include "gum/propagation.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/units.h"
 #include "gum/rotary_table/studies/campaign_draws.h"
 #include "gum/rotary_table/studies/simulation_study.h"
-#include "gum/worker_threads.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert {

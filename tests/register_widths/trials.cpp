@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <memory>
 
-#include "engine/rotary_table_evaluation.h"
-#include "engine/rotary_table_trials.h"
-#include "gum/random_draws.h"
+#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/trials/rotary_table_trials.h"
+#include "gum/monte_carlo/random_draws.h"
 #include "tests/support/synthetic_campaign.h"
 
 #ifndef GUMCERT_REGISTERS

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/job/job_kind.h"
-#include "engine/job/json_object.h"
+#include "jobs/job_kind.h"
+#include "jobs/json_object.h"
 #include "tests/support/file_content.h"
 #include "tests/support/json_schema.h"
 
@@ -29,7 +29,7 @@ protected:
     [[nodiscard]] bool accepts(const nlohmann::json& job) const { return schema_.accepts(job); }
     /// A job in a file.
     [[nodiscard]] bool accepts(const std::filesystem::path& job) const {
-        return accepts(engine::parse_json_document(file_content(job), job.filename().string()).value);
+        return accepts(jobs::parse_json_document(file_content(job), job.filename().string()).value);
     }
 
     /// A node with its reference followed.
@@ -51,8 +51,8 @@ protected:
         });
         return object == nullptr ? *node : *object;
     }
-    void expect_keys(std::span<const engine::JobKeys> of_reader) const {
-        for (const engine::JobKeys& object : of_reader) {
+    void expect_keys(std::span<const jobs::JobKeys> of_reader) const {
+        for (const jobs::JobKeys& object : of_reader) {
             std::vector<std::string> of_schema;
             for (const auto& [key, value] : schema_of(object.pointer).at("properties").items()) {
                 of_schema.push_back(key);

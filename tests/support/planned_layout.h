@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "engine/measurement_plan.h"
+#include "engine/rotary_table/studies/measurement_plan.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine::planned {

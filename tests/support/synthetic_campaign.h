@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/rotary_table_measurement.h"
+#include "engine/rotary_table/rotary_table_measurement.h"
 
 namespace gumcert::engine::synthetic {
 

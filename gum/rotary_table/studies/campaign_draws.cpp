@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "engine/joint_adjustment.h"
-#include "engine/rotary_table_model.h"
+#include "engine/rotary_table/joint_adjustment.h"
+#include "engine/rotary_table/rotary_table_model.h"
 
 namespace gumcert::gum {
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/campaign_simulation.h"
-#include "gum/random_draws.h"
+#include "engine/rotary_table/studies/campaign_simulation.h"
+#include "gum/monte_carlo/random_draws.h"
 #include "gum/rotary_table/studies/simulation_request.h"
 
 namespace gumcert::gum {

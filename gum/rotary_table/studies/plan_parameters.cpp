@@ -8,13 +8,13 @@
 #include <memory>
 #include <utility>
 
-#include "engine/datum.h"
-#include "engine/measurement_plan.h"
-#include "engine/rotary_table_model.h"
-#include "engine/table_parameters.h"
+#include "engine/rotary_table/datum.h"
+#include "engine/rotary_table/rotary_table_model.h"
+#include "engine/rotary_table/studies/measurement_plan.h"
+#include "engine/rotary_table/table_parameters.h"
 #include "gum/coverage.h"
+#include "gum/monte_carlo/random_draws.h"
 #include "gum/propagation.h"
-#include "gum/random_draws.h"
 #include "gum/rotary_table/positioning_scope.h"
 
 namespace gumcert::gum::plan {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/joint_adjustment.h"
-#include "engine/rotary_table_measurement.h"
+#include "engine/rotary_table/joint_adjustment.h"
+#include "engine/rotary_table/rotary_table_measurement.h"
 #include "gum/rotary_table/document_units.h"
 #include "gum/rotary_table/studies/plan_request.h"
 

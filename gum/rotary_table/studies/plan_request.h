@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/line_of_sight.h"
+#include "engine/rotary_table/studies/line_of_sight.h"
 #include "gum/quantity/units.h"
 
 namespace gumcert::gum {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/campaign_layout.h"
-#include "engine/geometry_check.h"
-#include "engine/rotary_table_contributions.h"
-#include "engine/start_values.h"
-#include "engine/variance_components.h"
+#include "engine/rotary_table/geometry_check.h"
+#include "engine/rotary_table/rotary_table_contributions.h"
+#include "engine/rotary_table/start_values.h"
+#include "engine/rotary_table/studies/campaign_layout.h"
+#include "engine/rotary_table/variance_components.h"
 #include "gum/coverage.h"
 #include "gum/propagation.h"
 #include "gum/rotary_table/evaluate_rotary_table.h"

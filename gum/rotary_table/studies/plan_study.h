@@ -9,16 +9,16 @@
 #include <string>
 #include <vector>
 
-#include "engine/line_of_sight.h"
-#include "engine/measurement_plan.h"
-#include "engine/station_proposal.h"
+#include "engine/rotary_table/studies/line_of_sight.h"
+#include "engine/rotary_table/studies/measurement_plan.h"
+#include "engine/rotary_table/studies/station_proposal.h"
+#include "gum/monte_carlo/worker_threads.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/progress.h"
 #include "gum/rotary_table/document_units.h"
 #include "gum/rotary_table/rotary_table_request.h"
 #include "gum/rotary_table/studies/plan_parameters.h"
 #include "gum/rotary_table/studies/plan_request.h"
-#include "gum/worker_threads.h"
 
 /// What `gumcert plan` computes; its documents are made by reports/studies.
 namespace gumcert::gum::plan {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "engine/campaign_layout.h"
-#include "engine/rotary_table_evaluation.h"
+#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/studies/campaign_layout.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/units.h"
 #include "gum/rotary_table/evaluate_rotary_table.h"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "engine/rotary_table_measurement.h"
+#include "engine/rotary_table/rotary_table_measurement.h"
 #include "gum/quantity/progress.h"
 #include "gum/rotary_table/rotary_table_request.h"
 #include "gum/rotary_table/studies/plan_request.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/rotary_table_measurement.h"
+#include "engine/rotary_table/rotary_table_measurement.h"
 #include "gum/quantity/units.h"
 
 namespace gumcert::gum {

@@ -6,13 +6,13 @@
 #include <optional>
 #include <vector>
 
-#include "engine/datum.h"
-#include "engine/rotary_table_measurement.h"
+#include "engine/rotary_table/datum.h"
+#include "engine/rotary_table/rotary_table_measurement.h"
+#include "gum/monte_carlo/worker_threads.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/progress.h"
 #include "gum/rotary_table/studies/difference_tally.h"
 #include "gum/rotary_table/studies/simulation_request.h"
-#include "gum/worker_threads.h"
 
 namespace gumcert::gum {
 

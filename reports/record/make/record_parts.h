@@ -10,11 +10,11 @@
 #include <string_view>
 #include <vector>
 
-#include "gum/monte_carlo.h"
-#include "gum/monte_carlo_request.h"
+#include "gum/monte_carlo/monte_carlo.h"
+#include "gum/monte_carlo/monte_carlo_request.h"
+#include "gum/monte_carlo/validation_in_unit.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/measurement_model.h"
-#include "gum/validation_in_unit.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::reports {

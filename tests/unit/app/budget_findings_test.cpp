@@ -10,8 +10,8 @@
 #include "app/budget_record.h"
 #include "gum/budget/budget_covariance.h"
 #include "gum/budget/evaluate_budget.h"
+#include "tests/support/budget_campaign.h"
 #include "tests/support/sample_certificate.h"
-#include "tests/unit/engine/job/budget_campaign.h"
 
 namespace gumcert::app {
 namespace {
@@ -20,7 +20,7 @@ using certificate::FindingSeverity;
 using testing::HasSubstr;
 
 reports::EvaluationRecord record_of(const std::string& keys) {
-    const engine::BudgetJob job = engine::test::read_budget(keys);
+    const jobs::BudgetJob job = engine::test::read_budget(keys);
     const gum::BudgetResult result = gum::evaluate_budget(job, 1);
     return budget_record(job, result, {}, gum::budget_covariance(result), "");
 }

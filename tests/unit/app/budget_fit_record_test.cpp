@@ -9,7 +9,7 @@
 #include "app/budget_record.h"
 #include "gum/budget/budget_covariance.h"
 #include "gum/budget/evaluate_budget.h"
-#include "tests/unit/engine/job/budget_campaign.h"
+#include "tests/support/budget_campaign.h"
 
 namespace gumcert::app {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 using reports::BudgetRow;
 using reports::EvaluationRecord;
 
-EvaluationRecord record_of_fit(const engine::BudgetJob& job) {
+EvaluationRecord record_of_fit(const jobs::BudgetJob& job) {
     const gum::BudgetResult result = gum::evaluate_budget(job, 1);
     return budget_record(job, result, {}, gum::budget_covariance(result), "");
 }
@@ -94,7 +94,7 @@ TEST(BudgetFitRecord, RowsOfFitsAddUpToTheVariance) {
         data += trial % 3 == 2 ? ", \"u_x\": [" + u_x + "]" : "";
         const bool quadratic = trial % 2 == 0;
         const std::string q = std::to_string(10.0 * uniform(random));
-        const engine::BudgetJob job = engine::test::read_budget(
+        const jobs::BudgetJob job = engine::test::read_budget(
             std::string(R"("model": ["z = a + b*q)") + (quadratic ? " + c*q^2" : "") +
             R"("], "inputs": {"q": {"value": )" + q + R"(, "u": 0.1}}, "fits": {"f": {"equation": "y = a + b*x)" +
             (quadratic ? " + c*x^2" : "") + R"(", "parameters": {"a": {}, "b": {})" +
@@ -138,7 +138,7 @@ TEST(BudgetFitRecord, SplitsTheVarianceByColumn) {
 }
 
 TEST(BudgetFitRecord, ParametersAreResultsOfTheirData) {
-    const engine::BudgetJob job = engine::test::read_budget(R"("fits": {"f": {"equation": "y = a + b*x",
+    const jobs::BudgetJob job = engine::test::read_budget(R"("fits": {"f": {"equation": "y = a + b*x",
         "parameters": {"a": {}, "b": {}}, "data": {"x": [0, 1, 2, 3], "y": [0, 1.1, 1.9, 3.2], "u_y": 0.1, "u_x": 0.1}}})");
     const EvaluationRecord record = record_of_fit(job);
     ASSERT_EQ(record.results.size(), 2U);

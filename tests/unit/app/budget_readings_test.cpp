@@ -12,14 +12,14 @@
 #include "gum/budget/budget_covariance.h"
 #include "gum/budget/budget_model.h"
 #include "gum/budget/evaluate_budget.h"
-#include "tests/unit/engine/job/budget_campaign.h"
+#include "tests/support/budget_campaign.h"
 
 namespace gumcert::app {
 namespace {
 
 using reports::EvaluationRecord;
 
-EvaluationRecord record_of(const engine::BudgetJob& job) {
+EvaluationRecord record_of(const jobs::BudgetJob& job) {
     const gum::BudgetResult result = gum::evaluate_budget(job, 1);
     return budget_record(job, result, {}, gum::budget_covariance(result), "");
 }
@@ -111,7 +111,7 @@ TEST(BudgetReadings, EveryPrintedNumberIsOfAStatementInForce) {
         const std::string text =
             "\"model\": [\"y = " + model + "\"], \"inputs\": {" + stated + "}, \"points\": [" + table + "]";
         SCOPED_TRACE(text);
-        const engine::BudgetJob job = engine::test::read_budget(text);
+        const jobs::BudgetJob job = engine::test::read_budget(text);
         const EvaluationRecord record = record_of(job);
 
         const auto mean_of = [&](const std::string& input, const std::string& point) -> std::optional<double> {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/unit/engine/job/budget_campaign.h"
+#include "tests/support/budget_campaign.h"
 
 namespace gumcert::app {
 namespace {
@@ -15,7 +15,7 @@ using Sources = std::vector<gum::UncertaintySource>;
 const gum::Unit k_um_of_sources = gum::Unit::parse("um");
 
 TEST(UncertaintySources, AreSignedContributionsInTheUnitOfTheComparison) {
-    const engine::BudgetJob job = engine::test::read_budget(R"("model": ["y = a - 2*b"], "inputs": {
+    const jobs::BudgetJob job = engine::test::read_budget(R"("model": ["y = a - 2*b"], "inputs": {
         "a": {"value": 1, "unit": "mm", "u": 0.003, "source": "gauge"},
         "b": {"unit": "um", "components": [
             {"name": "scale", "value": 5, "u": 0.2, "source": "laser"},
@@ -34,7 +34,7 @@ TEST(UncertaintySources, AreSignedContributionsInTheUnitOfTheComparison) {
 }
 
 TEST(UncertaintySources, OfAPointThatStatesItsOwnInput) {
-    const engine::BudgetJob job = engine::test::read_budget(R"("model": ["y = a + b"], "inputs": {
+    const jobs::BudgetJob job = engine::test::read_budget(R"("model": ["y = a + b"], "inputs": {
         "a": {"value": 1, "unit": "um", "u": 0.3, "source": "laser"},
         "b": {"value": 1, "unit": "um", "u": 0.1, "source": "indicator"}},
         "points": [{"point": "P", "b": {"value": 7, "u": 0.2, "source": "indicator"}}, {"point": "Q"}])");

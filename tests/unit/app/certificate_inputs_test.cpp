@@ -9,8 +9,8 @@
 
 #include "app/evaluate_job.h"
 #include "gum/quantity/diagnostic.h"
+#include "tests/support/budget_campaign.h"
 #include "tests/support/sample_certificate.h"
-#include "tests/unit/engine/job/budget_campaign.h"
 
 namespace gumcert::app {
 namespace {
@@ -46,17 +46,17 @@ TEST(CertificateProfile, IsRefusedWhereThereIsNoneOfThatName) {
     }
 }
 
-engine::BudgetJob budget(const std::string& inputs, const std::string& model, const std::string& more = "") {
-    engine::BudgetJob job =
+jobs::BudgetJob budget(const std::string& inputs, const std::string& model, const std::string& more = "") {
+    jobs::BudgetJob job =
         engine::test::read_budget("\"model\": [\"" + model + "\"], \"inputs\": {" + inputs + "}" + more);
     job.certificate = test::sample_certificate_data();
     return job;
 }
 
 TEST(CapabilityInputs, HoldTheValuesOfTheInputsInTheirUnits) {
-    const engine::BudgetJob job = budget(R"("x": {"value": 10, "unit": "mm", "u": 0.1},
+    const jobs::BudgetJob job = budget(R"("x": {"value": 10, "unit": "mm", "u": 0.1},
                                             "t": {"value": 23, "unit": "degC", "u": 0.1})",
-                                         "y = x + 0*t*x/t", R"(, "points": [{"x": 20}, {"x": 30}])");
+                                       "y = x + 0*t*x/t", R"(, "points": [{"x": 20}, {"x": 30}])");
     const CapabilityInputs inputs = capability_inputs(job, gum::evaluate_budget(job, 1));
     EXPECT_EQ(inputs.values.at("x").unit, "mm");
     ASSERT_EQ(inputs.values.at("x").values.size(), 2U);
@@ -68,7 +68,7 @@ TEST(CapabilityInputs, HoldTheValuesOfTheInputsInTheirUnits) {
 
 // The trials that are drawn again are those of the evaluation: its interval has its ends at the same ranks.
 TEST(CapabilityInputs, HoldTheTrialsWhereMonteCarloIsReported) {
-    const engine::BudgetJob job =
+    const jobs::BudgetJob job =
         budget(R"("a": {"value": 0, "unit": "mm", "u": 0.002}, "b": {"value": 0, "unit": "1", "u": 1})", "y = a*b",
                R"(, "outputs": {"y": {"unit": "um"}}, "monte_carlo": {"trials": 30000, "seed": 5})");
     const gum::BudgetResult result = gum::evaluate_budget(job, 1);
@@ -85,7 +85,7 @@ TEST(CapabilityInputs, HoldTheTrialsWhereMonteCarloIsReported) {
 }
 
 TEST(CapabilityInputs, HoldTheDistributionOfAConvolution) {
-    const engine::BudgetJob job =
+    const jobs::BudgetJob job =
         budget(R"("x": {"value": 10, "unit": "mm", "half_width": 0.1, "distribution": "uniform"})", "y = x");
     const CapabilityInputs inputs = capability_inputs(job, gum::evaluate_budget(job, 1));
     ASSERT_EQ(inputs.distributions.size(), 1U);

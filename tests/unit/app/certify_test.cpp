@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "certificate/statement_of_uncertainty.h"
-#include "gum/monte_carlo.h"
+#include "gum/monte_carlo/monte_carlo.h"
 #include "reports/record/reported_result.h"
 #include "reports/record/stated_values.h"
 #include "tests/support/sample_budget_record.h"

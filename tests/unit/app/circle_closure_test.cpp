@@ -13,18 +13,18 @@
 #include "app/compared_job_side.h"
 #include "app/evaluate_job.h"
 #include "app/recompute_record.h"
-#include "engine/job/circle_closure_job.h"
-#include "engine/job/file_source.h"
 #include "gum/circle_closure/evaluate_circle_closure.h"
 #include "gum/coverage.h"
+#include "jobs/circle_closure/circle_closure_job.h"
+#include "jobs/file_source.h"
+#include "reports/forms/record_sentences.h"
 #include "reports/record/make/circle_closure/circle_closure_findings.h"
 #include "reports/record/make/circle_closure/circle_closure_record.h"
-#include "reports/record_sentences.h"
 
 namespace gumcert::app {
 namespace {
 
-using engine::MemoryFileSource;
+using jobs::MemoryFileSource;
 using nlohmann::json;
 using reports::EvaluationRecord;
 
@@ -157,7 +157,7 @@ TEST(CircleClosureRecord, IsReadAgainAndEvaluatedAgain) {
 
 /// Truth of an example, column by column.
 std::vector<std::vector<double>> truth_of(const std::string& file) {
-    const std::string text = engine::DiskFileSource(k_closure_examples / "circle_closure").read(file);
+    const std::string text = jobs::DiskFileSource(k_closure_examples / "circle_closure").read(file);
     std::vector<std::vector<double>> rows;
     std::size_t at = text.find('\n') + 1;
     while (at < text.size()) {
@@ -269,7 +269,7 @@ TEST(CircleClosureRecord, FalseAlarmsAreRare) {
     int alarms = 0;
     constexpr int k_campaigns = 200;
     for (int campaign = 0; campaign < k_campaigns; ++campaign) {
-        const auto job = engine::read_circle_closure_job(
+        const auto job = jobs::read_circle_closure_job(
             files_of({.steps = 6, .repetitions = 2, .seed = 100 + static_cast<std::uint64_t>(campaign)},
                      R"(, "repeatability": {"u": 0.2})"),
             "job.json");

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "gum/decision_rule.h"
+#include "gum/conformity/decision_rule.h"
 #include "tests/support/file_content.h"
 
-// The rules stand in gum/decision_rule.cpp. What repeats their ids for people and for other programs agrees with it.
+// The rules stand in gum/conformity/decision_rule.cpp. What repeats their ids for people and for other programs agrees with it.
 
 namespace gumcert::app {
 namespace {
@@ -66,7 +66,7 @@ TEST(DecisionRuleTexts, SentencesThatNameTheFirstAndTheLastRuleAreRight) {
     const std::vector<std::string_view> ids = gum::decision_rule_ids();
     const std::string from_to = std::string(ids.front()) + " to " + std::string(ids.back());
     // The gate is a sentence with translations, the others are texts of files.
-    EXPECT_NE(content_of("certificate/specifications_gate.cpp").find("(" + from_to + ")"), std::string::npos);
+    EXPECT_NE(content_of("certificate/gates/specifications_gate.cpp").find("(" + from_to + ")"), std::string::npos);
     EXPECT_NE(content_of("templates/wording/sentences.json").find("(" + from_to + ")"), std::string::npos);
     EXPECT_NE(content_of("templates/messages.json").find("Take one of " + from_to), std::string::npos);
 }

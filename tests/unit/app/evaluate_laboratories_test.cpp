@@ -22,10 +22,10 @@
 namespace gumcert::app {
 namespace {
 
-using engine::ComparisonJob;
-using engine::ComparisonResult;
 using gum::AssignedValueMethod;
 using gum::ResultUncertainty;
+using jobs::ComparisonJob;
+using jobs::ComparisonResult;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;

@@ -8,7 +8,7 @@
 
 #include "app/evaluate_comparison.h"
 #include "gum/quantity/diagnostic.h"
-#include "tests/unit/engine/job/budget_campaign.h"
+#include "tests/support/budget_campaign.h"
 
 namespace gumcert::app {
 namespace {
@@ -20,15 +20,15 @@ using testing::Not;
 
 const gum::Unit k_um_of_methods = gum::Unit::parse("um");
 
-engine::BudgetJob budget(const std::string& keys) {
+jobs::BudgetJob budget(const std::string& keys) {
     return engine::test::read_budget(keys);
 }
 
 /// Three points, u = 1 of the method and 0.2 of the reference, k = 2.
-engine::ComparisonJob stated_job(engine::MethodCorrelation correlation) {
-    engine::ComparisonJob job;
+jobs::ComparisonJob stated_job(jobs::MethodCorrelation correlation) {
+    jobs::ComparisonJob job;
     job.methods.emplace();
-    engine::MethodComparisonRequest& methods = *job.methods;
+    jobs::MethodComparisonRequest& methods = *job.methods;
     methods.unit = k_um_of_methods;
     methods.correlation = correlation;
     methods.laboratory.name = "Laser method";
@@ -56,7 +56,7 @@ std::string all_remarks(const reports::Comparison& record) {
 }
 
 TEST(EvaluateMethods, OfStatedValues) {
-    engine::ComparisonJob job = stated_job(engine::MethodCorrelation::none);
+    jobs::ComparisonJob job = stated_job(jobs::MethodCorrelation::none);
     job.organiser = "Example Institute";
     job.methods->position_name = "angle";
     job.methods->position_unit = gum::Unit::parse("deg");
@@ -83,7 +83,7 @@ TEST(EvaluateMethods, OfStatedValues) {
 }
 
 TEST(EvaluateMethods, GivenCorrelationHoldsAtEqualPoints) {
-    engine::ComparisonJob job = stated_job(engine::MethodCorrelation::given);
+    jobs::ComparisonJob job = stated_job(jobs::MethodCorrelation::given);
     job.methods->r = 0.5;
     const reports::Comparison record = evaluate_methods(job);
     EXPECT_EQ(record.correlation, "given");
@@ -94,7 +94,7 @@ TEST(EvaluateMethods, GivenCorrelationHoldsAtEqualPoints) {
 }
 
 TEST(EvaluateMethods, GivenCorrelationOfPointsThatShareEverything) {
-    engine::ComparisonJob job = stated_job(engine::MethodCorrelation::given);
+    jobs::ComparisonJob job = stated_job(jobs::MethodCorrelation::given);
     job.methods->r = 0.5;
     job.methods->laboratory.covariance.setConstant(1.0);
     job.methods->reference.covariance.setConstant(0.04);
@@ -104,7 +104,7 @@ TEST(EvaluateMethods, GivenCorrelationOfPointsThatShareEverything) {
 }
 
 TEST(EvaluateMethods, GivenCorrelationThatCannotBe) {
-    engine::ComparisonJob job = stated_job(engine::MethodCorrelation::given);
+    jobs::ComparisonJob job = stated_job(jobs::MethodCorrelation::given);
     job.methods->r = 0.9;
     job.methods->laboratory.covariance.setConstant(1.0);  // and the reference independent from point to point
     try {
@@ -117,29 +117,29 @@ TEST(EvaluateMethods, GivenCorrelationThatCannotBe) {
 }
 
 TEST(EvaluateMethods, UnknownCorrelation) {
-    const reports::Comparison record = evaluate_methods(stated_job(engine::MethodCorrelation::unknown));
+    const reports::Comparison record = evaluate_methods(stated_job(jobs::MethodCorrelation::unknown));
     EXPECT_EQ(record.correlation, "unknown");
     EXPECT_TRUE(record.points[0].En_worst.number);
 }
 
 /// Method y = l + t with a laser that all points share and a thermometer that each point reads anew; reference z = g.
-engine::ComparisonJob job_with_budgets(const std::string& reference_inputs, const std::string& reference_model,
-                                       const std::string& unit = "um") {
-    engine::ComparisonJob job;
+jobs::ComparisonJob job_with_budgets(const std::string& reference_inputs, const std::string& reference_model,
+                                     const std::string& unit = "um") {
+    jobs::ComparisonJob job;
     job.methods.emplace();
-    engine::MethodComparisonRequest& methods = *job.methods;
+    jobs::MethodComparisonRequest& methods = *job.methods;
     methods.unit = gum::Unit::parse(unit);
-    methods.correlation = engine::MethodCorrelation::shared_sources;
+    methods.correlation = jobs::MethodCorrelation::shared_sources;
     methods.laboratory.name = "Method";
     methods.laboratory.budget_file = "method.json";
-    methods.laboratory.budget = std::make_shared<engine::BudgetJob>(budget(R"("model": ["y = l + t"], "inputs": {
+    methods.laboratory.budget = std::make_shared<jobs::BudgetJob>(budget(R"("model": ["y = l + t"], "inputs": {
         "l": {"value": 10, "unit": "um", "u": 0.4, "source": "laser"},
         "t": {"value": 0, "unit": "um", "u": 0.3, "source": "thermometer"}},
         "points": [{"point": "A", "t": {"value": 0.1, "u": 0.3, "source": "thermometer"}},
                    {"point": "B", "t": {"value": 0.2, "u": 0.5, "source": "thermometer"}}])"));
     methods.reference.name = "Reference";
     methods.reference.budget_file = "reference.json";
-    methods.reference.budget = std::make_shared<engine::BudgetJob>(budget(
+    methods.reference.budget = std::make_shared<jobs::BudgetJob>(budget(
         "\"model\": [\"" + reference_model + "\"], \"inputs\": {" + reference_inputs +
         R"(}, "points": [{"point": "B", "o": {"value": 0.3, "u": 0.1}}, {"point": "A", "o": {"value": 0.1, "u": 0.1}}])"));
     for (const char* name : {"A", "B"}) {
@@ -153,7 +153,7 @@ engine::ComparisonJob job_with_budgets(const std::string& reference_inputs, cons
 const std::string k_offset = R"("o": {"value": 0, "unit": "um", "u": 0.1})";
 
 TEST(EvaluateMethods, ComputesTheCovarianceFromSharedSources) {
-    const engine::ComparisonJob job =
+    const jobs::ComparisonJob job =
         job_with_budgets(R"("g": {"value": 10, "unit": "um", "u": 0.1, "source": "laser"}, )" + k_offset, "z = g + o");
     const reports::Comparison record = evaluate_methods(job);
     ASSERT_EQ(record.points.size(), 2U);
@@ -183,7 +183,7 @@ TEST(EvaluateMethods, ComputesTheCovarianceFromSharedSources) {
 
 TEST(EvaluateMethods, ASourceCommonToThePointsOfOneBudgetOnlyCannotBeShared) {
     // The thermometer is read anew at each point of the method, and once for all points of the reference.
-    engine::ComparisonJob job = job_with_budgets(
+    jobs::ComparisonJob job = job_with_budgets(
         R"("g": {"value": 10, "unit": "um", "u": 0.5, "source": "thermometer"}, )" + k_offset, "z = g + o");
     try {
         (void)evaluate_methods(job);
@@ -197,7 +197,7 @@ TEST(EvaluateMethods, ASourceCommonToThePointsOfOneBudgetOnlyCannotBeShared) {
 }
 
 TEST(EvaluateMethods, KeepsTheSignOfASharedSource) {
-    const engine::ComparisonJob job = job_with_budgets(
+    const jobs::ComparisonJob job = job_with_budgets(
         R"("g": {"value": -10, "unit": "um", "u": 0.1, "source": "laser"}, )" + k_offset, "z = -g + o");
     const reports::Comparison record = evaluate_methods(job);
     EXPECT_LT(*record.points[0].correlation, 0.0);
@@ -205,7 +205,7 @@ TEST(EvaluateMethods, KeepsTheSignOfASharedSource) {
 }
 
 TEST(EvaluateMethods, TheJobKnowsThatASourceIsIndependent) {
-    engine::ComparisonJob job =
+    jobs::ComparisonJob job =
         job_with_budgets(R"("g": {"value": 10, "unit": "um", "u": 0.1, "source": "laser"}, )" + k_offset, "z = g + o");
     job.independent_sources = {"laser"};
     const reports::Comparison record = evaluate_methods(job);
@@ -215,7 +215,7 @@ TEST(EvaluateMethods, TheJobKnowsThatASourceIsIndependent) {
 }
 
 TEST(EvaluateMethods, BudgetsWithoutACommonSource) {
-    const engine::ComparisonJob job =
+    const jobs::ComparisonJob job =
         job_with_budgets(R"("g": {"value": 10, "unit": "um", "u": 0.1, "source": "gauge"}, )" + k_offset, "z = g + o");
     const reports::Comparison record = evaluate_methods(job);
     EXPECT_EQ(*record.points[0].correlation, 0.0);
@@ -223,15 +223,15 @@ TEST(EvaluateMethods, BudgetsWithoutACommonSource) {
 }
 
 TEST(EvaluateMethods, TellsOfASharedSourceThatTheJobDoesNotUse) {
-    engine::ComparisonJob job =
+    jobs::ComparisonJob job =
         job_with_budgets(R"("g": {"value": 10, "unit": "um", "u": 0.1, "source": "laser"}, )" + k_offset, "z = g + o");
-    job.methods->correlation = engine::MethodCorrelation::none;
+    job.methods->correlation = jobs::MethodCorrelation::none;
     EXPECT_THAT(all_remarks(evaluate_methods(job)), HasSubstr("Both budgets name laser; the covariance that follows"));
 }
 
 TEST(EvaluateMethods, TablesOfBudgetsAreInTheUnitOfTheComparison) {
     // The budget is in µm, the comparison in nm: contributions, values and U must not be off by a thousand.
-    const engine::ComparisonJob job = job_with_budgets(
+    const jobs::ComparisonJob job = job_with_budgets(
         R"("g": {"value": 10, "unit": "um", "u": 0.1, "source": "gauge"}, )" + k_offset, "z = g + o", "nm");
     const reports::Comparison record = evaluate_methods(job);
     EXPECT_NEAR(record.points[0].value.number, 10100.0, 1e-8);
@@ -242,8 +242,8 @@ TEST(EvaluateMethods, TablesOfBudgetsAreInTheUnitOfTheComparison) {
 }
 
 TEST(EvaluateMethods, ABudgetAgainstStatedValues) {
-    engine::ComparisonJob job = stated_job(engine::MethodCorrelation::unknown);
-    const engine::ComparisonJob with_budgets = job_with_budgets(k_offset, "z = o");
+    jobs::ComparisonJob job = stated_job(jobs::MethodCorrelation::unknown);
+    const jobs::ComparisonJob with_budgets = job_with_budgets(k_offset, "z = o");
     job.methods->laboratory = with_budgets.methods->laboratory;
     job.methods->points = with_budgets.methods->points;
     job.methods->reference.value = {10.0, 10.0};
@@ -258,7 +258,7 @@ TEST(EvaluateMethods, ABudgetAgainstStatedValues) {
 }
 
 TEST(EvaluateMethods, RefusesAReferenceWithoutUncertainty) {
-    const engine::ComparisonJob job = job_with_budgets(
+    const jobs::ComparisonJob job = job_with_budgets(
         R"("g": {"value": 10, "unit": "um", "constant": true}, "o": {"value": 0, "unit": "um", "u": 0.1})",
         "z = g + 0*o");
     try {

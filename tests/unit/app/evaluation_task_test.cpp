@@ -31,9 +31,9 @@ TEST(CovarianceOutput, IsNotWrittenWhereNoPlaceOrNoFormIsAsked) {
 
 TEST(EvaluationTask, HoldsFilesUpToEightMebibytesEachAndSixteenTogether) {
     const std::string eight(std::size_t{8} << 20U, 'x');
-    const engine::MemoryFileSource source(
+    const jobs::MemoryFileSource source(
         {{"job.json", "{}"}, {"a.csv", eight}, {"b.csv", eight + "x"}, {"c.csv", eight}, {"d.csv", "y"}});
-    const engine::ReadOnceSource files(source);
+    const jobs::ReadOnceSource files(source);
     const std::string job = "job.json";
     const CovarianceOutput none(CovarianceFile::none);
     const std::filesystem::path templates;

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "tests/unit/engine/job/campaign.h"
+#include "tests/support/campaign.h"
 
 namespace gumcert::app {
 namespace {
@@ -15,7 +15,7 @@ using engine::test::replace;
 using testing::HasSubstr;
 
 reports::FixtureBudget record_of(const Files& files) {
-    engine::RotaryTableJob job = engine::test::read(files);
+    jobs::RotaryTableJob job = engine::test::read(files);
     const gum::FixtureUncertainty fixture = gum::apply_fixture_budget(job);
     return fixture_budget_record(job, fixture);
 }

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "engine/job/budget_job.h"
-#include "engine/job/file_source.h"
+#include "jobs/budget/budget_job.h"
+#include "jobs/file_source.h"
 
 namespace gumcert::app {
 namespace {
@@ -187,8 +187,8 @@ TEST(ImportCertificate, WritesJobsThatCanBeRead) {
         const ImportedJob imported = import_certificate(certificate, "a.xml");
         const nlohmann::json job = nlohmann::json::parse(imported.job);
         try {
-            const engine::BudgetJob read =
-                engine::read_budget_job(engine::MemoryFileSource({{"job.json", imported.job}}), "job.json");
+            const jobs::BudgetJob read =
+                jobs::read_budget_job(jobs::MemoryFileSource({{"job.json", imported.job}}), "job.json");
             EXPECT_EQ(read.inputs.size(), job["inputs"].size());
         } catch (const gum::DiagnosedError& error) {
             ADD_FAILURE() << error.what() << "\n" << imported.job;

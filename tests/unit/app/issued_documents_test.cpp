@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reports/pdf_conformity.h"
+#include "reports/forms/pdf_conformity.h"
 #include "signing/qpdf_objects.h"
 #include "signing/verify.h"
 #include "tests/unit/reports/certified_sample.h"

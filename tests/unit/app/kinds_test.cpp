@@ -10,9 +10,9 @@
 
 #include "app/evaluate_job.h"
 #include "app/issue_documents.h"
-#include "engine/job/job_kind.h"
-#include "reports/document_kinds.h"
+#include "jobs/job_kind.h"
 #include "reports/record/record_kinds.h"
+#include "reports/view/document_kinds.h"
 #include "tests/support/file_content.h"
 
 namespace gumcert::app {
@@ -30,7 +30,7 @@ nlohmann::json json_of(const std::string& file) {
 TEST(Kinds, HaveOneRowInEachLayer) {
     const std::vector<std::string_view> words = words_of(program_kinds());
     EXPECT_THAT(words, ElementsAre("budget", "rotary_table", "circle_closure", "comparison"));
-    EXPECT_THAT(engine::k_job_kinds, ElementsAreArray(words));
+    EXPECT_THAT(jobs::k_job_kinds, ElementsAreArray(words));
     EXPECT_THAT(reports::k_record_kinds, ElementsAreArray(words));
     std::vector<std::string_view> of_documents;
     for (const reports::DocumentKind& kind : reports::document_kinds()) {
@@ -83,9 +83,9 @@ TEST(Kinds, SayWhichDocumentsARunWrites) {
 }
 
 TEST(Kinds, ReadTheirJobsAndRefuseThoseOfOthers) {
-    const engine::DiskFileSource folder(fs::path(GUMCERT_SOURCE_DIR) / "examples/end_gauge");
+    const jobs::DiskFileSource folder(fs::path(GUMCERT_SOURCE_DIR) / "examples/end_gauge");
     for (const Kind& kind : program_kinds()) {
-        if (kind.word == engine::k_budget_kind) {
+        if (kind.word == jobs::k_budget_kind) {
             EXPECT_NO_THROW((void)kind.read(folder, "job.json"));
         } else {
             EXPECT_THROW((void)kind.read(folder, "job.json"), gum::InputError) << kind.word;

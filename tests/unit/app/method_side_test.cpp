@@ -9,13 +9,13 @@
 #include "app/evaluate_comparison.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
-#include "tests/unit/engine/job/budget_campaign.h"
+#include "tests/support/budget_campaign.h"
 
 namespace gumcert::app {
 namespace {
 
-using engine::BudgetJob;
 using engine::test::read_budget;
+using jobs::BudgetJob;
 
 /// y = a + b, with u = 3 µm and 4 µm; `keys` come in addition.
 BudgetJob sum_of_two(const std::string& keys = "") {
@@ -67,12 +67,12 @@ TEST(SideOfBudget, RefusesAValueWithoutUncertainty) {
 }
 
 /// Two laboratories, the first one with a budget.
-engine::ComparisonJob laboratories(const BudgetJob& budget) {
-    engine::ComparisonJob job;
+jobs::ComparisonJob laboratories(const BudgetJob& budget) {
+    jobs::ComparisonJob job;
     job.rounds = {""};
     job.items.emplace_back().unit = gum::Unit::parse("um");
     for (const char* id : {"A", "B"}) {
-        engine::ComparisonResult result;
+        jobs::ComparisonResult result;
         result.participant = job.participants.size();
         result.value = 11.0;
         result.uncertainty = gum::ResultUncertainty{.u = 5.0, .U = 10.0, .k = 2.0};

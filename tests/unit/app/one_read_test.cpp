@@ -7,7 +7,7 @@
 
 #include "app/evaluate_job.h"
 #include "encoding/sha2.h"
-#include "engine/job/file_source.h"
+#include "jobs/file_source.h"
 
 namespace gumcert::app {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Files of a folder that are other files from their second reading on: a blank more for every reading before.
-class ChangingSource : public engine::FileSource {
+class ChangingSource : public jobs::FileSource {
 public:
     explicit ChangingSource(fs::path folder) : disk_(std::move(folder)) {}
     [[nodiscard]] std::string read(const std::string& name) const override {
@@ -25,7 +25,7 @@ public:
     mutable std::map<std::string, std::size_t> readings_;
 
 private:
-    engine::DiskFileSource disk_;
+    jobs::DiskFileSource disk_;
 };
 
 /// The record states the digest of the bytes that were evaluated: every file of a job is read once, whatever kinds of
@@ -45,7 +45,7 @@ TEST(OneRead, OfEveryFileOfEveryExample) {
         }
         for (const reports::InputFile& file : evaluation.record.job_files) {
             EXPECT_EQ(source.readings_[file.name], 1U) << file.name;
-            const engine::DiskFileSource disk((examples / job).parent_path());
+            const jobs::DiskFileSource disk((examples / job).parent_path());
             EXPECT_EQ(file.sha256, encoding::sha256(disk.read(file.name))) << file.name;
         }
         EXPECT_NE(evaluation.record.options_json.find("\"unit_table_sha256\""), std::string::npos);

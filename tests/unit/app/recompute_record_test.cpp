@@ -250,7 +250,7 @@ TEST(RecomputeRecord, GatesAreThoseOfTheJob) {
         files.emplace(file.name, reports::bytes_of(file).value());
     }
     const std::string text = reports::to_canonical_json(
-        evaluate_job(engine::MemoryFileSource(files), "job.json", CovarianceFile::none, 1, k_templates).record);
+        evaluate_job(jobs::MemoryFileSource(files), "job.json", CovarianceFile::none, 1, k_templates).record);
     ASSERT_TRUE(json::parse(text)["certificate"]["blocked"]);
     EXPECT_EQ(codes(edited(text, "/certificate/blocked", false)), std::vector<std::string>{"GC-RECORD-0022"});
 }
@@ -335,7 +335,7 @@ TEST(RecomputeRecord, ComparesCovariancesWithTheirOwnUncertainties) {
         "model": ["f = a", "C = b"], "inputs": {"a": {"value": 1e9, "u": 141, "unit": "Hz"},
         "b": {"value": 1e-12, "u": 1.4e-16, "unit": "F"}}, "outputs": {"f": {"unit": "Hz"}, "C": {"unit": "F"}}})"}};
     const std::string text = reports::to_canonical_json(
-        evaluate_job(engine::MemoryFileSource(files), "job.json", CovarianceFile::none, 1, k_templates).record);
+        evaluate_job(jobs::MemoryFileSource(files), "job.json", CovarianceFile::none, 1, k_templates).record);
     EXPECT_EQ(codes(text), std::vector<std::string>());
     json record = json::parse(text);
     json& matrix = record["covariance"]["matrix"];

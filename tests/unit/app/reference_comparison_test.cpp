@@ -10,19 +10,19 @@
 #include <utility>
 #include <vector>
 
-#include "engine/job/reference_budget.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
-#include "tests/unit/engine/job/campaign.h"
+#include "jobs/rotary_table/reference_budget.h"
+#include "tests/support/campaign.h"
 
 namespace gumcert::app {
 namespace {
 
-using engine::RotaryTableJob;
 using engine::test::Files;
 using engine::test::read;
 using engine::test::refusals;
 using engine::test::replace;
+using jobs::RotaryTableJob;
 using testing::HasSubstr;
 
 constexpr double k_um = 1e-6;
@@ -465,7 +465,7 @@ INSTANTIATE_TEST_SUITE_P(Rows, BadReferenceTest, testing::ValuesIn(bad_reference
 
 TEST(ReferenceMethod, CodesAreUniqueAndAscend) {
     std::string_view last;
-    for (const engine::InputCode& entry : engine::k_reference_codes) {
+    for (const jobs::InputCode& entry : jobs::k_reference_codes) {
         EXPECT_TRUE(entry.code.starts_with("GC-REFERENCE-")) << entry.code;
         EXPECT_LT(last, entry.code);
         last = entry.code;

@@ -17,8 +17,8 @@
 #include "app/certificate_inputs.h"
 #include "app/certified_conformity.h"
 #include "reports/record/certified_tables.h"
+#include "tests/support/budget_campaign.h"
 #include "tests/support/sample_certificate.h"
-#include "tests/unit/engine/job/budget_campaign.h"
 
 namespace gumcert::app {
 namespace {
@@ -32,7 +32,7 @@ std::string number(double value) {
     return text.str();
 }
 
-engine::BudgetJob budget(const std::string& model, const std::string& inputs, const std::string& more = "") {
+jobs::BudgetJob budget(const std::string& model, const std::string& inputs, const std::string& more = "") {
     return engine::test::read_budget("\"model\": [\"" + model + "\"], \"inputs\": {" + inputs + "}" + more);
 }
 
@@ -47,7 +47,7 @@ struct Evaluated {
     }
 };
 
-Evaluated evaluated(const engine::BudgetJob& job) {
+Evaluated evaluated(const jobs::BudgetJob& job) {
     Evaluated out;
     out.result = gum::evaluate_budget(job, 1);
     out.record = budget_record(job, out.result, {}, {}, "");
@@ -229,8 +229,8 @@ TEST(ReportedResult, HasTheIntervalAndTheVerdictsOfTheExactDistribution) {
     for (int i = 0; i < 200; ++i) {
         const Case c = random_case(random);
         SCOPED_TRACE(c.model + "; " + c.inputs);
-        const engine::BudgetJob job = [&] {
-            engine::BudgetJob read = budget(c.model, c.inputs);
+        const jobs::BudgetJob job = [&] {
+            jobs::BudgetJob read = budget(c.model, c.inputs);
             read.certificate = test::sample_certificate_data();
             return read;
         }();

@@ -153,7 +153,7 @@ TEST_P(SameStatement, StandsInEveryForm) {
         SCOPED_TRACE(files.at("job.json") + "\n" + files.at("points.csv"));
         std::optional<Evaluation> evaluation;
         try {
-            evaluation = evaluate_job(engine::MemoryFileSource(files), "job.json", CovarianceFile::none, 1,
+            evaluation = evaluate_job(jobs::MemoryFileSource(files), "job.json", CovarianceFile::none, 1,
                                       options.assets.templates);
         } catch (const gum::NoResultError& none) {
             continue;  // a derivative that does not exist, and the law of propagation asked for

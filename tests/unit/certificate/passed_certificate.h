@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "certificate/certified_results.h"
-#include "certificate/gates.h"
+#include "certificate/gates/gates.h"
 #include "tests/support/sample_certificate.h"
 
 namespace gumcert::certificate {

@@ -5,7 +5,7 @@
 #include "tests/support/sample_record.h"
 
 #include "gum/quantity/unit.h"
-#include "reports/certificate_builder.h"
+#include "reports/view/certificate_builder.h"
 #include "text/numbers.h"
 
 #include <cstddef>

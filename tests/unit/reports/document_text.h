@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reports/render.h"
+#include "reports/forms/render.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,7 +1,7 @@
 #include "reports/program_sentences.h"
 
 #include "gum/quantity/diagnostic.h"
-#include "reports/asset_files.h"
+#include "reports/forms/asset_files.h"
 #include "reports/wording.h"
 #include "tests/unit/reports/document_text.h"
 

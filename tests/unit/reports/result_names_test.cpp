@@ -1,7 +1,7 @@
 #include "reports/result_names.h"
 
-#include "reports/asset_files.h"
-#include "reports/decision_formula.h"
+#include "reports/forms/asset_files.h"
+#include "reports/view/decision_formula.h"
 #include "tests/unit/reports/document_text.h"
 
 #include <gtest/gtest.h>

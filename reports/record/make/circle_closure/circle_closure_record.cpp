@@ -7,12 +7,12 @@
 #include <set>
 #include <utility>
 
-#include "engine/job/circle_closure_statement.h"
 #include "gum/analysis_of_variance.h"
-#include "gum/convolution.h"
 #include "gum/coverage.h"
+#include "gum/monte_carlo/convolution.h"
 #include "gum/propagation.h"
 #include "gum/rounding.h"
+#include "jobs/circle_closure/circle_closure_statement.h"
 #include "reports/record/make/circle_closure/circle_closure_findings.h"
 #include "reports/record/make/record_parts.h"
 #include "reports/record/make/reported_choice.h"
@@ -25,9 +25,9 @@ namespace gumcert::reports {
 namespace {
 
 using Eigen::Index;
-using engine::CircleClosureJob;
 using engine::CircleClosureMeasurement;
 using engine::ClosurePattern;
+using jobs::CircleClosureJob;
 
 constexpr double k_accepted_p = 0.001;
 
@@ -300,7 +300,7 @@ reports::CircleClosure closure_of(const CircleClosureJob& job, const gum::Circle
     closure.artefact = k_artefact_quantity;
     closure.artefact_description = job.artefact;
     closure.unit = job.unit.text();
-    closure.numbering = engine::word_of(engine::k_closure_numberings, m.against);
+    closure.numbering = jobs::word_of(jobs::k_closure_numberings, m.against);
     closure.sense = m.sense > 0.0 ? "positive" : "negative";
     closure.drift = m.removes_drift ? "linear" : "none";
     closure.steps = static_cast<std::int64_t>(m.steps);

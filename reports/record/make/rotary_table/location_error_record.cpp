@@ -4,21 +4,21 @@
 #include <cmath>
 #include <string>
 
-#include "engine/job/rotary_table_words.h"
-#include "engine/machine_frame.h"
+#include "engine/rotary_table/machine_frame.h"
 #include "gum/quantity/units.h"
+#include "jobs/rotary_table/rotary_table_words.h"
 #include "reports/record/make/rotary_table/document_units.h"
 #include "reports/record/make/rotary_table/table_parameter_record.h"
 #include "text/numbers.h"
 
 namespace gumcert::reports {
 
-void fill_location_errors(reports::RotaryTable& rotary, const engine::RotaryTableJob& job,
+void fill_location_errors(reports::RotaryTable& rotary, const jobs::RotaryTableJob& job,
                           const gum::LocationErrors& errors) {
     const engine::MachineFrame& frame = *job.machine_frame;
     const bool stations = frame.by == engine::MachineFramePoints::stations;
     reports::MachineFrame& record = rotary.machine_frame.emplace();
-    record.by = engine::word_of(engine::k_machine_points, frame.by);
+    record.by = jobs::word_of(jobs::k_machine_points, frame.by);
     record.source = frame.source;
     for (int c = 0; c < 3; ++c) {
         record.nominal_point_mm[static_cast<std::size_t>(c)] = frame.nominal_point[c] / gum::k_millimetre;

@@ -8,14 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "engine/anglewise_map.h"
-#include "engine/group_tests.h"
 #include "engine/harmonics.h"
-#include "engine/job/rotary_table_words.h"
-#include "engine/rotary_table_contributions.h"
-#include "engine/sense_deviations.h"
+#include "engine/rotary_table/anglewise_map.h"
+#include "engine/rotary_table/group_tests.h"
+#include "engine/rotary_table/rotary_table_contributions.h"
+#include "engine/rotary_table/sense_deviations.h"
 #include "gum/coverage.h"
 #include "gum/rounding.h"
+#include "jobs/rotary_table/rotary_table_words.h"
 #include "reports/record/make/record_parts.h"
 #include "reports/record/make/rotary_table/document_units.h"
 #include "text/numbers.h"
@@ -142,7 +142,7 @@ void fill_reversal_model(reports::RotaryTable& rotary, const engine::RotaryTable
         return;
     }
     reports::ReversalModel& model = rotary.reversal_model.emplace();
-    model.model = engine::word_of(engine::k_reversals, solution.reversal_model);
+    model.model = jobs::word_of(jobs::k_reversals, solution.reversal_model);
     model.alpha = engine::k_reversal_test_level;
     for (const engine::ReversalTest& test : solution.reversal_tests) {
         const DocumentUnit& unit = test.motion < 3 ? k_um : k_arcsec;
@@ -293,7 +293,7 @@ double largest_distance(const Eigen::MatrixX3d& points) {
     return largest;
 }
 
-reports::StationEnvironment environment_of(const engine::RotaryTableJob& job, std::size_t station,
+reports::StationEnvironment environment_of(const jobs::RotaryTableJob& job, std::size_t station,
                                            double largest_distance_um) {
     const RotaryTableMeasurement& measurement = job.measurement;
     const auto at = static_cast<Eigen::Index>(station);
@@ -317,7 +317,7 @@ reports::StationEnvironment environment_of(const engine::RotaryTableJob& job, st
     return row;
 }
 
-void fill_environment(reports::RotaryTable& rotary, const engine::RotaryTableJob& job) {
+void fill_environment(reports::RotaryTable& rotary, const jobs::RotaryTableJob& job) {
     const RotaryTableMeasurement& measurement = job.measurement;
     if (job.air.size() != measurement.stations.size() || job.air.empty()) {
         return;
@@ -406,7 +406,7 @@ const char* group_kind_name(GroupKind kind) {
     return "";
 }
 
-void fill_evidence(reports::RotaryTable& rotary, const engine::RotaryTableJob& job,
+void fill_evidence(reports::RotaryTable& rotary, const jobs::RotaryTableJob& job,
                    const gum::RotaryTableResult& result) {
     const RotaryTableMeasurement& measurement = job.measurement;
     if (result.solution.groups) {

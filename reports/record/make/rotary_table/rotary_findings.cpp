@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/group_notes.h"
+#include "engine/rotary_table/group_notes.h"
 #include "gum/coverage.h"
 #include "gum/rounding.h"
 #include "reports/record/make/remark.h"

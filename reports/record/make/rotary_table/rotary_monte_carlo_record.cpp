@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/rotary_table_trials.h"
+#include "engine/rotary_table/trials/rotary_table_trials.h"
 #include "gum/rotary_table/positioning_scope.h"
 #include "gum/rounding.h"
 #include "reports/record/make/record_parts.h"
@@ -21,7 +21,8 @@ using reports::StatedGroup;
 
 /// Which output of the trials a stated value is; none where they hold none for it.
 /// \param position  among the stated values of the table, where the error motions come first as in the outputs
-std::optional<Eigen::Index> output_of(const TrialPlace& place, std::size_t position, const gum::RotaryTableResult& result) {
+std::optional<Eigen::Index> output_of(const TrialPlace& place, std::size_t position,
+                                      const gum::RotaryTableResult& result) {
     const engine::ReportedQuantities& quantities = result.solution.quantities;
     const auto derived = static_cast<Eigen::Index>(quantities.outputs.size());
     const engine::TableParameters& parameters = *result.parameter_model->parameters();
@@ -64,7 +65,7 @@ std::string quantity_name(const TrialPlace& place, const reports::RotaryTable& r
 
 }  // namespace
 
-void fill_monte_carlo(reports::EvaluationRecord& record, const engine::RotaryTableJob& job,
+void fill_monte_carlo(reports::EvaluationRecord& record, const jobs::RotaryTableJob& job,
                       const gum::RotaryTableResult& result) {
     const gum::RotaryTableMonteCarlo& monte_carlo = *result.monte_carlo;
     reports::RotaryTable& rotary = *record.rotary;

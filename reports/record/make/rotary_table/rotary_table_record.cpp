@@ -5,9 +5,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "engine/job/rotary_table_words.h"
 #include "gum/coverage.h"
 #include "gum/rounding.h"
+#include "jobs/rotary_table/rotary_table_words.h"
 #include "reports/record/make/record_parts.h"
 #include "reports/record/make/reported_choice.h"
 #include "reports/record/make/rotary_table/adjustment_record.h"
@@ -25,8 +25,8 @@ namespace gumcert::reports {
 
 namespace {
 
-using engine::RotaryTableJob;
 using engine::RotaryTableSolution;
+using jobs::RotaryTableJob;
 using reports::Printed;
 
 const std::vector<std::string>& budget_sources() {
@@ -101,7 +101,7 @@ reports::Result result_of(const gum::QuantityUncertainty& uncertainty, const gum
 
 nlohmann::json options_json(const RotaryTableJob& job, const engine::EvaluationOptions& options) {
     const engine::RotaryTableMeasurement& measurement = job.measurement;
-    using engine::word_of;
+    using jobs::word_of;
     return {{"solver",
              {{"linear_solver", "Ceres, Levenberg-Marquardt with Schur complement, one thread, then Gauss-Newton"},
               {"max_iterations", options.solver.max_iterations},
@@ -110,22 +110,22 @@ nlohmann::json options_json(const RotaryTableJob& job, const engine::EvaluationO
               {"rank_tolerance", options.solver.rank_tolerance}}},
             {"variance_components",
              {{"method", "restricted maximum likelihood, Fisher scoring"},
-              {"length_noise", word_of(engine::k_length_noises, measurement.estimate_length_noise)},
-              {"table_repeatability", word_of(engine::k_repeatability_modes, measurement.table_repeatability.mode)},
-              {"fixture", word_of(engine::k_fixture_components, measurement.fixture_component)},
+              {"length_noise", word_of(jobs::k_length_noises, measurement.estimate_length_noise)},
+              {"table_repeatability", word_of(jobs::k_repeatability_modes, measurement.table_repeatability.mode)},
+              {"fixture", word_of(jobs::k_fixture_components, measurement.fixture_component)},
               {"max_iterations", options.max_component_iterations},
               {"tolerance", options.component_tolerance}}},
             {"fixture",
              {{"uncertainty", job.fixture_budget ? std::string_view("budget")
-                                                 : word_of(engine::k_fixture_uncertainties, job.source_paper_fixture)},
-              {"distribution", word_of(engine::k_shapes, measurement.fixture_shape)}}},
+                                                 : word_of(jobs::k_fixture_uncertainties, job.source_paper_fixture)},
+              {"distribution", word_of(jobs::k_shapes, measurement.fixture_shape)}}},
             {"monte_carlo", monte_carlo_json(job.monte_carlo)},
             {"coverage", gum::coverage_choice_name(job.coverage)},
-            {"scale_model", word_of(engine::k_scale_models, measurement.length_uncertainty.scale_model)},
+            {"scale_model", word_of(jobs::k_scale_models, measurement.length_uncertainty.scale_model)},
             {"outliers",
-             {{"test", word_of(engine::k_outlier_tests, measurement.outliers.test)},
+             {{"test", word_of(jobs::k_outlier_tests, measurement.outliers.test)},
               {"alpha", measurement.outliers.alpha},
-              {"action", word_of(engine::k_outlier_actions, measurement.outliers.action)},
+              {"action", word_of(jobs::k_outlier_actions, measurement.outliers.action)},
               {"critical_value_of_normal_distribution", options.critical_value},
               {"non_centrality", options.non_centrality}}}};
 }
@@ -221,7 +221,7 @@ void fill_budget(reports::RotaryTable& rotary, const RotaryTableSolution& soluti
 }
 
 void fill_exclusions(reports::RotaryTable& rotary, const RotaryTableJob& job) {
-    for (const engine::Exclusion& from : job.exclusions) {
+    for (const jobs::Exclusion& from : job.exclusions) {
         reports::ExcludedDistances row;
         row.station = from.station.value_or("");
         row.reflector = from.reflector.value_or("");
@@ -299,8 +299,8 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const g
 
     reports::RotaryTable rotary;
     rotary.axis = std::string(1, letter);
-    rotary.datum = engine::word_of(engine::k_datums, measurement.datum);
-    rotary.method = engine::word_of(engine::k_methods, measurement.method);
+    rotary.datum = jobs::word_of(jobs::k_datums, measurement.datum);
+    rotary.method = jobs::word_of(jobs::k_methods, measurement.method);
     rotary.home_angle_deg = measurement.angles_deg[measurement.home];
     rotary.error_names = engine::error_motion_names(measurement.axis);
     rotary.error_units = {"um", "um", "um", "arcsec", "arcsec", "arcsec"};

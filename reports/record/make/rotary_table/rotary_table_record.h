@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/job/rotary_table_job.h"
 #include "gum/rotary_table/evaluate_rotary_table.h"
+#include "jobs/rotary_table/rotary_table_job.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::reports {
@@ -19,14 +19,14 @@ struct RotaryRecordParts {
 /// The record of a rotary-table evaluation: units of documents, rounding, names; nothing is computed.
 ///
 /// \param covariance_file  name that the covariance file will have beside the record; "" when there is none
-[[nodiscard]] reports::EvaluationRecord rotary_table_record(const engine::RotaryTableJob& job,
+[[nodiscard]] reports::EvaluationRecord rotary_table_record(const jobs::RotaryTableJob& job,
                                                             const gum::RotaryTableResult& result,
                                                             const RotaryRecordParts& parts,
                                                             const std::vector<reports::InputFile>& files,
                                                             const std::string& covariance_file);
 
 /// Names of the rows and columns of the covariance file: "EXA@30" … angle by angle, then set-up errors and reversals.
-[[nodiscard]] std::vector<std::string> covariance_order(const engine::RotaryTableJob& job,
+[[nodiscard]] std::vector<std::string> covariance_order(const jobs::RotaryTableJob& job,
                                                         const engine::ReportedQuantities& quantities);
 
 }  // namespace gumcert::reports

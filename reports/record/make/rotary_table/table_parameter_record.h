@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "engine/table_parameters.h"
+#include "engine/rotary_table/table_parameters.h"
 #include "gum/propagation.h"
 #include "reports/record/evaluation_record.h"
 #include "reports/record/make/rotary_table/document_units.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "gum/random_draws.h"
+#include "gum/monte_carlo/random_draws.h"
 #include "tests/unit/gum/budget/made_budgets.h"
 
 namespace gumcert::gum {

@@ -9,16 +9,16 @@
 #include <string>
 #include <utility>
 
-#include "gum/monte_carlo.h"
+#include "gum/monte_carlo/monte_carlo.h"
 #include "gum/propagation.h"
-#include "tests/unit/engine/job/campaign.h"
+#include "tests/support/campaign.h"
 
 namespace gumcert::gum {
 namespace {
 
-using engine::RotaryTableJob;
 using engine::test::Files;
 using engine::test::replace;
+using jobs::RotaryTableJob;
 using testing::HasSubstr;
 
 constexpr double k_micro = 1e-6;
@@ -202,7 +202,7 @@ TEST(FixtureBudget, UncertaintyOfTheSourcePaperIsThatOfItsEquation) {
 
 TEST(FixtureBudget, OfTheShippedExampleIsThatOfItsTerms) {
     const std::filesystem::path folder = std::filesystem::path(GUMCERT_SOURCE_DIR) / "examples/rotary_table";
-    RotaryTableJob job = engine::read_rotary_table_job(folder / "job_with_fixture_budget.json");
+    RotaryTableJob job = jobs::read_rotary_table_job(folder / "job_with_fixture_budget.json");
     const FixtureUncertainty fixture = apply_fixture_budget(job);
     const Eigen::MatrixXd& V = job.measurement.fixture_covariance;
     const auto l = [&](Eigen::Index i) { return job.measurement.fixture(i / 3, i % 3); };

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "gum/quantity/diagnostic.h"
-#include "reports/asset_files.h"
-#include "reports/certificate_view.h"
 #include "reports/dcc/dcc_document.h"
-#include "reports/render.h"
+#include "reports/forms/asset_files.h"
+#include "reports/forms/render.h"
+#include "reports/view/certificate_view.h"
 #include "tests/support/filled_certificate_data.h"
 #include "tests/support/sample_budget_record.h"
 #include "tests/support/sample_certificate.h"

@@ -6,7 +6,7 @@ namespace gumcert::reports {
 namespace {
 
 TEST(LocationErrorRecord, HasTheFrameThePointsAndTheErrors) {
-    engine::RotaryTableJob job;
+    jobs::RotaryTableJob job;
     job.measurement.axis = engine::RotaryAxis::b;
     job.measurement.stations = {"S1", "S2", "S3"};
     engine::MachineFrame& frame = job.machine_frame.emplace();

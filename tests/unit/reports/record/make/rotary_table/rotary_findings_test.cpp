@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/group_notes.h"
+#include "engine/rotary_table/group_notes.h"
 #include "tests/support/sample_certificate.h"
 #include "tests/support/sample_record.h"
 

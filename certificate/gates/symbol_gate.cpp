@@ -1,0 +1,239 @@
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+#include "certificate/dates.h"
+#include "certificate/gates/accreditation_standard.h"
+#include "certificate/gates/cited_documents.h"
+#include "certificate/gates/finding_list.h"
+#include "certificate/gates/gates.h"
+#include "certificate/stated_text.h"
+#include "certificate/statement_of_uncertainty.h"
+#include "certificate/text_words.h"
+
+namespace gumcert::certificate {
+
+namespace {
+
+constexpr const char* k_p10 = "ILAC-P10:07/2020";
+
+/// A value that is neither from another laboratory nor without uncertainty by definition.
+bool is_claim(const CertifiedValue& value) {
+    return !value.external && (value.U || value.interval || value.u > 0.0);
+}
+
+/// How the values of a column or of a certificate stand to the scope.
+struct Tally {
+    std::size_t inside = 0, outside = 0, external = 0;
+    std::size_t at_capability = 0;  ///< printed U is exactly the capability
+    std::string because;            ///< of the first one outside
+
+    void count(const CertifiedValue& value) {
+        if (value.external) {
+            ++external;
+        }
+        if (!is_claim(value)) {
+            return;
+        }
+        if (value.scope_entry.empty()) {
+            ++outside;
+            because = because.empty() ? value.outside_because : because;
+            return;
+        }
+        ++inside;
+        const std::optional<double> U = number_of(value.printed_U);
+        const std::optional<double> capability = number_of(value.printed_capability);
+        if (value.raised || (U && capability && *U == *capability)) {
+            ++at_capability;
+        }
+    }
+    void add(const Tally& other) {
+        inside += other.inside;
+        outside += other.outside;
+        external += other.external;
+        at_capability += other.at_capability;
+        because = because.empty() ? other.because : because;
+    }
+};
+
+void accreditation(FindingList& found, const CertificateData& data) {
+    const Accreditation& a = *data.accreditation;
+    if (!is_identification(a.number) || !is_name(a.body)) {
+        found.critical("X08", k_p8, is_identification(a.number) ? "/accreditation/body" : "/accreditation/number",
+                       "the accreditation has no number or no body", "State both.");
+    }
+    if (!is_of_calibration_laboratories(a.standard)) {
+        found.critical(
+            "X08", k_p8, "/accreditation/standard",
+            "the accreditation is one by \"" + a.standard + "\", which is not one of a calibration laboratory",
+            "State the accreditation by ISO/IEC 17025, or \"status\": \"not_accredited\".");
+    }
+    const auto valid_on = [&](const std::string& day, const char* what) {
+        if (!day.empty() && !is_within(day, a.valid_from, a.valid_to)) {
+            found.critical("X04", k_p8, "/accreditation/valid_to",
+                           "the scope of accreditation is not valid on the day of " + std::string(what) + ", " + day +
+                               " (valid" + (a.valid_from.empty() ? "" : " from " + a.valid_from) +
+                               (a.valid_to.empty() ? "" : " to " + a.valid_to) + ")",
+                           "Issue the certificate without the accreditation, or correct the dates.");
+        }
+    };
+    valid_on(data.dates.performed_from, "performance");
+    if (data.dates.performed_to != data.dates.performed_from) {
+        valid_on(data.dates.performed_to, "the end of the performance");
+    }
+    valid_on(data.dates.issued, "issue");
+    for (std::size_t i = 0; i < a.scope.size(); ++i) {
+        for (const CapabilityProblem& problem : check_capability(a.scope[i].capability)) {
+            found.major("X05", k_p14, place_in("/accreditation/scope", i, "capability") + problem.key,
+                        problem.what + ": " + problem.rule, problem.action);
+        }
+    }
+    const std::optional<Person>& person = data.persons.authorised_by;
+    if (person && !a.signatories.empty() &&
+        std::find(a.signatories.begin(), a.signatories.end(), person->name) == a.signatories.end()) {
+        found.critical("P03", iso_17025("6.2.6"), "/persons/authorised_by",
+                       person->name + " is not one of the signatories of accredited certificates",
+                       "Let a signatory authorise the certificate.");
+    }
+}
+
+bool is_institute(const std::string& accreditation) {
+    return letters_of(accreditation) == U"nmi";
+}
+
+/// Documents that show competence have a number, or are described in a sentence.
+bool is_evidence(const std::string& text) {
+    return is_name(text) && (text.find_first_of("0123456789") != std::string::npos || is_statement(text));
+}
+
+void routes(FindingList& found, const CertificateData& data) {
+    for (std::size_t i = 0; i < data.standards.size(); ++i) {
+        const StandardUsed& s = data.standards[i];
+        const std::string name = "the standard \"" + s.name.in("en") + "\"";
+        const bool accredited = is_identification(s.issuer_accreditation) && !is_institute(s.issuer_accreditation);
+        const bool by_evidence =
+            s.route == "3a" || s.route == "3b" || s.route == "in_house" || (s.route == "crm" && !accredited);
+        if (s.route.empty()) {
+            found.critical("T03", k_p10, place_in("/standards", i, "route"),
+                           "it is not said by which route " + name + " is traceable",
+                           "State 1 (national institute), 2 (accredited laboratory), 3a, 3b, in_house or crm.");
+        } else if (by_evidence && !is_evidence(s.evidence)) {
+            found.critical("T03", k_p10, place_in("/standards", i, "evidence"),
+                           name + " is traceable by route " + s.route + ", and no evidence of competence is named",
+                           "Name the documents that show the competence of who calibrated it.");
+        } else if (s.route == "2" && !accredited) {
+            found.critical("T03", k_p10, place_in("/standards", i, "issuer_accreditation"),
+                           "the accreditation of the laboratory that calibrated " + name + " is missing",
+                           "State its number.");
+        } else if (s.route == "1" && !is_identification(s.issuer_accreditation)) {
+            found.major("T03", k_p10, place_in("/standards", i, "issuer_accreditation"),
+                        name + " is traceable by route 1, and it is not said that a national institute calibrated it",
+                        "State \"issuer_accreditation\": \"NMI\", or the route that it is.");
+        }
+    }
+}
+
+void capabilities(FindingList& found, const CertifiedTable& table, const CertifiedColumn& column) {
+    for (std::size_t row = 0; row < column.values.size(); ++row) {
+        const CertifiedValue& value = column.values[row];
+        const std::optional<double> U = number_of(value.printed_U);
+        if (value.scope_entry.empty() || !value.capability || !U) {
+            continue;
+        }
+        // Compared as printed, because the printed U is what the laboratory states; the capability without the noise of
+        // a conversion of units, which must not fail a U that is equal to it.
+        const double capability = number_of(gum::round_significant(*value.capability, 12)).value_or(*value.capability);
+        if (*U < capability) {
+            const bool named = table.argument && row < table.argument->printed.size();
+            found.critical("X01", k_p14,
+                           column.result + (named ? ", " + table.argument->name + " " + table.argument->printed[row]
+                                                  : std::string()),
+                           "U is stated as " + value.printed_U + ", smaller than the capability " +
+                               value.printed_capability + " of the scope entry \"" + value.scope_entry + "\"",
+                           "State the capability, or the result as outside of the accreditation.");
+        }
+    }
+}
+
+void mixed(FindingList& found, const std::string& result, const Tally& tally, const Profile& profile) {
+    const std::string what = std::to_string(tally.outside) + (tally.outside == 1 ? " value is" : " values are") +
+                             " outside of the accreditation: " + tally.because;
+    if (profile.mixed_results == "mark") {
+        found.add(FindingSeverity::information, "X06", k_p8, result, what,
+                  "The values are marked as not accredited; extend the scope where that is wrong.");
+    } else if (profile.mixed_results == "refuse" || tally.inside > 0) {
+        found.critical("X06", k_p8, result,
+                       what + ", and the profile " + profile.id +
+                           (profile.mixed_results == "refuse" ? " does not allow them on a certificate with the symbol"
+                                                              : " wants them apart from accredited values"),
+                       "State them on a certificate of their own without the accreditation.");
+    } else {
+        found.add(FindingSeverity::information, "X06", k_p8, result, what,
+                  "They stand in columns of their own and are marked as not accredited.");
+    }
+}
+
+void scope(FindingList& found, const Certificate& certificate) {
+    Tally all;
+    for (const CertifiedTable& table : certificate.tables) {
+        for (const CertifiedColumn& column : table.columns) {
+            Tally tally;
+            for (const CertifiedValue& value : column.values) {
+                tally.count(value);
+            }
+            if (tally.outside > 0) {
+                mixed(found, column.result, tally, certificate.profile);
+            }
+            capabilities(found, table, column);
+            all.add(tally);
+        }
+    }
+    // The symbol may stand only where at least one result is accredited (X02). U at the capability throughout says that
+    // the item under calibration adds nothing, which is seldom true (X03).
+    if (all.inside == 0) {
+        found.critical(
+            "X02", k_p8, "results",
+            "no result is inside the scope of accreditation" + (all.because.empty() ? "" : ": " + all.because),
+            "Issue the certificate without the accreditation, or correct scope, method or place.");
+    } else if (all.at_capability == all.inside) {
+        found.major("X03", k_p14, "results",
+                    "the expanded uncertainty of every accredited result is exactly the capability",
+                    "A capability stands for the best existing device: see whether the contributions of the item "
+                    "under calibration are in the budget.");
+    }
+}
+
+}  // namespace
+
+std::vector<Finding> symbol_findings(const Certificate& certificate) {
+    const CertificateData& data = certificate.data;
+    FindingList found(data);
+    if (data.status != "accredited") {
+        return {};
+    }
+    if (!data.accreditation) {
+        found.critical("X08", k_p8, "/accreditation",
+                       "the certificate is to be accredited, and no accreditation is stated",
+                       "State the accreditation, or \"status\": \"not_accredited\".");
+        return found.take();
+    }
+    accreditation(found, data);
+    routes(found, data);
+    scope(found, certificate);
+    found.append(scope_findings(certificate));
+    if (!data.opinions.empty() && certificate.profile.opinions_with_symbol && data.own_profile) {
+        found.major("X07", k_p8, "/opinions",
+                    "opinions stand on a certificate with the symbol, because a profile of the laboratory itself, " +
+                        certificate.profile.id + ", allows them",
+                    "Give them in a document of their own, or show that the accreditation covers them.");
+    }
+    if (!data.opinions.empty() && !certificate.profile.opinions_with_symbol) {
+        found.critical("X07", k_p8, "/opinions",
+                       "opinions stand on a certificate with the symbol, which the profile " + certificate.profile.id +
+                           " does not allow",
+                       "Give them in a document of their own.");
+    }
+    return found.take();
+}
+
+}  // namespace gumcert::certificate

@@ -1,0 +1,120 @@
+#include <algorithm>
+#include <string>
+
+#include "certificate/gates/cited_documents.h"
+#include "certificate/gates/finding_list.h"
+#include "certificate/gates/gates.h"
+#include "certificate/statement_of_uncertainty.h"
+
+namespace gumcert::certificate {
+
+namespace {
+
+bool is_negative_zero(const std::string& printed) {
+    return printed.starts_with('-') && printed.find_first_of("123456789") == std::string::npos;
+}
+
+/// "EXA", or "EXA, angle 30" where one row of a table is meant.
+std::string name_of(const CertifiedTable& table, const CertifiedColumn& column, std::size_t row) {
+    if (!table.argument || row >= table.argument->printed.size()) {
+        return column.result;
+    }
+    return column.result + ", " + table.argument->name + " " + table.argument->printed[row];
+}
+
+void digits(FindingList& found, const std::string& where, const CertifiedValue& value, int most) {
+    if (is_negative_zero(value.printed_value)) {
+        found.add(FindingSeverity::minor, "R06", k_p14, where, "the value is printed as " + value.printed_value,
+                  "Zero has no sign.");
+    }
+    if (value.printed_U.empty() || value.printed_U == "0") {
+        return;
+    }
+    if (significant_digits(value.printed_U) > most) {
+        found.major(
+            "R01", k_p14, where,
+            "U is printed as " + value.printed_U + ", with more than " + std::to_string(most) + " significant digits",
+            "State U with two significant digits at most.");
+    }
+    if (decimals_of(value.printed_value) != decimals_of(value.printed_U)) {
+        found.major("R02", k_p14, where,
+                    "value " + value.printed_value + " and U " + value.printed_U + " end at different decimal places",
+                    "Round the value to the last place of U.");
+    }
+    if (value.printed_k.empty() && value.coverage != "monte_carlo") {
+        found.critical("R04", k_p14, where, "U is stated without its coverage factor", "State k.");
+    }
+}
+
+/// Whether a value lies outside of the limits, and the rule does not publish that it may accept such ones (DR-10 of
+/// ASME B89.7.3.1 and DR-11 do).
+bool is_outside(const CertifiedValue& value, const Verdict& v) {
+    const bool outside = (v.lower && value.value < *v.lower) || (v.upper && value.value > *v.upper);
+    return outside && v.rule != "DR-10" && v.rule != "DR-11";
+}
+
+/// Judged by the numbers, whatever the rule is called: its parameters may leave nothing of its guard band.
+void poor_measurement(FindingList& found, const std::string& where, const CertifiedValue& value, const Verdict& v) {
+    constexpr double k_even = 0.5 - 1e-9;
+    constexpr double k_proven = 0.05 + 1e-9;  // a smaller specific risk need not be reported
+    const bool passes = v.verdict == "pass" || v.verdict == "conditional_pass";
+    const bool unguarded = v.rule == "DR-01" || v.rule == "DR-12" || (passes && v.specific_risk > k_proven);
+    if (passes && is_outside(value, v)) {
+        found.critical("D08", iso_17025("7.8.6.1"), where,
+                       "the value lies outside of the limits of \"" + v.specification + "\", and " + v.rule +
+                           " passes it with a probability of conformity of " + v.printed.conformance_probability + " %",
+                       "Tell the customer; agree on a rule with a guard band, or measure with a smaller uncertainty.");
+    } else if (passes && v.conformance_probability < k_even) {
+        found.major("D08", iso_17025("7.8.6.1"), where,
+                    "the value passes \"" + v.specification + "\" by " + v.rule +
+                        " with a probability of conformity of " + v.printed.conformance_probability +
+                        " %: it is more probable that the item does not conform",
+                    "Tell the customer; agree on a rule with a guard band, or measure with a smaller uncertainty.");
+    } else if (unguarded && v.test_uncertainty_ratio && *v.test_uncertainty_ratio < 1.0) {
+        found.major("D08", iso_17025("7.8.6.1"), where,
+                    "U is larger than half of the tolerance of \"" + v.specification + "\" (test uncertainty ratio " +
+                        v.printed.test_uncertainty_ratio + "), and " + v.rule + " accepts the value all the same",
+                    "Tell the customer; agree on a rule with a guard band, or measure with a smaller uncertainty.");
+    }
+}
+
+void verdict(FindingList& found, const std::string& where, const CertifiedValue& value) {
+    const Verdict& v = *value.verdict;
+    if (v.verdict == "not_applicable") {
+        const bool defined = !value.external && !value.U && !value.interval && value.u == 0.0;
+        found.add(defined ? FindingSeverity::information : FindingSeverity::major, "D05", iso_17025("7.8.6.1"), where,
+                  "conformity with \"" + v.specification + "\" by " + v.rule + " cannot be decided: " + v.note,
+                  "Agree with the customer on another rule, or leave the statement out.");
+    }
+    poor_measurement(found, where, value, v);
+    // A reader can decide with the printed numbers only, and must come to the same verdict.
+    if (v.verdict != v.verdict_from_printed) {
+        found.critical("D04", iso_17025("7.8.6.1"), where,
+                       "the verdict is \"" + v.verdict + "\" with the unrounded numbers and \"" +
+                           v.verdict_from_printed + "\" with the printed ones",
+                       "The value lies at the acceptance limit within rounding. Agree with the customer how such a "
+                       "value is decided, or leave the statement of conformity out.");
+    }
+}
+
+}  // namespace
+
+std::vector<Finding> uncertainty_findings(const Certificate& certificate) {
+    FindingList found(certificate.data);
+    for (const CertifiedTable& table : certificate.tables) {
+        for (const CertifiedColumn& column : table.columns) {
+            for (std::size_t row = 0; row < column.values.size(); ++row) {
+                const CertifiedValue& value = column.values[row];
+                const std::string where = name_of(table, column, row);
+                // A capability that replaces U keeps the two digits of the scope.
+                digits(found, where, value, value.raised ? 2 : std::min(2, certificate.profile.digits));
+                if (value.verdict) {
+                    verdict(found, where, value);
+                }
+            }
+        }
+    }
+    return found.take();
+}
+
+}  // namespace gumcert::certificate

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <optional>
+
+#include "engine/rotary_table/rotary_table_measurement.h"
+#include "engine/rotary_table/rotation.h"
+
+namespace gumcert::engine {
+
+/// A solution carried to a datum, with the linear maps that carry its covariance.
+///
+/// Distances alone do not separate E(θ) from a motion of the world (six constants) and from the set-up of the fixture
+/// (an eccentricity and a tilt that turn with θ): ten conventions are needed. `home`: E is zero at the home angle, and
+/// the set-up minimises the residual positions of the reflectors. `axis_average_line`: the means of all six error
+/// motions are zero, and what turns with θ in the two translations and tilts across the axis belongs to the set-up
+/// (ISO 230-7: the axis average line).
+///
+/// The S-transformation has ten dimensions, ∂errors/∂poses = I + D K: it is held as D and K, whose size is proportional
+/// to the angles. At the home angle of the datum `home` the error motions are zero by definition, and so is their map.
+struct DatumSolution {
+    Eigen::MatrixXd errors;              ///< 6×angles, [m] and [rad]
+    Eigen::Matrix<double, 6, 1> set_up;  ///< O and S of T_s, zero along the axis, [m] and [rad]
+    RigidMotion world;                   ///< new table frame from the solver's table frame
+    Eigen::MatrixXd motion_map;  ///< D, 6N×10: ∂errors/∂(parameters of `world`, O, O, S, S), angle by angle
+    Eigen::MatrixXd set_up_map;  ///< 4×6N, ∂(O, O, S, S)/∂poses, the two across the axis of each
+    Eigen::MatrixXd world_map;   ///< 6×6N, ∂(parameters of `world`)/∂poses; K is this above `set_up_map`
+    std::optional<Eigen::Index> zero_angle = std::nullopt;  ///< angle whose error motions are zero by definition
+
+    /// K, 10×6N.
+    [[nodiscard]] Eigen::MatrixXd change_map() const;
+    /// (∂errors/∂poses) X for any X with a row for each component of the poses, 6N×k.
+    [[nodiscard]] Eigen::MatrixXd carried(const Eigen::Ref<const Eigen::MatrixXd>& by_pose) const;
+    /// Y (∂errors/∂poses) for any Y with a column for each component of the errors, k×6N.
+    [[nodiscard]] Eigen::MatrixXd pulled_back(const Eigen::Ref<const Eigen::MatrixXd>& by_error) const;
+};
+
+/// \param poses   6×angles, error motions with respect to `set_up`, with zero at home
+/// \param set_up  T_s with which the poses were found
+[[nodiscard]] DatumSolution transform_to_datum(const RotaryTableMeasurement& measurement, const Eigen::MatrixXd& poses,
+                                               const RigidMotion& set_up, Datum datum);
+
+/// Coordinates across the axis in right-handed order: (y, z) for A, (z, x) for B, (x, y) for C.
+[[nodiscard]] constexpr std::array<int, 2> across_axis(RotaryAxis axis) {
+    return {(axial_coordinate(axis) + 1) % 3, (axial_coordinate(axis) + 2) % 3};
+}
+
+}  // namespace gumcert::engine

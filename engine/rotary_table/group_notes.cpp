@@ -1,0 +1,169 @@
+#include "engine/rotary_table/group_notes.h"
+
+#include <cmath>
+#include <string>
+
+#include "gum/quantity/units.h"
+#include "text/numbers.h"
+
+namespace gumcert::engine {
+
+namespace {
+
+constexpr std::size_t k_most_notes = 5;
+
+std::string size_of(double length) {
+    const double size = std::abs(length) / gum::k_micrometre;
+    return size < 999.5 ? text::significant(size, 3) + " µm" : text::significant(size / 1000.0, 3) + " mm";
+}
+
+std::string chi_square_of(double value) {
+    return value < 1000.0 ? text::significant(value, 3) : text::significant(std::round(value), 12);
+}
+
+/// "station P1, pass P1-1+, 105°"
+std::string place_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
+    if (test.kind == GroupKind::reflector) {
+        return "fixture, reflector " + measurement.reflectors[test.reflector];
+    }
+    if (test.kind == GroupKind::fixture_scale) {
+        return "fixture";
+    }
+    if (test.station == GroupTest::k_none) {
+        return "lengths";
+    }
+    std::string place = "station " + measurement.stations[test.station];
+    if (test.pass != GroupTest::k_none && test.kind != GroupKind::drift) {
+        place += ", pass " + measurement.passes[test.pass] + ", " +
+                 text::significant(measurement.angles_deg[test.angle], 8) + "°";
+    }
+    return place;
+}
+
+/// The size of the fixture is the effect; the temperature that it means at the stated expansion is the likely cause.
+/// The estimate is that of the stated coordinates, which are too large where the fixture is smaller.
+std::string scale_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
+    const double size = std::abs(test.estimate);
+    const bool is_smaller = test.estimate > 0.0;
+    std::string text = "the distances put the whole fixture " + text::significant(size * 1e6, 3) + " ppm " +
+                       (is_smaller ? "smaller" : "larger") + " than its coordinates at its temperature";
+    if (measurement.expansion > 0.0) {
+        text += ", as if it were " + text::significant(size / measurement.expansion, 2) + " K " +
+                (is_smaller ? "colder" : "warmer") + " than stated";
+    }
+    return text;
+}
+
+std::string what_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
+    switch (test.kind) {
+        case GroupKind::visit_length:
+            return "all distances of this visit are off by " + size_of(test.estimate) + " alike";
+        case GroupKind::visit_pose:
+            return "the table stood elsewhere at this visit than at the others of this angle: the distances differ "
+                   "by " +
+                   size_of(test.estimate) + " (root mean square)";
+        case GroupKind::dead_path_change:
+            return "from this visit on all distances of the station are off by " + size_of(test.estimate) + " alike";
+        case GroupKind::drift:
+            return test.degrees_of_freedom > 1
+                       ? "the distances of the stations drift, by " + size_of(test.estimate) +
+                             " from the first visit to the last (root mean square of the stations)"
+                       : "the distances drift by " + size_of(test.estimate) + " from the first visit to the last";
+        case GroupKind::angle_index:
+            return "the distances of this station agree with the others when its angles are " +
+                   (std::abs(test.estimate) < 1.5 ? std::string("one step")
+                                                  : text::significant(std::abs(test.estimate), 6) + " steps") +
+                   (test.estimate > 0.0 ? " higher" : " lower");
+        case GroupKind::succession:
+            return "successive visits deviate alike: their autocorrelation coefficient is " +
+                   text::significant(test.estimate, 2);
+        case GroupKind::station:
+            return "the visits of this station scatter " + text::significant(test.estimate, 2) +
+                   " times as much as those of the "
+                   "others";
+        case GroupKind::reflector:
+            return "the distances put it " + size_of(test.estimate) + " away from its stated coordinates";
+        case GroupKind::fixture_scale:
+            return scale_of(test, measurement);
+    }
+    return "";
+}
+
+/// What to write into the job to leave the group out, for the kinds that can be left out.
+std::string exclusion_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
+    std::string selectors;
+    switch (test.kind) {
+        case GroupKind::visit_length:
+        case GroupKind::visit_pose:
+            selectors = "\"station\": \"" + measurement.stations[test.station] + "\", \"pass\": \"" +
+                        measurement.passes[test.pass] +
+                        "\", \"angle_deg\": " + text::significant(measurement.angles_deg[test.angle], 12);
+            break;
+        case GroupKind::angle_index:
+        case GroupKind::station:
+            selectors = "\"station\": \"" + measurement.stations[test.station] + "\"";
+            break;
+        case GroupKind::reflector:
+            selectors = "\"reflector\": \"" + measurement.reflectors[test.reflector] + "\"";
+            break;
+        case GroupKind::dead_path_change:
+        case GroupKind::drift:
+        case GroupKind::succession:
+        case GroupKind::fixture_scale:
+            return "";
+    }
+    return " The job leaves these distances out with \"exclude\": [{ " + selectors + ", \"reason\": \"why\" }].";
+}
+
+std::string action_of(const GroupTest& test) {
+    switch (test.kind) {
+        case GroupKind::visit_length:
+            return "Look for a disturbed beam at this visit, and measure it again; without it the result rests on the "
+                   "other visits of this angle.";
+        case GroupKind::visit_pose:
+            return "See whether the table had come to its angle, and which angle the file states; measure the visit "
+                   "again.";
+        case GroupKind::dead_path_change:
+            return "If the beam was interrupted there, give the distances from there on a dead path of their own.";
+        case GroupKind::drift:
+            return "Look at the temperatures and at the supports of stations and table; measure in both senses, and "
+                   "the "
+                   "first angle again at the end of each run, or let it settle and measure again.";
+        case GroupKind::angle_index:
+            return "Correct the angles of this station in the lengths file.";
+        case GroupKind::succession:
+            return "Look for drift, of temperature or of a support; the visits are not independent of each other, and "
+                   "the uncertainties are too small.";
+        case GroupKind::station:
+            return "Look at this station: its support, its line of sight, its angles.";
+        case GroupKind::reflector:
+            return "Measure the reflector again with the CMM, and check that it has not moved in its holder.";
+        case GroupKind::fixture_scale:
+            return "Look at the temperature of the fixture, at its expansion coefficient and at the reference "
+                   "temperature of its coordinates; then at the scale of the distances, as of the refractive index of "
+                   "the air, which does the same.";
+    }
+    return "";
+}
+
+}  // namespace
+
+std::vector<gum::Diagnostic> group_notes(const GroupTests& groups, const RotaryTableMeasurement& measurement) {
+    std::vector<gum::Diagnostic> notes;
+    for (const GroupTest& test : groups.tests) {
+        if (test.suspicious && notes.size() < k_most_notes) {
+            notes.push_back({.code = k_suspicious_group,
+                             .where = place_of(test, measurement),
+                             .what = what_of(test, measurement) + " (chi-square " + chi_square_of(test.chi_square) +
+                                     ", limit " + chi_square_of(test.critical_value) + ")",
+                             .rule =
+                                 "of a hundred sound measurements one exceeds any such limit at most; what exceeds it "
+                                 "belongs to the measurement and not to the repeatability of the table",
+                             .action = action_of(test) + exclusion_of(test, measurement),
+                             .severity = gum::Severity::warning});
+        }
+    }
+    return notes;
+}
+
+}  // namespace gumcert::engine

@@ -1,0 +1,1022 @@
+#include "engine/rotary_table/group_tests.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "engine/fixed_parts.h"
+#include "engine/median.h"
+#include "gum/quantity/dense_factors.h"
+
+namespace gumcert::engine {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double k_median_of_absolute_normal = 0.674489750196082;
+constexpr double k_spread_of_robust_scale = 1.17;         // times 1/sqrt(n): standard deviation of its relative error
+constexpr double k_deviate_of_power = 0.841621233572914;  // of the normal distribution, for 80 %
+constexpr double k_controlled = 1e-9;            // share of the weight of a group below which nothing else controls it
+constexpr std::size_t k_most_suspects = 40;      // groups that are taken away one after the other
+constexpr int k_most_steps = 18;                 // by which the angles of a station are looked at to be off
+constexpr std::size_t k_fewest_for_scatter = 8;  // visits: fewer say nothing of a scatter
+constexpr std::size_t k_drift_hypotheses = 3;    // all stations alike, each its own, one station
+
+/// Value of chi-square that is exceeded with a probability.
+double critical_chi_square(const GroupTestOptions& options, double probability, int degrees_of_freedom) {
+    double low = 0.0;
+    double high = 1e4;
+    // By bisection of the tail that the caller gives: the engine may not use the layer that has quantiles (ADR 0001).
+    for (int i = 0; i < 80; ++i) {
+        const double middle = 0.5 * (low + high);
+        (options.chi_square_upper_tail(middle, degrees_of_freedom) > probability ? low : high) = middle;
+    }
+    return high;
+}
+
+/// A symmetric positive semi-definite matrix inverted where it is not zero.
+struct Inverted {
+    MatrixXd inverse;
+    int rank = 0;
+};
+Inverted pseudo_inverse(const MatrixXd& matrix, double least) {
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(matrix);
+    Inverted result{MatrixXd::Zero(matrix.rows(), matrix.cols()), 0};
+    for (Index i = 0; i < matrix.rows(); ++i) {
+        if (eigen.eigenvalues()[i] > least) {
+            ++result.rank;
+            result.inverse +=
+                eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose() / eigen.eigenvalues()[i];
+        }
+    }
+    return result;
+}
+
+/// V⁻¹v and M = V⁻¹ Q_v V⁻¹ of the observations of one group.
+struct GroupSpread {
+    MatrixXd whitening;  ///< L⁻¹
+    VectorXd weighted;   ///< V⁻¹v
+    MatrixXd own;        ///< M
+};
+GroupSpread spread_of(const LinearisedGroup& group, const BorderedCovariance& covariance) {
+    const Index n = group.residual.size();
+    MatrixXd whitening = MatrixXd::Identity(n, n);
+    group.cholesky.triangularView<Eigen::Lower>().solveInPlace(whitening);
+    const MatrixXd cofactor = MatrixXd::Identity(n, n) -
+                              group.jacobian * covariance(group.columns, group.columns) * group.jacobian.transpose();
+    return {whitening, whitening.transpose() * group.residual, whitening.transpose() * cofactor * whitening};
+}
+
+/// V⁻¹v and the blocks of M = V⁻¹ Q_v V⁻¹ of all visits, from which whole visits can be left out.
+///
+/// Leaving out a visit g is estimating an error of each of its distances: V⁻¹v ← V⁻¹v - M_g M_gg⁻¹ (V⁻¹v)_g and
+/// M ← M - M_g M_gg⁻¹ M_gᵀ, exact for the linearised model at fixed weights.
+class Visits {
+public:
+    Visits(const JointAdjustment& adjustment, const NormalEquations& normal, const BorderedCovariance& covariance)
+        : normal_(normal), covariance_(covariance), size_(adjustment.visits().size()), out_(size_, false) {
+        for (std::size_t g = 0; g < size_; ++g) {
+            GroupSpread spread = spread_of(normal.groups()[g], covariance);
+            least_.push_back(k_controlled * spread.whitening.squaredNorm());
+            weighted_.push_back(std::move(spread.weighted));
+            own_.push_back(std::move(spread.own));
+            whitening_.push_back(std::move(spread.whitening));
+        }
+    }
+
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] bool is_out(std::size_t g) const { return out_[g]; }
+    [[nodiscard]] const VectorXd& weighted(std::size_t g) const { return weighted_[g]; }
+    [[nodiscard]] const MatrixXd& own(std::size_t g) const { return own_[g]; }
+    [[nodiscard]] double least(std::size_t g) const { return least_[g]; }
+
+    /// Errors of each distance of a visit on its own.
+    void leave_out(std::size_t g) {
+        Effect effect(size_);
+        effect[g] = MatrixXd::Identity(own_[g].rows(), own_[g].rows());
+        take_away(effect, own_[g].rows());
+        out_[g] = true;
+    }
+
+    /// C: one matrix a visit, distances×q; without elements: no effect.
+    using Effect = std::vector<MatrixXd>;
+    /// Values at visits: the same at all distances of each.
+    using Column = std::vector<std::pair<std::size_t, double>>;
+
+    void take_away(const std::vector<Column>& columns) {
+        take_away(effect_of(columns), static_cast<Index>(columns.size()));
+    }
+    void take_away(const Effect& effect, Index q) {
+        const Projection projected = projection(effect, q);
+        LeftOut left{columns(effect, q),
+                     pseudo_inverse(projected.spread, k_controlled * std::max(projected.weight, 1e-300)).inverse};
+        const VectorXd error = left.inverse * projected.weighted;
+        for (std::size_t h = 0; h < size_; ++h) {
+            weighted_[h] -= left.columns[h] * error;
+            own_[h] -= left.columns[h] * left.inverse * left.columns[h].transpose();
+        }
+        left_out_.push_back(std::move(left));
+    }
+
+    /// Cᵀ V⁻¹ v and Cᵀ M C of columns.
+    struct Projection {
+        VectorXd weighted;
+        MatrixXd spread;
+        double weight = 0.0;  ///< largest of the diagonal of Cᵀ V⁻¹ C
+    };
+    [[nodiscard]] Projection projection(const std::vector<Column>& columns) const {
+        return projection(effect_of(columns), static_cast<Index>(columns.size()));
+    }
+    [[nodiscard]] Projection projection(const Effect& effect, Index q) const {
+        Projection result{VectorXd::Zero(q), MatrixXd::Zero(q, q), 0.0};
+        for (std::size_t g = 0; g < size_; ++g) {
+            if (effect[g].size() > 0) {
+                const MatrixXd whitened = whitening_[g] * effect[g];
+                result.weighted.noalias() += effect[g].transpose().lazyProduct(weighted_[g]);
+                result.spread.noalias() += whitened.transpose().lazyProduct(whitened);
+            }
+        }
+        result.weight = result.spread.diagonal().maxCoeff();
+        const MatrixXd pull = pull_of(effect, q);
+        for (Index k = 0; k < q; ++k) {
+            result.spread.col(k) -= pull.transpose() * covariance_.times(pull.col(k));
+        }
+        result.spread -= taken_from(effect, q, 0);
+        return result;
+    }
+    /// What all that was left out after the first `from` takes from Cᵀ M C.
+    [[nodiscard]] MatrixXd taken_from(const Effect& effect, Index q, std::size_t from) const {
+        MatrixXd taken = MatrixXd::Zero(q, q);
+        for (std::size_t i = from; i < left_out_.size(); ++i) {
+            const MatrixXd across = left_out_[i].across(effect, q);
+            taken += across.transpose() * left_out_[i].inverse * across;
+        }
+        return taken;
+    }
+    [[nodiscard]] std::size_t left_out_count() const { return left_out_.size(); }
+    /// Cᵀ V⁻¹ v of one column.
+    [[nodiscard]] double weighted(const Effect& effect) const {
+        double sum = 0.0;
+        for (std::size_t g = 0; g < size_; ++g) {
+            sum += effect[g].size() > 0 ? effect[g].col(0).dot(weighted_[g]) : 0.0;
+        }
+        return sum;
+    }
+
+private:
+    struct LeftOut {
+        Effect columns;    ///< M C at every visit when it was left out
+        MatrixXd inverse;  ///< (Cᵀ M C)⁻¹ then
+
+        /// Cᵀ M of what was left out with another effect.
+        [[nodiscard]] MatrixXd across(const Effect& effect, Index q) const {
+            MatrixXd sum = MatrixXd::Zero(inverse.rows(), q);
+            for (std::size_t g = 0; g < effect.size(); ++g) {
+                if (effect[g].size() > 0) {
+                    sum.noalias() += columns[g].transpose().lazyProduct(effect[g]);
+                }
+            }
+            return sum;
+        }
+    };
+
+    [[nodiscard]] Effect effect_of(const std::vector<Column>& columns) const {
+        const auto q = static_cast<Index>(columns.size());
+        Effect effect(size_);
+        for (Index k = 0; k < q; ++k) {
+            for (const auto& [g, value] : columns[static_cast<std::size_t>(k)]) {
+                if (effect[g].size() == 0) {
+                    effect[g] = MatrixXd::Zero(own_[g].rows(), q);
+                }
+                effect[g].col(k).array() += value;
+            }
+        }
+        return effect;
+    }
+
+    /// Jᵀ V⁻¹ C, parameters×q.
+    [[nodiscard]] MatrixXd pull_of(const Effect& effect, Index q) const {
+        MatrixXd pull = MatrixXd::Zero(covariance_.size(), q);
+        for (std::size_t g = 0; g < size_; ++g) {
+            if (effect[g].size() > 0) {
+                pull(normal_.groups()[g].columns, Eigen::all) +=
+                    normal_.groups()[g].jacobian.transpose() * (whitening_[g] * effect[g]);
+            }
+        }
+        return pull;
+    }
+
+    /// M C at every visit.
+    [[nodiscard]] Effect columns(const Effect& effect, Index q) const {
+        const MatrixXd pull = pull_of(effect, q);
+        MatrixXd shift(covariance_.size(), q);  // of the parameters
+        for (Index k = 0; k < q; ++k) {
+            shift.col(k) = covariance_.times(pull.col(k));
+        }
+        Effect result;
+        for (std::size_t h = 0; h < size_; ++h) {
+            const LinearisedGroup& group = normal_.groups()[h];
+            MatrixXd part = -(group.jacobian * shift(group.columns, Eigen::all));
+            if (effect[h].size() > 0) {
+                part += whitening_[h] * effect[h];
+            }
+            result.emplace_back(whitening_[h].transpose() * part);
+        }
+        for (const LeftOut& left : left_out_) {
+            const MatrixXd error = left.inverse * left.across(effect, q);
+            for (std::size_t h = 0; h < size_; ++h) {
+                result[h] -= left.columns[h] * error;
+            }
+        }
+        return result;
+    }
+
+    const NormalEquations& normal_;
+    const BorderedCovariance& covariance_;
+    std::size_t size_;
+    std::vector<bool> out_;
+    std::vector<VectorXd> weighted_;
+    std::vector<MatrixXd> own_;
+    std::vector<MatrixXd> whitening_;  ///< L⁻¹
+    std::vector<double> least_;
+    std::vector<LeftOut> left_out_;
+};
+
+/// Both tests of one visit.
+struct VisitTest {
+    bool is_controlled = false;
+    double deviate = 0.0;  ///< common error over its standard deviation
+    double error = 0.0, spread = 0.0;
+    double pose_chi_square = 0.0;
+    int pose_rank = 0;
+    double pose_error = 0.0;  ///< rms of what the pose does to the distances
+};
+
+class GroupSearch {
+public:
+    GroupSearch(const JointAdjustment& adjustment, const NormalEquations& normal, const BorderedCovariance& covariance,
+                const GroupTestOptions& options)
+        : adjustment_(adjustment),
+          normal_(normal),
+          covariance_(covariance),
+          options_(options),
+          visits_(adjustment, normal, covariance) {
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            poses_.push_back(adjustment.pose_jacobian(g));
+        }
+    }
+
+    GroupTests run() {
+        find_scale();
+        sequences();
+        estimate_drifts();
+        // One group at a time: what the least probable one says is taken away before the others are tested again, so
+        // that its effects elsewhere are not reported as causes of their own.
+        std::vector<std::optional<Candidate>> last;
+        for (std::size_t round = 0; round < std::min(k_most_suspects, visits_.size() / 4); ++round) {
+            last = {best_visit(), best_change(), best_drift(), best_index()};
+            const std::optional<Candidate> worst = least_probable(last);
+            if (!worst || !worst->test.suspicious) {
+                break;
+            }
+            result_.tests.push_back(worst->test);
+            worst->take_away();
+            retest();
+            sequences();
+        }
+        for (const std::optional<Candidate>& candidate : last) {
+            if (candidate && !candidate->test.suspicious) {
+                result_.tests.push_back(candidate->test);
+            }
+        }
+        complete_visits();
+        // What says no cause is of use only where no cause is found.
+        if (std::none_of(result_.tests.begin(), result_.tests.end(),
+                         [](const GroupTest& test) { return test.suspicious; })) {
+            search_succession();
+            search_stations();
+        }
+        search_fixture();
+        std::stable_sort(result_.tests.begin(), result_.tests.end(), [](const GroupTest& a, const GroupTest& b) {
+            return a.suspicious != b.suspicious ? a.suspicious : a.suspicious && is_less_probable(a, b);
+        });
+        return std::move(result_);
+    }
+
+private:
+    [[nodiscard]] VisitTest test_visit(std::size_t g) const {
+        VisitTest test;
+        test.spread = visits_.own(g).sum();
+        test.is_controlled = test.spread > visits_.least(g);
+        if (test.is_controlled) {
+            test.deviate = visits_.weighted(g).sum() / std::sqrt(test.spread);
+            test.error = visits_.weighted(g).sum() / test.spread;
+        }
+        const MatrixXd& pose = poses_[g];
+        // Columns of unit length, so that metres and radians count alike in the rank of the pseudo-inverse.
+        const VectorXd scale = pose.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+        const MatrixXd columns = pose * scale.asDiagonal();
+        const Inverted inverted = pseudo_inverse(columns.transpose() * visits_.own(g) * columns, visits_.least(g));
+        const VectorXd pull = columns.transpose() * visits_.weighted(g);
+        test.pose_rank = inverted.rank;
+        test.pose_chi_square = pull.dot(inverted.inverse * pull);
+        test.pose_error = (columns * (inverted.inverse * pull)).norm() / std::sqrt(static_cast<double>(pose.rows()));
+        return test;
+    }
+
+    /// 1 where a robust scale may be 1, else its limit on the side of 1.
+    static double within(double scale, double upper) {
+        return scale * upper < 1.0 ? scale * upper : std::max(1.0, scale / upper);
+    }
+    /// Wilson and Hilferty's, within 1 % from 1 degree of freedom on.
+    static double median_of_chi_square(int degrees_of_freedom) {
+        const double nu = degrees_of_freedom;
+        return nu * std::pow(1.0 - 2.0 / (9.0 * nu), 3);
+    }
+
+    /// The scale of the test values from all visits, and their deviations for a plot.
+    void find_scale() {
+        std::vector<double> sizes;
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            tests_.push_back(test_visit(g));
+            if (tests_.back().is_controlled) {
+                sizes.push_back(std::abs(tests_.back().deviate));
+            }
+        }
+        if (sizes.size() >= k_fewest_for_scatter) {
+            const double count = static_cast<double>(sizes.size());
+            const double upper = 1.0 + 2.0 * k_spread_of_robust_scale / std::sqrt(count);
+            result_.scale = upper_median(sizes) / k_median_of_absolute_normal;
+            used_scale_ = within(result_.scale, upper);
+            std::vector<double> squares;
+            for (const VisitTest& test : tests_) {
+                if (test.pose_rank > 0) {
+                    squares.push_back(test.pose_chi_square / median_of_chi_square(test.pose_rank));
+                }
+            }
+            if (squares.size() >= k_fewest_for_scatter) {
+                pose_scale_ = within(std::sqrt(upper_median(squares)), upper);
+            }
+        }
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            if (tests_[g].is_controlled) {
+                result_.visits.push_back(
+                    {adjustment_.visits()[g], tests_[g].error, used_scale_ / std::sqrt(tests_[g].spread)});
+            }
+        }
+    }
+
+    /// Chi-square of one of several tests of a kind, with its probability and its limit.
+    GroupTest judged(GroupKind kind, double chi_square, int degrees_of_freedom, std::size_t count) const {
+        GroupTest test;
+        test.kind = kind;
+        test.degrees_of_freedom = degrees_of_freedom;
+        test.family = count;
+        test.chi_square = chi_square;
+        test.p_value = options_.chi_square_upper_tail(chi_square, degrees_of_freedom);
+        const double level =
+            share_of_level(kind) * options_.alpha / static_cast<double>(std::max<std::size_t>(count, 1));
+        // The level is divided among all tests of a kind (Bonferroni): alpha is the probability of a false alarm in the
+        // whole measurement.
+        const auto [limit, is_new] = limits_.try_emplace({degrees_of_freedom, level}, 0.0);
+        if (is_new) {
+            limit->second = critical_chi_square(options_, level, degrees_of_freedom);
+        }
+        test.critical_value = limit->second;
+        test.suspicious = test.p_value < level;
+        return test;
+    }
+
+    void place(GroupTest& test, std::size_t visit) const {
+        const Visit& of = adjustment_.visits()[visit];
+        test.visit = visit;
+        test.station = of.station;
+        test.pass = of.pass;
+        test.angle = of.angle;
+    }
+
+    /// Smallest error with one column that is found with the power.
+    [[nodiscard]] double detectable(const GroupTest& test, double spread) const {
+        return (std::sqrt(test.critical_value) + k_deviate_of_power) * used_scale_ / std::sqrt(spread);
+    }
+
+    [[nodiscard]] GroupTest length_test(std::size_t g, const VisitTest& test) const {
+        const double deviate = test.deviate / used_scale_;
+        GroupTest found = judged(GroupKind::visit_length, deviate * deviate, 1, visits_.size());
+        place(found, g);
+        found.estimate = test.error;
+        found.minimal_detectable = detectable(found, test.spread);
+        return found;
+    }
+    [[nodiscard]] GroupTest pose_test(std::size_t g, const VisitTest& test) const {
+        GroupTest found = judged(GroupKind::visit_pose, test.pose_chi_square / (pose_scale_ * pose_scale_),
+                                 std::max(test.pose_rank, 1), visits_.size());
+        place(found, g);
+        found.estimate = test.pose_error;
+        return found;
+    }
+
+    /// A test, and how what it says is taken away before the next ones.
+    struct Candidate {
+        GroupTest test;
+        std::function<void()> take_away;
+    };
+
+    static bool is_less_probable(const GroupTest& a, const GroupTest& b) {
+        if (a.p_value != b.p_value) {
+            return a.p_value < b.p_value;
+        }
+        return a.chi_square - 2.0 * a.degrees_of_freedom > b.chi_square - 2.0 * b.degrees_of_freedom;
+    }
+    static void take(std::optional<Candidate>& best, Candidate candidate) {
+        if (!best || is_less_probable(candidate.test, best->test)) {
+            best = std::move(candidate);
+        }
+    }
+    static std::optional<Candidate> least_probable(const std::vector<std::optional<Candidate>>& all) {
+        std::optional<Candidate> best;
+        for (const std::optional<Candidate>& candidate : all) {
+            if (candidate) {
+                take(best, *candidate);
+            }
+        }
+        return best;
+    }
+
+    void retest() {
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            tests_[g] = test_visit(g);
+        }
+    }
+
+    /// Whether a pose explains what one error of all distances leaves; else the simpler cause is taken.
+    [[nodiscard]] bool is_more_than_length(const VisitTest& test) const {
+        if (!test.is_controlled || test.pose_rank < 2) {
+            return true;
+        }
+        const double left = test.pose_chi_square - test.deviate * test.deviate;
+        const GroupTest length = judged(GroupKind::visit_length, std::pow(test.deviate / used_scale_, 2), 1, size());
+        return !length.suspicious || judged(GroupKind::visit_pose, std::max(0.0, left) / (pose_scale_ * pose_scale_),
+                                            test.pose_rank - 1, size())
+                                         .suspicious;
+    }
+    [[nodiscard]] std::size_t size() const { return visits_.size(); }
+
+    [[nodiscard]] std::optional<Candidate> best_visit() {
+        std::optional<Candidate> best;
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            if (visits_.is_out(g)) {
+                continue;
+            }
+            const auto leave_out = [this, g] { visits_.leave_out(g); };
+            if (tests_[g].is_controlled) {
+                take(best, {length_test(g, tests_[g]), leave_out});
+            }
+            if (tests_[g].pose_rank > 0 && is_more_than_length(tests_[g])) {
+                take(best, {pose_test(g, tests_[g]), leave_out});
+            }
+        }
+        return best;
+    }
+
+    /// The largest test of visits of each of both kinds, where none of that kind was the largest of all.
+    void complete_visits() {
+        const auto none = [this](GroupKind kind) {
+            return std::none_of(result_.tests.begin(), result_.tests.end(),
+                                [kind](const GroupTest& test) { return test.kind == kind; });
+        };
+        std::optional<Candidate> length;
+        std::optional<Candidate> pose;
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            if (!visits_.is_out(g) && tests_[g].is_controlled) {
+                take(length, {length_test(g, tests_[g]), {}});
+            }
+            if (!visits_.is_out(g) && tests_[g].pose_rank > 0) {
+                take(pose, {pose_test(g, tests_[g]), {}});
+            }
+        }
+        if (length && !length->test.suspicious && none(GroupKind::visit_length)) {
+            result_.tests.push_back(length->test);
+        }
+        if (pose && !pose->test.suspicious && none(GroupKind::visit_pose)) {
+            result_.tests.push_back(pose->test);
+        }
+    }
+
+    /// Visits of one station with the same dead path, in the order in which they were measured.
+    void sequences() {
+        sequences_.clear();
+        std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> by_path;
+        const std::vector<LengthObservation>& lengths = adjustment_.measurement().lengths;
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            if (visits_.is_out(g) || !tests_[g].is_controlled) {
+                continue;
+            }
+            const Visit& visit = adjustment_.visits()[g];
+            std::size_t path = lengths[visit.observations.front()].dead_path;
+            for (const std::size_t i : visit.observations) {
+                path = std::min(path, lengths[i].dead_path);
+            }
+            by_path[{visit.station, path}].push_back(g);
+        }
+        for (auto& [key, sequence] : by_path) {
+            std::ranges::stable_sort(sequence, {}, [this](std::size_t g) { return time_of(g); });
+            sequences_.push_back(std::move(sequence));
+        }
+    }
+
+    /// Mean time of the distances of a visit, else its place in the measurement.
+    [[nodiscard]] double time_of(std::size_t g) const {
+        const std::vector<double>& times = adjustment_.measurement().times;
+        if (times.empty()) {
+            return static_cast<double>(g);
+        }
+        const std::vector<std::size_t>& observations = adjustment_.visits()[g].observations;
+        double sum = 0.0;
+        for (const std::size_t i : observations) {
+            sum += times[i];
+        }
+        return sum / static_cast<double>(observations.size());
+    }
+
+    void keep(std::vector<GroupTest> all) {
+        std::stable_sort(all.begin(), all.end(), [](const GroupTest& a, const GroupTest& b) {
+            return a.p_value < b.p_value || (a.p_value == b.p_value && a.chi_square > b.chi_square);
+        });
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            if (i == 0 || all[i].suspicious) {
+                result_.tests.push_back(all[i]);
+            }
+        }
+    }
+
+    static void add_errors(GroupTest& test, const Visits::Column& column, double size) {
+        for (const auto& [visit, value] : column) {
+            test.errors.emplace_back(visit, size * value);
+        }
+    }
+
+    [[nodiscard]] std::optional<GroupTest> column_test(GroupKind kind, const Visits::Column& column,
+                                                       std::size_t count) const {
+        const Visits::Projection projection = visits_.projection({column});
+        const double spread = projection.spread(0, 0);
+        if (!(spread > k_controlled * projection.weight)) {
+            return std::nullopt;
+        }
+        const double deviate = projection.weighted[0] / std::sqrt(spread) / used_scale_;
+        GroupTest test = judged(kind, deviate * deviate, 1, count);
+        test.estimate = projection.weighted[0] / spread;
+        add_errors(test, column, test.estimate);
+        test.minimal_detectable = detectable(test, spread);
+        return test;
+    }
+
+    /// Where in a sequence a change is most probable follows from sums of its visits; its test value is exact.
+    [[nodiscard]] std::optional<Candidate> best_change() {
+        std::size_t count = 0;
+        for (const auto& sequence : sequences_) {
+            count += sequence.size() - 1;
+        }
+        std::optional<Candidate> best;
+        for (const auto& sequence : sequences_) {
+            double spread = 0.0;
+            for (const std::size_t g : sequence) {
+                spread += tests_[g].spread;
+            }
+            double weighted_after = 0.0;
+            double spread_after = 0.0;
+            double largest = -1.0;
+            std::size_t first = 0;
+            for (std::size_t k = sequence.size(); k-- > 1;) {
+                weighted_after += visits_.weighted(sequence[k]).sum();
+                spread_after += tests_[sequence[k]].spread;
+                const double square =
+                    weighted_after * weighted_after * spread / (spread_after * (spread - spread_after));
+                if (square > largest && k > 1 && k + 1 < sequence.size()) {  // of one visit it is that visit
+                    largest = square;
+                    first = k;
+                }
+            }
+            if (first == 0) {
+                continue;
+            }
+            Visits::Column column;
+            for (std::size_t k = first; k < sequence.size(); ++k) {
+                column.emplace_back(sequence[k], 1.0);
+            }
+            if (std::optional<GroupTest> test = column_test(GroupKind::dead_path_change, column, count)) {
+                place(*test, sequence[first]);
+                take(best, {*test, [this, column] { visits_.take_away({column}); }});
+            }
+        }
+        return best;
+    }
+
+    /// Drifts that are tested: columns with the value -1/2 at the first visit and 1/2 at the last one.
+    struct Drifts {
+        std::vector<Visits::Column> each;  ///< of every sequence
+        std::vector<std::size_t> first;    ///< visit of each
+        Visits::Column common;             ///< one rate of all sequences; 1 over the longest one
+    };
+    [[nodiscard]] Drifts drifts() const {
+        Drifts result;
+        const bool has_times = !adjustment_.measurement().times.empty();
+        std::vector<std::vector<double>> times;
+        double longest = 0.0;
+        for (const auto& sequence : sequences_) {
+            times.emplace_back();
+            for (std::size_t k = 0; k < sequence.size(); ++k) {
+                times.back().push_back(has_times ? time_of(sequence[k]) : static_cast<double>(k));
+            }
+            longest = std::max(longest, times.back().back() - times.back().front());
+        }
+        for (std::size_t s = 0; s < sequences_.size(); ++s) {
+            const double duration = times[s].back() - times[s].front();
+            if (sequences_[s].size() < 3 || !(duration > 0.0)) {
+                continue;
+            }
+            Visits::Column column;
+            for (std::size_t k = 0; k < sequences_[s].size(); ++k) {
+                const double value = (times[s][k] - times[s].front()) / duration - 0.5;
+                column.emplace_back(sequences_[s][k], value);
+                result.common.emplace_back(sequences_[s][k], value * duration / longest);
+            }
+            result.each.push_back(std::move(column));
+            result.first.push_back(sequences_[s].front());
+        }
+        return result;
+    }
+
+    /// What there is to know of drifts before anything is taken away.
+    void estimate_drifts() {
+        const Drifts all = drifts();
+        const auto add = [this](const Visits::Column& column, std::size_t station, std::size_t count) {
+            const Visits::Projection projection = visits_.projection({column});
+            const double spread = projection.spread(0, 0);
+            if (spread > k_controlled * projection.weight) {
+                result_.drifts.push_back({station, projection.weighted[0] / spread, used_scale_ / std::sqrt(spread),
+                                          detectable(judged(GroupKind::drift, 0.0, 1, count), spread)});
+            }
+        };
+        for (std::size_t k = 0; k < all.each.size(); ++k) {
+            add(all.each[k], adjustment_.visits()[all.first[k]].station, drift_tests(all.each.size()));
+        }
+        if (all.each.size() > 1) {
+            add(all.common, GroupTest::k_none, k_drift_hypotheses);
+        }
+    }
+
+    /// Tests among which the level of drift is divided for one sequence.
+    static std::size_t drift_tests(std::size_t sequences) { return sequences > 1 ? k_drift_hypotheses * sequences : 1; }
+
+    /// Of every sequence, of all sequences alike, and of each sequence its own, jointly.
+    [[nodiscard]] std::optional<Candidate> best_drift() {
+        const Drifts all = drifts();
+        const std::size_t count = all.each.size() > 1 ? all.each.size() + 2 : 1;
+        std::optional<Candidate> best;
+        const auto consider = [&](std::optional<GroupTest> test, const std::vector<Visits::Column>& columns) {
+            if (test) {
+                test->family = count;
+                take(best, {*test, [this, columns] { visits_.take_away(columns); }});
+            }
+        };
+        for (std::size_t k = 0; k < all.each.size(); ++k) {
+            std::optional<GroupTest> test = column_test(GroupKind::drift, all.each[k], drift_tests(all.each.size()));
+            if (test) {
+                place(*test, all.first[k]);
+            }
+            consider(test, {all.each[k]});
+        }
+        if (all.each.size() > 1) {
+            consider(column_test(GroupKind::drift, all.common, k_drift_hypotheses), {all.common});
+            consider(joint_drift(all.each, k_drift_hypotheses), all.each);
+        }
+        return best;
+    }
+
+    [[nodiscard]] GroupTest joint_drift(const std::vector<Visits::Column>& columns, std::size_t count) const {
+        const Visits::Projection projection = visits_.projection(columns);
+        const Inverted inverted = pseudo_inverse(projection.spread, k_controlled * projection.weight);
+        const VectorXd drifts = inverted.inverse * projection.weighted;
+        GroupTest test = judged(GroupKind::drift, projection.weighted.dot(drifts) / (used_scale_ * used_scale_),
+                                std::max(inverted.rank, 1), count);
+        test.estimate = drifts.norm() / std::sqrt(static_cast<double>(drifts.size()));
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            add_errors(test, columns[k], drifts[static_cast<Index>(k)]);
+        }
+        return test;
+    }
+
+    /// A station whose angles are some steps off. Its place takes up the steps themselves; what is left is that the
+    /// table deviates at the other angle in another way than at this one: R(-s) E(θ+s) R(s) in place of E(θ).
+    [[nodiscard]] std::optional<Candidate> best_index() {
+        const RotaryTableMeasurement& measurement = adjustment_.measurement();
+        const std::size_t angles = measurement.angles.size();
+        if (angles < 4 || !is_uniform(measurement)) {
+            return std::nullopt;
+        }
+        const MatrixXd poses = adjustment_.poses();
+        const double step = measurement.angles[1] - measurement.angles[0];
+        const int most = std::min(static_cast<int>(angles) / 2, k_most_steps);
+        moved_.resize(measurement.stations.size(), false);
+        index_spreads_.resize(measurement.stations.size(),
+                              std::vector<IndexSpread>(2 * static_cast<std::size_t>(most) + 1));
+        std::vector<IndexMisfit> worst_of(measurement.stations.size());
+        // What the stations share is only read here: limits are found afterwards, by one thread.
+        FixedParts(measurement.stations.size(), 1)
+            .run(adjustment_.adjustment().workers(), [&](std::size_t j, std::size_t, std::size_t) {
+                for (int steps = -most; steps <= most && !moved_[j]; ++steps) {
+                    // Half a turn backwards is half a turn forwards.
+                    if (steps != 0 && 2 * steps != -static_cast<int>(angles)) {
+                        keep_worse(worst_of[j], index_misfit(j, steps, steps * step, most, poses));
+                    }
+                }
+            });
+        std::optional<Candidate> best;
+        for (std::size_t j = 0; j < worst_of.size(); ++j) {
+            IndexMisfit& worst = worst_of[j];
+            if (worst.steps == 0) {
+                continue;
+            }
+            GroupTest test = judged(GroupKind::angle_index, worst.chi_square, 1,
+                                    2 * static_cast<std::size_t>(most) * measurement.stations.size());
+            test.station = j;
+            test.estimate = worst.steps;
+            take(best, {test, [this, effect = std::move(worst.effect), j] {
+                            visits_.take_away(effect, 1);
+                            moved_[j] = true;
+                        }});
+        }
+        return best;
+    }
+
+    /// What the distances of a station say of its angles being some steps off.
+    struct IndexMisfit {
+        int steps = 0;  ///< 0: nothing controls it
+        double chi_square = 0.0;
+        Visits::Effect effect;
+    };
+    static void keep_worse(IndexMisfit& worst, IndexMisfit other) {
+        if (other.steps != 0 && (worst.steps == 0 || other.chi_square > worst.chi_square)) {
+            worst = std::move(other);
+        }
+    }
+
+    IndexMisfit index_misfit(std::size_t station, int steps, double angle, int most, const MatrixXd& poses) {
+        const RotaryTableMeasurement& measurement = adjustment_.measurement();
+        const std::size_t angles = measurement.angles.size();
+        const Eigen::Matrix3d turn =
+            Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axial_coordinate(measurement.axis))).toRotationMatrix();
+        Visits::Effect effect(visits_.size());
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            const Visit& visit = adjustment_.visits()[g];
+            if (visit.station != station) {
+                continue;  // and one that is out says nothing: M is zero there
+            }
+            const std::size_t other =
+                (visit.angle + angles + static_cast<std::size_t>(steps + static_cast<int>(angles))) % angles;
+            Eigen::Matrix<double, 6, 1> change;
+            change << turn.transpose() * poses.col(static_cast<Index>(other)).head<3>(),
+                turn.transpose() * poses.col(static_cast<Index>(other)).tail<3>();
+            change -= poses.col(static_cast<Index>(visit.angle));
+            effect[g] = poses_[g] * change;
+        }
+        IndexSpread& spread = index_spreads_[station][static_cast<std::size_t>(steps + most)];
+        if (spread.weight > 0.0) {
+            spread.value -= visits_.taken_from(effect, 1, spread.left_out)(0, 0);
+        } else {
+            const Visits::Projection projection = visits_.projection(effect, 1);
+            spread.value = projection.spread(0, 0);
+            spread.weight = projection.weight;
+        }
+        spread.left_out = visits_.left_out_count();
+        if (!(spread.value > k_controlled * spread.weight)) {
+            return {};
+        }
+        const double deviate = visits_.weighted(effect) / std::sqrt(spread.value) / std::max(used_scale_, pose_scale_);
+        return {steps, deviate * deviate, std::move(effect)};
+    }
+
+    /// Whether the angles divide a full turn evenly.
+    static bool is_uniform(const RotaryTableMeasurement& measurement) {
+        const std::vector<double>& angles = measurement.angles_deg;
+        const double step = 360.0 / static_cast<double>(angles.size());
+        for (std::size_t i = 0; i < angles.size(); ++i) {
+            if (std::abs(angles[i] - angles[0] - step * static_cast<double>(i)) > 1e-3) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /// Autocorrelation of lag 1 of the deviations of successive visits, over all sequences.
+    void search_succession() {
+        double products = 0.0;
+        double squares = 0.0;
+        std::size_t pairs = 0;
+        for (const auto& sequence : sequences_) {
+            for (std::size_t k = 0; k < sequence.size(); ++k) {
+                const double deviate = tests_[sequence[k]].deviate;
+                squares += deviate * deviate;
+                if (k > 0) {
+                    products += tests_[sequence[k - 1]].deviate * deviate;
+                    ++pairs;
+                }
+            }
+        }
+        if (pairs < k_fewest_for_scatter || !(squares > 0.0)) {
+            return;
+        }
+        const double r = products / squares;
+        const double deviate = std::max(0.0, r * std::sqrt(static_cast<double>(pairs)));
+        GroupTest test = judged(GroupKind::succession, deviate * deviate, 1, 1);
+        test.estimate = r;
+        result_.tests.push_back(test);
+    }
+
+    /// Ratio of the mean squares of the deviations of one station and of all others. The logarithm of a ratio of
+    /// variances with ν₁ and ν₂ degrees of freedom has the variance 2/ν₁ + 2/ν₂, nearly.
+    void search_stations() {
+        const std::size_t stations = adjustment_.measurement().stations.size();
+        VectorXd squares = VectorXd::Zero(static_cast<Index>(stations));
+        VectorXd counts = squares;
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            if (!visits_.is_out(g) && tests_[g].is_controlled) {
+                const auto j = static_cast<Index>(adjustment_.visits()[g].station);
+                squares[j] += tests_[g].deviate * tests_[g].deviate;
+                counts[j] += 1.0;
+            }
+        }
+        std::vector<GroupTest> all;
+        for (std::size_t j = 0; j < stations; ++j) {
+            const auto at = static_cast<Index>(j);
+            const double others = counts.sum() - counts[at];
+            if (counts[at] < static_cast<double>(k_fewest_for_scatter) ||
+                others < static_cast<double>(k_fewest_for_scatter)) {
+                continue;
+            }
+            const double ratio = squares[at] / counts[at] / ((squares.sum() - squares[at]) / others);
+            const double deviate = std::max(0.0, std::log(ratio) / std::sqrt(2.0 / counts[at] + 2.0 / others));
+            GroupTest test = judged(GroupKind::station, deviate * deviate, 1, stations);
+            test.station = j;
+            test.estimate = std::sqrt(ratio);
+            all.push_back(test);
+        }
+        keep(std::move(all));
+    }
+
+    /// V⁻¹v and M of the coordinates of the fixture, less what is already explained.
+    struct FixtureMisfit {
+        VectorXd weighted;
+        MatrixXd spread;
+        double least = 0.0;  ///< of the weight of a coordinate, below which nothing else controls it
+
+        void take_away(const MatrixXd& effect) {
+            const MatrixXd across = spread * effect;
+            const MatrixXd inverse =
+                pseudo_inverse(effect.transpose() * across, least * effect.colwise().squaredNorm().maxCoeff()).inverse;
+            weighted -= across * (inverse * (effect.transpose() * weighted).eval());
+            spread -= across * inverse * across.transpose();
+        }
+    };
+
+    static MatrixXd effect_of_point(std::size_t point, Index coordinates) {
+        MatrixXd effect = MatrixXd::Zero(coordinates, 3);
+        effect.block<3, 3>(static_cast<Index>(3 * point), 0).setIdentity();
+        return effect;
+    }
+    /// Coordinates of the fixture: what a relative change of its size does to them.
+    [[nodiscard]] MatrixXd effect_of_scale() const {
+        const Eigen::MatrixX3d& points = adjustment_.measurement().fixture;
+        return points.transpose().reshaped(points.size(), 1);
+    }
+
+    [[nodiscard]] std::optional<GroupTest> reflector_test(const FixtureMisfit& misfit, std::size_t point,
+                                                          std::size_t points) const {
+        const auto at = static_cast<Index>(3 * point);
+        const Inverted inverted = pseudo_inverse(misfit.spread.block<3, 3>(at, at), misfit.least);
+        if (inverted.rank == 0) {
+            return std::nullopt;
+        }
+        const Eigen::Vector3d pull = misfit.weighted.segment<3>(at);
+        const Eigen::Vector3d error = inverted.inverse * pull;
+        GroupTest test = judged(GroupKind::reflector, pull.dot(error), inverted.rank, points);
+        test.reflector = point;
+        test.estimate = error.norm();
+        test.minimal_detectable =
+            (std::sqrt(test.critical_value) + k_deviate_of_power) * std::sqrt(inverted.inverse.trace() / inverted.rank);
+        return test;
+    }
+
+    /// The scale of the fixture is controlled where the distances know theirs.
+    [[nodiscard]] std::optional<GroupTest> scale_test(const FixtureMisfit& misfit) const {
+        const VectorXd effect = effect_of_scale();
+        const double spread = effect.dot(misfit.spread * effect);
+        if (!(spread > misfit.least * effect.squaredNorm())) {
+            return std::nullopt;
+        }
+        const double pull = effect.dot(misfit.weighted);
+        GroupTest test = judged(GroupKind::fixture_scale, pull * pull / spread, 1, 1);
+        test.estimate = pull / spread;
+        test.minimal_detectable = (std::sqrt(test.critical_value) + k_deviate_of_power) / std::sqrt(spread);
+        return test;
+    }
+
+    /// The fixture as a whole and its points, one at a time: what is least probable is taken away before the next.
+    void search_fixture() {
+        auto [whitening, weighted, spread] = spread_of(normal_.groups()[adjustment_.fixture_prior()], covariance_);
+        FixtureMisfit misfit{weighted, spread, 1e-6 * whitening.colwise().squaredNorm().minCoeff()};
+        const auto points = static_cast<std::size_t>(weighted.size() / 3);
+        std::vector<bool> out(points, false);
+        bool is_scaled = false;
+        // Three points make a frame: of as many nothing controls the others.
+        for (std::size_t round = 0; round + 3 < points; ++round) {
+            std::optional<GroupTest> worst;
+            for (std::size_t m = 0; m < points; ++m) {
+                const std::optional<GroupTest> test = out[m] ? std::nullopt : reflector_test(misfit, m, points);
+                if (test && (!worst || is_less_probable(*test, *worst))) {
+                    worst = test;
+                }
+            }
+            const std::optional<GroupTest> scale = is_scaled ? std::nullopt : scale_test(misfit);
+            if (scale && round == 0 && !scale->suspicious) {
+                result_.tests.push_back(*scale);
+            }
+            const bool is_scale = scale && scale->suspicious && (!worst || is_less_probable(*scale, *worst));
+            if (is_scale) {
+                result_.tests.push_back(*scale);
+                misfit.take_away(effect_of_scale());
+                is_scaled = true;
+                continue;
+            }
+            if (!worst || (!worst->suspicious && round > 0)) {
+                return;
+            }
+            result_.tests.push_back(*worst);
+            if (!worst->suspicious) {
+                return;
+            }
+            misfit.take_away(effect_of_point(worst->reflector, weighted.size()));
+            out[worst->reflector] = true;
+        }
+    }
+
+    const JointAdjustment& adjustment_;
+    const NormalEquations& normal_;
+    const BorderedCovariance& covariance_;
+    const GroupTestOptions& options_;
+    Visits visits_;
+    std::vector<MatrixXd> poses_;
+    std::vector<VisitTest> tests_;
+    std::vector<std::vector<std::size_t>> sequences_;
+    mutable std::map<std::pair<int, double>, double> limits_;  ///< by degrees of freedom and level
+    double used_scale_ = 1.0, pose_scale_ = 1.0;               ///< of common errors, of poses
+    std::vector<bool> moved_;                                  ///< by station: its angles were found to be others
+    /// Cᵀ M C of angles that are off, with which each later round begins.
+    struct IndexSpread {
+        double value = 0.0;
+        double weight = 0.0;       ///< 0: not computed yet
+        std::size_t left_out = 0;  ///< number of the last that was taken from it
+    };
+    std::vector<std::vector<IndexSpread>> index_spreads_;  ///< by station, then by steps
+    GroupTests result_;
+};
+
+}  // namespace
+
+double share_of_level(GroupKind kind) {
+    switch (kind) {
+        case GroupKind::drift:
+            return 0.40;
+        case GroupKind::visit_length:
+            return 0.30;
+        case GroupKind::dead_path_change:
+            return 0.08;
+        case GroupKind::reflector:
+            return 0.06;
+        case GroupKind::visit_pose:
+            return 0.02;
+        case GroupKind::succession:
+        case GroupKind::station:
+            return 0.015;
+        case GroupKind::angle_index:
+        case GroupKind::fixture_scale:
+            return 0.005;
+    }
+    return 0.0;
+}
+
+GroupTests test_groups(const JointAdjustment& adjustment, const NormalEquations& normal,
+                       const BorderedCovariance& covariance, const GroupTestOptions& options) {
+    return GroupSearch(adjustment, normal, covariance, options).run();
+}
+
+}  // namespace gumcert::engine

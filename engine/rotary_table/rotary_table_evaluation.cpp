@@ -1,0 +1,973 @@
+#include "engine/rotary_table/rotary_table_evaluation.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "engine/degrees_text.h"
+#include "engine/median.h"
+#include "engine/rotary_table/anglewise_map.h"
+#include "engine/rotary_table/geometry_check.h"
+#include "engine/rotary_table/group_notes.h"
+#include "engine/rotary_table/station_covariance.h"
+#include "gum/quantity/units.h"
+#include "text/numbers.h"
+
+namespace gumcert::engine {
+
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+std::string micrometres(double length) {
+    return text::significant(length / gum::k_micrometre, 3) + " µm";
+}
+
+/// Probability that at least `least` of `all` distances are wrong when each is with probability `share`, independently.
+double binomial_tail(std::size_t least, std::size_t all, double share) {
+    const double odds = share / (1.0 - share);
+    double probability = std::pow(1.0 - share, static_cast<double>(all));  // of k wrong ones, from none upwards
+    double below = 0.0;
+    for (std::size_t k = 0; k < least; ++k) {
+        below += probability;
+        probability *= odds * static_cast<double>(all - k) / static_cast<double>(k + 1);
+    }
+    return std::max(0.0, 1.0 - below);
+}
+
+/// Whether distances that were left out are so many of one visit or of one reflector that wrong ones scattered over the
+/// measurement would hardly be: then it may be the group that is wrong, and what is left of it does not say so any more.
+bool is_concentrated(const RotaryTableMeasurement& measurement, const std::vector<bool>& active) {
+    constexpr double k_expected = 0.5;  // groups with as many, by chance
+    struct Count {
+        std::size_t out = 0, all = 0;
+    };
+    std::map<std::pair<std::size_t, std::size_t>, Count> visits;  // by pass and angle
+    std::vector<Count> reflectors(measurement.reflectors.size());
+    std::size_t out = 0;
+    for (std::size_t i = 0; i < active.size(); ++i) {
+        const LengthObservation& length = measurement.lengths[i];
+        for (Count* count : {&visits[{length.pass, length.angle}], &reflectors[length.reflector]}) {
+            ++count->all;
+            count->out += active[i] ? std::size_t{0} : std::size_t{1};
+        }
+        out += active[i] ? std::size_t{0} : std::size_t{1};
+    }
+    const double share = static_cast<double>(out) / static_cast<double>(active.size());
+    const auto is_many = [&](const Count& count, std::size_t groups) {
+        constexpr std::size_t k_fewest = 2;
+        return count.out >= k_fewest &&
+               static_cast<double>(groups) * binomial_tail(count.out, count.all, share) < k_expected;
+    };
+    return std::ranges::any_of(visits, [&](const auto& visit) { return is_many(visit.second, visits.size()); }) ||
+           std::ranges::any_of(reflectors, [&](const Count& count) { return is_many(count, reflectors.size()); });
+}
+
+/// Kept in, they would carry the solution away from every other distance.
+[[noreturn]] void refuse_gross_errors(const RotaryTableMeasurement& measurement,
+                                      const std::vector<std::size_t>& gross) {
+    std::vector<gum::Diagnostic> problems;
+    for (const std::size_t i : gross) {
+        const LengthObservation& length = measurement.lengths[i];
+        problems.push_back({"GC-ADJUST-0007",
+                            "lengths, line " + std::to_string(length.line) + " (" +
+                                measurement.stations[length.station] + " to " +
+                                measurement.reflectors[length.reflector] + ")",
+                            "the length disagrees with all others of its station by more than centimetres",
+                            "no adjustment can keep such a distance",
+                            "correct or delete the line, or let the job leave it out with \"outliers\": {\"action\": "
+                            "\"remove\"}",
+                            gum::Severity::error});
+    }
+    throw gum::NoResultError(std::move(problems));
+}
+
+void require_convergence(const SolveSummary& summary) {
+    if (!summary.converged) {
+        throw gum::NoResultError(gum::Diagnostic{
+            "GC-ADJUST-0005", "adjustment", "did not converge (" + summary.message + ")",
+            "a result is the minimum of the weighted squares",
+            "check that stations, reflectors and angles of the lengths are not interchanged, and the start values",
+            gum::Severity::error});
+    }
+}
+
+/// The same solution with respect to another T_s, E(home) still zero.
+JointAdjustment with_set_up(const JointAdjustment& from, const RigidMotion& set_up, const StochasticModel& stochastic) {
+    const RotaryTableMeasurement& measurement = from.measurement();
+    // At home the fixture stands at T_s: the table frame moves with it.
+    const RigidMotion change = set_up * from.set_up().inverse();
+    StartValues start = from.present_values();
+    for (Eigen::Vector3d& station : start.stations) {
+        station = change * station;
+    }
+    JointAdjustment result(measurement, from.active(), set_up, start, stochastic);
+    result.adjustment().set_workers(from.adjustment().workers());
+    const StartValues moved = result.present_values();
+    result.copy_parameters_from(from);
+    for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
+        Eigen::VectorXd block = result.adjustment().parameters(result.station_block(j));
+        block.head<3>() = moved.stations[j];
+        result.adjustment().set_parameters(result.station_block(j), block);
+    }
+    const Eigen::MatrixXd poses = from.poses();
+    for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
+        const RigidMotion turn{nominal_rotation(measurement, i), Eigen::Vector3d::Zero()};
+        Vector6 pose = Vector6::Zero();
+        if (i != measurement.home) {
+            pose = motion_parameters(change * rigid_motion(poses.col(static_cast<Eigen::Index>(i))) * turn *
+                                     change.inverse() * turn.inverse());
+        }
+        result.set_pose(i, pose);
+    }
+    result.set_weights(stochastic);
+    return result;
+}
+
+JointAdjustment with_active(const JointAdjustment& from, const std::vector<bool>& active,
+                            const StochasticModel& stochastic) {
+    JointAdjustment result(from.measurement(), active, from.set_up(), from.present_values(), stochastic);
+    result.adjustment().set_workers(from.adjustment().workers());
+    result.copy_parameters_from(from);
+    result.set_weights(stochastic);
+    return result;
+}
+
+// Whitened residual of a visit, together, above which the robust search lets it count less.
+constexpr double k_robust_scale = 10.0;
+// Mean whitened residual above which something is grossly wrong, and the robust search is asked.
+constexpr double k_gross_misfit = 30.0;
+// Gauss-Newton steps within which an adjustment without gross errors comes to its end; sound ones need three.
+constexpr int k_refinements_without_gross_errors = 8;
+// Times that gross errors are looked for, each without those that were found before.
+constexpr int k_most_gross_searches = 5;
+// Deviation from the others of a visit that no repeatability makes, and that the linear search would not survive.
+constexpr double k_gross_deviation = 200.0 * gum::k_micrometre;
+
+/// Of the two middle values of an even number the one nearer to zero: where half of a visit is wrong, the other half is
+/// where the other visits put it.
+double nearer_median(std::vector<double> values) {
+    std::ranges::sort(values);
+    const double upper = values[values.size() / 2];
+    const double lower = values[(values.size() - 1) / 2];
+    return std::abs(lower) < std::abs(upper) ? lower : upper;
+}
+
+/// Distances that deviate from the median of their visit by far more than those of the other visits do, at the place
+/// where most visits agree, the largest first. The adjustment is left there.
+std::vector<std::size_t> find_gross_deviations(JointAdjustment& adjustment, const SolverOptions& solver) {
+    constexpr double k_times_scale = 100.0;
+    SolverOptions robust = solver;
+    robust.robust_scale = k_robust_scale;
+    robust.max_iterations = 200;
+    if (!adjustment.adjustment().solve(robust).converged) {
+        return {};
+    }
+    std::vector<double> sizes;
+    std::vector<std::pair<std::size_t, double>> deviations;
+    for (std::size_t v = 0; v < adjustment.visits().size(); ++v) {
+        const Eigen::VectorXd residual = adjustment.adjustment().residual(v);
+        if (residual.size() < 3) {
+            continue;
+        }
+        const double middle = nearer_median({residual.begin(), residual.end()});
+        for (Eigen::Index i = 0; i < residual.size(); ++i) {
+            const double size = std::abs(residual[i] - middle);
+            sizes.push_back(size);
+            deviations.emplace_back(adjustment.visits()[v].observations[static_cast<std::size_t>(i)], size);
+        }
+    }
+    if (sizes.empty()) {
+        return {};
+    }
+    std::ranges::stable_sort(deviations, std::greater{}, &std::pair<std::size_t, double>::second);
+    std::vector<std::size_t> found;
+    const double limit = std::max(k_gross_deviation, k_times_scale * upper_median(sizes));
+    for (const auto& [length, size] : deviations) {
+        if (size > limit) {
+            found.push_back(length);
+        }
+    }
+    return found;
+}
+
+/// Whether two visits or more were lost whole: it is not their distances that are wrong.
+bool has_whole_visits(const RotaryTableMeasurement& measurement, const std::vector<std::size_t>& gross) {
+    constexpr std::size_t k_fewest = 2;
+    std::map<std::pair<std::size_t, std::size_t>, std::pair<std::size_t, std::size_t>> visits;  // all and gross
+    for (const LengthObservation& length : measurement.lengths) {
+        ++visits[{length.pass, length.angle}].first;
+    }
+    for (const std::size_t i : gross) {
+        ++visits[{measurement.lengths[i].pass, measurement.lengths[i].angle}].second;
+    }
+    return std::ranges::count_if(visits, [](const auto& visit) {
+               return visit.second.second > 1 && visit.second.second == visit.second.first;
+           }) >= static_cast<std::ptrdiff_t>(k_fewest);
+}
+
+/// Adjustment and weights that agree with each other.
+class Iteration {
+public:
+    Iteration(const EstimatedComponents& estimated, const Progress& progress)
+        : progress_(progress), estimated_(estimated) {}
+
+    /// Weights and parameters in turn until no variance moves by more than `tolerance` of its uncertainty.
+    void settle(JointAdjustment& adjustment, StochasticModel& stochastic, int max_iterations, double tolerance,
+                const SolverOptions& solver) {
+        // New weights move the parameters by parts of their uncertainties, where the model is linear: one step each.
+        constexpr double k_linear_step = 1.0;
+        SolverOptions weights_only = solver;
+        weights_only.step_tolerance = std::max(solver.step_tolerance, k_linear_step);
+        for (int i = 0; i < max_iterations; ++i) {
+            solve(adjustment, i == 0 ? solver : weights_only);
+            // Whether the residuals depend on the fixture at all is tested once, at its stated covariance.
+            if (estimated_.fixture && !fixture_asked_) {
+                fixture_asked_ = true;
+                if (fixture_redundancy(adjustment, *normal, covariance) < k_least_component_redundancy) {
+                    drop_fixture(stochastic);
+                }
+            }
+            step = estimate_variance_components(adjustment, *normal, covariance, stochastic, estimated_);
+            if (!any_estimated() || step.relative_change < tolerance) {
+                components_converged = true;
+                return;
+            }
+            components_converged = false;
+            stochastic = step.stochastic;
+            adjustment.set_weights(stochastic);
+            report("variance components, iteration " + std::to_string(++component_iterations));
+        }
+        solve(adjustment, solver);
+    }
+
+    /// Exactly, with weights from derivatives at the very solution, so that weights made again from it are the same.
+    void settle_exactly(JointAdjustment& adjustment, StochasticModel& stochastic, const EvaluationOptions& options) {
+        settle(adjustment, stochastic, options.max_component_iterations, options.component_tolerance, options.solver);
+        if (estimated_.fixture && fixture_is_weak()) {
+            drop_fixture(stochastic);
+            adjustment.set_weights(stochastic);
+            settle(adjustment, stochastic, options.max_component_iterations, options.component_tolerance,
+                   options.solver);
+        }
+        adjustment.set_weights(stochastic);
+        solve(adjustment, options.solver);
+        normal.emplace(adjustment.adjustment().linearise());
+        covariance = normal->bordered_covariance();
+    }
+
+    void report(const std::string& text) const {
+        if (progress_) {
+            progress_(text);
+        }
+    }
+
+    [[nodiscard]] const EstimatedComponents& estimated() const { return estimated_; }
+    /// True where the estimate of the fixture went to a value at which the distances no longer determine it.
+    [[nodiscard]] bool fixture_is_weak() const {
+        return step.fixture_at_bound || step.components[fixture_cmm].redundancy < k_least_component_redundancy;
+    }
+    [[nodiscard]] bool any_estimated() const { return estimated_.length || estimated_.table || estimated_.fixture; }
+
+    std::optional<NormalEquations> normal;
+    BorderedCovariance covariance;
+    VarianceComponentStep step;
+    int iterations = 0;
+    int component_iterations = 0;
+    bool components_converged = false;
+    bool fixture_separable = true;
+
+private:
+    void solve(JointAdjustment& adjustment, const SolverOptions& solver) {
+        normal.emplace();
+        const SolveSummary summary = adjustment.adjustment().refine(solver, *normal);
+        require_convergence(summary);
+        iterations += summary.iterations;
+        covariance = normal->bordered_covariance();
+    }
+
+    void drop_fixture(StochasticModel& stochastic) {
+        estimated_.fixture = false;
+        fixture_separable = false;
+        stochastic.fixture_factor = 1.0;
+    }
+
+    const Progress& progress_;
+    EstimatedComponents estimated_;
+    bool fixture_asked_ = false;
+};
+
+/// Critical value of the test values, and what it rests on.
+struct TestLimits {
+    double critical_value = 0.0;
+    std::optional<double> degrees_of_freedom;  ///< of Pope's tau
+    double non_centrality = 0.0;
+};
+
+TestLimits test_limits(const EvaluationOptions& options, const VarianceComponent& component) {
+    TestLimits limits{options.critical_value, std::nullopt, options.non_centrality};
+    // A variance that was estimated from the same residuals makes the largest of them smaller (Pope 1976).
+    if (component.estimated && component.redundancy > 2.0 && options.student_critical_value) {
+        limits.degrees_of_freedom = component.redundancy;
+        limits.critical_value =
+            tau_critical_value(options.student_critical_value(component.redundancy - 1.0), component.redundancy);
+        limits.non_centrality += limits.critical_value - options.critical_value;
+    }
+    return limits;
+}
+
+// Above this, leaving a distance out moves the solution so far that its second-order effect on the others, about the
+// square of this over the length, is more than some nanometres.
+constexpr double k_linear_reach = 50.0 * gum::k_micrometre;
+
+/// Errors below this are not told from what a larger one does to the linearised model: the derivatives are taken anew
+/// before such a distance is left out.
+double second_order_effect(double error) {
+    constexpr double k_safety = 10.0;
+    constexpr double k_short_length = 0.3;  // [m]
+    return k_safety * error * error / k_short_length;
+}
+// Share of flagged distances above which it is hardly the distances that are wrong.
+constexpr double k_many_outliers = 0.05;
+// Solver step of adjustments that only check: neither the last digits of the parameters nor of components matter.
+constexpr double k_step_of_a_check = 1e-4;
+// The same where outliers are all in: they make the steps slow, and test values are asked for no more than two digits.
+constexpr double k_step_of_many_outliers = 1e-2;
+// Change of a variance, in parts of its uncertainty, at which such an adjustment ends.
+constexpr double k_component_of_a_check = 1e-2;
+// Probability of warning of a fixture that is as stated: what the tests of groups leave of their level.
+constexpr double k_fixture_test_level = 0.001;
+
+/// Of drifts and changes that are not suspicious, the least probable one whose probability is near its level. A single
+/// visit is none of them: without the largest of all visits the variances are too small for the others.
+const GroupTest* nearly_suspicious(const GroupTests& groups, const GroupTestOptions& options) {
+    constexpr double k_near = 30.0;  // times the level
+    const GroupTest* nearest = nullptr;
+    double least = k_near;
+    for (const GroupTest& test : groups.tests) {
+        const double level = options.chi_square_upper_tail(test.critical_value, test.degrees_of_freedom);
+        if (!test.errors.empty() && test.p_value < least * level) {
+            least = test.p_value / level;
+            nearest = &test;
+        }
+    }
+    return nearest;
+}
+
+/// Variances of a measurement of which a group is taken for wrong, by what it is said to be.
+StochasticModel variances_without(const GroupTest& group, const JointAdjustment& adjustment,
+                                  const EstimatedComponents& estimated, StochasticModel stochastic,
+                                  const EvaluationOptions& options) {
+    RotaryTableMeasurement corrected = adjustment.measurement();
+    for (const auto& [visit, error] : group.errors) {
+        for (const std::size_t i : adjustment.visits()[visit].observations) {
+            corrected.lengths[i].length -= error;
+        }
+    }
+    JointAdjustment without(corrected, adjustment.active(), adjustment.set_up(), adjustment.present_values(),
+                            stochastic);
+    without.adjustment().set_workers(options.workers);
+    without.copy_parameters_from(adjustment);
+    without.set_weights(stochastic);
+    const Progress silent;
+    Iteration iteration(estimated, silent);
+    SolverOptions solver = options.solver;
+    solver.step_tolerance = std::max(solver.step_tolerance, k_step_of_a_check);
+    iteration.settle(without, stochastic, options.max_component_iterations,
+                     std::max(options.component_tolerance, k_component_of_a_check), solver);
+    return stochastic;
+}
+
+/// Tests of the groups of an adjustment. Its variances were estimated with the group in, which makes them large and all
+/// test values small: where a group is nearly suspicious, all are tested once more at the variances without it.
+GroupTests groups_of(const JointAdjustment& adjustment, const NormalEquations& normal,
+                     const BorderedCovariance& covariance, const EstimatedComponents& estimated,
+                     const StochasticModel& stochastic, const EvaluationOptions& options,
+                     const GroupTestOptions& group_options) {
+    GroupTests groups = test_groups(adjustment, normal, covariance, group_options);
+    const GroupTest* const near = nearly_suspicious(groups, group_options);
+    const bool told = std::ranges::any_of(groups.tests, &GroupTest::suspicious);
+    if (told || near == nullptr || !(estimated.length || estimated.table)) {
+        return groups;
+    }
+    try {
+        JointAdjustment again = adjustment;
+        again.set_weights(variances_without(*near, adjustment, estimated, stochastic, options));
+        require_convergence(again.adjustment().refine(options.solver));
+        const NormalEquations at = again.adjustment().linearise();
+        GroupTests closer = test_groups(again, at, at.bordered_covariance(), group_options);
+        if (std::ranges::any_of(closer.tests, &GroupTest::suspicious)) {
+            return closer;
+        }
+    } catch (const gum::NoResultError&) {
+        return groups;  // a check, which the result does not need
+    }
+    return groups;
+}
+
+/// Tests of the groups with the distances that were left out; none where that adjustment does not converge.
+std::optional<GroupTests> groups_with_all(const JointAdjustment& adjustment, const std::vector<bool>& active,
+                                          const EstimatedComponents& estimated, StochasticModel stochastic,
+                                          const EvaluationOptions& options, const GroupTestOptions& group_options) {
+    const Progress silent;
+    Iteration iteration(estimated, silent);
+    try {
+        JointAdjustment whole = with_active(adjustment, active, stochastic);
+        EvaluationOptions check = options;
+        check.solver.step_tolerance = std::max(options.solver.step_tolerance, k_step_of_many_outliers);
+        check.component_tolerance = std::max(options.component_tolerance, k_component_of_a_check);
+        iteration.settle_exactly(whole, stochastic, check);
+        return groups_of(whole, *iteration.normal, iteration.covariance, iteration.estimated(), stochastic, options,
+                         group_options);
+    } catch (const gum::NoResultError&) {
+        return std::nullopt;
+    }
+}
+
+/// The fixture component together with the others, as a check of the stated covariance.
+void check_fixture(RotaryTableSolution& solution, const JointAdjustment& adjustment, const Iteration& main,
+                   const EvaluationOptions& options, const Progress& progress) {
+    VarianceComponent& row = solution.components[fixture_cmm];
+    const double redundancy = fixture_redundancy(adjustment, *main.normal, main.covariance);
+    const double squares = main.normal->groups()[adjustment.fixture_prior()].residual.squaredNorm();
+    EstimatedComponents estimated = main.estimated();
+    estimated.fixture = true;
+    Iteration iteration(estimated, progress);
+    JointAdjustment copy = adjustment;
+    StochasticModel stochastic = solution.stochastic;
+    SolverOptions solver = options.solver;
+    solver.step_tolerance = std::max(solver.step_tolerance, k_step_of_a_check);
+    iteration.settle(copy, stochastic, options.max_component_iterations, std::max(options.component_tolerance, 1e-4),
+                     solver);
+    if (!iteration.fixture_separable || !iteration.components_converged) {
+        row.separable = false;
+        return;
+    }
+    const double stated = row.value;
+    // An estimate without redundancy has no spread of its own; the squares at the stated covariance tell as well.
+    const bool weak = iteration.fixture_is_weak();
+    if (weak) {
+        row.separable = false;
+    } else {
+        row = iteration.step.components[fixture_cmm];
+        row.used = false;
+    }
+    if (!options.chi_square_upper_tail) {
+        return;
+    }
+    const double nu = weak ? redundancy : row.degrees_of_freedom;
+    const double chi_square = weak ? squares : nu * row.value * row.value / (stated * stated);
+    const double above = options.chi_square_upper_tail(chi_square, nu);
+    if (2.0 * std::min(above, 1.0 - above) < k_fixture_test_level) {
+        const bool larger = !weak && row.value > stated;
+        solution.notes.push_back(
+            {"GC-VARIANCE-0003", "variance components, fixture CMM",
+             "the distances suggest " +
+                 (weak ? std::string("hardly any standard uncertainty")
+                       : "a standard uncertainty of " + micrometres(row.value)) +
+                 " for a coordinate of the fixture, " + micrometres(stated) +
+                 " is stated; the result rests on the latter",
+             "an estimate agrees with what is stated when it passes a two-sided chi-square test at 0.1 %",
+             std::string("review the uncertainty budget of the CMM coordinates and their correlations, or set "
+                         "\"fixture\": {\"variance_component\": \"estimate\"}") +
+                 (larger ? "" : "; the stated value is on the safe side"),
+             gum::Severity::warning});
+    }
+}
+
+void fill_variance_factor(RotaryTableSolution& solution) {
+    if (solution.degrees_of_freedom > 0) {
+        solution.variance_factor = solution.chi_square / static_cast<double>(solution.degrees_of_freedom);
+    }
+    std::string names;
+    for (const VarianceComponent& component : solution.components) {
+        if (component.estimated && component.used) {
+            names += (names.empty() ? "" : "; ") + component.name;
+        }
+    }
+    if (names.empty()) {
+        solution.variance_basis = VarianceBasis::stated;
+        solution.variance_factor_reason =
+            "All variances are as stated. Chi-square per degree of freedom tests them; no uncertainty is multiplied by "
+            "it.";
+    } else {
+        solution.variance_basis = VarianceBasis::estimated;
+        solution.variance_factor_reason =
+            "Variance components estimated from the residuals are in the weights: " + names +
+            ". The uncertainties contain them and are not multiplied by a factor";
+        constexpr double k_near = 0.1;
+        solution.variance_factor_reason += std::abs(solution.variance_factor - 1.0) < k_near
+                                               ? "; chi-square per degree of freedom is near 1 by construction."
+                                               : ".";
+    }
+}
+
+void note_outliers(RotaryTableSolution& solution, const RotaryTableMeasurement& measurement, bool settled) {
+    if (measurement.outliers.test != OutlierTest::data_snooping) {
+        return;
+    }
+    const auto flagged =
+        static_cast<std::size_t>(std::ranges::count_if(solution.reliability, &DistanceReliability::flagged));
+    if (static_cast<double>(flagged) > k_many_outliers * static_cast<double>(measurement.lengths.size())) {
+        solution.notes.push_back({"GC-OUTLIER-0001", "outlying distances",
+                                  std::to_string(flagged) + " of " + std::to_string(measurement.lengths.size()) +
+                                      " distances are found outlying",
+                                  "more than 5 % of a measurement are hardly single blunders",
+                                  "review the stated uncertainty of the lengths, the dead paths and the angles, or let "
+                                  "the length noise be estimated with \"variance_components\": \"estimate\"",
+                                  gum::Severity::warning});
+    }
+    if (!settled) {
+        solution.notes.push_back(
+            {"GC-OUTLIER-0002", "outlying distances",
+             "the search did not come to its end; distances that disagree may still be in",
+             "the search ends when no test value is above the critical one",
+             "review the stated uncertainties, and correct or delete the distances that are flagged",
+             gum::Severity::warning});
+    }
+    // With tests of groups the points of the fixture are tested whole, one at a time: the culprit is named, and not
+    // all.
+    for (std::size_t k = 0; !solution.groups && k < solution.fixture_reliability.size(); ++k) {
+        const CoordinateReliability& row = solution.fixture_reliability[k];
+        if (std::abs(row.test_value) > solution.fixture_critical_value) {
+            solution.notes.push_back(
+                {"GC-OUTLIER-0003", "fixture, reflector " + measurement.reflectors[k / 3] + ", " + "xyz"[k % 3],
+                 "the distances put it " + micrometres(std::abs(row.estimated_error)) +
+                     " away from its stated coordinate",
+                 "a coordinate outlies when its test value is above the critical one, as that of a distance",
+                 "measure the reflector again with the CMM, and check that it has not moved in its holder",
+                 gum::Severity::warning});
+        }
+    }
+}
+
+/// An angle at which the table stands far from where the others let expect it: perhaps the file states another angle
+/// than the one that was measured. All six error motions of an angle are free, so that nothing else tells.
+void note_implausible_angles(RotaryTableSolution& solution, const RotaryTableMeasurement& measurement) {
+    constexpr double k_smallest = 180.0 * gum::k_arcsecond;
+    constexpr double k_times_median = 20.0;
+    const int axial = 3 + axial_coordinate(measurement.axis);
+    std::vector<double> motions;
+    for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
+        motions.push_back(solution.values[static_cast<Eigen::Index>(6 * i) + axial]);
+    }
+    std::vector<double> sorted = motions;
+    const double middle = upper_median(sorted);
+    for (double& value : sorted) {
+        value = std::abs(value - middle);
+    }
+    const double limit = std::max(k_smallest, k_times_median * upper_median(sorted));
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+        const double off = motions[i] - middle;
+        if (std::abs(off) > limit) {
+            solution.notes.push_back(
+                {"GC-ANGLE-0001", degrees_text(measurement.angles_deg[i]),
+                 "the table stands " + degrees_text(std::round(off / gum::k_degree * 1e4) / 1e4) +
+                     " from the angle that the file states, far more than at the other angles",
+                 "an angle that is stated wrongly at all stations is taken for an error motion of the table",
+                 "see whether the angle is mistyped, and correct the lengths file", gum::Severity::warning});
+        }
+    }
+}
+
+/// A solution, and whether one with reversals of each angle is worth its time.
+struct Adjusted {
+    RotaryTableSolution solution;
+    bool reversal_may_depend_on_angle = false;
+};
+
+/// \param measurement  ReversalModel::automatic is one reversal of all angles
+Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const EvaluationOptions& options,
+                         const Progress& progress) {
+    const FixtureComponent fixture_component = measurement.fixture_component;
+    const EstimatedComponents estimated{measurement.estimate_length_noise,
+                                        measurement.table_repeatability.mode == RepeatabilityMode::estimate,
+                                        fixture_component == FixtureComponent::estimate};
+    Iteration iteration(estimated, progress);
+    StochasticModel stochastic = start_variances(measurement.table_repeatability);
+    const OutlierOptions& outliers = measurement.outliers;
+    const bool snooping = outliers.test == OutlierTest::data_snooping;
+
+    iteration.report("start values");
+    const std::vector<bool> all(measurement.lengths.size(), true);
+    std::vector<bool> active = all;
+    const std::vector<std::size_t> gross = find_gross_errors(measurement);
+    if (!gross.empty() && (!snooping || outliers.action == OutlierAction::report)) {
+        refuse_gross_errors(measurement, gross);
+    }
+    if (has_whole_visits(measurement, gross)) {
+        refuse_interrupted_beams(measurement);
+    }
+    std::vector<OutlierFinding> found;
+    const auto set_aside = [&](std::size_t i) {
+        active[i] = false;
+        OutlierFinding finding;
+        finding.length = i;
+        finding.reason = OutlierReason::gross_error;
+        finding.redundancy_number = 1.0;
+        found.push_back(finding);
+    };
+    std::ranges::for_each(gross, set_aside);
+    const StartValues start = find_start_values(measurement, active);
+    if (const std::optional<gum::Diagnostic> line = stations_on_one_line(start.stations)) {
+        throw gum::NoResultError(*line);
+    }
+    JointAdjustment first(measurement, active, RigidMotion{}, start, stochastic);
+    first.adjustment().set_workers(options.workers);
+    const auto require_rank = [&](const JointAdjustment& adjustment) {
+        const RankReport rank = adjustment.adjustment().linearise().rank(options.solver.rank_tolerance);
+        if (rank.deficient) {
+            refuse_undetermined(measurement, rank, adjustment.present_values().stations);
+        }
+    };
+    require_rank(first);
+    iteration.report("joint adjustment");
+    // While an outlier may still be in, the last digits of the solution are not worth their steps.
+    SolverOptions rough = options.solver;
+    rough.step_tolerance = 1e-3;
+    // Gross errors make the last steps slow. Where there may be some, they are searched for before those steps are taken.
+    const bool may_leave_out = snooping && outliers.action == OutlierAction::remove;
+    SolverOptions first_steps = rough;
+    if (may_leave_out) {
+        first_steps.max_refinements = std::min(k_refinements_without_gross_errors, rough.max_refinements);
+    }
+    SolveSummary summary = first.adjustment().solve(first_steps);
+    const auto is_grossly_wrong = [&] {
+        const double misfit = std::sqrt(summary.chi_square / static_cast<double>(measurement.lengths.size()));
+        return !summary.converged || misfit > k_gross_misfit;
+    };
+    // What is largest hides what is smaller: the search goes on while it finds something.
+    for (int search = 0; search < k_most_gross_searches && may_leave_out && is_grossly_wrong(); ++search) {
+        JointAdjustment robust(measurement, active, RigidMotion{}, search == 0 ? start : first.present_values(),
+                               stochastic);
+        const std::vector<std::size_t> deviating = find_gross_deviations(robust, rough);
+        if (search > 0 && deviating.empty()) {
+            break;
+        }
+        std::ranges::for_each(deviating, set_aside);
+        first = JointAdjustment(measurement, active, RigidMotion{}, robust.present_values(), stochastic);
+        first.adjustment().set_workers(options.workers);
+        first.copy_parameters_from(robust);
+        first.set_weights(stochastic);
+        require_rank(first);
+        summary = first.adjustment().solve(rough);
+    }
+    require_convergence(summary);
+    require_rank(first);
+    iteration.iterations += summary.iterations;
+
+    // The linear maps of the datum are exact for a T_s that is already that of the result.
+    const DatumSolution preliminary = transform_to_datum(measurement, first.poses(), first.set_up(), measurement.datum);
+    JointAdjustment adjustment = with_set_up(first, rigid_motion(preliminary.set_up), stochastic);
+
+    std::vector<bool> reinserted(all.size(), false);
+    std::vector<DistanceReliability> rows;
+    TestLimits limits;
+    const auto leave_out = [&](const OneAtATime::Suspect& suspect) {
+        active[suspect.length] = false;
+        OutlierFinding finding;
+        finding.length = suspect.length;
+        finding.test_value = suspect.test_value;
+        finding.critical_value = limits.critical_value;
+        finding.redundancy_number = suspect.redundancy_number;
+        finding.estimated_error = suspect.estimated_error;
+        found.push_back(finding);
+        const LengthObservation& length = measurement.lengths[suspect.length];
+        iteration.report("distance " + measurement.stations[length.station] + "–" +
+                         measurement.reflectors[length.reflector] + " found outlying");
+    };
+    bool settled = false;
+    for (int round = 0; round < options.max_outlier_rounds && !settled; ++round) {
+        bool changed = false;
+        if (snooping) {
+            // Rough weights are enough to see outliers; the last rounds are exact.
+            iteration.settle(adjustment, stochastic, 3, 0.05, rough);
+            limits = test_limits(options, iteration.step.components[length_noise]);
+            OneAtATime search(adjustment, *iteration.normal, iteration.covariance);
+            double largest = 0.0;
+            while (const auto suspect = search.largest(limits.critical_value)) {
+                const double size = std::abs(suspect->estimated_error);
+                largest = std::max(largest, size);
+                if (changed && largest > k_linear_reach && size < second_order_effect(largest)) {
+                    break;
+                }
+                leave_out(*suspect);
+                search.leave_out(suspect->length);
+                changed = true;
+            }
+        }
+        if (!changed) {
+            iteration.settle_exactly(adjustment, stochastic, options);
+            limits = test_limits(options, iteration.step.components[length_noise]);
+            rows = distance_reliability(adjustment, *iteration.normal, iteration.covariance, stochastic,
+                                        limits.non_centrality);
+            if (!snooping) {
+                settled = true;
+                break;
+            }
+            const OneAtATime search(adjustment, *iteration.normal, iteration.covariance);
+            if (const auto suspect = search.largest(limits.critical_value)) {
+                leave_out(*suspect);
+                changed = true;
+            } else {
+                // Distances that were left out in the shadow of larger ones come back when they agree after all, and
+                // once only: what is then found again stays out.
+                for (OutlierFinding& finding : found) {
+                    const std::size_t i = finding.length;
+                    if (!active[i] && !reinserted[i] && std::abs(rows[i].test_value) <= limits.critical_value) {
+                        active[i] = true;
+                        reinserted[i] = true;
+                        finding.came_back = true;
+                        changed = true;
+                    }
+                }
+            }
+        }
+        if (changed) {
+            adjustment = with_active(adjustment, active, stochastic);
+            require_rank(adjustment);
+        } else {
+            settled = true;
+        }
+    }
+    std::vector<bool> flagged(active.size());
+    for (std::size_t i = 0; i < active.size(); ++i) {
+        flagged[i] = !active[i];
+    }
+    for (OutlierFinding& finding : found) {
+        // What a left-out distance is off by is known best at the end, from everything that is in the result.
+        if (settled && !finding.came_back) {
+            finding.estimated_error = rows[finding.length].estimated_error;
+            if (finding.reason == OutlierReason::gross_error) {
+                finding.test_value = rows[finding.length].test_value;
+                finding.critical_value = limits.critical_value;
+            }
+        }
+        finding.removed = !finding.came_back && outliers.action == OutlierAction::remove;
+    }
+    const bool kept = outliers.action == OutlierAction::report && active != all;
+    if (kept || !settled) {
+        if (kept) {
+            active = all;
+            adjustment = with_active(adjustment, active, stochastic);
+        }
+        iteration.settle_exactly(adjustment, stochastic, options);
+        limits = test_limits(options, iteration.step.components[length_noise]);
+        rows = distance_reliability(adjustment, *iteration.normal, iteration.covariance, stochastic,
+                                    limits.non_centrality);
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].flagged = flagged[i];
+        rows[i].removed = !active[i];
+    }
+
+    RotaryTableSolution solution;
+    const NormalEquations& normal = *iteration.normal;
+    const BorderedCovariance& covariance = iteration.covariance;
+    solution.datum = transform_to_datum(measurement, adjustment.poses(), adjustment.set_up(), measurement.datum);
+    solution.quantities = reported_quantities(measurement, adjustment.has_reversal());
+    solution.values = reported_values(adjustment, solution.datum);
+    const AnglewiseMap map = reported_map(adjustment, normal, solution.datum);
+    solution.covariance = covariance_of(map, adjustment, normal, covariance);
+
+    solution.station_covariance = covariance_of_stations(adjustment, normal, covariance, solution.datum);
+    for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
+        const auto block = adjustment.station_block(j);
+        const Eigen::VectorXd& value = adjustment.adjustment().parameters(block);
+        const auto at = 3 * static_cast<Eigen::Index>(j);
+        StationEstimate station;
+        station.position = solution.datum.world * value.head<3>();
+        station.covariance = solution.station_covariance.block<3, 3>(at, at);
+        station.u = station.covariance.diagonal().cwiseSqrt();
+        station.scale_deviation = value[3];
+        if (const Eigen::Index column = normal.column(block, 3); column >= 0) {
+            station.u_scale = std::sqrt(covariance(column, column));
+        }
+        solution.stations.push_back(station);
+    }
+    const auto paths = static_cast<Eigen::Index>(measurement.dead_paths.size());
+    solution.dead_paths.resize(paths);
+    solution.u_dead_paths.resize(paths);
+    for (Eigen::Index d = 0; d < paths; ++d) {
+        const auto block = adjustment.dead_path_block(static_cast<std::size_t>(d));
+        const Eigen::Index column = normal.column(block, 0);
+        solution.dead_paths[d] = adjustment.adjustment().parameters(block)[0];
+        solution.u_dead_paths[d] = std::sqrt(covariance(column, column));
+    }
+    solution.fixture.resize(measurement.fixture.rows(), 3);
+    solution.u_fixture.resize(measurement.fixture.rows(), 3);
+    solution.fixture_at_home.resize(measurement.fixture.rows(), 3);
+    for (Eigen::Index m = 0; m < measurement.fixture.rows(); ++m) {
+        std::vector<Eigen::Index> columns;
+        for (int c = 0; c < 3; ++c) {
+            const int component = static_cast<int>(3 * m) + c;
+            const Eigen::Index column = normal.column(adjustment.fixture_block(), component);
+            solution.fixture(m, c) = adjustment.adjustment().parameters(adjustment.fixture_block())[component];
+            solution.u_fixture(m, c) = std::sqrt(covariance(column, column));
+            columns.push_back(column);
+        }
+        solution.fixture_position_covariance.emplace_back(covariance(columns, columns));
+        solution.fixture_at_home.row(m) =
+            (solution.datum.world * (adjustment.set_up() * solution.fixture.row(m).transpose())).transpose();
+    }
+
+    solution.observations = normal.observation_count();
+    solution.parameters = normal.parameter_count();
+    solution.degrees_of_freedom = solution.observations - solution.parameters;
+    solution.iterations = iteration.iterations;
+    solution.chi_square = normal.chi_square();
+    solution.condition_number = normal.condition_number();
+    solution.stochastic = stochastic;
+    solution.components = iteration.step.components;
+    solution.components[fixture_cmm].separable = iteration.fixture_separable;
+    solution.reliability = std::move(rows);
+    const TestLimits fixture_limits = test_limits(options, solution.components[fixture_cmm]);
+    solution.fixture_reliability = fixture_reliability(adjustment, normal, covariance, fixture_limits.non_centrality);
+    solution.fixture_critical_value = fixture_limits.critical_value;
+    solution.external_reliability = external_reliability(AnglewiseSensitivity(map, adjustment, normal, covariance),
+                                                         adjustment, solution.reliability);
+    solution.outliers = std::move(found);
+    solution.critical_value = limits.critical_value;
+    solution.critical_value_degrees_of_freedom = limits.degrees_of_freedom;
+    solution.non_centrality = limits.non_centrality;
+    fill_variance_factor(solution);
+    // Lengths that single tests left out stay in for the group tests: they may be signs of a fault of a whole group.
+    std::vector<bool> but_gross = all;
+    for (const OutlierFinding& finding : solution.outliers) {
+        but_gross[finding.length] = but_gross[finding.length] && finding.reason != OutlierReason::gross_error;
+    }
+    bool may_depend = false;
+    if (adjustment.reversal_by_angle()) {
+        solution.reversal_model = ReversalModel::by_angle;
+        if (options.fisher_upper_tail) {
+            solution.reversal_tests =
+                test_reversals(adjustment, normal, covariance, solution.components, options.fisher_upper_tail);
+        }
+    } else if (options.chi_square_upper_tail && options.fisher_upper_tail) {
+        may_depend = may_depend_on_angle(adjustment, active, stochastic, options.solver.rank_tolerance,
+                                         options.chi_square_upper_tail);
+    }
+
+    if (options.chi_square_upper_tail) {
+        iteration.report("groups of distances");
+        const GroupTestOptions group_options{.chi_square_upper_tail = options.chi_square_upper_tail};
+        if (is_concentrated(measurement, active) && active != but_gross) {
+            solution.groups = groups_with_all(adjustment, but_gross, estimated, stochastic, options, group_options);
+        }
+        if (!solution.groups) {
+            solution.groups =
+                groups_of(adjustment, normal, covariance, iteration.estimated(), stochastic, options, group_options);
+        }
+    }
+
+    const auto nu = [&](std::size_t k) { return solution.components[k].degrees_of_freedom; };
+    solution.model = std::make_shared<RotaryTableModel>(
+        measurement, adjustment, stochastic,
+        SourceDegreesOfFreedom{nu(length_noise), nu(table_linear), nu(table_axial), nu(table_tilt), nu(fixture_cmm)});
+    if (fixture_component == FixtureComponent::check) {
+        check_fixture(solution, adjustment, iteration, options, progress);
+    }
+
+    if (!iteration.components_converged && iteration.any_estimated()) {
+        solution.notes.push_back(
+            {"GC-VARIANCE-0001", "variance components",
+             "did not settle within " + std::to_string(iteration.component_iterations) + " iterations",
+             "the stated uncertainties rest on the last values",
+             "give the repeatability of the table instead of estimating it", gum::Severity::warning});
+    }
+    if (iteration.estimated().length && !iteration.step.length_separable) {
+        solution.notes.push_back({"GC-VARIANCE-0002", "variance components",
+                                  "one distance a visit of the table: the length noise is kept as stated",
+                                  "a single distance does not separate its own noise from the repeatability of the "
+                                  "table; their sum is estimated",
+                                  "", gum::Severity::note});
+    }
+    if (!solution.components[fixture_cmm].separable) {
+        solution.notes.push_back(
+            {"GC-VARIANCE-0004", "variance components, fixture CMM",
+             "cannot be estimated from this measurement: the covariance of the fixture is used as stated and not "
+             "checked",
+             "the redundancy of its coordinates must be at least 2 and its estimate greater than 0",
+             "measure more reflectors, or rely on the uncertainty budget of the CMM", gum::Severity::note});
+    }
+    note_outliers(solution, measurement, settled);
+    note_implausible_angles(solution, measurement);
+    if (solution.groups) {
+        std::ranges::move(group_notes(*solution.groups, measurement), std::back_inserter(solution.notes));
+    }
+    if (!adjustment.has_reversal()) {
+        solution.notes.push_back({"GC-REVERSAL-0001", "reversal", "not reported",
+                                  "every station must be measured in both senses of approach to separate it", "",
+                                  gum::Severity::note});
+    }
+    std::vector<Eigen::Vector3d> positions;
+    for (const StationEstimate& station : solution.stations) {
+        positions.push_back(station.position);
+    }
+    // A place that is badly known along one line is no harm where the others carry the results.
+    constexpr double k_harm = 0.19;  // of a variance: U would be a tenth smaller
+    const Eigen::VectorXd variances = solution.covariance.diagonal();
+    const auto harms = [&](std::size_t station) {
+        return largest_share_of_station(adjustment, normal, covariance, solution.datum, map, variances, station) >
+               k_harm;
+    };
+    std::ranges::move(geometry_notes(measurement, positions, harms), std::back_inserter(solution.notes));
+    return {std::move(solution), may_depend};
+}
+
+/// The reversal of all angles, or that of each where the measurement or the distances ask for it.
+RotaryTableSolution adjust_with_reversal(const RotaryTableMeasurement& measurement, const EvaluationOptions& options,
+                                         const Progress& progress) {
+    Adjusted adjusted = adjust_and_test(measurement, options, progress);
+    if (!adjusted.reversal_may_depend_on_angle) {
+        return std::move(adjusted.solution);
+    }
+    if (progress) {
+        progress("reversal at every angle");
+    }
+    RotaryTableMeasurement by_angle = measurement;
+    by_angle.reversal = ReversalModel::by_angle;
+    RotaryTableSolution each;
+    try {
+        each = adjust_and_test(by_angle, options, progress).solution;
+    } catch (const gum::NoResultError&) {
+        return std::move(adjusted.solution);  // only asked, not needed
+    }
+    const std::optional<gum::Diagnostic> refuted = reversal_note(each.reversal_tests, measurement);
+    const bool adopted = refuted && measurement.reversal == ReversalModel::automatic;
+    RotaryTableSolution& solution = adopted ? each : adjusted.solution;
+    if (refuted) {
+        solution.notes.push_back(*refuted);
+    }
+    if (!adopted) {
+        solution.reversal_tests = std::move(each.reversal_tests);
+    }
+    return std::move(solution);
+}
+
+}  // namespace
+
+RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, const EvaluationOptions& options,
+                                     const Progress& progress) {
+    require_enough_angles(measurement);
+    try {
+        return adjust_with_reversal(measurement, options, progress);
+    } catch (const gum::NoResultError& error) {
+        // An interrupted beam looks like a station whose place is open, or like an adjustment that goes astray.
+        if (std::ranges::any_of(error.diagnostics(), [](const gum::Diagnostic& problem) {
+                return problem.code == "GC-ADJUST-0005" || problem.code == "GC-RANK-0001";
+            })) {
+            refuse_interrupted_beams(measurement);
+        }
+        throw;
+    }
+}
+
+}  // namespace gumcert::engine

@@ -1,0 +1,1138 @@
+#include "engine/rotary_table/start_values.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "engine/degrees_text.h"
+#include "engine/median.h"
+#include "engine/rotary_table/datum.h"
+#include "engine/rotary_table/geometry_check.h"
+#include "engine/rotary_table/joint_adjustment.h"
+#include "gum/quantity/dense_factors.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/quantity/units.h"
+#include "text/numbers.h"
+
+namespace gumcert::engine {
+
+namespace {
+
+using Matrix34 = Eigen::Matrix<double, 3, 4>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+// Set-up errors are of millimetres and a degree at most; this prior only keeps what a short turn leaves open near zero.
+constexpr double k_set_up_offset = 5.0 * gum::k_millimetre;
+constexpr double k_set_up_tilt = gum::k_degree;
+constexpr double k_typical_deviation = gum::k_micrometre;  // against which the prior is weighed
+// With the set-up found, what remains is the error motions: micrometres. A station above this needs a closer search.
+constexpr double k_good_misfit = 0.1 * gum::k_millimetre;
+constexpr double k_trimmed_share = 0.85;  // of the deviations that the misfit looks at
+constexpr double k_mad_to_deviation = 1.4826;
+constexpr double k_rival_factor = 2.0;     // a rival with less than this times the misfit explains as much
+constexpr double k_rival_distance = 0.01;  // [m]
+// Steps at which a descent ends, [m] and [rad]: of one station, to choose among candidates, and of the start values.
+constexpr double k_coarse_step = 1e-4;
+constexpr double k_fine_step = 1e-6;
+// A mirror image that is this far off before any refinement cannot be brought to explain the distances.
+constexpr double k_hopeless_misfit = 2.0 * gum::k_millimetre;
+constexpr double k_hopeless_factor = 20.0;
+constexpr double k_cone_singular_ratio = 1e-6;  // that of SolverOptions::rank_tolerance, as singular values
+constexpr double k_linear_eigenvalue_ratio = 1e-10;
+
+/// The lengths of one station, free of names.
+struct StationData {
+    std::vector<std::size_t> observation;  // index into the lengths
+    std::vector<std::size_t> angle;
+    std::vector<std::size_t> path;       // numbered within the station
+    std::vector<Eigen::Vector3d> point;  // in the fixture frame, at the temperature of the station
+    Eigen::VectorXd length;
+    std::vector<std::size_t> path_name;              // index of each path into the dead paths of the measurement
+    std::vector<std::vector<Eigen::Index>> members;  // of each path
+};
+
+/// Positions of the points of a station with a set-up, and their derivatives with respect to it.
+struct Positions {
+    std::vector<Eigen::Vector3d> point;
+    std::vector<Matrix34> by_set_up;
+};
+
+struct StationFit {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    double misfit = std::numeric_limits<double>::infinity();
+    Eigen::Vector4d set_up = Eigen::Vector4d::Zero();  ///< with which the station was found
+
+    /// Misfit with a fixture that stands as fixtures stand: a table that turns the other way looks like one whose axis
+    /// is turned over.
+    [[nodiscard]] double upright_misfit() const {
+        constexpr double k_overturned = 0.5;  // [rad]
+        constexpr double k_hopeless = 1.0;    // [m]
+        return set_up.tail<2>().norm() > k_overturned ? k_hopeless : misfit;
+    }
+};
+
+/// All that is needed of a measurement, and the robust descent.
+class StartSearch {
+public:
+    StartSearch(const RotaryTableMeasurement& measurement, const std::vector<bool>& active)
+        : measurement_(measurement), across_(across_axis(measurement.axis)), stations_(measurement.stations.size()) {
+        for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
+            turn_.push_back(nominal_rotation(measurement, i));
+        }
+        std::vector<std::vector<double>> lengths(stations_.size());
+        for (std::size_t i = 0; i < measurement.lengths.size(); ++i) {
+            if (!active.empty() && !active[i]) {
+                continue;
+            }
+            const LengthObservation& length = measurement.lengths[i];
+            StationData& data = stations_[length.station];
+            const double stretch =
+                1.0 +
+                measurement.expansion * measurement.temperature_difference[static_cast<Eigen::Index>(length.station)];
+            auto found = std::find(data.path_name.begin(), data.path_name.end(), length.dead_path);
+            if (found == data.path_name.end()) {
+                found = data.path_name.insert(found, length.dead_path);
+                data.members.emplace_back();
+            }
+            const auto path = static_cast<std::size_t>(found - data.path_name.begin());
+            data.members[path].push_back(static_cast<Eigen::Index>(data.observation.size()));
+            data.path.push_back(path);
+            data.observation.push_back(i);
+            data.angle.push_back(length.angle);
+            data.point.emplace_back(stretch *
+                                    measurement.fixture.row(static_cast<Eigen::Index>(length.reflector)).transpose());
+            lengths[length.station].push_back(length.length);
+        }
+        for (std::size_t j = 0; j < stations_.size(); ++j) {
+            stations_[j].length =
+                Eigen::Map<const Eigen::VectorXd>(lengths[j].data(), static_cast<Eigen::Index>(lengths[j].size()));
+        }
+    }
+
+    /// Set-up, stations and their misfits.
+    /// \throws gum::NoResultError
+    void run() {
+        fit_each();
+        finish();
+    }
+
+    /// All stations together, from each on its own.
+    void finish() {
+        std::vector<std::size_t> all(stations_.size());
+        for (std::size_t j = 0; j < all.size(); ++j) {
+            all[j] = j;
+        }
+        descend(all, set_up_, fits_, true);
+        if (choose_again()) {
+            descend(all, set_up_, fits_, true);
+        }
+        for (std::size_t j = 0; j < stations_.size(); ++j) {
+            refuse_open_direction(j);
+        }
+        settle_mirror_images();
+    }
+
+    [[nodiscard]] StartValues values() const {
+        StartValues start;
+        start.dead_paths = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(measurement_.dead_paths.size()));
+        // JointAdjustment starts with T_s = 1: its table frame is the fixture frame at home.
+        const RigidMotion fixture_from_table = set_up_motion(set_up_).inverse();
+        for (std::size_t j = 0; j < stations_.size(); ++j) {
+            start.stations.emplace_back(fixture_from_table * fits_[j].position);
+            const Eigen::VectorXd centres = deviations(j, set_up_, fits_[j].position).second;
+            for (std::size_t d = 0; d < stations_[j].path_name.size(); ++d) {
+                start.dead_paths[static_cast<Eigen::Index>(stations_[j].path_name[d])] =
+                    centres[static_cast<Eigen::Index>(d)];
+            }
+        }
+        return start;
+    }
+
+    /// Each station on its own.
+    /// \return their misfits, [m]
+    std::vector<double> fit_each() {
+        std::vector<double> misfits;
+        fits_.resize(stations_.size());
+        for (std::size_t j = 0; j < stations_.size(); ++j) {
+            fits_[j] = fit_alone(j);
+            misfits.push_back(fits_[j].upright_misfit());
+        }
+        return misfits;
+    }
+    /// One station on its own.
+    [[nodiscard]] StationFit fit_of(std::size_t station) const { return fit_alone(station); }
+
+    /// Deviations of a station with a fit of its own, and the medians of its dead paths.
+    [[nodiscard]] std::pair<Eigen::VectorXd, Eigen::VectorXd> deviations(std::size_t j, const StationFit& fit) const {
+        return deviations(j, fit.set_up, fit.position);
+    }
+
+    [[nodiscard]] const std::vector<StationData>& stations() const { return stations_; }
+    /// Deviations from the medians of the dead paths, and these medians.
+    [[nodiscard]] std::pair<Eigen::VectorXd, Eigen::VectorXd> deviations(std::size_t j) const {
+        return deviations(j, set_up_, fits_[j].position);
+    }
+
+private:
+    [[nodiscard]] RigidMotion set_up_motion(const Eigen::Vector4d& set_up) const {
+        Vector6 parameters = Vector6::Zero();
+        for (std::size_t c = 0; c < 2; ++c) {
+            parameters[across_[c]] = set_up[static_cast<Eigen::Index>(c)];
+            parameters[3 + across_[c]] = set_up[static_cast<Eigen::Index>(2 + c)];
+        }
+        return rigid_motion(parameters);
+    }
+
+    [[nodiscard]] Positions positions(std::size_t j, const Eigen::Vector4d& set_up, bool derivatives) const {
+        const RigidMotion motion = set_up_motion(set_up);
+        Eigen::Vector3d tilt = Eigen::Vector3d::Zero();
+        tilt[across_[0]] = set_up[2];
+        tilt[across_[1]] = set_up[3];
+        const std::array<Eigen::Matrix3d, 3> by_tilt = rotation_zyx_derivatives(tilt);
+        const StationData& data = stations_[j];
+        Positions result;
+        result.point.reserve(data.point.size());
+        for (std::size_t i = 0; i < data.point.size(); ++i) {
+            const Eigen::Matrix3d& turn = turn_[data.angle[i]];
+            result.point.emplace_back(turn * (motion * data.point[i]));
+            if (derivatives) {
+                Matrix34 by_set_up;
+                by_set_up << turn.col(across_[0]), turn.col(across_[1]),
+                    turn * (by_tilt[static_cast<std::size_t>(across_[0])] * data.point[i]),
+                    turn * (by_tilt[static_cast<std::size_t>(across_[1])] * data.point[i]);
+                result.by_set_up.push_back(by_set_up);
+            }
+        }
+        return result;
+    }
+
+    /// |P - q| - l less its median of every dead path, and the medians: the dead paths.
+    [[nodiscard]] static std::pair<Eigen::VectorXd, Eigen::VectorXd> deviations(const StationData& data,
+                                                                                const Positions& at,
+                                                                                const Eigen::Vector3d& station) {
+        Eigen::VectorXd deviation(data.length.size());
+        for (Eigen::Index i = 0; i < deviation.size(); ++i) {
+            deviation[i] = (at.point[static_cast<std::size_t>(i)] - station).norm() - data.length[i];
+        }
+        // The constant of a dead path moves all its lengths alike: their median takes it out, and single wrong lengths
+        // do not move that.
+        Eigen::VectorXd centre(static_cast<Eigen::Index>(data.members.size()));
+        std::vector<double> values;
+        for (std::size_t d = 0; d < data.members.size(); ++d) {
+            values.clear();
+            for (const Eigen::Index i : data.members[d]) {
+                values.push_back(deviation[i]);
+            }
+            const double middle = median(values);
+            centre[static_cast<Eigen::Index>(d)] = middle;
+            for (const Eigen::Index i : data.members[d]) {
+                deviation[i] -= middle;
+            }
+        }
+        return {deviation, centre};
+    }
+
+    [[nodiscard]] std::pair<Eigen::VectorXd, Eigen::VectorXd> deviations(std::size_t j, const Eigen::Vector4d& set_up,
+                                                                         const Eigen::Vector3d& station) const {
+        return deviations(stations_[j], positions(j, set_up, false), station);
+    }
+
+    /// Absolute deviations of the dead paths that have more than one length: a single length always agrees.
+    static void collect(const StationData& data, const Eigen::VectorXd& deviation, std::vector<double>& values) {
+        for (const std::vector<Eigen::Index>& members : data.members) {
+            for (const Eigen::Index i : members) {
+                if (members.size() > 1) {
+                    values.push_back(std::abs(deviation[i]));
+                }
+            }
+        }
+    }
+
+    /// Root mean square of the smaller deviations.
+    [[nodiscard]] static double misfit(const StationData& data, const Eigen::VectorXd& deviation) {
+        std::vector<double> values;
+        values.reserve(static_cast<std::size_t>(deviation.size()));
+        collect(data, deviation, values);
+        if (values.empty()) {
+            return 0.0;
+        }
+        // Without the largest ones: gross errors in a few lengths say nothing against a position.
+        const auto kept = static_cast<std::ptrdiff_t>(std::ceil(k_trimmed_share * static_cast<double>(values.size())));
+        std::nth_element(values.begin(), values.begin() + kept - 1, values.end());
+        double squares = 0.0;
+        for (auto value = values.begin(); value != values.begin() + kept; ++value) {
+            squares += *value * *value;
+        }
+        return std::sqrt(squares / static_cast<double>(kept));
+    }
+
+    /// Deviations with weights of Cauchy's function for the scale c, centred by their weighted means.
+    struct Weighted {
+        Eigen::VectorXd deviation;
+        Eigen::VectorXd weight;
+        double cost = 0.0;
+    };
+
+    [[nodiscard]] static Weighted weigh(const StationData& data, Eigen::VectorXd deviation, double c) {
+        Weighted result;
+        result.weight.resize(deviation.size());
+        // Weights of Cauchy fall with the square of a deviation: a length that is wrong by a metre has no pull left.
+        // Weights and weighted centres depend on each other, so that both are made three times.
+        for (int round = 0; round < 3; ++round) {
+            for (const std::vector<Eigen::Index>& members : data.members) {
+                double sum = 0.0;
+                double weights = 0.0;
+                for (const Eigen::Index i : members) {
+                    const double ratio = deviation[i] / c;
+                    result.weight[i] = 1.0 / (1.0 + ratio * ratio);
+                    sum += result.weight[i] * deviation[i];
+                    weights += result.weight[i];
+                }
+                if (round < 2) {
+                    for (const Eigen::Index i : members) {
+                        deviation[i] -= sum / weights;
+                    }
+                }
+            }
+        }
+        for (Eigen::Index i = 0; i < deviation.size(); ++i) {
+            const double ratio = deviation[i] / c;
+            result.cost += std::log1p(ratio * ratio);
+        }
+        result.deviation = std::move(deviation);
+        return result;
+    }
+
+    /// Robust Gauss-Newton descent (iterated reweighting, scale from the median absolute deviation, damped) of the
+    /// positions of some stations and, with `free_set_up`, of the set-up that they share. Dead paths are eliminated.
+    void descend(const std::vector<std::size_t>& of, Eigen::Vector4d& set_up, std::vector<StationFit>& fits,
+                 bool free_set_up, double step_tolerance = k_fine_step) const {
+        constexpr int k_steps = 60;
+        const auto size = static_cast<Eigen::Index>(4 + 3 * of.size());
+        double damping = 1e-6;
+        std::vector<Positions> at(of.size());
+        std::vector<Eigen::VectorXd> raw(of.size());
+        std::vector<double> values;
+        const auto evaluate = [&](const Eigen::Vector4d& with, const std::vector<StationFit>& where, bool derivatives) {
+            for (std::size_t k = 0; k < of.size(); ++k) {
+                if (free_set_up || derivatives) {
+                    at[k] = positions(of[k], with, derivatives);
+                }
+                raw[k] = deviations(stations_[of[k]], at[k], where[of[k]].position).first;
+            }
+        };
+        const auto scale_of = [&] {
+            values.clear();
+            for (std::size_t k = 0; k < of.size(); ++k) {
+                collect(stations_[of[k]], raw[k], values);
+            }
+            return values.empty() ? 1e-9 : std::max(2.5 * k_mad_to_deviation * median(values), 1e-9);
+        };
+        // Weak beside any distance: it only decides what they leave open (k_set_up_offset).
+        const auto prior = [&](const Eigen::Vector4d& with, double c) {
+            return std::pow(k_typical_deviation / c, 2) *
+                   (with.head<2>().squaredNorm() / (k_set_up_offset * k_set_up_offset) +
+                    with.tail<2>().squaredNorm() / (k_set_up_tilt * k_set_up_tilt));
+        };
+        Eigen::MatrixXd normal(size, size);
+        Eigen::VectorXd right(size);
+        std::vector<StationFit> trial = fits;
+        for (int step = 0; step < k_steps; ++step) {
+            evaluate(set_up, fits, true);
+            const double c = scale_of();
+            normal.setZero();
+            right.setZero();
+            double cost = prior(set_up, c);
+            for (std::size_t k = 0; k < of.size(); ++k) {
+                const StationData& data = stations_[of[k]];
+                const Weighted weighted = weigh(data, raw[k], c);
+                cost += weighted.cost;
+                Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor> rows(weighted.deviation.size(), 7);
+                for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+                    const auto index = static_cast<std::size_t>(i);
+                    const Eigen::Vector3d direction = (at[k].point[index] - fits[of[k]].position).normalized();
+                    rows.row(i).head<4>() = direction.transpose() * at[k].by_set_up[index];
+                    rows.row(i).tail<3>() = -direction.transpose();
+                }
+                for (const std::vector<Eigen::Index>& members : data.members) {
+                    Eigen::Matrix<double, 1, 7> mean = Eigen::Matrix<double, 1, 7>::Zero();
+                    double weights = 0.0;
+                    for (const Eigen::Index i : members) {
+                        mean += weighted.weight[i] * rows.row(i);
+                        weights += weighted.weight[i];
+                    }
+                    mean /= weights;
+                    for (const Eigen::Index i : members) {
+                        rows.row(i) -= mean;
+                    }
+                }
+                const auto from = static_cast<Eigen::Index>(4 + 3 * k);
+                const Eigen::Matrix<double, 7, 7> part =
+                    rows.transpose() * weighted.weight.asDiagonal() * rows / (c * c);
+                const Eigen::Matrix<double, 7, 1> gradient =
+                    rows.transpose() * weighted.weight.cwiseProduct(weighted.deviation) / (c * c);
+                normal.topLeftCorner<4, 4>() += part.topLeftCorner<4, 4>();
+                normal.block<3, 3>(from, from) = part.bottomRightCorner<3, 3>();
+                normal.block<3, 4>(from, 0) = part.bottomLeftCorner<3, 4>();
+                normal.block<4, 3>(0, from) = part.topRightCorner<4, 3>();
+                right.head<4>() -= gradient.head<4>();
+                right.segment<3>(from) = -gradient.tail<3>();
+            }
+            for (Eigen::Index z = 0; z < 4; ++z) {
+                const double width = z < 2 ? k_set_up_offset : k_set_up_tilt;
+                const double weight = std::pow(k_typical_deviation / (c * width), 2);
+                normal(z, z) += weight;
+                right[z] -= weight * set_up[z];
+                if (!free_set_up) {
+                    normal.row(z).setZero();
+                    normal.col(z).setZero();
+                    normal(z, z) = 1.0;
+                    right[z] = 0.0;
+                }
+            }
+            const Eigen::VectorXd scale =
+                normal.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
+            const Eigen::MatrixXd scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+            bool better = false;
+            double largest = 0.0;
+            while (damping < 1e8) {
+                Eigen::MatrixXd damped = scaled;
+                damped.diagonal().array() += damping;
+                const Eigen::VectorXd change = scale.asDiagonal() * damped.ldlt().solve(scale.asDiagonal() * right);
+                const Eigen::Vector4d next = set_up + change.head<4>();
+                largest = change.cwiseAbs().maxCoeff();
+                for (std::size_t k = 0; k < of.size(); ++k) {
+                    trial[of[k]].position =
+                        fits[of[k]].position + change.segment<3>(static_cast<Eigen::Index>(4 + 3 * k));
+                }
+                double after = std::numeric_limits<double>::infinity();
+                if (change.allFinite() && largest < 5.0) {
+                    evaluate(next, trial, false);
+                    after = prior(next, c);
+                    for (std::size_t k = 0; k < of.size(); ++k) {
+                        after += weigh(stations_[of[k]], raw[k], c).cost;
+                    }
+                }
+                if (after <= cost * (1.0 + 1e-9)) {
+                    better = true;
+                    set_up = next;
+                    for (const std::size_t j : of) {
+                        fits[j].position = trial[j].position;
+                    }
+                    damping = std::max(0.1 * damping, 1e-12);
+                    break;
+                }
+                damping = std::max(10.0 * damping, 1e-9);
+            }
+            if (!better || largest < step_tolerance) {
+                break;
+            }
+        }
+        for (const std::size_t j : of) {
+            fits[j].misfit = misfit(stations_[j], deviations(j, set_up, fits[j].position).first);
+        }
+    }
+
+    /// One station with a set-up of its own.
+    [[nodiscard]] StationFit refined(std::size_t j, const Eigen::Vector3d& from, const Eigen::Vector4d& set_up,
+                                     bool free_set_up) const {
+        std::vector<StationFit> fits(stations_.size());
+        fits[j].position = from;
+        Eigen::Vector4d own = set_up;
+        descend({j}, own, fits, free_set_up, free_set_up ? k_coarse_step : k_fine_step);
+        fits[j].set_up = own;
+        return fits[j];
+    }
+
+    /// Closed solution: |P|² - 2 P·q + |q|² = l² + 2 l l0 + l0² is linear in q, l0 and κ = |q|² - l0², one l0 and κ a
+    /// dead path. Both are eliminated; q is found in the directions that are determined.
+    struct ClosedSolution {
+        Eigen::Vector3d position = Eigen::Vector3d::Zero();
+        Eigen::Vector3d open = Eigen::Vector3d::UnitX();   // least determined direction
+        Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // of the points
+        bool determined = false;
+    };
+
+    [[nodiscard]] ClosedSolution closed_solution(const StationData& data, const Positions& at) const {
+        ClosedSolution result;
+        for (const Eigen::Vector3d& point : at.point) {
+            result.centre += point / static_cast<double>(at.point.size());
+        }
+        Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+        for (const std::vector<Eigen::Index>& members : data.members) {
+            if (members.size() < 3) {
+                continue;
+            }
+            const auto n = static_cast<Eigen::Index>(members.size());
+            Eigen::MatrixXd rows(n, 5);
+            for (Eigen::Index k = 0; k < n; ++k) {
+                const Eigen::Index i = members[static_cast<std::size_t>(k)];
+                const Eigen::Vector3d point = at.point[static_cast<std::size_t>(i)] - result.centre;
+                rows.row(k) << -2.0 * point.transpose(), data.length[i] * data.length[i] - point.squaredNorm(),
+                    data.length[i];
+            }
+            rows.rowwise() -= rows.colwise().mean().eval();
+            const double squares = rows.col(4).squaredNorm();
+            if (squares > 0.0) {
+                const Eigen::RowVector4d share = rows.col(4).transpose() * rows.leftCols<4>() / squares;
+                rows.leftCols<4>() -= rows.col(4) * share;
+            }
+            normal += rows.leftCols<4>().transpose() * rows.leftCols<4>();
+        }
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(normal.topLeftCorner<3, 3>());
+        const Eigen::Vector3d values = eigen.eigenvalues();
+        result.open = eigen.eigenvectors().col(0);
+        result.determined = values[0] > k_linear_eigenvalue_ratio * values[2] && values[2] > 0.0;
+        result.position = result.centre;
+        for (int k = 0; k < 3; ++k) {
+            if (values[k] > k_linear_eigenvalue_ratio * values[2]) {
+                const Eigen::Vector3d direction = eigen.eigenvectors().col(k);
+                result.position += direction * (direction.dot(normal.topRightCorner<3, 1>()) / values[k]);
+            }
+        }
+        return result;
+    }
+
+    /// The side of `position` and its mirror image in the plane closest to the points.
+    [[nodiscard]] static Eigen::Vector3d mirror_image(const Positions& at, const Eigen::Vector3d& position) {
+        Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+        for (const Eigen::Vector3d& point : at.point) {
+            centre += point / static_cast<double>(at.point.size());
+        }
+        Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+        for (const Eigen::Vector3d& point : at.point) {
+            scatter += (point - centre) * (point - centre).transpose();
+        }
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
+        const Eigen::Vector3d normal = eigen.eigenvectors().col(0);
+        return position - 2.0 * normal.dot(position - centre) * normal;
+    }
+
+    /// Positions on a grid, best first, that no neighbour in the list comes close to.
+    [[nodiscard]] static std::vector<Eigen::Vector3d> best_of(const StationData& data, const Positions& at,
+                                                              const std::vector<Eigen::Vector3d>& grid,
+                                                              std::size_t count) {
+        std::vector<std::pair<double, std::size_t>> order;
+        for (std::size_t k = 0; k < grid.size(); ++k) {
+            order.emplace_back(misfit(data, deviations(data, at, grid[k]).first), k);
+        }
+        std::sort(order.begin(), order.end());
+        std::vector<Eigen::Vector3d> best;
+        for (const auto& [value, k] : order) {
+            const Eigen::Vector3d& position = grid[k];
+            if (best.size() < count && std::all_of(best.begin(), best.end(), [&](const Eigen::Vector3d& other) {
+                    return (other - position).norm() > 0.2;
+                })) {
+                best.push_back(position);
+            }
+        }
+        return best;
+    }
+
+    [[nodiscard]] StationFit fit_alone(std::size_t j) const {
+        const StationData& data = stations_[j];
+        const Eigen::Vector4d none = Eigen::Vector4d::Zero();
+        const Positions at = positions(j, none, false);
+        const std::optional<Eigen::Vector3d>& stated = measurement_.station_start[j];
+        StationFit best;
+        const auto consider = [&](const Eigen::Vector3d& from) {
+            if (!from.allFinite()) {
+                return;
+            }
+            const StationFit fit = refined(j, from, none, true);
+            const bool nearer = stated && (fit.position - *stated).norm() < (best.position - *stated).norm();
+            // Of two that explain the distances alike, the stated position tells the sides apart.
+            if (fit.misfit * (nearer ? 1.0 / k_rival_factor : (stated ? k_rival_factor : 1.0)) < best.misfit) {
+                best = fit;
+            }
+        };
+        if (stated) {
+            consider(*stated);
+        }
+        const ClosedSolution closed = closed_solution(data, at);
+        if (closed.determined) {
+            consider(closed.position);
+        }
+        if (best.misfit > k_good_misfit) {
+            // The line that the linear form leaves open: κ and l0 are not free of each other, the misfit tells.
+            std::vector<Eigen::Vector3d> line;
+            for (int k = -24; k <= 24; ++k) {
+                line.emplace_back(closed.position -
+                                  closed.open * (closed.open.dot(closed.position - closed.centre) - 0.125 * k));
+            }
+            for (const Eigen::Vector3d& from : best_of(data, at, line, 4)) {
+                if (best.misfit > k_good_misfit) {
+                    consider(from);
+                }
+            }
+        }
+        if (best.misfit > k_good_misfit || !is_hopeless(data, at, mirror_image(at, best.position), best.misfit)) {
+            consider(mirror_image(at, best.position));
+        }
+        if (best.misfit > k_good_misfit) {
+            for (const Eigen::Vector3d& from : best_of(data, at, sphere_grid(closed.centre), 8)) {
+                if (best.misfit > k_good_misfit) {
+                    consider(from);
+                }
+            }
+        }
+        return best;
+    }
+
+    [[nodiscard]] static bool is_hopeless(const StationData& data, const Positions& at, const Eigen::Vector3d& position,
+                                          double reached) {
+        return misfit(data, deviations(data, at, position).first) >
+               std::max(k_hopeless_misfit, k_hopeless_factor * reached);
+    }
+
+    /// Directions all round in near equal parts (golden-angle spiral), at distances that stations have.
+    [[nodiscard]] static std::vector<Eigen::Vector3d> sphere_grid(const Eigen::Vector3d& centre) {
+        constexpr int k_directions = 60;
+        std::vector<Eigen::Vector3d> grid;
+        for (const double distance : {0.3, 0.6, 1.0, 1.6, 2.6, 4.2}) {
+            for (int k = 0; k < k_directions; ++k) {
+                const double z = 1.0 - (2.0 * k + 1.0) / k_directions;
+                const double azimuth = std::numbers::pi * (3.0 - std::sqrt(5.0)) * k;
+                const double r = std::sqrt(1.0 - z * z);
+                grid.emplace_back(centre + distance * Eigen::Vector3d(r * std::cos(azimuth), r * std::sin(azimuth), z));
+            }
+        }
+        return grid;
+    }
+
+    /// With one set-up for all, a station on the wrong side stands out. True when one was changed.
+    [[nodiscard]] bool choose_again() {
+        bool changed = false;
+        for (std::size_t j = 0; j < stations_.size(); ++j) {
+            const Positions at = positions(j, set_up_, false);
+            std::vector<Eigen::Vector3d> others;
+            if (const Eigen::Vector3d image = mirror_image(at, fits_[j].position);
+                !is_hopeless(stations_[j], at, image, fits_[j].misfit)) {
+                others.push_back(image);
+            }
+            if (fits_[j].misfit > k_good_misfit) {
+                const ClosedSolution closed = closed_solution(stations_[j], at);
+                others.push_back(closed.position);
+            }
+            for (const Eigen::Vector3d& other : others) {
+                const StationFit fit = refined(j, other, set_up_, false);
+                if (fit.misfit * k_rival_factor < fits_[j].misfit) {
+                    fits_[j] = fit;
+                    changed = true;
+                }
+            }
+        }
+        return changed;
+    }
+
+    /// A direction n with n·u the same for every reflector and angle of a dead path: nothing tells how far along n the
+    /// station stands.
+    void refuse_open_direction(std::size_t j) const {
+        if (measurement_.station_start[j]) {
+            return;  // the rank of the adjustment decides
+        }
+        const StationData& data = stations_[j];
+        const Positions at = positions(j, set_up_, false);
+        Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+        for (const std::vector<Eigen::Index>& members : data.members) {
+            Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+            const auto direction = [&](Eigen::Index i) -> Eigen::Vector3d {
+                return (at.point[static_cast<std::size_t>(i)] - fits_[j].position).normalized();
+            };
+            for (const Eigen::Index i : members) {
+                mean += direction(i) / static_cast<double>(members.size());
+            }
+            for (const Eigen::Index i : members) {
+                const Eigen::Vector3d centred = direction(i) - mean;
+                scatter += centred * centred.transpose() / static_cast<double>(data.point.size());
+            }
+        }
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
+        if (eigen.eigenvalues()[0] > k_cone_singular_ratio * k_cone_singular_ratio) {
+            return;
+        }
+        RankReport report;
+        report.deficient = true;
+        for (const char coordinate : {'x', 'y', 'z'}) {
+            if (std::abs(eigen.eigenvectors().col(0)[coordinate - 'x']) > 0.05) {
+                report.parameters.push_back("station " + measurement_.stations[j] + ", " + coordinate);
+            }
+        }
+        for (const std::size_t path : data.path_name) {
+            report.parameters.push_back("dead path " + measurement_.dead_paths[path]);
+        }
+        // How far along the line the station stands is open, so the message cannot tell from where it sees the
+        // reflectors; but its distance from a line along the axis is known.
+        gum::Diagnostic diagnostic = undetermined(measurement_, report);
+        const int axial = axial_coordinate(measurement_.axis);
+        if (std::abs(eigen.eigenvectors().col(0)[axial]) > 0.9999) {
+            const double off = std::hypot(fits_[j].position[across_[0]], fits_[j].position[across_[1]]);
+            diagnostic.what = "stands " + millimetres(off, 1) + " mm off the rotary axis; " + diagnostic.what;
+        }
+        throw gum::NoResultError(std::move(diagnostic));
+    }
+
+    /// All reflectors in one plane across the axis: every station has a mirror image that sees the same distances.
+    /// Stated positions tell the sides apart; without them there is no result.
+    void settle_mirror_images() {
+        std::vector<std::size_t> open;
+        std::vector<Eigen::Vector3d> image(stations_.size());
+        for (std::size_t j = 0; j < stations_.size(); ++j) {
+            const Positions at = positions(j, set_up_, false);
+            image[j] = mirror_image(at, fits_[j].position);
+            if (is_hopeless(stations_[j], at, image[j], fits_[j].misfit)) {
+                continue;
+            }
+            const StationFit rival = refined(j, image[j], set_up_, false);
+            if (!is_rival(fits_[j], rival)) {
+                continue;
+            }
+            image[j] = rival.position;
+            if (!measurement_.station_start[j]) {
+                open.push_back(j);
+            } else if (stated_distance(j, rival) < stated_distance(j, fits_[j])) {
+                fits_[j] = rival;
+            }
+        }
+        if (!open.empty()) {
+            refuse_sides(open, image);
+        }
+        // All at once: a tilt of the fixture against the axis holds the stations together on one side.
+        const int axial = axial_coordinate(measurement_.axis);
+        double height = 0.0;
+        double count = 0.0;
+        for (const StationData& data : stations_) {
+            for (const Eigen::Vector3d& point : data.point) {
+                height += point[axial];
+                count += 1.0;
+            }
+        }
+        std::vector<StationFit> rivals = fits_;
+        Eigen::Vector4d set_up = set_up_;
+        set_up.tail<2>() *= -1.0;
+        for (std::size_t j = 0; j < stations_.size(); ++j) {
+            rivals[j].position[axial] = 2.0 * height / count - rivals[j].position[axial];
+            if (is_hopeless(stations_[j], positions(j, set_up, false), rivals[j].position, fits_[j].misfit)) {
+                return;
+            }
+            open.push_back(j);
+        }
+        descend(open, set_up, rivals, true);
+        bool stated = false;
+        double nearer = 0.0;
+        for (std::size_t j = 0; j < stations_.size(); ++j) {
+            if (!is_rival(fits_[j], rivals[j])) {
+                return;
+            }
+            image[j] = rivals[j].position;
+            if (measurement_.station_start[j]) {
+                stated = true;
+                nearer += stated_distance(j, fits_[j]) - stated_distance(j, rivals[j]);
+            }
+        }
+        if (!stated) {
+            refuse_sides(open, image);
+        }
+        if (nearer > 0.0) {
+            fits_ = rivals;
+            set_up_ = set_up;
+        }
+    }
+
+    [[nodiscard]] double stated_distance(std::size_t j, const StationFit& fit) const {
+        return (fit.position - *measurement_.station_start[j]).norm();
+    }
+
+    [[nodiscard]] static bool is_rival(const StationFit& found, const StationFit& rival) {
+        return rival.misfit < k_rival_factor * found.misfit + 1e-9 &&
+               (rival.position - found.position).norm() > k_rival_distance;
+    }
+
+    [[nodiscard]] static std::string millimetres(double value, int decimals) {
+        const double unit = std::pow(10.0, -decimals);
+        value = std::round(value / gum::k_millimetre / unit) * unit;
+        value = value == 0.0 ? 0.0 : value;  // no minus sign on a zero
+        return text::fixed(value, decimals);
+    }
+
+    [[nodiscard]] static std::string in_millimetres(const Eigen::Vector3d& position) {
+        return "(" + millimetres(position[0], 0) + ", " + millimetres(position[1], 0) + ", " +
+               millimetres(position[2], 0) + ") mm";
+    }
+
+    [[noreturn]] void refuse_sides(const std::vector<std::size_t>& open,
+                                   const std::vector<Eigen::Vector3d>& image) const {
+        std::string others;
+        for (std::size_t k = 1; k < open.size(); ++k) {
+            others += (k == 1 ? "; the same holds for " : ", ") + measurement_.stations[open[k]];
+        }
+        const std::size_t j = open.front();
+        const std::string axis(1, "xyz"[axial_coordinate(measurement_.axis)]);
+        throw gum::NoResultError(gum::Diagnostic{
+            "GC-RANK-0001", "station " + measurement_.stations[j],
+            "its distances fit a position near " + in_millimetres(fits_[j].position) + " and one near " +
+                in_millimetres(image[j]) + " alike" + others,
+            "reflectors in one plane across the axis stay in it as the table turns: the mirror image of a station sees "
+            "the same distances",
+            "state on which side the station stands, with its position to some centimetres in the stations file, or "
+            "raise alternate holders by 50 mm along " +
+                axis,
+            gum::Severity::error});
+    }
+
+    const RotaryTableMeasurement& measurement_;
+    std::array<int, 2> across_;
+    std::vector<Eigen::Matrix3d> turn_;
+    std::vector<StationData> stations_;
+    Eigen::Vector4d set_up_ = Eigen::Vector4d::Zero();
+    std::vector<StationFit> fits_;
+};
+
+// ---- wrong labels ---------------------------------------------------------------------------------------------------
+
+// What a rigid body leaves of the distances of a station: error motions and set-up errors. Labels that are wrong leave
+// centimetres; with the right ones next to nothing of that is left.
+constexpr double k_wrong_labels = 1.0 * gum::k_millimetre;
+constexpr double k_share_with_right_labels = 0.05;
+
+/// What the file may say wrongly of the distances of one station.
+struct LabelHypothesis {
+    bool other_sense = false;           ///< the table turned the other way
+    std::size_t first = 0, second = 0;  ///< reflectors that are interchanged; equal: none
+    friend bool operator==(const LabelHypothesis&, const LabelHypothesis&) = default;
+};
+
+/// The measurement with the distances of one station as the hypothesis reads them.
+RotaryTableMeasurement relabelled(RotaryTableMeasurement measurement, std::size_t station,
+                                  const LabelHypothesis& hypothesis) {
+    for (LengthObservation& length : measurement.lengths) {
+        if (length.station != station) {
+            continue;
+        }
+        if (length.reflector == hypothesis.first) {
+            length.reflector = hypothesis.second;
+        } else if (length.reflector == hypothesis.second) {
+            length.reflector = hypothesis.first;
+        }
+    }
+    if (hypothesis.other_sense) {
+        const double home = measurement.angles[measurement.home];
+        for (double& angle : measurement.angles) {
+            angle = 2.0 * home - angle;
+        }
+    }
+    return measurement;
+}
+
+class LabelSearch {
+public:
+    explicit LabelSearch(const RotaryTableMeasurement& measurement) : measurement_(measurement) {
+        hypotheses_.push_back({true, 0, 0});
+        for (std::size_t a = 0; a < measurement.reflectors.size(); ++a) {
+            for (std::size_t b = a + 1; b < measurement.reflectors.size(); ++b) {
+                hypotheses_.push_back({false, a, b});
+            }
+        }
+    }
+
+    /// \param misfits  of the stations, each on its own, [m]
+    void refuse(const std::vector<double>& misfits) const {
+        std::vector<std::optional<LabelHypothesis>> causes(misfits.size());
+        std::vector<gum::Diagnostic> problems;
+        for (std::size_t j = 0; j < misfits.size(); ++j) {
+            if (misfits[j] > k_wrong_labels) {
+                causes[j] = cause_of(j, misfits[j]);
+                if (!causes[j]) {
+                    refuse_two_places(j, misfits[j]);
+                }
+            }
+        }
+        const bool common =
+            causes[0] && std::ranges::all_of(causes, [&](const auto& cause) { return cause == causes[0]; });
+        for (std::size_t j = 0; j < causes.size() && !(common && j > 0); ++j) {
+            if (causes[j]) {
+                problems.push_back(diagnostic(*causes[j], common ? "" : measurement_.stations[j]));
+            }
+        }
+        if (!problems.empty()) {
+            throw gum::NoResultError(std::move(problems));
+        }
+    }
+
+private:
+    /// The hypothesis with the smallest misfit, where that is small enough.
+    [[nodiscard]] std::optional<LabelHypothesis> cause_of(std::size_t station, double misfit) const {
+        const std::vector<bool> active = of_station(station, std::nullopt);
+        std::optional<LabelHypothesis> best;
+        // A wrong guess of labels lowers the misfit a little by chance; the right one removes nearly all of it.
+        double least = std::min(k_share_with_right_labels * misfit, k_wrong_labels);
+        for (const LabelHypothesis& hypothesis : hypotheses_) {
+            const RotaryTableMeasurement other = relabelled(measurement_, station, hypothesis);
+            const double reached = StartSearch(other, active).fit_of(station).upright_misfit();
+            if (reached < least) {
+                least = reached;
+                best = hypothesis;
+            }
+        }
+        return best;
+    }
+
+    /// Passes of a station that each have a place of their own.
+    void refuse_two_places(std::size_t station, double misfit) const {
+        constexpr double k_same_place = 0.02;  // [m]
+        std::optional<std::pair<std::size_t, Eigen::Vector3d>> first;
+        for (std::size_t pass = 0; pass < measurement_.passes.size(); ++pass) {
+            const std::vector<bool> active = of_station(station, pass);
+            if (std::ranges::count(active, true) < 8) {
+                continue;
+            }
+            const StationFit fit = StartSearch(measurement_, active).fit_of(station);
+            if (!(fit.upright_misfit() < k_share_with_right_labels * misfit)) {
+                return;
+            }
+            if (!first) {
+                first = {pass, fit.position};
+            } else if ((fit.position - first->second).norm() > k_same_place) {
+                throw gum::NoResultError(gum::Diagnostic{
+                    "GC-ADJUST-0013", "lengths, station " + measurement_.stations[station],
+                    "its passes were measured from places that are " + size_text(fit.position - first->second) +
+                        " apart: " + measurement_.passes[first->first] + " and " + measurement_.passes[pass],
+                    "a station stands in one place",
+                    "see whether stations are interchanged in one of the passes, or "
+                    "give the place of its own a station name of its own",
+                    gum::Severity::error});
+            }
+        }
+    }
+
+    [[nodiscard]] std::vector<bool> of_station(std::size_t station, std::optional<std::size_t> pass) const {
+        std::vector<bool> active;
+        for (const LengthObservation& length : measurement_.lengths) {
+            active.push_back(length.station == station && (!pass || length.pass == *pass));
+        }
+        return active;
+    }
+
+    [[nodiscard]] static std::string size_text(const Eigen::Vector3d& way) {
+        return std::to_string(std::llround(way.norm() / gum::k_millimetre)) + " mm";
+    }
+
+    /// \param station  "" for all
+    [[nodiscard]] gum::Diagnostic diagnostic(const LabelHypothesis& cause, const std::string& station) const {
+        const std::string where = station.empty() ? "lengths" : "lengths, station " + station;
+        if (cause.other_sense) {
+            return {"GC-ADJUST-0013",
+                    where,
+                    "the distances agree with a table that turns the other way than the angles say",
+                    "angles are positive about the axis of the table frame by the right-hand rule",
+                    "reverse the sign of the angles, or see whether the coordinates of the fixture are those of a "
+                    "right-handed frame",
+                    gum::Severity::error};
+        }
+        const std::string a = measurement_.reflectors[cause.first];
+        const std::string b = measurement_.reflectors[cause.second];
+        return {"GC-ADJUST-0013",
+                where,
+                "the distances agree when the reflectors " + a + " and " + b + " are interchanged",
+                "a reflector has the same name in the lengths and in the coordinates of the fixture",
+                station.empty() ? "interchange the names in the fixture file or in the lengths"
+                                : "interchange the names in the lengths of this station",
+                gum::Severity::error};
+    }
+
+    const RotaryTableMeasurement& measurement_;
+    std::vector<LabelHypothesis> hypotheses_;
+};
+
+// ---- interrupted beams ----------------------------------------------------------------------------------------------
+
+/// Where the beam of a station was interrupted.
+struct Interruption {
+    std::size_t first = 0;                                  ///< length after it, of the measurement
+    double size = 0.0;                                      ///< [m]
+    double left = std::numeric_limits<double>::infinity();  ///< mean absolute deviation with it, [m]
+};
+
+class InterruptionSearch {
+public:
+    explicit InterruptionSearch(const RotaryTableMeasurement& measurement) : split_(measurement) {
+        split_.dead_paths.emplace_back();
+    }
+
+    /// The interruption of a station that leaves least of its deviations, where that is little enough.
+    [[nodiscard]] std::optional<Interruption> of_station(std::size_t station) {
+        constexpr double k_smallest = 0.1 * gum::k_millimetre;
+        constexpr double k_share_left = 0.2;
+        active_.clear();
+        std::map<std::size_t, std::vector<std::vector<std::size_t>>> by_path;  // visits of each, in their order
+        std::map<std::pair<std::size_t, std::size_t>, std::pair<std::size_t, std::size_t>> places;
+        for (std::size_t i = 0; i < split_.lengths.size(); ++i) {
+            const LengthObservation& length = split_.lengths[i];
+            active_.push_back(length.station == station);
+            if (active_.back()) {
+                const auto [place, is_new] = places.try_emplace({length.pass, length.angle}, length.dead_path, 0);
+                auto& visits = by_path[place->second.first];
+                if (is_new) {
+                    place->second.second = visits.size();
+                    visits.emplace_back();
+                }
+                visits[place->second.second].push_back(i);
+            }
+        }
+        const double before = deviation(station).left;
+        Interruption best;
+        for (const auto& [path, visits] : by_path) {
+            const Interruption found = best_of(station, visits);
+            if (found.left < best.left) {
+                best = found;
+            }
+        }
+        if (best.left < k_share_left * before && std::abs(best.size) > k_smallest) {
+            return best;
+        }
+        return std::nullopt;
+    }
+
+private:
+    /// Every visit of a short sequence; of a long one equal steps first, and then the neighbours of the best.
+    Interruption best_of(std::size_t station, const std::vector<std::vector<std::size_t>>& visits) {
+        constexpr std::size_t k_steps = 24;
+        constexpr std::size_t k_fewest = 2;  // on either side: of one visit it is that visit
+        if (visits.size() < 2 * k_fewest) {
+            return {};
+        }
+        std::size_t from = k_fewest;
+        std::size_t to = visits.size() - k_fewest;
+        Interruption best;
+        for (std::size_t step = (to - from) / k_steps + 1; step > 0; step = step == 1 ? 0 : step / k_steps + 1) {
+            std::size_t place = from;
+            for (std::size_t k = from; k <= to; k += step) {
+                const Interruption found = interrupted_at(station, visits, k);
+                if (found.left < best.left) {
+                    best = found;
+                    place = k;
+                }
+            }
+            from = std::max(k_fewest, place - std::min(place, step));
+            to = std::min(visits.size() - k_fewest, place + step);
+        }
+        return best;
+    }
+
+    Interruption interrupted_at(std::size_t station, const std::vector<std::vector<std::size_t>>& visits,
+                                std::size_t first) {
+        const std::size_t own = split_.dead_paths.size() - 1;
+        std::vector<std::pair<std::size_t, std::size_t>> before;  // length and its dead path
+        for (std::size_t k = first; k < visits.size(); ++k) {
+            for (const std::size_t i : visits[k]) {
+                before.emplace_back(i, split_.lengths[i].dead_path);
+                split_.lengths[i].dead_path = own;
+            }
+        }
+        Interruption found = deviation(station);
+        found.first = visits[first].front();
+        for (const auto& [i, path] : before) {
+            split_.lengths[i].dead_path = path;
+        }
+        return found;
+    }
+
+    /// What a fit of the station leaves, and the dead path that was split off less the one before.
+    [[nodiscard]] Interruption deviation(std::size_t station) const {
+        const StartSearch search(split_, active_);
+        const StationFit fit = search.fit_of(station);
+        const auto [deviations, centres] = search.deviations(station, fit);
+        Interruption result;
+        result.left = deviations.cwiseAbs().mean();
+        const std::vector<std::size_t>& names = search.stations()[station].path_name;
+        if (!names.empty() && names.back() == split_.dead_paths.size() - 1) {
+            result.size = centres[0] - centres[centres.size() - 1];
+        }
+        return result;
+    }
+
+    RotaryTableMeasurement split_;
+    std::vector<bool> active_;
+};
+
+}  // namespace
+
+void refuse_interrupted_beams(const RotaryTableMeasurement& measurement) {
+    std::vector<gum::Diagnostic> problems;
+    InterruptionSearch search(measurement);
+    for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
+        const std::optional<Interruption> found = search.of_station(j);
+        if (!found) {
+            continue;
+        }
+        const LengthObservation& length = measurement.lengths[found->first];
+        problems.push_back({"GC-ADJUST-0014",
+                            "station " + measurement.stations[j] + ", pass " + measurement.passes[length.pass] + ", " +
+                                degrees_text(measurement.angles_deg[length.angle]),
+                            "from this visit on all distances of the station are off by about " +
+                                text::fixed(std::abs(found->size) / gum::k_micrometre, 0) + " µm alike",
+                            "distances of one dead path have one constant",
+                            "the beam was interrupted there: give the distances from there on a dead path of their own",
+                            gum::Severity::error});
+    }
+    if (!problems.empty()) {
+        throw gum::NoResultError(std::move(problems));
+    }
+}
+
+StartValues find_start_values(const RotaryTableMeasurement& measurement, const std::vector<bool>& active) {
+    StartSearch search(measurement, active);
+    search.run();
+    return search.values();
+}
+
+std::vector<std::size_t> find_gross_errors(const RotaryTableMeasurement& measurement) {
+    // What the start values leave is error motions: even of a bad table far below this.
+    constexpr double k_smallest = 0.02;  // [m]
+    constexpr double k_factor = 15.0;    // times the standard deviation that the median absolute deviation stands for
+    StartSearch search(measurement, {});
+    const std::vector<double> misfits = search.fit_each();
+    if (!misfits.empty() && *std::ranges::max_element(misfits) > k_wrong_labels) {
+        LabelSearch(measurement).refuse(misfits);
+    }
+    search.finish();
+    std::vector<std::pair<double, std::size_t>> found;  // negative size first, so that the largest comes first
+    for (std::size_t j = 0; j < search.stations().size(); ++j) {
+        const StationData& data = search.stations()[j];
+        const Eigen::VectorXd deviation = search.deviations(j).first;
+        std::vector<double> values;
+        for (const std::vector<Eigen::Index>& members : data.members) {
+            for (const Eigen::Index i : members) {
+                if (members.size() > 2) {
+                    values.push_back(std::abs(deviation[i]));
+                }
+            }
+        }
+        if (values.empty()) {
+            continue;
+        }
+        const double limit = std::max(k_smallest, k_factor * k_mad_to_deviation * median(values));
+        for (const std::vector<Eigen::Index>& members : data.members) {
+            for (const Eigen::Index i : members) {
+                if (members.size() > 2 && std::abs(deviation[i]) > limit) {
+                    found.emplace_back(-std::abs(deviation[i]), data.observation[static_cast<std::size_t>(i)]);
+                }
+            }
+        }
+    }
+    std::sort(found.begin(), found.end());
+    found.resize(std::min(found.size(), measurement.lengths.size() / 20 + 1));
+    std::vector<std::size_t> result;
+    for (const auto& [size, i] : found) {
+        result.push_back(i);
+    }
+    return result;
+}
+
+}  // namespace gumcert::engine

@@ -1,0 +1,231 @@
+#include "gum/conformity/conformance_probability.h"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "gum/argument_check.h"
+#include "gum/distribution_quantile.h"
+#include "text/numbers.h"
+
+namespace gumcert::gum {
+namespace {
+
+constexpr double k_negligible_tail = 1e-17;  // against the other tail
+constexpr int k_scan = 64;                   // values tried for a distribution that is not known to have one peak
+
+/// The distribution of Y − y.
+class Dispersion {
+public:
+    explicit Dispersion(const MeasuredValue& y)
+        : y_(y), standard_(Distribution::student_t(0.0, y.standard_uncertainty, y.degrees_of_freedom)) {}
+
+    /// P(Y − y ≤ d)
+    [[nodiscard]] double below(double d) const {
+        return y_.distribution ? std::clamp(y_.distribution(y_.value + d), 0.0, 1.0)
+                               : lower_tail_probability(standard_, d);
+    }
+    /// P(Y − y < d)
+    [[nodiscard]] double under(double d) const {
+        return y_.distribution && y_.distribution_below ? std::clamp(y_.distribution_below(y_.value + d), 0.0, 1.0)
+                                                        : below(d);
+    }
+    [[nodiscard]] double above(double d) const {
+        return y_.distribution ? 1.0 - below(d) : upper_tail_probability(standard_, d);
+    }
+    /// P(Y − y ≥ d)
+    [[nodiscard]] double from(double d) const { return y_.distribution ? 1.0 - under(d) : above(d); }
+    /// The d with P(Y − y > d) = q.
+    [[nodiscard]] double upper(double q) const {
+        return y_.distribution ? solve(1.0 - q) : upper_quantile(standard_, q);
+    }
+    /// The d with P(Y − y ≤ d) = q.
+    [[nodiscard]] double lower(double q) const { return y_.distribution ? solve(q) : quantile(standard_, q); }
+    /// The probability of nonconformity of a value s.
+    [[nodiscard]] double risk(double s, const ToleranceLimits& limits) const {
+        return (limits.lower ? under(*limits.lower - s) : 0.0) + (limits.upper ? above(*limits.upper - s) : 0.0);
+    }
+
+private:
+    [[nodiscard]] double solve(double p) const;
+
+    const MeasuredValue& y_;
+    Distribution standard_;
+};
+
+/// A root between two values of opposite sign; an end itself where its value is zero or the signs are equal,
+/// which only rounding can bring about.
+template <class Function>
+double root_between(const Function& f, double a, double b) {
+    if (!(a < b)) {
+        return a;
+    }
+    const double fa = f(a);
+    const double fb = f(b);
+    if (fa == 0.0 || fb == 0.0 || (fa > 0.0) == (fb > 0.0)) {
+        return std::abs(fa) <= std::abs(fb) ? a : b;
+    }
+    std::uintmax_t steps = 200;
+    const auto [low, high] =
+        boost::math::tools::toms748_solve(f, a, b, fa, fb, boost::math::tools::eps_tolerance<double>(52), steps);
+    return 0.5 * (low + high);
+}
+
+double Dispersion::solve(double p) const {
+    const auto f = [&](double d) { return below(d) - p; };
+    double reach = 4.0 * y_.standard_uncertainty;
+    while ((f(-reach) > 0.0 || f(reach) < 0.0) && std::isfinite(2.0 * reach)) {
+        reach *= 2.0;
+    }
+    return root_between(f, -reach, reach);
+}
+
+/// Where the risk crosses a level between two values.
+double crossing(const Dispersion& dispersion, const ToleranceLimits& limits, double level, double from, double to) {
+    return root_between([&](double s) { return dispersion.risk(s, limits) - level; }, std::min(from, to),
+                        std::max(from, to));
+}
+
+/// A value between two others whose risk is not above a level: the middle of the tolerance, where there is one at all.
+/// Only a given distribution that is not symmetric with one peak may have another; then the best of some is tried.
+double good_value(const Dispersion& dispersion, const ToleranceLimits& limits, double level, double low, double high,
+                  bool one_peak) {
+    double best = std::clamp(0.5 * (*limits.lower + *limits.upper), low, high);
+    double least = dispersion.risk(best, limits);
+    for (int i = 0; !one_peak && least > level && i <= k_scan; ++i) {
+        const double s = low + (high - low) * i / k_scan;
+        if (const double risk = dispersion.risk(s, limits); risk < least) {
+            least = risk;
+            best = s;
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
+void require_measured_value(const MeasuredValue& y) {
+    const auto check = [](bool fine, const char* what, double value, const char* rule) {
+        if (!fine) {
+            refuse("GC-GUM-0081", "decision on conformity", std::string(what) + " " + text::shortest(value), rule,
+                   "Correct the measured value or its uncertainty.");
+        }
+    };
+    check(std::isfinite(y.value), "measured value", y.value, "must be finite");
+    check(std::isfinite(y.standard_uncertainty) && y.standard_uncertainty > 0.0, "standard uncertainty",
+          y.standard_uncertainty, "must be finite and greater than 0");
+    check(std::isfinite(y.expanded_uncertainty) && y.expanded_uncertainty > 0.0, "expanded uncertainty",
+          y.expanded_uncertainty, "must be finite and greater than 0");
+    check(y.degrees_of_freedom > 0.0, "degrees of freedom", y.degrees_of_freedom, "must be greater than 0");
+}
+
+double distribution_function(const MeasuredValue& y, double x) {
+    require_measured_value(y);
+    return Dispersion(y).below(x - y.value);
+}
+
+double probability_below(const MeasuredValue& y, double x) {
+    require_measured_value(y);
+    return Dispersion(y).under(x - y.value);
+}
+
+double nonconformance_probability_at(double value, const MeasuredValue& y, const ToleranceLimits& limits) {
+    require_limits(limits);
+    require_measured_value(y);
+    return std::min(1.0, Dispersion(y).risk(value, limits));
+}
+
+double nonconformance_probability(const MeasuredValue& y, const ToleranceLimits& limits) {
+    return nonconformance_probability_at(y.value, y, limits);
+}
+
+double conformance_probability(const MeasuredValue& y, const ToleranceLimits& limits) {
+    require_limits(limits);
+    require_measured_value(y);
+    const Dispersion dispersion(y);
+    const double low = limits.lower ? *limits.lower - y.value : 0.0;
+    const double high = limits.upper ? *limits.upper - y.value : 0.0;
+    // A difference of the smaller tails: p_c keeps its digits when it is small, too.
+    double probability = 0.0;
+    if (!limits.two_sided()) {
+        probability = limits.lower ? dispersion.from(low) : dispersion.below(high);
+    } else if (low > 0.0) {
+        probability = dispersion.from(low) - dispersion.above(high);
+    } else if (high < 0.0) {
+        probability = dispersion.below(high) - dispersion.under(low);
+    } else {
+        probability = 1.0 - dispersion.risk(y.value, limits);
+    }
+    return std::clamp(probability, 0.0, 1.0);
+}
+
+std::optional<ToleranceLimits> acceptance_limits_for_risk(const MeasuredValue& y, const ToleranceLimits& limits,
+                                                          double risk) {
+    require_limits(limits);
+    require_measured_value(y);
+    if (!(risk > 0.0 && risk <= 0.5)) {
+        refuse("GC-GUM-0082", "decision on conformity", "largest risk " + text::shortest(risk),
+               "must be greater than 0 and not above 0.5", "Correct the decision rule.");
+    }
+    const Dispersion dispersion(y);
+    ToleranceLimits accepted;  // with one tail alone: no value outside of these can be accepted
+    if (limits.lower) {
+        accepted.lower = *limits.lower - dispersion.lower(risk);
+    }
+    if (limits.upper) {
+        accepted.upper = *limits.upper - dispersion.upper(risk);
+    }
+    if (!limits.two_sided()) {
+        return accepted;
+    }
+    const double low = *accepted.lower;
+    const double high = *accepted.upper;
+    if (low > high) {
+        return std::nullopt;
+    }
+    const double best = good_value(dispersion, limits, risk, low, high, !y.distribution);
+    if (dispersion.risk(best, limits) > risk) {
+        return std::nullopt;
+    }
+    // Only where the far tail counts at all: else the closed form of one side stands, exact and without a search.
+    if (dispersion.above(*limits.upper - low) > k_negligible_tail * risk) {
+        accepted.lower = crossing(dispersion, limits, risk, low, best);
+    }
+    if (dispersion.under(*limits.lower - high) > k_negligible_tail * risk) {
+        accepted.upper = crossing(dispersion, limits, risk, best, high);
+    }
+    return accepted;
+}
+
+ToleranceLimits rejection_limits_for_probability(const MeasuredValue& y, const ToleranceLimits& limits,
+                                                 double probability) {
+    require_limits(limits);
+    require_measured_value(y);
+    if (!(probability > 0.5 && probability < 1.0)) {
+        refuse("GC-GUM-0082", "decision on conformity", "probability of nonconformity " + text::shortest(probability),
+               "must be above 0.5 and below 1", "Correct the decision rule.");
+    }
+    const Dispersion dispersion(y);
+    ToleranceLimits rejected;
+    if (limits.lower) {
+        rejected.lower = *limits.lower - dispersion.upper(1.0 - probability);
+    }
+    if (limits.upper) {
+        rejected.upper = *limits.upper - dispersion.lower(1.0 - probability);
+    }
+    if (limits.two_sided()) {  // the other tail helps to prove nonconformity
+        const double lower = *rejected.lower;
+        const double upper = *rejected.upper;
+        if (dispersion.above(*limits.upper - lower) > k_negligible_tail) {
+            rejected.lower = crossing(dispersion, limits, probability, lower, *limits.lower);
+        }
+        if (dispersion.under(*limits.lower - upper) > k_negligible_tail) {
+            rejected.upper = crossing(dispersion, limits, probability, *limits.upper, upper);
+        }
+    }
+    return rejected;
+}
+
+}  // namespace gumcert::gum

@@ -1,0 +1,535 @@
+#include "gum/conformity/conformity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "gum/argument_check.h"
+#include "gum/quantity/diagnostic.h"
+#include "text/numbers.h"
+
+namespace gumcert::gum {
+namespace {
+
+constexpr double k_rounding = 16.0 * std::numeric_limits<double>::epsilon();
+constexpr double k_noise_of_a_risk = 1e-12;  // relative
+constexpr double k_z540_3_risk = 0.02;       // ANSI/NCSL Z540.3, 5.3
+constexpr double k_iso_14253_1_probability = 0.95;
+
+/// How the zones of a rule become verdicts.
+enum class Zones {
+    two,       ///< pass between the acceptance limits, else fail
+    three,     ///< fail beyond the rejection limits, undetermined between
+    four,      ///< conditional pass inside of the tolerance, conditional fail up to the rejection limits
+    by_risk,   ///< pass where the specific risk is not above `largest_risk`, else fail
+    by_proof,  ///< as by_risk; fail where p_c is not above it, undetermined between
+};
+
+/// One rule on its way to a decision.
+class Application {
+public:
+    Application(DecisionRule rule, const DecisionRuleParameters& parameters, const ToleranceLimits& limits,
+                const MeasuredValue& y)
+        : rule_(rule), p_(parameters), limits_(limits), y_(y), population_(stated_population(parameters, limits)) {
+        decision_.rule = rule;
+        if (limits.two_sided()) {
+            half_ = 0.5 * (*limits.upper - *limits.lower);
+            decision_.test_uncertainty_ratio = half_ / y.expanded_uncertainty;
+        }
+    }
+
+    [[nodiscard]] ConformityDecision decide();
+    [[nodiscard]] const std::string& reason() const { return reason_; }
+    /// Whether the rule can be applied, and some value passes.
+    [[nodiscard]] bool applies() const { return reason_.empty(); }
+
+private:
+    void set_zones();
+    void z540_3();
+    void posterior();
+    void guard(double w, const std::string& text, const std::string& where = "");
+    void guard_by_factor(double r);
+    void solve_risk(double risk);
+    void prove(double probability);
+    bool ratio_holds();
+    void cannot(std::string why);
+    void probabilities();
+    void verdict();
+    void global_risks();
+    void explain();
+
+    [[nodiscard]] bool nonconformity_is_proven();
+    [[nodiscard]] bool proven_on_one_side(const MeasuredValue& y, double probability) const;
+    [[nodiscard]] double weight_of_measurement() const;
+    [[nodiscard]] MeasuredValue posterior_at(double value) const;
+    [[nodiscard]] bool at_most(double a, double b) const;
+    [[nodiscard]] bool inside(const ToleranceLimits& zone) const;
+    [[nodiscard]] bool beyond(const ToleranceLimits& zone) const;
+    [[nodiscard]] bool some_value_passes() const;
+    [[nodiscard]] double risk_of(double value) const;
+    [[nodiscard]] std::string in_tolerance() const;
+
+    DecisionRule rule_;
+    const DecisionRuleParameters& p_;
+    const ToleranceLimits& limits_;
+    const MeasuredValue& y_;
+    std::optional<Population> population_;
+    double half_ = 0.0;  // T, two-sided limits only
+    Zones zones_ = Zones::two;
+    double largest_risk_ = 0.0;  // of by_risk and by_proof
+    bool with_prior_ = false;
+    std::string reason_;  // why the rule cannot be applied, or no value can pass
+    ConformityDecision decision_;
+};
+
+/// "AL = TL + w, AU = TU − w", the sides that there are.
+std::string acceptance_text(const ToleranceLimits& limits, const std::string& guard_band, bool outwards = false) {
+    const auto side = [&](const char* name, const char* limit, const char* sign) {
+        return std::string(name) + " = " + limit + (guard_band.empty() ? "" : std::string(sign) + guard_band);
+    };
+    std::string text = limits.lower ? side("AL", "TL", outwards ? " − " : " + ") : "";
+    if (limits.upper) {
+        text += (text.empty() ? "" : ", ") + side("AU", "TU", outwards ? " + " : " − ");
+    }
+    return text;
+}
+
+bool Application::at_most(double a, double b) const {
+    // A value that stands on a limit in decimal numbers passes: in binary it may lie a rounding beyond.
+    const double scale = std::max({std::abs(y_.value), std::abs(limits_.lower.value_or(0.0)),
+                                   std::abs(limits_.upper.value_or(0.0)), std::abs(decision_.guard_band)});
+    return a <= b + k_rounding * scale;
+}
+
+bool Application::inside(const ToleranceLimits& zone) const {
+    return (!zone.lower || at_most(*zone.lower, y_.value)) && (!zone.upper || at_most(y_.value, *zone.upper));
+}
+
+bool Application::beyond(const ToleranceLimits& zone) const {
+    return (zone.lower && !at_most(*zone.lower, y_.value)) || (zone.upper && !at_most(y_.value, *zone.upper));
+}
+
+bool Application::some_value_passes() const {
+    const ToleranceLimits& a = decision_.acceptance;
+    return (a.lower || a.upper) && (!a.two_sided() || at_most(*a.lower, *a.upper));
+}
+
+std::string Application::in_tolerance() const {
+    if (limits_.two_sided()) {
+        return "P(TL ≤ Y ≤ TU)";
+    }
+    return limits_.lower ? "P(Y ≥ TL)" : "P(Y ≤ TU)";
+}
+
+void Application::cannot(std::string why) {
+    if (reason_.empty()) {
+        reason_ = std::move(why);
+    }
+}
+
+void Application::guard(double w, const std::string& text, const std::string& where) {
+    decision_.guard_band = w;
+    decision_.acceptance = guarded_limits(limits_, w);
+    decision_.formula = acceptance_text(limits_, text) + (where.empty() ? "" : ", " + where);
+}
+
+void Application::guard_by_factor(double r) {
+    guard(r * y_.expanded_uncertainty, "r·U", "r = " + text::shortest(r));
+}
+
+/// Least ratio and largest U, where they are stated.
+bool Application::ratio_holds() {
+    std::string condition;
+    bool holds = true;
+    if (p_.test_uncertainty_ratio) {
+        condition = "TUR ≥ " + text::shortest(*p_.test_uncertainty_ratio);
+        if (*decision_.test_uncertainty_ratio < *p_.test_uncertainty_ratio * (1.0 - k_rounding)) {
+            holds = false;
+            cannot("the test uncertainty ratio is below the least one of the rule");
+        }
+    }
+    if (p_.largest_U) {
+        condition += (condition.empty() ? "U ≤ " : " and U ≤ ") + text::shortest(*p_.largest_U);
+        if (y_.expanded_uncertainty > *p_.largest_U * (1.0 + k_rounding)) {
+            holds = false;
+            cannot("the expanded uncertainty is above the largest one of the rule");
+        }
+    }
+    if (!condition.empty()) {
+        decision_.formula += ", if " + condition;
+    }
+    return holds;
+}
+
+void Application::solve_risk(double risk) {
+    largest_risk_ = risk;
+    if (const auto solved = acceptance_limits_for_risk(y_, limits_, risk)) {
+        decision_.acceptance = *solved;
+        decision_.guard_band =
+            std::max(limits_.lower ? *solved->lower - *limits_.lower : -std::numeric_limits<double>::infinity(),
+                     limits_.upper ? *limits_.upper - *solved->upper : -std::numeric_limits<double>::infinity());
+    }
+}
+
+void Application::prove(double probability) {
+    zones_ = Zones::by_proof;
+    solve_risk(1.0 - probability);
+    decision_.rejection = rejection_limits_for_probability(y_, limits_, probability);
+    decision_.formula = "pass: " + in_tolerance() + " ≥ p; fail: " + in_tolerance() +
+                        " ≤ 1 − p; else undetermined; p = " + text::shortest(probability);
+}
+
+/// DR-09, method 4: of the measured value against the centre of the population.
+double Application::weight_of_measurement() const {
+    const double u = y_.standard_uncertainty;
+    const double s0 = population_->deviation;
+    return s0 * s0 / (s0 * s0 + u * u);
+}
+
+/// DR-09, method 4: what is known after a measurement that gave some value.
+MeasuredValue Application::posterior_at(double value) const {
+    const double weight = weight_of_measurement();
+    return {.value = population_->centre + weight * (value - population_->centre),
+            .standard_uncertainty = y_.standard_uncertainty * std::sqrt(weight),
+            .expanded_uncertainty = y_.expanded_uncertainty * std::sqrt(weight)};
+}
+
+/// DR-09, method 4: the specific risk of this value, with the population as prior. Prior and measurement are normal,
+/// and so is what is known after both: its value is a weighted mean.
+void Application::posterior() {
+    const double weight = weight_of_measurement();
+    with_prior_ = true;
+    zones_ = Zones::by_risk;
+    largest_risk_ = p_.probability.value_or(k_z540_3_risk);
+    const MeasuredValue after = posterior_at(y_.value);
+    if (auto solved = acceptance_limits_for_risk(after, limits_, largest_risk_)) {
+        const auto measured = [&](std::optional<double>& limit) {
+            if (limit) {
+                limit = population_->centre + (*limit - population_->centre) / weight;
+            }
+        };
+        measured(solved->lower);
+        measured(solved->upper);
+        decision_.acceptance = *solved;
+        decision_.guard_band =
+            std::max(limits_.lower ? *solved->lower - *limits_.lower : -std::numeric_limits<double>::infinity(),
+                     limits_.upper ? *limits_.upper - *solved->upper : -std::numeric_limits<double>::infinity());
+    }
+    decision_.formula =
+        "pass: 1 − " + in_tolerance() + " ≤ R with the population as prior; R = " + text::shortest(largest_risk_);
+}
+
+void Application::z540_3() {
+    const double U = y_.expanded_uncertainty;
+    const std::string& method = p_.method;
+    if (method.empty()) {
+        guard(0.0, "");
+        (void)ratio_holds();
+    } else if (method == "4") {
+        posterior();
+    } else if (method == "5") {
+        guard(U, "U");
+    } else if (method == "6") {
+        // Guard band managed by the ratio (Dobbert): it keeps 2 % for any population.
+        const double ratio = *decision_.test_uncertainty_ratio;
+        const double multiple = std::max(0.0, 1.04 - std::exp(0.38 * std::log(ratio) - 0.54));
+        guard(multiple * U, "M·U", "M = 1.04 − exp(0.38·ln TUR − 0.54), not below 0");
+    } else if (method == "rds") {
+        const double square = 1.0 - (U / half_) * (U / half_);
+        decision_.formula = acceptance_text(limits_, "w") + ", w = T − √(T² − U²), T = (TU − TL)/2";
+        if (square < -k_rounding) {
+            cannot("U is larger than half of the tolerance");
+        } else {
+            const std::string formula = decision_.formula;
+            guard(half_ * (1.0 - std::sqrt(std::max(0.0, square))), "w");
+            decision_.formula = formula;
+        }
+    } else if (method == "rp10") {
+        const double factor = std::min(1.0, 1.25 - 1.0 / *decision_.test_uncertainty_ratio);
+        guard(half_ * (1.0 - factor), "w", "w = T·(1/TUR − 0.25), not below 0, T = (TU − TL)/2");
+    } else {
+        const bool conditional = method == "3";
+        const double risk = p_.probability.value_or(k_z540_3_risk);
+        const auto w =
+            guard_band_for_global_risk(limits_, population_->centre, population_->deviation, y_.standard_uncertainty,
+                                       risk, conditional ? FalseAccept::conditional : FalseAccept::unconditional);
+        const std::string text = std::string("w ≥ 0 the smallest with ") +
+                                 (conditional ? "conditional PFA ≤ " : "global PFA ≤ ") + text::shortest(risk);
+        if (w) {
+            guard(*w, "w", text);
+        } else {
+            decision_.formula = acceptance_text(limits_, "w") + ", " + text;
+            cannot("no guard band brings the false accept probability of this population down to the limit");
+        }
+    }
+}
+
+void Application::set_zones() {
+    const double U = y_.expanded_uncertainty;
+    switch (rule_) {
+        case DecisionRule::simple_acceptance:
+        case DecisionRule::prescribed:
+            guard(0.0, "");
+            return;
+        case DecisionRule::simple_acceptance_with_ratio:
+            guard(0.0, "");
+            (void)ratio_holds();
+            return;
+        case DecisionRule::guard_band_u:
+            guard(U, "U");
+            return;
+        case DecisionRule::guard_band_factor:
+            guard_by_factor(*p_.guard_factor);
+            return;
+        case DecisionRule::non_binary: {
+            zones_ = Zones::four;
+            const double w = p_.guard_band ? *p_.guard_band : p_.guard_factor.value_or(1.0) * U;
+            guard(w, "w");
+            decision_.rejection = guarded_limits(limits_, -w);
+            decision_.formula = "pass: " + acceptance_text(limits_, "w") + "; conditional pass: up to the limit; " +
+                                "conditional fail: up to w beyond the limit; " +
+                                (p_.guard_factor ? "w = r·U, r = " + text::shortest(*p_.guard_factor)
+                                                 : std::string(p_.guard_band ? "w as agreed" : "w = U"));
+            return;
+        }
+        case DecisionRule::three_way:
+            zones_ = Zones::three;
+            guard(U, "U");
+            decision_.rejection = guarded_limits(limits_, -U);
+            decision_.formula = "pass: y ± U inside of the limits; fail: y ± U outside; else undetermined";
+            return;
+        case DecisionRule::specific_risk:
+            zones_ = Zones::by_risk;
+            solve_risk(*p_.probability);
+            decision_.formula = "pass: 1 − " + in_tolerance() + " ≤ R, R = " + text::shortest(*p_.probability);
+            return;
+        case DecisionRule::iso_14253_1:
+            if (p_.guard_factor) {
+                zones_ = Zones::three;
+                guard_by_factor(*p_.guard_factor);
+                decision_.rejection = guarded_limits(limits_, -decision_.guard_band);
+                decision_.formula += "; fail: beyond r·U outside of the limits; else undetermined";
+                return;
+            }
+            prove(p_.probability.value_or(k_iso_14253_1_probability));
+            return;
+        case DecisionRule::z540_3:
+            z540_3();
+            return;
+        case DecisionRule::b89_7_3_1:
+            if (p_.guard_factor) {
+                guard_by_factor(*p_.guard_factor);
+            } else {
+                guard(0.0, "");
+            }
+            (void)ratio_holds();
+            return;
+        case DecisionRule::relaxed:
+            guard(-U, "");
+            decision_.formula = acceptance_text(limits_, "U", true);
+            return;
+        case DecisionRule::agreed:
+            if (p_.guard_factor) {
+                guard_by_factor(*p_.guard_factor);
+            } else {
+                guard(*p_.guard_band, "w", "w as agreed");
+            }
+            return;
+    }
+}
+
+double Application::risk_of(double value) const {
+    return with_prior_ ? nonconformance_probability(posterior_at(value), limits_)
+                       : nonconformance_probability_at(value, y_, limits_);
+}
+
+void Application::probabilities() {
+    decision_.conformance_probability =
+        with_prior_ ? 1.0 - risk_of(y_.value) : gum::conformance_probability(y_, limits_);
+    if (!applies()) {
+        return;
+    }
+    double largest = 0.0;
+    for (const std::optional<double>& limit : {decision_.acceptance.lower, decision_.acceptance.upper}) {
+        if (limit) {
+            largest = std::max(largest, risk_of(*limit));
+        }
+    }
+    decision_.largest_specific_risk = largest;
+}
+
+/// Whether the item lies beyond one of the limits with a probability. Both tails together say nothing where the
+/// tolerance is narrow: each value has a small probability of conformity then, also the best one.
+bool Application::proven_on_one_side(const MeasuredValue& y, double probability) const {
+    const double least = probability * (1.0 - k_noise_of_a_risk);
+    return (limits_.lower && probability_below(y, *limits_.lower) >= least) ||
+           (limits_.upper && 1.0 - distribution_function(y, *limits_.upper) >= least);
+}
+
+/// Whether a value fails although none can pass, or the rule cannot be applied: nonconformity needs no zone of
+/// conformity (ISO 14253-1). Rules with zones of rejection or a probability to prove have their own; with any other one
+/// y ± U lies outside of the tolerance.
+bool Application::nonconformity_is_proven() {
+    if (zones_ == Zones::by_proof) {
+        return proven_on_one_side(y_, 1.0 - largest_risk_);
+    }
+    if (with_prior_) {
+        return proven_on_one_side(posterior_at(y_.value), 1.0 - largest_risk_);
+    }
+    if (!decision_.rejection.lower && !decision_.rejection.upper) {
+        decision_.rejection = guarded_limits(limits_, -y_.expanded_uncertainty);
+    }
+    return beyond(decision_.rejection);
+}
+
+void Application::verdict() {
+    using enum ConformityVerdict;
+    const bool by_risk = zones_ == Zones::by_risk || zones_ == Zones::by_proof;
+    const double risk = risk_of(y_.value);
+    const bool passes = by_risk ? risk <= largest_risk_ * (1.0 + k_noise_of_a_risk) : inside(decision_.acceptance);
+    if (!reason_.empty()) {
+        decision_.acceptance = {};
+        decision_.guard_band = 0.0;
+    } else if (!some_value_passes()) {
+        cannot(p_.guard_band ? "no value can pass, because the guard band is larger than half of the tolerance"
+                             : "no value can pass, because U is too large against the tolerance");
+    }
+    if (!applies()) {
+        decision_.verdict = nonconformity_is_proven() ? fail : not_applicable;
+    } else if (passes) {
+        decision_.verdict = pass;
+    } else if (zones_ == Zones::two || zones_ == Zones::by_risk) {
+        decision_.verdict = fail;
+    } else if (zones_ == Zones::by_proof) {
+        decision_.verdict = risk >= (1.0 - largest_risk_) * (1.0 - k_noise_of_a_risk) ? fail : undetermined;
+    } else if (beyond(decision_.rejection)) {
+        decision_.verdict = fail;
+    } else if (zones_ == Zones::three) {
+        decision_.verdict = undetermined;
+    } else {
+        decision_.verdict = inside(limits_) ? conditional_pass : conditional_fail;
+    }
+}
+
+void add_sentence(std::string& text, std::string_view sentence) {
+    text += (text.empty() ? "" : " ") + std::string(sentence);
+}
+
+void Application::global_risks() {
+    if (!applies()) {
+        return;
+    }
+    if (population_) {
+        const GlobalRisk risk = global_risk(limits_, decision_.acceptance, population_->centre, population_->deviation,
+                                            y_.standard_uncertainty);
+        decision_.false_accept = risk.false_accept;
+        decision_.false_reject = risk.false_reject;
+    } else if (rule_ == DecisionRule::z540_3 && limits_.two_sided()) {
+        decision_.false_accept = largest_false_accept(limits_, decision_.acceptance, y_.standard_uncertainty);
+        add_sentence(decision_.note,
+                     "The global probability of false acceptance is the largest one of all normal populations that are "
+                     "centred between the limits.");
+    }
+    const bool normal = !y_.distribution && std::isinf(y_.degrees_of_freedom);
+    if (decision_.false_accept && !normal) {
+        add_sentence(decision_.note, "The global risk takes the measurement as normally distributed with u.");
+    }
+}
+
+/// Why nothing can pass, and why a value fails all the same.
+void Application::explain() {
+    if (applies()) {
+        return;
+    }
+    const bool fails = decision_.verdict == ConformityVerdict::fail;
+    add_sentence(decision_.note, decision_rule_id(rule_) +
+                                     (fails ? " accepts no value here: " : " cannot be applied: ") + reason_ + ".");
+    if (fails) {
+        const bool by_U = zones_ == Zones::two || (zones_ == Zones::by_risk && !with_prior_);
+        add_sentence(decision_.note, by_U ? "Nonconformity is proven all the same: y ± U lies outside of the limits."
+                                          : "Nonconformity is proven all the same: the value lies where the rule "
+                                            "rejects.");
+    }
+}
+
+ConformityDecision Application::decide() {
+    set_zones();
+    verdict();
+    probabilities();
+    const bool rejected =
+        decision_.verdict == ConformityVerdict::fail || decision_.verdict == ConformityVerdict::conditional_fail;
+    decision_.specific_risk = rejected ? decision_.conformance_probability : risk_of(y_.value);
+    global_risks();
+    explain();
+    return decision_;
+}
+
+}  // namespace
+
+std::string verdict_name(ConformityVerdict verdict) {
+    switch (verdict) {
+        case ConformityVerdict::pass:
+            return "pass";
+        case ConformityVerdict::fail:
+            return "fail";
+        case ConformityVerdict::conditional_pass:
+            return "conditional_pass";
+        case ConformityVerdict::conditional_fail:
+            return "conditional_fail";
+        case ConformityVerdict::undetermined:
+            return "undetermined";
+        case ConformityVerdict::not_applicable:
+            return "not_applicable";
+    }
+    return "not_applicable";
+}
+
+ConformityDecision decide_conformity(DecisionRule rule, const DecisionRuleParameters& parameters,
+                                     const ToleranceLimits& limits, const MeasuredValue& y) {
+    require_limits(limits);
+    require_measured_value(y);
+    std::vector<Diagnostic> faults;
+    for (const std::string& sentence : check_decision_rule(rule, parameters, limits)) {
+        faults.push_back({.code = "GC-GUM-0082",
+                          .where = "decision rule " + decision_rule_id(rule),
+                          .what = sentence,
+                          .rule = "a rule is applied with the parameters that it has, and with no others",
+                          .action = "Correct the decision rule of the specification."});
+    }
+    if (!faults.empty()) {
+        throw InputError(std::move(faults));
+    }
+    Application application(rule, parameters, limits, y);
+    ConformityDecision decision = application.decide();
+    if (application.applies() || !parameters.alternative) {
+        return decision;
+    }
+    const DecisionRuleParameters others = parameters_of_alternative(parameters);
+    ConformityDecision other = Application(*parameters.alternative, others, limits, y).decide();
+    // What was agreed for this case decides, also where nonconformity is proven without it.
+    std::string note = decision_rule_id(rule) + " cannot be applied: " + application.reason() +
+                       ". The agreed alternative " + decision_rule_id(other.rule) + " takes its place.";
+    if (!other.note.empty()) {
+        note += " " + other.note;
+    }
+    other.note = std::move(note);
+    return other;
+}
+
+std::string decision_formula(DecisionRule rule, const DecisionRuleParameters& parameters,
+                             const ToleranceLimits& limits) {
+    if (!check_decision_rule(rule, parameters, limits).empty()) {
+        return {};
+    }
+    // Any value has the same formula.
+    const double U = limits.two_sided() ? 0.25 * (*limits.upper - *limits.lower) : 1.0;
+    const MeasuredValue any{.value = limits.lower ? *limits.lower : *limits.upper,
+                            .standard_uncertainty = 0.5 * U,
+                            .expanded_uncertainty = U};
+    return Application(rule, parameters, limits, any).decide().formula;
+}
+
+}  // namespace gumcert::gum

@@ -1,0 +1,1015 @@
+#include "gum/monte_carlo/convolution.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/special_functions/bessel.hpp>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <tuple>
+#include <unsupported/Eigen/FFT>
+#include <utility>
+
+#include "gum/argument_check.h"
+#include "gum/coverage.h"
+#include "gum/distribution_quantile.h"
+#include "gum/monte_carlo/random_draws.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/quantity/special_values.h"
+
+namespace gumcert::gum {
+namespace {
+
+using BesselPolicy =
+    boost::math::policies::policy<boost::math::policies::promote_double<false>,
+                                  boost::math::policies::overflow_error<boost::math::policies::ignore_error>,
+                                  boost::math::policies::underflow_error<boost::math::policies::ignore_error>>;
+
+constexpr std::size_t k_cells = std::size_t{1} << 15U;
+// A margin of cells, so that the probability at the last ones does not wrap around to the other side of the grid.
+constexpr std::size_t k_last_cell = k_cells / 2 * 10 / 11;
+constexpr double k_tail_beyond_grid = 1e-9;  // probability of a term outside the grid, of those without limits
+constexpr double k_negligible_cell = 1e-15;  // of a probability; what Fourier transforms leave behind is smaller
+constexpr double k_widest_grid = 60.0;       // in standard deviations of the sum; wider where the tails ask for it
+
+/// A distribution about 0: X − E[X], or E[X] − X.
+struct Centred {
+    Distribution distribution;
+    bool symmetric = true;
+    bool mirrored = false;
+};
+
+/// A standard deviation, or for a t-distribution without one the scale: the width of the bulk.
+double width(const Distribution& distribution) {
+    const double deviation = standard_deviation(distribution);
+    return std::isfinite(deviation) ? deviation : distribution.scale;
+}
+
+/// Probabilities of the cells (k ± ½) h of a symmetric distribution, k = 0 … n/2, then mirrored at the end of the array
+/// as a Fourier transform wants it. What lies beyond the last cell goes there.
+std::vector<double> cell_probabilities(const Distribution& distribution, double h) {
+    std::vector<double> cells(k_cells, 0.0);
+    double outside = 0.5;  // P(X > lower edge of cell k); symmetric about 0
+    double above = upper_tail_probability(distribution, 0.5 * h);
+    cells[0] = 2.0 * (outside - above);
+    for (std::size_t k = 1; k <= k_last_cell; ++k) {
+        outside = above;
+        const bool more = k < k_last_cell && outside > 0.0;
+        above = more ? upper_tail_probability(distribution, (static_cast<double>(k) + 0.5) * h) : 0.0;
+        cells[k] = outside - above;
+        cells[k_cells - k] = cells[k];
+    }
+    return cells;
+}
+
+/// Probabilities of the same cells of any distribution.
+std::vector<double> asymmetric_cells(const Centred& centred, double h) {
+    std::vector<double> cells(k_cells, 0.0);
+    const auto last = static_cast<std::ptrdiff_t>(k_last_cell);
+    const auto place = [&](std::ptrdiff_t k) {
+        const std::ptrdiff_t inside = std::clamp(centred.mirrored ? -k : k, -last, last);
+        return static_cast<std::size_t>(inside < 0 ? inside + static_cast<std::ptrdiff_t>(k_cells) : inside);
+    };
+    const Distribution& d = centred.distribution;
+    if (d.kind == DistributionKind::empirical) {
+        const double each = 1.0 / static_cast<double>(d.samples->size());
+        for (const double sample : *d.samples) {
+            const double k = std::round((d.location + d.scale * sample) / h);
+            cells[place(static_cast<std::ptrdiff_t>(std::clamp(k, -1e9, 1e9)))] += each;
+        }
+        return cells;
+    }
+    double below = 0.0;
+    for (std::ptrdiff_t k = -last; k < last; ++k) {
+        const double upto = lower_tail_probability(d, (static_cast<double>(k) + 0.5) * h);
+        cells[place(k)] += upto - below;
+        below = upto;
+    }
+    cells[place(last)] += 1.0 - below;
+    return cells;
+}
+
+/// The distributions of c_i (X_i − E[X_i]), all normal ones as one.
+std::vector<Centred> centred_distributions(std::span<const ConvolutionTerm> terms) {
+    std::vector<Centred> all;
+    double normal_variance = 0.0;
+    for (const ConvolutionTerm& term : terms) {
+        Distribution distribution = term.distribution;
+        if (distribution.kind == DistributionKind::constant || distribution.scale == 0.0 || term.sensitivity == 0.0) {
+            continue;
+        }
+        if (const std::string problem = distribution_problem(distribution); !problem.empty()) {
+            throw InputError(Diagnostic{.code = "GC-GUM-0060",
+                                        .where = "convolution of distributions",
+                                        .what = std::string(distribution_name(distribution.kind)) + ": " + problem,
+                                        .rule = "a distribution needs parameters inside its range",
+                                        .action = "Correct the parameters."});
+        }
+        const bool symmetric = is_symmetric(distribution);
+        distribution.location = 0.0;
+        distribution.scale *= std::abs(term.sensitivity);
+        if (distribution.kind == DistributionKind::normal) {
+            normal_variance += distribution.scale * distribution.scale;
+            continue;
+        }
+        if (!symmetric || distribution.kind == DistributionKind::beta) {
+            distribution.location = -expectation(distribution);
+        }
+        all.push_back({std::move(distribution), symmetric, !symmetric && term.sensitivity < 0.0});
+    }
+    if (normal_variance > 0.0) {
+        all.push_back({Distribution::normal(0.0, std::sqrt(normal_variance))});
+    }
+    if (all.empty()) {
+        throw InputError(Diagnostic{.code = "GC-GUM-0060",
+                                    .where = "convolution of distributions",
+                                    .what = "no term with an uncertainty",
+                                    .rule = "a sum of distributions needs at least one",
+                                    .action = "State the uncertainty of at least one input."});
+    }
+    return all;
+}
+
+/// How far from 0 a distribution reaches, but for tails without limits.
+double reach_of(const Centred& centred, double beyond) {
+    const Distribution& d = centred.distribution;
+    const double tail = is_bounded(d) ? 0.0 : beyond;
+    const double up = upper_quantile(d, tail);
+    return centred.symmetric ? up : std::max(std::abs(up), std::abs(quantile(d, tail)));
+}
+
+/// Probabilities of a sum in the cells (k ± ½) h, those with k < 0 at the end of the array.
+struct CellSum {
+    double h = 0.0;
+    std::vector<double> cells;
+    bool cut = false;  // tails go on beyond the grid: their probability is at its ends
+};
+
+/// \param widest_grid  in standard deviations of the sum: cells grow with it
+/// \param tail         probability of a term that may be left outside of the widest grid of all
+CellSum convolve(std::span<const Centred> distributions, double widest_grid, double tail = k_tail_beyond_grid) {
+    double variance = 0.0;
+    double reach = 0.0;  // nothing lies further out, but for the tails of the terms without limits
+    for (const Centred& centred : distributions) {
+        variance += width(centred.distribution) * width(centred.distribution);
+        reach += reach_of(centred, tail);
+    }
+    const double widest = widest_grid * std::sqrt(variance);
+    const bool cut = reach > widest;
+    reach = std::min(reach, widest);
+    const double h = reach / static_cast<double>(k_last_cell);
+
+    Eigen::FFT<double> transform;
+    // The spectrum of a sum of independent quantities is the product of their spectra.
+    std::vector<std::complex<double>> product;
+    for (const Centred& centred : distributions) {
+        std::vector<std::complex<double>> spectrum;
+        transform.fwd(spectrum,
+                      centred.symmetric ? cell_probabilities(centred.distribution, h) : asymmetric_cells(centred, h));
+        if (product.empty()) {
+            product = std::move(spectrum);
+        } else {
+            for (std::size_t i = 0; i < product.size(); ++i) {
+                product[i] *= spectrum[i];
+            }
+        }
+    }
+    std::vector<double> sum;
+    transform.inv(sum, product);
+    return {h, std::move(sum), cut};
+}
+
+}  // namespace
+
+// ---- by characteristic functions ------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr double k_fourier_error = 2e-7;      // of a probability of 0.95; less for probabilities nearer to 1
+constexpr Eigen::Index k_most_nodes = 32768;  // with more, cells of a grid are faster
+constexpr double k_exact_bessel = 60.0;       // largest ν with the Bessel function itself
+constexpr double k_least_nu = 1.0;
+constexpr double k_normal_nu = 1e6;
+
+/// Whether the characteristic function of a centred distribution is known here.
+bool has_characteristic_function(const Distribution& d) {
+    switch (d.kind) {
+        case DistributionKind::normal:
+        case DistributionKind::uniform:
+        case DistributionKind::triangular:
+        case DistributionKind::arcsine:
+        case DistributionKind::trapezoidal:
+        case DistributionKind::curvilinear_trapezoid:
+            return true;
+        case DistributionKind::student_t:
+            return d.shape >= k_least_nu;
+        default:
+            return false;
+    }
+}
+
+double sinc(double z) {
+    return std::abs(z) < 1e-4 ? 1.0 - z * z / 6.0 : std::sin(z) / z;
+}
+
+/// Characteristic function of Student's t, K_μ(z) z^μ / (2^(μ−1) Γ(μ)) with μ = ν/2, z = √ν s t; for large ν by the
+/// expansion of K_μ that is uniform in z (NIST DLMF 10.41.4).
+double student_characteristic(double nu, double scaled_t) {
+    const double mu = 0.5 * nu;
+    const double z = std::sqrt(nu) * scaled_t;
+    if (z < 1e-8) {
+        return 1.0;
+    }
+    if (nu >= k_normal_nu) {
+        return std::exp(-0.5 * scaled_t * scaled_t);
+    }
+    if (nu <= k_exact_bessel) {
+        const double K = boost::math::cyl_bessel_k(mu, z, BesselPolicy());
+        return K > 0.0 ? std::exp(std::log(K) + mu * std::log(z) - (mu - 1.0) * std::numbers::ln2 -
+                                  boost::math::lgamma(mu, BesselPolicy()))
+                       : 0.0;
+    }
+    const double x = z / mu;
+    const double root = std::sqrt(1.0 + x * x);
+    const auto series = [mu](double p) {
+        const double p2 = p * p;
+        const double u1 = p * (3.0 - 5.0 * p2) / 24.0;
+        const double u2 = p2 * (81.0 - 462.0 * p2 + 385.0 * p2 * p2) / 1152.0;
+        const double u3 = p * p2 * (30375.0 - 369603.0 * p2 + 765765.0 * p2 * p2 - 425425.0 * p2 * p2 * p2) / 414720.0;
+        return 1.0 + (-u1 + (u2 - u3 / mu) / mu) / mu;
+    };
+    // Of the expansion divided by its value at 0, so that φ(0) = 1.
+    const double log_phi = -mu * (x * x / (1.0 + root)) + mu * std::log1p(0.5 * (root - 1.0)) - 0.5 * std::log(root);
+    return std::exp(log_phi) * series(1.0 / root) / series(1.0);
+}
+
+/// A bound of |φ(t)| of a distribution that falls with t, and the power of 1/t with which it falls at least.
+struct Envelope {
+    double value = 1.0;
+    double power = 0.0;
+};
+
+Envelope envelope(const Distribution& d, double t) {
+    const double at = d.scale * t;
+    switch (d.kind) {
+        case DistributionKind::normal:
+            return {std::exp(-0.5 * at * at), 0.0};
+        case DistributionKind::uniform:
+            return {std::min(1.0, 1.0 / at), 1.0};
+        case DistributionKind::triangular:
+            return {std::min(1.0, 4.0 / (at * at)), 2.0};
+        case DistributionKind::arcsine:
+            return {std::min(1.0, std::sqrt(2.0 / (std::numbers::pi * at))), 0.5};
+        case DistributionKind::trapezoidal:
+            return {std::min(1.0, 2.0 / ((1.0 + d.shape) * at)) *
+                        std::min(1.0, d.shape < 1.0 ? 2.0 / ((1.0 - d.shape) * at) : 1.0),
+                    1.0};
+        case DistributionKind::curvilinear_trapezoid:
+            return {std::min(1.0, d.shape < 0.5 ? 1.0 / ((1.0 - d.shape) * at) : 0.93 / (d.shape * at)), 1.0};
+        case DistributionKind::student_t:
+            return {student_characteristic(d.shape, at), 0.0};
+        default:
+            return {};
+    }
+}
+
+/// ∫ sin z/z dz over a step of at most π, by Gauss and Legendre with 8 points.
+double sine_integral_step(double from, double to) {
+    constexpr std::array<double, 4> k_points{0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
+                                             0.9602898564975363};
+    constexpr std::array<double, 4> k_weights{0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
+                                              0.1012285362903763};
+    const double middle = 0.5 * (from + to);
+    const double half = 0.5 * (to - from);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < k_points.size(); ++i) {
+        sum += k_weights[i] * (sinc(middle - half * k_points[i]) + sinc(middle + half * k_points[i]));
+    }
+    return half * sum;
+}
+
+/// Multiplies φ_j by the characteristic function of a centred distribution at j δ, j = 1 …
+void multiply_by_characteristic(const Distribution& d, double delta, std::vector<double>& phi) {
+    const double step = d.scale * delta;
+    double low = 0.0;  // sine integrals up to (1 − r) and (1 + r) a t
+    double high = 0.0;
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+        const double at = step * (static_cast<double>(i) + 1.0);
+        switch (d.kind) {
+            case DistributionKind::normal:
+                phi[i] *= std::exp(-0.5 * at * at);
+                break;
+            case DistributionKind::uniform:
+                phi[i] *= sinc(at);
+                break;
+            case DistributionKind::triangular:
+                phi[i] *= sinc(0.5 * at) * sinc(0.5 * at);
+                break;
+            case DistributionKind::arcsine:
+                phi[i] *= boost::math::cyl_bessel_j(0, at, BesselPolicy());
+                break;
+            case DistributionKind::trapezoidal:
+                phi[i] *= sinc(0.5 * (1.0 + d.shape) * at) * sinc(0.5 * (1.0 - d.shape) * at);
+                break;
+            case DistributionKind::curvilinear_trapezoid: {
+                // A uniform distribution with a half-width that is uniform on a (1 ± r): the mean of sinc over it.
+                const double before = at - step;
+                if (d.shape < 1e-6) {
+                    phi[i] *= sinc(at);
+                    break;
+                }
+                low += sine_integral_step((1.0 - d.shape) * before, (1.0 - d.shape) * at);
+                high += sine_integral_step((1.0 + d.shape) * before, (1.0 + d.shape) * at);
+                phi[i] *= (high - low) / (2.0 * d.shape * at);
+                break;
+            }
+            default:
+                phi[i] *= student_characteristic(d.shape, at);
+                break;
+        }
+    }
+}
+
+/// Half-width by the Fourier series of the distribution wrapped onto −L … L:
+/// P(|Y| ≤ x) = x/L + (2/π) Σ_j φ(jπ/L) sin(jπx/L)/j.
+/// \return nothing where cells of a grid are better: an unknown characteristic function, or one that falls slowly
+std::optional<double> fourier_half_width(std::span<const Centred> terms, double p) {
+    // Nearer to p = 1 the density at the end is lower: the same error of k allows a smaller error of the probability.
+    const double accepted = k_fourier_error * std::min(1.0, (1.0 - p) / 0.05);
+    double bounded_reach = 0.0;
+    double proxy = 0.0;  // variance of a normal distribution whose tails are no lighter
+    double students = 0.0;
+    std::vector<Distribution> distributions;
+    for (const Centred& term : terms) {
+        distributions.push_back(term.distribution);
+        const Distribution& d = distributions.back();
+        if (!has_characteristic_function(d)) {
+            return std::nullopt;
+        }
+        if (d.kind == DistributionKind::student_t) {
+            students += upper_quantile(d, 0.25 * (1.0 - p) / static_cast<double>(terms.size()));
+        } else if (d.kind == DistributionKind::normal) {
+            proxy += d.scale * d.scale;
+            bounded_reach = k_infinity;
+        } else {
+            const double a = upper_quantile(d, 0.0);
+            proxy += d.kind == DistributionKind::uniform ? a * a / 3.0 : a * a;
+            bounded_reach += a;
+        }
+    }
+    // Bounded terms reach no further than their half-widths together; with normal ones, no further than a normal
+    // distribution of the variance `proxy`, whose tails are at least as heavy.
+    const double core = std::min(bounded_reach, std::sqrt(-2.0 * proxy * std::log(0.05 * accepted)));
+    // What lies beyond 2 L − x is counted where it does not belong, a density that falls with the distance.
+    const double reach = core + students;
+    double L = 1.05 * reach;
+    const auto wrapped = [&](double at) {
+        double sum = 0.0;
+        for (const Distribution& d : distributions) {
+            if (d.kind == DistributionKind::student_t) {
+                sum +=
+                    4.0 * (upper_tail_probability(d, 2.0 * at - reach) - upper_tail_probability(d, 2.0 * at + reach));
+            }
+        }
+        return sum;
+    };
+    for (int step = 0; step < 40 && wrapped(L) > 0.5 * accepted; ++step) {
+        L *= 1.3;
+    }
+    const double delta = std::numbers::pi / L;
+    const auto left_out = [&](double t) {
+        double value = 1.0;
+        double power = 0.0;
+        for (const Distribution& d : distributions) {
+            const Envelope e = envelope(d, t);
+            value *= e.value;
+            power += e.power;
+        }
+        return 2.0 / std::numbers::pi * value / std::max(1.0, power);
+    };
+    Eigen::Index nodes = 32;
+    while (nodes <= k_most_nodes && left_out(static_cast<double>(nodes) * delta) > 0.1 * accepted) {
+        nodes += nodes / 4;
+    }
+    if (nodes > k_most_nodes) {
+        return std::nullopt;
+    }
+    std::vector<double> phi(static_cast<std::size_t>(nodes), 1.0);
+    for (const Distribution& d : distributions) {
+        multiply_by_characteristic(d, delta, phi);
+    }
+    /// P(|Y| ≤ x) − p and the density of |Y| at x.
+    const auto at = [&](double x) {
+        // cos and sin of every multiple by rotating the last ones: two products in place of two calls.
+        const double c = std::cos(delta * x);
+        const double s = std::sin(delta * x);
+        double cosine = c;
+        double sine = s;
+        double probability = x / L;
+        double density = 1.0;
+        for (std::size_t j = 0; j < phi.size(); ++j) {
+            probability += 2.0 / std::numbers::pi * phi[j] * sine / (static_cast<double>(j) + 1.0);
+            density += 2.0 * phi[j] * cosine;
+            const double next = cosine * c - sine * s;
+            sine = sine * c + cosine * s;
+            cosine = next;
+        }
+        return std::pair{probability - p, density / L};
+    };
+    double low = 0.0;
+    double high = std::min(reach, L);
+    double x = 0.5 * high;
+    for (int step = 0; step < 100 && high - low > 1e-13 * high; ++step) {
+        const auto [difference, density] = at(x);
+        (difference < 0.0 ? low : high) = x;
+        const double newton = x - difference / density;
+        const double next = density > 0.0 && newton > low && newton < high ? newton : 0.5 * (low + high);
+        if (std::abs(next - x) <= 1e-12 * x) {
+            return next;
+        }
+        x = next;
+    }
+    return x;
+}
+
+}  // namespace
+
+namespace {
+
+constexpr std::size_t k_most_sums = std::size_t{1} << 20U;
+constexpr std::size_t k_most_listed = std::size_t{1} << 17U;  // for an interval
+
+/// The possible values of a sum of samples and nothing else, in rising order, where they are few enough to be listed.
+std::vector<double> possible_sums(std::span<const Centred> distributions, std::size_t most) {
+    std::vector<double> sums{0.0};
+    for (const Centred& centred : distributions) {
+        const Distribution& d = centred.distribution;
+        if (d.kind != DistributionKind::empirical || d.samples->size() > most / sums.size()) {
+            return {};
+        }
+        std::vector<double> next;
+        next.reserve(sums.size() * d.samples->size());
+        for (const double before : sums) {
+            for (const double sample : *d.samples) {
+                const double deviation = d.location + d.scale * sample;
+                next.push_back(before + (centred.mirrored ? -deviation : deviation));
+            }
+        }
+        sums = std::move(next);
+    }
+    std::sort(sums.begin(), sums.end());
+    return sums;
+}
+
+ConvolutionInterval symmetric_interval(const CellSum& convolved, double coverage_probability) {
+    // Probability inside ±(k + ½) h grows by two cells a step; inside a cell it is taken as linear.
+    const double h = convolved.h;
+    const std::vector<double>& sum = convolved.cells;
+    double inside = sum[0];
+    double edge = 0.5 * h;
+    if (inside >= coverage_probability) {
+        edge *= coverage_probability / inside;
+        return {-edge, edge};
+    }
+    for (std::size_t k = 1; k < k_cells / 2; ++k) {
+        const double next = inside + sum[k] + sum[k_cells - k];
+        if (next >= coverage_probability) {
+            edge += h * (coverage_probability - inside) / (next - inside);
+            break;
+        }
+        inside = next;
+        edge += h;
+    }
+    return {-edge, edge};
+}
+
+/// The same tail on either side, counted from its own end.
+ConvolutionInterval interval_with_equal_tails(const CellSum& convolved, double coverage_probability) {
+    const double tail = 0.5 * (1.0 - coverage_probability);
+    const auto half = static_cast<std::ptrdiff_t>(k_cells / 2);
+    const auto end = [&](std::ptrdiff_t direction) {
+        double outside = 0.0;
+        for (std::ptrdiff_t k = half - 1; k > -half; --k) {
+            const std::ptrdiff_t at = direction * k;
+            const double here = std::max(
+                0.0,
+                convolved.cells[static_cast<std::size_t>(at < 0 ? at + static_cast<std::ptrdiff_t>(k_cells) : at)]);
+            if (outside + here >= tail) {
+                return convolved.h * (static_cast<double>(k) + 0.5 - (tail - outside) / here);
+            }
+            outside += here;
+        }
+        return 0.0;
+    };
+    return {-end(-1), end(1)};
+}
+
+}  // namespace
+
+ConvolutionInterval convolution_interval(std::span<const ConvolutionTerm> terms, double coverage_probability) {
+    require_probability(coverage_probability, "coverage probability");
+    const std::vector<Centred> distributions = centred_distributions(terms);
+    if (const std::vector<double> sums = possible_sums(distributions, k_most_listed); !sums.empty()) {
+        // Values with probabilities of their own: no more than (1 − p)/2 lies beyond either end.
+        const auto n = static_cast<double>(sums.size());
+        const auto beyond = static_cast<std::size_t>(0.5 * (1.0 - coverage_probability) * n);
+        return {sums[beyond], sums[sums.size() - 1 - beyond]};
+    }
+    const bool symmetric =
+        std::all_of(distributions.begin(), distributions.end(), [](const Centred& term) { return term.symmetric; });
+    if (symmetric && distributions.size() == 1) {
+        const double U = upper_quantile(distributions.front().distribution, 0.5 * (1.0 - coverage_probability));
+        return {-U, U};
+    }
+    if (symmetric) {
+        if (const std::optional<double> U = fourier_half_width(distributions, coverage_probability)) {
+            return {-*U, *U};
+        }
+    }
+    // Where an end lies far out in a tail, a wider grid has it well inside: probability that is put at the ends of a
+    // grid must lie far from where it counts.
+    constexpr double k_trusted = 0.125;
+    constexpr double k_wider = 8.0;
+    // What is cut off must stay small beside the tail that is asked for.
+    const double tail = std::min(k_tail_beyond_grid, 1e-3 * (1.0 - coverage_probability));
+    for (double widest_grid = k_widest_grid;; widest_grid *= k_wider) {
+        const CellSum sum = convolve(distributions, widest_grid, tail);
+        const ConvolutionInterval interval = symmetric ? symmetric_interval(sum, coverage_probability)
+                                                       : interval_with_equal_tails(sum, coverage_probability);
+        const double reach = 0.5 * static_cast<double>(k_cells) * sum.h;
+        if (!sum.cut || std::max(-interval.low, interval.high) <= k_trusted * reach) {
+            return interval;
+        }
+    }
+}
+
+double convolution_half_width(std::span<const ConvolutionTerm> terms, double coverage_probability) {
+    const ConvolutionInterval interval = convolution_interval(terms, coverage_probability);
+    return 0.5 * (interval.high - interval.low);
+}
+
+namespace {
+
+/// P(Y ≤ x) at the edges of the cells of a sum.
+struct CumulativeCells {
+    double h = 0.0;
+    std::vector<double> upto;  // P(Y ≤ (i + 1 + ½ − n/2) h)
+
+    [[nodiscard]] double reach() const { return 0.5 * static_cast<double>(k_cells) * h; }
+    [[nodiscard]] double at(double x) const {
+        const double place = x / h - 1.5 + 0.5 * static_cast<double>(k_cells);
+        if (!(place > 0.0)) {
+            return place <= -1.0 ? 0.0 : upto.front() * std::max(0.0, place + 1.0);
+        }
+        const auto i = static_cast<std::size_t>(std::min(place, static_cast<double>(k_cells)));
+        if (i + 1 >= k_cells) {
+            return 1.0;
+        }
+        const double part = place - static_cast<double>(i);
+        return upto[i] + part * (upto[i + 1] - upto[i]);
+    }
+};
+
+CumulativeCells cumulative(const CellSum& sum) {
+    CumulativeCells result{.h = sum.h, .upto = {}};
+    double total = 0.0;
+    for (std::size_t i = 0; i < k_cells; ++i) {  // from k = 1 − n/2 on
+        total += std::max(0.0, sum.cells[(i + 1 + k_cells / 2) % k_cells]);
+        result.upto.push_back(total);
+    }
+    for (double& value : result.upto) {
+        value /= total;
+    }
+    return result;
+}
+
+}  // namespace
+
+struct ConvolutionDistribution::Table {
+    Centred widest;
+    std::vector<std::pair<double, double>> others;  // where the sum of the other terms is, and how probably
+    // Where the widest term costs too much to be asked for each of them: the sum of all on grids that are wider and
+    // wider, as far as tails without limits reach.
+    std::vector<CumulativeCells> grids;
+    bool symmetric = false;
+    std::vector<double> sums;  // of samples alone
+
+    [[nodiscard]] double on_grids(double x) const;
+};
+
+double ConvolutionDistribution::Table::on_grids(double x) const {
+    constexpr double k_trusted = 0.25;  // of the reach of a grid: what lies beyond it is put at its ends
+    const CumulativeCells* grid = &grids.back();
+    for (const CumulativeCells& finer : grids) {
+        if (std::abs(x) <= k_trusted * finer.reach()) {
+            grid = &finer;
+            break;
+        }
+    }
+    return symmetric ? 0.5 * (grid->at(x) + 1.0 - grid->at(-x)) : grid->at(x);
+}
+
+ConvolutionDistribution::ConvolutionDistribution(std::span<const ConvolutionTerm> terms) {
+    std::vector<Centred> distributions = centred_distributions(terms);
+    // Samples have steps of their own: they are never looked up, but added up.
+    const auto rank = [](const Centred& term) {
+        return term.distribution.kind == DistributionKind::empirical ? 0.0 : width(term.distribution);
+    };
+    const auto widest = std::max_element(distributions.begin(), distributions.end(),
+                                         [&](const Centred& a, const Centred& b) { return rank(a) < rank(b); });
+    Table table;
+    table.sums = possible_sums(distributions, k_most_sums);
+    const DistributionKind kind = widest->distribution.kind;
+    if (!table.sums.empty() ||
+        (distributions.size() > 1 &&
+         (kind == DistributionKind::student_t || kind == DistributionKind::gamma || kind == DistributionKind::beta))) {
+        if (table.sums.empty()) {
+            table.symmetric = std::all_of(distributions.begin(), distributions.end(),
+                                          [](const Centred& term) { return term.symmetric; });
+            constexpr double k_wider = 64.0;
+            double widest_grid = k_widest_grid;
+            CellSum sum;
+            do {
+                sum = convolve(distributions, widest_grid);
+                table.grids.push_back(cumulative(sum));
+                widest_grid *= k_wider;
+            } while (sum.cut);
+        }
+        table_ = std::make_shared<const Table>(std::move(table));
+        return;
+    }
+    if (rank(*widest) > 0.0) {
+        table.widest = *widest;
+        distributions.erase(widest);
+    }
+    if (distributions.empty()) {
+        table.others.emplace_back(0.0, 1.0);
+    } else {
+        const CellSum sum = convolve(distributions, k_widest_grid);
+        double total = 0.0;
+        for (std::size_t i = 0; i < k_cells; ++i) {
+            if (sum.cells[i] > k_negligible_cell) {
+                const double k = static_cast<double>(i) - (i > k_cells / 2 ? static_cast<double>(k_cells) : 0.0);
+                table.others.emplace_back(k * sum.h, sum.cells[i]);
+                total += sum.cells[i];
+            }
+        }
+        for (auto& [where, probability] : table.others) {
+            probability /= total;
+        }
+    }
+    table_ = std::make_shared<const Table>(std::move(table));
+}
+
+double ConvolutionDistribution::below(double x) const {
+    if (table_->sums.empty()) {
+        return (*this)(x);
+    }
+    const auto end = std::lower_bound(table_->sums.begin(), table_->sums.end(), x);
+    return static_cast<double>(end - table_->sums.begin()) / static_cast<double>(table_->sums.size());
+}
+
+double ConvolutionDistribution::operator()(double x) const {
+    if (!table_->sums.empty()) {
+        const auto end = std::upper_bound(table_->sums.begin(), table_->sums.end(), x);
+        return static_cast<double>(end - table_->sums.begin()) / static_cast<double>(table_->sums.size());
+    }
+    if (!table_->grids.empty()) {
+        return table_->on_grids(x);
+    }
+    double probability = 0.0;
+    const Distribution& widest = table_->widest.distribution;
+    if (widest.kind == DistributionKind::uniform) {  // the usual case by far, so without a call for each cell
+        const double a = widest.scale;
+        for (const auto& [where, weight] : table_->others) {
+            probability += weight * std::clamp(0.5 + 0.5 * (x - where) / a, 0.0, 1.0);
+        }
+    } else {
+        for (const auto& [where, weight] : table_->others) {
+            probability += weight * (table_->widest.mirrored ? upper_tail_probability(widest, where - x)
+                                                             : lower_tail_probability(widest, x - where));
+        }
+    }
+    return std::clamp(probability, 0.0, 1.0);
+}
+
+double convolution_distribution(std::span<const ConvolutionTerm> terms, double x) {
+    return ConvolutionDistribution(terms)(x);
+}
+
+namespace {
+
+constexpr Eigen::Index k_draws_of_group = Eigen::Index{1} << 16;
+constexpr double k_most_times = 32.0;       // of them, where the tails are small
+constexpr double k_certainly_less = 0.005;  // of k: half of what would be noticed
+constexpr double k_negligible_share = 1e-3;
+
+/// Whether a linear combination of a group is taken as t with the degrees of freedom of the group: it is drawn as
+/// normal or t, or all of its quantities are one of them (the least ν of which is that of the group).
+bool is_elliptical(const InputGroup& group) {
+    return group.dependence == Dependence::normal || group.dependence == Dependence::student_t ||
+           (group.dependence == Dependence::gaussian_copula &&
+            std::all_of(group.marginals.begin(), group.marginals.end(), [](const Distribution& d) {
+                return d.kind == DistributionKind::normal || d.kind == DistributionKind::student_t ||
+                       d.kind == DistributionKind::constant;
+            }));
+}
+
+/// The quantities of a group that have an effect, as a group of their own: others change nothing.
+struct EffectiveGroup {
+    InputGroup group;
+    Eigen::RowVectorXd c;
+};
+
+EffectiveGroup taken_from(const InputGroup& group, const Eigen::RowVectorXd& c,
+                          const std::vector<Eigen::Index>& quantities) {
+    EffectiveGroup taken{group, c(quantities)};
+    InputGroup& to = taken.group;
+    to.own_streams.clear();
+    to.value = group.value(quantities);
+    to.covariance = group.covariance(quantities, quantities);
+    if (group.normal_correlation.size() > 0) {
+        to.normal_correlation = group.normal_correlation(quantities, quantities);
+    }
+    if (group.samples) {
+        to.samples = std::make_shared<const Eigen::MatrixXd>((*group.samples)(Eigen::all, quantities));
+    }
+    for (std::size_t i = 0; i < quantities.size() && !group.marginals.empty(); ++i) {
+        to.marginals[i] = group.marginals[static_cast<std::size_t>(quantities[i])];
+    }
+    to.marginals.resize(group.marginals.empty() ? 0 : quantities.size());
+    return taken;
+}
+
+EffectiveGroup with_effect(const InputGroup& group, const Eigen::RowVectorXd& c) {
+    std::vector<Eigen::Index> quantities;
+    for (Eigen::Index i = 0; i < group.size(); ++i) {
+        if (c(i) != 0.0 && group.covariance(i, i) > 0.0) {
+            quantities.push_back(i);
+        }
+    }
+    return taken_from(group, c, quantities);
+}
+
+/// An order of the quantities of a group that follows from what they are: their distributions, contributions with their
+/// signs and correlations. Quantities that are ranked equal may change places, so that the order of the inputs does not
+/// matter.
+std::vector<Eigen::Index> canonical_order(const InputGroup& group, const Eigen::RowVectorXd& c) {
+    const Eigen::Index n = group.size();
+    const Eigen::MatrixXd R = correlation_matrix(group.covariance);
+    const auto number = [](Eigen::Index i) { return static_cast<std::size_t>(i); };
+    using Key = std::vector<double>;
+    std::vector<Key> keys;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const Distribution& d = group.marginals[number(i)];
+        const double contribution = c(i) * std::sqrt(group.covariance(i, i));
+        keys.push_back({static_cast<double>(d.kind), d.shape, d.second_shape, -std::abs(contribution), -contribution});
+    }
+    std::vector<double> rank(number(n));
+    const auto place = [&] {  // how many are before each
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            rank[i] = static_cast<double>(
+                std::count_if(keys.begin(), keys.end(), [&](const Key& key) { return key < keys[i]; }));
+        }
+    };
+    const auto refine = [&] {
+        place();
+        for (Eigen::Index round = 0; round < n; ++round) {
+            for (Eigen::Index i = 0; i < n; ++i) {
+                std::vector<std::pair<double, double>> others;
+                for (Eigen::Index j = 0; j < n; ++j) {
+                    if (j != i) {
+                        others.emplace_back(rank[number(j)], R(i, j));
+                    }
+                }
+                std::sort(others.begin(), others.end());
+                keys[number(i)] = {rank[number(i)]};
+                for (const auto& [of, r] : others) {
+                    keys[number(i)].insert(keys[number(i)].end(), {of, r});
+                }
+            }
+            const std::vector<double> before = rank;
+            place();
+            if (rank == before) {
+                return;
+            }
+        }
+    };
+    refine();
+    for (std::size_t at = 0; at < keys.size(); ++at) {  // one of several that are equal is taken as the first of them
+        const auto same = [&](double value) { return value == static_cast<double>(at); };
+        if (std::count_if(rank.begin(), rank.end(), same) > 1) {
+            const auto first = std::find_if(rank.begin(), rank.end(), same) - rank.begin();
+            for (std::size_t i = 0; i < keys.size(); ++i) {
+                keys[i] = {rank[i] + (same(rank[i]) && static_cast<std::ptrdiff_t>(i) != first ? 0.5 : 0.0)};
+            }
+            refine();
+        }
+    }
+    std::vector<Eigen::Index> order(keys.size());
+    std::iota(order.begin(), order.end(), Eigen::Index{0});
+    std::sort(order.begin(), order.end(),
+              [&](Eigen::Index a, Eigen::Index b) { return rank[number(a)] < rank[number(b)]; });
+    return order;
+}
+
+/// How many draws a group gets: more where the tails are small.
+Eigen::Index draws_of_group(double coverage_probability) {
+    constexpr double k_usual_tail = 0.0456;  // of the usual 95.45 %
+    const double more = std::max(1.0, k_usual_tail / (1.0 - coverage_probability));
+    return static_cast<Eigen::Index>(k_draws_of_group * std::min(std::floor(more), k_most_times));
+}
+
+constexpr Eigen::Index k_batches = 16;
+
+/// Contribution of a group that is drawn by a copula or by rows, as the distribution of many draws.
+/// \param batch  one of k_batches equal parts of the draws; none: all of them
+Distribution drawn_contribution(const InputGroup& group, const Eigen::RowVectorXd& c, double coverage_probability,
+                                std::optional<Eigen::Index> batch) {
+    auto values = std::make_shared<std::vector<double>>();
+    const auto add = [&](const Eigen::MatrixXd& x, const EffectiveGroup& of) {
+        const Eigen::VectorXd sums = (x.rowwise() - of.group.value.transpose()) * of.c.transpose();
+        values->insert(values->end(), sums.data(), sums.data() + sums.size());
+    };
+    if (group.dependence == Dependence::joint_samples) {
+        add(*group.samples, {group, c});
+    } else {
+        const EffectiveGroup sorted = taken_from(group, c, canonical_order(group, c));
+        constexpr std::uint64_t k_seed = 1;
+        const InputDraws draws({sorted.group}, k_seed, {});
+        const Eigen::Index count = draws_of_group(coverage_probability);
+        const Eigen::Index begin = batch ? *batch * (count / k_batches) : 0;
+        const Eigen::Index end = batch ? begin + count / k_batches : count;
+        Eigen::MatrixXd x(std::min(k_draws_of_group, count / k_batches), group.size());
+        for (Eigen::Index first = begin; first < end; first += x.rows()) {
+            draws.draw(static_cast<std::uint64_t>(first), x);
+            add(x, sorted);
+        }
+    }
+    std::sort(values->begin(), values->end());
+    return {.kind = DistributionKind::empirical, .location = 0.0, .scale = 1.0, .samples = std::move(values)};
+}
+
+/// What an output is made of, for the bound below: shares of the variance.
+struct Shapes {
+    double bounded = 0.0;   ///< Σ w² of bounded symmetric distributions
+    double students = 0.0;  ///< Σ w (1 − w)/(ν − 4) of t-distributions with ν ≥ 8
+    double heavy = 0.0;     ///< Σ w of those with less
+    double other = 0.0;     ///< Σ w of what is not symmetric, or drawn together
+};
+
+Shapes shapes_of(const std::vector<InputGroup>& groups, const Propagation& propagation, Eigen::Index output) {
+    constexpr double k_few = 8.0;
+    Shapes shapes;
+    const double total = propagation.standard_uncertainty(output) * propagation.standard_uncertainty(output);
+    const auto add_student = [&](double w, double nu) {
+        if (std::isinf(nu)) {
+            return;
+        }
+        if (nu < k_few) {
+            shapes.heavy += nu < 2.0 && w > 0.0 ? 1.0 : w;  // without a variance: a small share is still felt
+        } else {
+            shapes.students += w * (1.0 - w) / (nu - 4.0);
+        }
+    };
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const double w = propagation.budget[g].variance(output) / total;
+        if (w == 0.0) {
+            continue;
+        }
+        const InputGroup& group = groups[g];
+        if (group.size() == 1 && group.marginals.size() == 1) {
+            const Distribution& d = group.marginals.front();
+            if (!is_symmetric(d)) {
+                shapes.other += w;
+            } else if (is_bounded(d)) {
+                shapes.bounded += w * w;
+                add_student(w, group.degrees_of_freedom);
+            } else {
+                add_student(w, d.kind == DistributionKind::student_t ? d.shape : k_infinity);
+            }
+        } else if (is_elliptical(group)) {
+            add_student(w, group.degrees_of_freedom);
+        } else {
+            shapes.other += w;
+        }
+    }
+    return shapes;
+}
+
+}  // namespace
+
+bool convolution_changes_little(const MeasurementModel& model, const Propagation& propagation, Eigen::Index output) {
+    if (!(propagation.standard_uncertainty(output) > 0.0)) {
+        return true;
+    }
+    const double p = propagation.coverage_probability;
+    const double z = coverage_factor(p, k_infinity);
+    const Shapes shapes = shapes_of(model.inputs(), propagation, output);
+    // Cornish and Fisher: k moves by (z² − 3) γ₂/24 of itself, γ₂ = −1.5 w² at most for a bounded distribution; twice
+    // that for the terms behind. Of t-distributions Σ w (1 − w)/ν of k is not in that of Welch and Satterthwaite.
+    const double bounded = 2.0 * (std::abs(z * z - 3.0) + 1.0) / 24.0 * 1.5 * shapes.bounded;
+    const double students = 2.0 * (1.0 + 0.1 * z * z) * shapes.students;
+    const double few = 4.0 * shapes.heavy * std::max(1.0, 0.05 / (1.0 - p));
+    return bounded + students + few <= k_certainly_less && shapes.other <= k_negligible_share;
+}
+
+namespace {
+
+/// The terms, and how many draws a drawn one has.
+struct DrawnTerms {
+    std::vector<ConvolutionTerm> terms;
+    std::uint64_t draws = 0;
+};
+
+/// \param batch  as drawn_contribution()
+std::optional<DrawnTerms> terms_of(const MeasurementModel& model, const Propagation& propagation, Eigen::Index output,
+                                   std::optional<Eigen::Index> batch) {
+    const std::vector<InputGroup>& groups = model.inputs();
+    DrawnTerms result;
+    std::vector<ConvolutionTerm>& terms = result.terms;
+    Eigen::Index first = 0;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const InputGroup& group = groups[g];
+        const double variance = propagation.budget[g].variance(output);
+        const Eigen::RowVectorXd c = propagation.jacobian.row(output).segment(first, group.size());
+        first += group.size();
+        if (variance == 0.0) {
+            continue;
+        }
+        if (group.size() == 1 && group.marginals.size() == 1) {
+            terms.push_back({c(0), group.marginals.front()});
+        } else if (is_elliptical(group) || group.is_diagonal()) {
+            if (std::isnan(group.degrees_of_freedom)) {
+                return std::nullopt;
+            }
+            terms.push_back({1.0, Distribution::student_t(0.0, std::sqrt(variance), group.degrees_of_freedom)});
+        } else {
+            const EffectiveGroup of = with_effect(group, c);
+            const bool single = of.group.size() == 1 && of.group.marginals.size() == 1;
+            if (single) {
+                terms.push_back({of.c(0), of.group.marginals.front()});
+                continue;
+            }
+            terms.push_back({1.0, drawn_contribution(of.group, of.c, propagation.coverage_probability, batch)});
+            if (of.group.dependence != Dependence::joint_samples) {
+                result.draws = terms.back().distribution.samples->size();
+            }
+        }
+    }
+    if (terms.empty()) {
+        return std::nullopt;
+    }
+    return result;
+}
+
+/// Standard uncertainty of U from the finite number of draws.
+double error_from_draws(const MeasurementModel& model, const Propagation& propagation, Eigen::Index output) {
+    double sum = 0.0;
+    double squares = 0.0;
+    for (Eigen::Index batch = 0; batch < k_batches; ++batch) {
+        const double U = convolution_half_width(terms_of(model, propagation, output, batch)->terms,
+                                                propagation.coverage_probability);
+        sum += U;
+        squares += U * U;
+    }
+    constexpr auto k_count = static_cast<double>(k_batches);
+    const double variance = (squares - sum * sum / k_count) / (k_count - 1.0);
+    return std::sqrt(std::max(0.0, variance) / k_count);
+}
+
+}  // namespace
+
+std::optional<std::vector<ConvolutionTerm>> convolution_terms(const MeasurementModel& model,
+                                                              const Propagation& propagation, Eigen::Index output) {
+    auto result = terms_of(model, propagation, output, std::nullopt);
+    return result ? std::optional(std::move(result->terms)) : std::nullopt;
+}
+
+std::optional<ConvolvedOutput> expand_by_convolution(const MeasurementModel& model, const Propagation& propagation,
+                                                     Eigen::Index output) {
+    const double u = propagation.standard_uncertainty(output);
+    if (!(u > 0.0)) {
+        return std::nullopt;
+    }
+    const auto drawn = terms_of(model, propagation, output, std::nullopt);
+    if (!drawn) {
+        return std::nullopt;
+    }
+    const ConvolutionInterval interval = convolution_interval(drawn->terms, propagation.coverage_probability);
+    ConvolvedOutput result;
+    result.expanded_uncertainty = 0.5 * (interval.high - interval.low);
+    result.coverage_factor = result.expanded_uncertainty / u;
+    result.asymmetry = 0.5 * (interval.high + interval.low) / result.expanded_uncertainty;
+    result.draws = drawn->draws;
+    if (result.draws > 0) {
+        result.numerical_error = error_from_draws(model, propagation, output) / u;
+    }
+    return result;
+}
+
+}  // namespace gumcert::gum

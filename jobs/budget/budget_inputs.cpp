@@ -1,0 +1,776 @@
+#include "jobs/budget/budget_inputs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "gum/quantity/decimal_rounding.h"
+#include "gum/rounding.h"
+#include "jobs/budget/budget_fit_statement.h"
+#include "jobs/certificate/certificate_archive.h"
+#include "jobs/csv_table.h"
+#include "text/lists.h"
+#include "text/numbers.h"
+#include "text/place.h"
+#include "text/visible_text.h"
+
+namespace gumcert::jobs {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t k_most_inputs = 10'000;
+constexpr std::size_t k_most_components = 1000;
+constexpr std::size_t k_most_points = 100'000;
+constexpr std::array<std::string_view, 1> k_file_keys{"file"};
+constexpr std::string_view k_point = "point";
+constexpr std::size_t k_most_named = 5;
+
+std::string small_letters(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return text;
+}
+
+double value_in_unit(const gum::BudgetInput& input) {
+    double sum = 0.0;
+    for (const gum::StatedQuantity& component : input.components) {
+        sum += component.stated_value;
+    }
+    return sum;
+}
+
+double value_in_si(const gum::BudgetInput& input) {
+    double sum = 0.0;
+    for (const gum::StatedQuantity& component : input.components) {
+        sum += component.value;
+    }
+    return sum;
+}
+
+}  // namespace
+
+BudgetInputs::BudgetInputs(const JsonDocument& document, const std::optional<StatedCovariance>& covariance,
+                           JobFiles& files, ProblemList& problems)
+    : document_(document), covariance_(covariance), files_(files), problems_(problems) {}
+
+void BudgetInputs::read(const JsonObject& root) {
+    const json* inputs = root.find("inputs");
+    if (inputs == nullptr) {
+        return;
+    }
+    if (!inputs->is_object()) {
+        root.refuse(k_wrong_type, "inputs", described(*inputs), "must be an object", "name each input");
+        symbols_are_whole_ = false;
+        return;
+    }
+    const std::string pointer = root.pointer("inputs");
+    if (inputs->size() > k_most_inputs) {
+        root.refuse(k_too_many_quantities, "inputs", std::to_string(inputs->size()) + " inputs",
+                    "a job has at most " + std::to_string(k_most_inputs) + " inputs", "split the job");
+        symbols_are_whole_ = false;
+        return;
+    }
+    names_ = keys_in_order(document_, pointer);
+    stated_.reserve(names_.size());
+    for (const std::string& name : names_) {
+        read_input(name, child_pointer(pointer, name), root.has("points"));
+    }
+    const Reading reading = [&](const std::string& name) -> const gum::BudgetInput* {
+        const auto found = of_name_.find(name);
+        return found == of_name_.end() || !stated_[found->second].base ? nullptr : &stated_[found->second].base->input;
+    };
+    readers_.resize(stated_.size());
+    for (std::size_t i = 0; i < stated_.size(); ++i) {
+        Stated& stated = stated_[i];
+        if (!stated.base) {
+            continue;
+        }
+        const std::size_t problems_before = stated.pending ? stated.pending->refusals() : problems_.refusals();
+        if (!complete(*stated.base, reading)) {
+            // Without a message of its own it waits for an input that the points state.
+            stated.is_complete = false;
+            if (!stated.pending || stated.pending->refusals() > problems_before) {
+                stated.base.reset();
+                continue;
+            }
+        } else if (!check_digits(*stated.base)) {
+            stated.base.reset();
+            continue;
+        }
+        for (const std::optional<StatedSpecification>& specification : stated.base->specifications) {
+            if (!specification || !specification->of) {
+                continue;
+            }
+            // An input that was refused itself is read by nobody.
+            if (const auto of = of_name_.find(*specification->of); of != of_name_.end()) {
+                readers_[of->second].push_back(i);
+            }
+        }
+    }
+    warn_of_similar_names();
+}
+
+void BudgetInputs::read_input(const std::string& name, const std::string& pointer, bool has_points) {
+    const std::string where = document_.where(pointer);
+    const bool is_name = is_quantity_name(name, where, problems_);
+    const json& value = document_.value.at(json::json_pointer(pointer));
+    if (!value.is_object()) {
+        if (!value.is_discarded()) {
+            problems_.refuse(k_wrong_type, where, described(value), "must be an object",
+                             value.is_number()
+                                 ? "write {\"value\": " + described(value) + ", \"constant\": true} for a constant"
+                                 : "state what is known of the input");
+        }
+        symbols_are_whole_ = false;
+        return;
+    }
+    const JsonObject object(document_, pointer, budget_input_keys(), problems_);
+    const auto unit = read_unit(object, "unit", problems_);
+    symbols_are_whole_ = symbols_are_whole_ && unit && is_name;
+    Stated stated;
+    stated.name = name;
+    stated.unit = unit.value_or(gum::Unit());
+    stated.keys.emplace(document_, pointer, budget_input_keys(), problems_);
+    if (has_points) {
+        stated.pending = std::make_unique<ProblemList>(problems_.file());
+        stated.base = evaluate(stated, StatementKeys(document_, pointer, budget_input_keys(), *stated.pending));
+    } else {
+        stated.base = evaluate(stated, *stated.keys);
+    }
+    if (!unit || !is_name) {
+        if (stated.pending) {
+            problems_.take(*stated.pending);
+        }
+        return;
+    }
+    of_name_.emplace(name, stated_.size());
+    stated_.push_back(std::move(stated));
+}
+
+std::optional<BudgetInputs::Evaluated> BudgetInputs::evaluate(const Stated& stated, const StatementKeys& keys) {
+    Evaluated out;
+    out.input.name = stated.name;
+    out.input.unit = stated.unit;
+    out.input.where = keys.where();
+    bool is_read = true;
+    if (keys.has("description")) {
+        certificate::LocalisedText& description = descriptions_[stated.name] = {};
+        if (const nlohmann::json* value = keys.value("description"); value != nullptr && value->is_object()) {
+            read_localised(*value, description, true,
+                           {&keys.document("description"), keys.pointer("description"), &keys.problems("description")});
+        } else {
+            const auto text = keys.text("description");
+            description = text.value_or("");
+            is_read = text.has_value();
+        }
+    }
+    if (keys.has("between_points")) {
+        const auto word = keys.text("between_points");
+        if (word && *word != "common" && *word != "independent") {
+            keys.refuse(k_unknown_choice, "between_points", text::in_quotes(*word), "must be common or independent",
+                        "choose one of them");
+        }
+        is_read = is_read && word && (*word == "common" || *word == "independent");
+        out.is_stated_common = word && *word == "common";
+        out.input.common = word != "independent";
+    }
+    const bool is_evaluated =
+        keys.has("components") ? evaluate_components(stated, keys, out) : add_component(stated, keys, false, out);
+    if (!is_evaluated || !is_read) {
+        return std::nullopt;
+    }
+    return out;
+}
+
+bool BudgetInputs::add_component(const Stated& stated, const StatementKeys& keys, bool is_component, Evaluated& out) {
+    const StatementContext context{
+        .unit = stated.unit,
+        .is_later_component = !out.input.components.empty(),
+        .is_component = is_component,
+        .input = stated.name,
+        .variance = covariance_ && !is_component ? covariance_->variance_of(stated.name) : std::nullopt,
+        .files = files_};
+    std::optional<EvaluatedStatement> statement = evaluate_statement(keys, context);
+    if (!statement) {
+        return false;
+    }
+    out.input.constant = (out.input.components.empty() || out.input.constant) && statement->is_constant;
+    out.input.components.push_back(std::move(statement->quantity));
+    out.specifications.push_back(std::move(statement->specification));
+    out.keys.push_back(keys);
+    return true;
+}
+
+bool BudgetInputs::evaluate_components(const Stated& stated, const StatementKeys& keys, Evaluated& out) {
+    bool is_read = true;
+    // A source or a note of the input holds for every component that has none of its own.
+    std::array<std::string, 3> shared;
+    constexpr std::array<std::string_view, 3> k_shared{"source", "significance", "note"};
+    for (std::size_t i = 0; i < k_shared.size(); ++i) {
+        const auto text = keys.text(k_shared[i]);
+        is_read = is_read && (text || !keys.has(k_shared[i]));
+        shared[i] = text.value_or("");
+    }
+    for (const std::string_view key : keys.present()) {
+        if (key != "components" && key != "unit" && key != "description" && key != "between_points" &&
+            std::find(k_shared.begin(), k_shared.end(), key) == k_shared.end()) {
+            keys.refuse(k_two_statements, key, text::in_quotes(key) + " is given beside \"components\"",
+                        "an input is one statement or a sum of components, each with its own statement",
+                        "move it into a component");
+            is_read = false;
+        }
+    }
+    const json* list = keys.array("components");
+    if (list == nullptr) {
+        return false;
+    }
+    if (list->empty() || list->size() > k_most_components) {
+        keys.refuse(k_wrong_size, "components", std::to_string(list->size()) + " components",
+                    "an input has 1 to " + std::to_string(k_most_components) + " components", "correct the list");
+        return false;
+    }
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < list->size(); ++i) {
+        const std::string pointer = child_pointer(keys.pointer("components"), i);
+        const JsonDocument& document = keys.document("components");
+        ProblemList& problems = keys.problems("components");
+        if (!(*list)[i].is_object()) {
+            problems.refuse(k_wrong_type, document.where(pointer), described((*list)[i]), "must be an object",
+                            "state name and uncertainty of the component");
+            is_read = false;
+            continue;
+        }
+        const JsonObject object(document, pointer, budget_component_keys(), problems);
+        const auto name = object.required_name("name");
+        if (name && !names.insert(*name).second) {
+            object.refuse(k_name_of_two, "name", "a second component " + text::in_quotes(*name),
+                          "components of one input have different names", "rename one of the two");
+            is_read = false;
+        }
+        const std::size_t before = out.input.components.size();
+        is_read =
+            add_component(stated, StatementKeys(document, pointer, budget_component_keys(), problems), true, out) &&
+            name && is_read;
+        if (out.input.components.size() > before) {
+            gum::StatedQuantity& component = out.input.components.back();
+            component.name = name.value_or("");
+            const std::array<std::string*, 3> own{&component.source, &component.significance, &component.note};
+            for (std::size_t k = 0; k < own.size(); ++k) {
+                *own[k] = own[k]->empty() ? shared[k] : *own[k];
+            }
+        }
+    }
+    if (!is_read) {
+        return false;
+    }
+    double u2 = 0.0;
+    for (std::size_t i = 0; i < out.input.components.size(); ++i) {
+        u2 += out.specifications[i] ? 1.0 : out.input.components[i].u;
+    }
+    if (!std::isfinite(value_in_si(out.input)) || !std::isfinite(value_in_unit(out.input))) {
+        keys.refuse(k_not_representable, "components", "the sum of the components is not finite",
+                    "values must be finite", "check the numbers");
+        return false;
+    }
+    if (u2 == 0.0 && !out.input.constant) {
+        keys.refuse(k_no_uncertainty, "components", "no component has an uncertainty",
+                    "an input that is not a constant has an uncertainty greater than 0",
+                    "add the missing contribution, such as the resolution");
+        return false;
+    }
+    return true;
+}
+
+bool BudgetInputs::complete(Evaluated& evaluated, const Reading& reading) const {
+    bool is_complete = true;
+    gum::BudgetInput& input = evaluated.input;
+    for (std::size_t i = 0; i < input.components.size(); ++i) {
+        const std::optional<StatedSpecification>& specification = evaluated.specifications[i];
+        if (!specification) {
+            continue;
+        }
+        const StatementKeys& keys = evaluated.keys[i];
+        double read = value_in_unit(input);
+        if (specification->of) {
+            const gum::BudgetInput* other = reading(*specification->of);
+            if (other == nullptr) {
+                // An input with problems of its own has been refused already.
+                if (std::find(names_.begin(), names_.end(), *specification->of) == names_.end()) {
+                    const std::vector<std::string_view> known(names_.begin(), names_.end());
+                    const auto nearest = nearest_word(*specification->of, known);
+                    keys.refuse(k_unknown_quantity, "specification",
+                                "\"of\" is " + text::in_quotes(*specification->of) + ", which is none of the inputs",
+                                "the specification refers to the value of an input",
+                                nearest ? "did you mean " + text::in_quotes(*nearest) + "?" : "correct the name");
+                }
+                is_complete = false;
+                continue;
+            }
+            if (!(other->unit.dimension() == input.unit.dimension())) {
+                keys.refuse(k_unit_does_not_fit, "specification",
+                            "\"of\" is " + text::in_quotes(other->name) + " in " + text::visible(other->unit.text()) +
+                                ", and " + text::in_quotes(input.name) + " is in " + text::visible(input.unit.text()),
+                            "a percentage of a reading has the kind of quantity of the reading", "correct the units");
+                is_complete = false;
+                continue;
+            }
+            // The reading as its own scale shows it: 100 °C is 100 K here, not 373.15 K.
+            read = other->unit.is_celsius_temperature() ? input.unit.difference_from_si(value_in_si(*other))
+                                                        : input.unit.from_si(value_in_si(*other));
+        }
+        is_complete = specify(input.components[i], *specification, read, input.unit, keys) && is_complete;
+    }
+    return is_complete;
+}
+
+bool BudgetInputs::check_digits(const Evaluated& evaluated) {
+    const gum::BudgetInput& input = evaluated.input;
+    double u2 = 0.0;
+    for (const gum::StatedQuantity& component : input.components) {
+        const double u = input.unit.difference_from_si(component.u);
+        u2 += u * u;
+    }
+    const double u = std::sqrt(u2);
+    if (u == 0.0) {
+        return true;
+    }
+    bool all_held = true;
+    for (std::size_t i = 0; i < input.components.size(); ++i) {
+        const gum::StatedQuantity& component = input.components[i];
+        // A mean has digits of its own; what was written are the readings.
+        const bool is_list = !component.observations.empty() || component.groups.has_value() ||
+                             component.distribution.samples != nullptr;
+        std::string_view key = "value";
+        double worst = is_list ? 0.0 : component.stated_value;
+        const auto see = [&](std::string_view of, const std::vector<double>& si) {
+            key = si.empty() ? key : of;
+            for (const double value : si) {
+                const double stated = input.unit.from_si(value);
+                worst = gum::decimal_rounding(stated) > gum::decimal_rounding(worst) ? stated : worst;
+            }
+        };
+        see("observations", component.observations);
+        if (component.groups) {
+            see("groups", component.groups->means);
+            for (const std::vector<double>& group : component.groups->readings) {
+                see("groups", group);
+            }
+        }
+        if (component.distribution.samples) {
+            see("samples", *component.distribution.samples);
+        }
+        const double lost = gum::decimal_rounding(worst);
+        if (lost > gum::k_accepted_rounding * u) {
+            evaluated.keys[i].refuse(
+                k_digits_lost, key,
+                "the digits of " + text::shortest_plain(worst) + " are held to ±" + gum::round_significant(lost, 2) +
+                    " only, and the standard uncertainty is " + text::shortest_plain(u),
+                "a number has about 16 digits; what is lost of it must be small beside its uncertainty",
+                "state it as a whole number, a constant, and the difference from it, an input; in the model, subtract "
+                "the whole numbers from each other before the differences are added");
+            all_held = false;
+        }
+    }
+    return all_held;
+}
+
+void BudgetInputs::warn_of_similar_names() {
+    std::map<std::string, std::string> seen;
+    for (const std::string& name : names_) {
+        const auto [entry, is_new] = seen.try_emplace(small_letters(name), name);
+        if (!is_new) {
+            problems_.warn(
+                k_warn_same_but_case, document_.where(child_pointer("/inputs", name)),
+                text::in_quotes(name) + " and " + text::in_quotes(entry->second) + " differ by capital letters only",
+                "names are told apart by capital letters", "rename one of the two if people may confuse them");
+        }
+    }
+}
+
+std::vector<gum::BudgetInput> BudgetInputs::inputs(std::map<std::string, std::size_t>& positions) {
+    std::vector<gum::BudgetInput> list;
+    positions_.assign(stated_.size(), 0);
+    for (std::size_t i = 0; i < stated_.size(); ++i) {
+        const Stated& stated = stated_[i];
+        if (stated.base || stated.pending) {
+            positions_[i] = list.size();
+            positions.emplace(stated.name, list.size());
+            if (stated.base) {
+                list.push_back(stated.base->input);
+                continue;
+            }
+            gum::BudgetInput& open = list.emplace_back();  // until a point states it
+            open.name = stated.name;
+            open.unit = stated.unit;
+            open.stated = false;
+            open.where = stated.keys->where();
+            open.components.emplace_back();
+        }
+    }
+    return list;
+}
+
+std::vector<gum::InputSymbol> BudgetInputs::symbols() const {
+    std::vector<gum::InputSymbol> symbols;
+    for (const Stated& stated : stated_) {
+        symbols.push_back({stated.name, stated.unit, std::nullopt});
+    }
+    return symbols;
+}
+
+bool BudgetInputs::is_read_by_specification(const std::string& name) const {
+    const auto found = of_name_.find(name);
+    return found != of_name_.end() && !readers_[found->second].empty();
+}
+
+// ---- points of a table ----------------------------------------------------------------------------------------------
+
+void BudgetInputs::read_points(const JsonObject& root, BudgetJob& job) {
+    const json* points = root.find("points");
+    if (points == nullptr) {
+        return;
+    }
+    if (const auto found = of_name_.find(std::string{k_point}); found != of_name_.end()) {
+        problems_.refuse(k_name_of_two, document_.where("/inputs/point"),
+                         "an input is named \"point\" in a job with points",
+                         "in a table of points this word names the point", "rename the input");
+        return;
+    }
+    if (points->is_array()) {
+        read_point_array(*points, root.pointer("points"), job);
+    } else if (points->is_object()) {
+        const auto object = root.optional_object("points", k_file_keys);
+        if (const auto name = object ? JobFiles::file_name(*object, "file", true) : std::nullopt) {
+            read_point_file(*name, job);
+        }
+    } else {
+        root.refuse(k_wrong_type, "points", described(*points), "must be an array or an object",
+                    "give an array of points, or {\"file\": \"points.csv\"}");
+    }
+    finish_points(job);
+}
+
+void BudgetInputs::refuse_unstated(const Stated& stated, std::size_t points) {
+    const std::vector<gum::Diagnostic> refused = stated.pending->refused();
+    const bool nothing_stated = !refused.empty() && refused.front().code == k_no_statement.code;
+    if (!nothing_stated || (stated.points == 0 && points > 0)) {
+        problems_.take(*stated.pending);
+        return;
+    }
+    if (points == 0) {
+        return;  // the table was refused
+    }
+    std::string names;
+    for (const std::string& name : stated.silent) {
+        names += (names.empty() ? "" : ", ") + text::in_quotes(name);
+    }
+    const std::size_t silent = points - stated.points;
+    if (silent > stated.silent.size()) {
+        names += " and " + std::to_string(silent - stated.silent.size()) + " more";
+    }
+    stated.keys->refuse(k_no_statement, "nothing is stated of it, and the points " + names + " do not state it either",
+                        "an input has a statement of its own, or every point of the table has one",
+                        "state it at these points, or in the inputs");
+}
+
+void BudgetInputs::finish_points(BudgetJob& job) {
+    std::vector<std::string> unused;
+    for (std::size_t i = 0; i < stated_.size(); ++i) {
+        Stated& stated = stated_[i];
+        const bool everywhere = !job.points.empty() && stated.points == job.points.size();
+        if (!everywhere) {
+            refuse_unstated(stated, job.points.size());
+        }
+        if (!job.points.empty() && (!stated.base || !stated.is_complete)) {
+            for (const auto& [position, input] : job.points.front().inputs) {
+                if (position == positions_[i]) {
+                    job.inputs[position] = input;
+                    job.inputs[position].stated = false;
+                }
+            }
+        }
+        if (!everywhere) {
+            continue;
+        }
+        for (const auto& [key, points] : stated.overridden) {
+            if (points == job.points.size() && stated.keys->has(key) &&
+                (key == "value" || key == "observations" || key == "groups" || key == "samples" || key == "limits")) {
+                unused.push_back(text::in_quotes(stated.name + "." + std::string{key}));
+            }
+        }
+    }
+    if (!unused.empty()) {
+        problems_.note(
+            k_warn_unused_value, document_.where("/inputs"),
+            text::listed(unused, k_most_named) + " of the inputs: every point of the table states another one",
+            "an input may be left to the points: nothing needs to stand in its place", "remove them");
+    }
+}
+
+std::optional<std::size_t> BudgetInputs::point_input(const std::string& name, const std::string& where,
+                                                     const BudgetJob& job, ProblemList& problems) const {
+    if (const auto found = of_name_.find(name); found != of_name_.end()) {
+        return found->second;
+    }
+    if (std::find(names_.begin(), names_.end(), name) != names_.end()) {
+        return std::nullopt;
+    }
+    const bool is_parameter = std::any_of(job.fits.begin(), job.fits.end(), [&](const gum::BudgetFit& fit) {
+        return std::any_of(fit.parameters.begin(), fit.parameters.end(),
+                           [&](const gum::BudgetFit::Parameter& parameter) { return parameter.name == name; });
+    });
+    if (is_parameter) {
+        problems.refuse(k_point_of_fit, where, text::in_quotes(name) + " is a parameter of a fit",
+                        "all points share the fits", "remove it");
+        return std::nullopt;
+    }
+    const std::vector<std::string_view> known(names_.begin(), names_.end());
+    const auto nearest = nearest_word(name, known);
+    problems.refuse(k_unknown_quantity, where, text::in_quotes(name) + " is none of the inputs",
+                    "a point states inputs of the job, by NAME or NAME.key, and its own name as \"point\"",
+                    nearest ? "did you mean " + text::in_quotes(*nearest) + "?" : "correct the name");
+    return std::nullopt;
+}
+
+void BudgetInputs::name_point(gum::BudgetPoint& point, const std::optional<std::string>& name, const std::string& where,
+                              const BudgetJob& job, ProblemList& problems) {
+    point.name = name.value_or(std::to_string(job.points.size() + 1));
+    const auto [entry, is_new] = point_names_.try_emplace(point.name, where);
+    if (!is_new) {
+        problems.refuse(k_repeated_point, where,
+                        "a second point " + text::in_quotes(point.name) + ", the first is at " + entry->second,
+                        "points have different names", "rename one of the two");
+    }
+}
+
+void BudgetInputs::read_point_array(const json& points, const std::string& pointer, BudgetJob& job) {
+    if (points.empty() || points.size() > k_most_points) {
+        problems_.refuse(k_wrong_size, document_.where(pointer), std::to_string(points.size()) + " points",
+                         "a table has 1 to " + std::to_string(k_most_points) + " points", "correct the list");
+        return;
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::string here = child_pointer(pointer, i);
+        if (!points[i].is_object()) {
+            problems_.refuse(k_wrong_type, document_.where(here), described(points[i]), "must be an object",
+                             "write {\"name of an input\": value, …}");
+            continue;
+        }
+        gum::BudgetPoint point;
+        std::optional<std::string> name;
+        std::map<std::size_t, StatementKeys> overrides;
+        std::set<std::size_t> told;
+        for (const auto& [key, value] : points[i].items()) {
+            const std::string at = child_pointer(here, key);
+            if (value.is_discarded()) {
+                continue;
+            }
+            if (key == k_point) {
+                name = value.is_number() ? described(value) : value.is_string() ? value.get<std::string>() : "";
+                if (const auto objection = name_objection(*name)) {
+                    problems_.refuse(
+                        k_text_not_allowed, document_.where(at), "the name of the point " + *objection,
+                        "a name has 1 to 256 bytes, no spaces around it and no control or hidden characters",
+                        "correct the name");
+                    name.reset();
+                }
+                continue;
+            }
+            const auto index = point_input(key, document_.where(at), job, problems_);
+            if (!index) {
+                continue;
+            }
+            const StatementKeys& base = *stated_[*index].keys;
+            if (value.is_number()) {
+                overrides.emplace(*index, base.with("value", value.get<double>(), document_, at, problems_));
+                ++stated_[*index].overridden["value"];
+            } else if (value.is_object()) {
+                const JsonObject object(document_, at, budget_override_keys(), problems_);
+                const StatementKeys own(document_, at, budget_override_keys(), problems_);
+                overrides.emplace(*index, base.with(own));
+                for (const std::string_view own_key : own.present()) {
+                    ++stated_[*index].overridden[own_key];
+                }
+            } else {
+                told.insert(*index);
+                problems_.refuse(k_wrong_type, document_.where(at), described(value), "must be a number or an object",
+                                 "state the value, or the keys that differ at this point");
+            }
+        }
+        name_point(point, name, document_.where(here), job, problems_);
+        read_point(point, overrides, told, job);
+        job.points.push_back(std::move(point));
+    }
+}
+
+void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
+    std::optional<JobFiles::File> file = files_.open(name);
+    if (!file) {
+        return;
+    }
+    struct Column {
+        std::string name;
+        std::optional<std::size_t> input;
+        std::string_view key;
+    };
+    std::vector<Column> columns;
+    std::vector<std::string> seen;
+    std::optional<std::size_t> name_column;
+    const std::span<const std::string_view> keys = budget_column_keys();
+    bool is_known = true;
+    for (const CsvHeaderField& field : csv_header(file->bytes)) {
+        if (std::find(seen.begin(), seen.end(), field.name) != seen.end() || seen.size() > k_most_inputs) {
+            continue;  // refused when the table is read
+        }
+        seen.push_back(field.name);
+        if (field.name == k_point) {
+            name_column = columns.size();
+            columns.push_back({field.name, std::nullopt, {}});
+            continue;
+        }
+        const std::string where = text::where_in_text(name, field.place);
+        const std::size_t dot = field.name.rfind('.');
+        const std::string_view key =
+            dot == std::string::npos ? std::string_view{"value"} : std::string_view{field.name}.substr(dot + 1);
+        const auto known = std::find(keys.begin(), keys.end(), key);
+        const auto index = point_input(field.name.substr(0, dot), where, job, *file->problems);
+        if (index && known == keys.end()) {
+            const auto nearest = nearest_word(key, keys);
+            file->problems->refuse(k_unknown_key, where,
+                                   "the key " + text::in_quotes(key) + " of the column " + text::in_quotes(field.name),
+                                   "the keys of a column are " + text::any_of(keys),
+                                   nearest ? "did you mean " + text::in_quotes(*nearest) + "?" : "remove the column");
+        }
+        if (!index || known == keys.end()) {
+            is_known = false;
+            continue;
+        }
+        columns.push_back({field.name, index, *known});
+    }
+    std::vector<std::string_view> wanted;
+    for (const Column& column : columns) {
+        wanted.emplace_back(column.name);
+    }
+    const auto table = read_csv_table(std::move(file->bytes), wanted, {}, *file->problems, {.rows = k_most_points});
+    if (!table || !is_known) {
+        return;
+    }
+    for (std::size_t row = 0; row < table->rows(); ++row) {
+        gum::BudgetPoint point;
+        std::optional<std::string> point_name;
+        std::map<std::size_t, StatementKeys> overrides;
+        std::set<std::size_t> told;
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+            const Column& column = columns[c];
+            if (!column.input) {
+                const auto text = table->name(row, c);
+                point_name = text ? std::optional{std::string{*text}} : std::nullopt;
+                continue;
+            }
+            const CsvCell& cell = table->cell(row, c);
+            if (cell.text.empty()) {
+                file->problems->refuse(
+                    k_empty_cell, table->where(cell),
+                    "row " + std::to_string(row + 1) + " has no value in the column " + text::in_quotes(column.name),
+                    "a missing value is neither 0 nor that of another row",
+                    "state it; leave the column out where all points take what the job states", "empty " + column.name);
+                told.insert(*column.input);
+                continue;
+            }
+            if (const auto number = table->number(row, c, {})) {
+                const auto found = overrides.find(*column.input);
+                const StatementKeys& before = found == overrides.end() ? *stated_[*column.input].keys : found->second;
+                overrides.insert_or_assign(
+                    *column.input, before.with(column.key, *number, *table, cell, *file->problems, column.name));
+                ++stated_[*column.input].overridden[column.key];
+            } else {
+                told.insert(*column.input);
+            }
+        }
+        if (!columns.empty()) {
+            const std::string where = table->where(table->cell(row, name_column.value_or(0)));
+            name_point(point, point_name, where, job, *file->problems);
+        }
+        read_point(point, overrides, told, job);
+        job.points.push_back(std::move(point));
+    }
+}
+
+void BudgetInputs::read_point(gum::BudgetPoint& point, const std::map<std::size_t, StatementKeys>& overrides,
+                              const std::set<std::size_t>& told, BudgetJob& job) {
+    std::map<std::size_t, Evaluated> here;
+    std::set<std::size_t> read_again;
+    for (std::size_t i = 0; i < stated_.size(); ++i) {
+        if (overrides.contains(i) || told.contains(i)) {
+            ++stated_[i].points;
+        } else if (stated_[i].silent.size() < k_most_named) {
+            stated_[i].silent.push_back(point.name);
+        }
+        if (!stated_[i].is_complete) {
+            read_again.insert(i);
+        }
+    }
+    for (const auto& [index, keys] : overrides) {
+        if (told.contains(index)) {
+            continue;
+        }
+        const Stated& stated = stated_[index];
+        const std::size_t position = positions_[index];
+        // The correlation from simultaneous observations belongs to the observations of the job.
+        const bool is_simultaneous =
+            std::any_of(job.simultaneous.begin(), job.simultaneous.end(), [&](const gum::SimultaneousInputs& set) {
+                return std::find(set.inputs.begin(), set.inputs.end(), position) != set.inputs.end();
+            });
+        if (is_simultaneous) {
+            keys.refuse(k_not_simultaneous, text::in_quotes(stated.name) + " was observed together with other inputs",
+                        "its observations, and hence its value, are those of the job", "remove it from the point");
+            continue;
+        }
+        std::optional<Evaluated> evaluated = evaluate(stated, keys);
+        if (!evaluated) {
+            continue;
+        }
+        const bool is_correlated =
+            evaluated->input.constant &&
+            std::any_of(job.correlations.begin(), job.correlations.end(), [&](const gum::InputCorrelation& pair) {
+                return pair.first == position || pair.second == position;
+            });
+        if (is_correlated) {
+            keys.refuse(k_correlation_of_constant,
+                        text::in_quotes(stated.name) + " is a constant at this point, and correlated",
+                        "a quantity without uncertainty has no correlation", "state its uncertainty");
+            continue;
+        }
+        // A point measures its own quantity, unless the job says that it is one for all of them.
+        evaluated->input.common = evaluated->is_stated_common;
+        here.emplace(index, std::move(*evaluated));
+        read_again.insert(readers_[index].begin(), readers_[index].end());
+    }
+    for (const std::size_t index : read_again) {
+        if (!overrides.contains(index) && stated_[index].base) {
+            here.emplace(index, *stated_[index].base);
+        }
+    }
+    const Reading reading = [&](const std::string& name) -> const gum::BudgetInput* {
+        const auto found = of_name_.find(name);
+        if (found == of_name_.end()) {
+            return nullptr;
+        }
+        if (const auto own = here.find(found->second); own != here.end()) {
+            return &own->second.input;
+        }
+        return stated_[found->second].base ? &stated_[found->second].base->input : nullptr;
+    };
+    for (auto& [index, evaluated] : here) {
+        if (complete(evaluated, reading) && check_digits(evaluated)) {
+            point.inputs.emplace_back(positions_[index], evaluated.input);
+        }
+    }
+    std::sort(point.inputs.begin(), point.inputs.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+}
+
+}  // namespace gumcert::jobs

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "jobs/budget/budget_correlation.h"
+#include "jobs/budget/budget_job.h"
+#include "jobs/budget/budget_statement.h"
+#include "jobs/job_files.h"
+
+namespace gumcert::jobs {
+
+/// The inputs of a budget job while it is read, and the points of its table, which state some of them anew.
+///
+/// Where there is a table, an input may be left to the points: what is wrong with its statement, or missing in it, is
+/// reported only where a point takes it over.
+class BudgetInputs {
+public:
+    /// \param covariance  of the job, for the inputs that take their variance from it; must outlive this
+    BudgetInputs(const JsonDocument& document, const std::optional<StatedCovariance>& covariance, JobFiles& files,
+                 ProblemList& problems);
+
+    /// Reads the key `inputs`; the names of all of them are known then, those with problems included.
+    void read(const JsonObject& root);
+    [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+    /// Every input has a name and a unit that an equation can use, whatever else is wrong with it.
+    [[nodiscard]] bool symbols_are_whole() const { return symbols_are_whole_; }
+
+    /// The inputs without problems, in the order of the job.
+    /// \param positions  receives where each one is
+    [[nodiscard]] std::vector<gum::BudgetInput> inputs(std::map<std::string, std::size_t>& positions);
+    /// What the inputs are, by their names.
+    [[nodiscard]] const std::map<std::string, certificate::LocalisedText>& descriptions() const {
+        return descriptions_;
+    }
+    /// Names and units of all inputs, for the equations.
+    [[nodiscard]] std::vector<gum::InputSymbol> symbols() const;
+    /// True when the specification of another input refers to it.
+    [[nodiscard]] bool is_read_by_specification(const std::string& name) const;
+
+    /// Reads the key `points`. The inputs of the job must be in it already, with correlations and fits.
+    void read_points(const JsonObject& root, BudgetJob& job);
+
+private:
+    /// An input, and what is needed to evaluate it again at a point.
+    struct Evaluated {
+        gum::BudgetInput input;
+        std::vector<std::optional<StatedSpecification>> specifications;  ///< one a component
+        std::vector<StatementKeys> keys;                                 ///< one a component
+        bool is_stated_common = false;
+    };
+    struct Stated {
+        std::string name;
+        gum::Unit unit;
+        std::optional<StatementKeys> keys;
+        std::optional<Evaluated> base;         ///< nothing when it was refused
+        bool is_complete = true;               ///< false: its specification waits for the value of another input
+        std::unique_ptr<ProblemList> pending;  ///< what is wrong with the base, in a job with points
+        std::size_t points = 0;                ///< that state the input, or were refused for it
+        std::vector<std::string> silent;       ///< names of the first points that leave it to the job
+        std::map<std::string_view, std::size_t> overridden;  ///< keys of the base: points that replace them
+    };
+    using Reading = std::function<const gum::BudgetInput*(const std::string&)>;  ///< the input of a name, or null
+
+    void read_input(const std::string& name, const std::string& pointer, bool has_points);
+    [[nodiscard]] std::optional<Evaluated> evaluate(const Stated& stated, const StatementKeys& keys);
+    [[nodiscard]] bool evaluate_components(const Stated& stated, const StatementKeys& keys, Evaluated& out);
+    [[nodiscard]] bool add_component(const Stated& stated, const StatementKeys& keys, bool is_component,
+                                     Evaluated& out);
+    /// Uncertainties from specifications, once the values of all inputs are known.
+    [[nodiscard]] bool complete(Evaluated& evaluated, const Reading& reading) const;
+    void warn_of_similar_names();
+    /// Refuses numbers whose digits are lost beside the uncertainty of the input.
+    static bool check_digits(const Evaluated& evaluated);
+    /// An input that neither the job nor all of its points state.
+    void refuse_unstated(const Stated& stated, std::size_t points);
+    /// What the points leave open, and what of the job they leave unused.
+    void finish_points(BudgetJob& job);
+
+    void read_point_array(const nlohmann::json& points, const std::string& pointer, BudgetJob& job);
+    void read_point_file(const std::string& name, BudgetJob& job);
+    /// \param told  inputs that were refused at this point already
+    void read_point(gum::BudgetPoint& point, const std::map<std::size_t, StatementKeys>& overrides,
+                    const std::set<std::size_t>& told, BudgetJob& job);
+    [[nodiscard]] std::optional<std::size_t> point_input(const std::string& name, const std::string& where,
+                                                         const BudgetJob& job, ProblemList& problems) const;
+    void name_point(gum::BudgetPoint& point, const std::optional<std::string>& name, const std::string& where,
+                    const BudgetJob& job, ProblemList& problems);
+
+    const JsonDocument& document_;
+    const std::optional<StatedCovariance>& covariance_;
+    JobFiles& files_;
+    ProblemList& problems_;
+    std::vector<std::string> names_;
+    std::vector<Stated> stated_;                     ///< those whose name and unit could be read
+    std::map<std::string, std::size_t> of_name_;     ///< in stated_
+    std::vector<std::size_t> positions_;             ///< stated_ → job.inputs
+    std::vector<std::vector<std::size_t>> readers_;  ///< inputs whose specification refers to one, in stated_
+    std::map<std::string, std::string> point_names_;
+    std::map<std::string, certificate::LocalisedText> descriptions_;
+    bool symbols_are_whole_ = true;
+};
+
+}  // namespace gumcert::jobs

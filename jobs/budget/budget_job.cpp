@@ -1,0 +1,359 @@
+#include "jobs/budget/budget_job.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "jobs/budget/budget_correlation.h"
+#include "jobs/budget/budget_fit_statement.h"
+#include "jobs/budget/budget_inputs.h"
+#include "jobs/budget/budget_job_statement.h"
+#include "jobs/budget/budget_statement.h"
+#include "jobs/certificate/certificate_archive.h"
+#include "jobs/certificate/certificate_statement.h"
+#include "jobs/job_files.h"
+#include "jobs/job_kind.h"
+#include "jobs/job_reader.h"
+#include "jobs/json_object.h"
+#include "text/visible_text.h"
+
+namespace gumcert::jobs {
+
+namespace {
+
+using nlohmann::json;
+
+/// Reads one job; every step notes what it finds, and `result` throws or returns at the end.
+class Reader {
+public:
+    Reader(const FileSource& source, const std::string& job_file) : files_(source, job_file) {}
+
+    BudgetJob result() {
+        const JobFiles::File file = files_.job();
+        problems_ = file.problems;
+        document_ = read_json_document(file.bytes, *problems_);
+        if (document_) {
+            read_job();
+        }
+        files_.refuse_if_needed();
+        job_.document = std::move(document_->value);
+        job_.files = files_.names();
+        job_.warnings = files_.warnings();
+        return std::move(job_);
+    }
+
+private:
+    void read_job() {
+        if (!is_budget()) {
+            return;
+        }
+        const std::optional<JsonObject> root = JsonObject::root(*document_, keys_of<BudgetStatement>(), *problems_);
+        if (!root) {
+            return;
+        }
+        read_common(*root);
+        read_model(*root);
+        read_unknowns(*root);
+        const std::optional<StatedCovariance> covariance = read_covariance(*root, *document_, files_, *problems_);
+        BudgetInputs inputs(*document_, covariance, files_, *problems_);
+        inputs.read(*root);
+        std::map<std::string, std::size_t> positions;
+        job_.inputs = inputs.inputs(positions);
+        const std::size_t problems_before = problems_->refusals();
+        job_.fits = read_fits(*root, *document_, inputs.names(), files_, *problems_);
+        model_is_whole_ = model_is_whole_ && problems_->refusals() == problems_before;
+        read_correlations(*root, *document_, covariance, positions, inputs.names(), job_, *problems_);
+        read_outputs(*root);
+        inputs.read_points(*root, job_);
+        job_.input_descriptions = inputs.descriptions();
+        double p = job_.coverage_probability;
+        for (const gum::BudgetOutput& output : job_.outputs) {
+            p = std::max(p, output.coverage_probability.value_or(p));
+        }
+        job_.monte_carlo = read_monte_carlo(*root, p, 2, *problems_);
+        check_model(*root, inputs);
+        job_.certificate = read_certificate(files_, *document_, *problems_);
+    }
+
+    bool is_budget() {
+        if (document_->value.is_discarded()) {
+            return false;
+        }
+        if (!document_->value.is_object()) {
+            problems_->refuse(k_wrong_type, document_->where(""), "the document is " + described(document_->value),
+                              "must be an object", "write { \"key\": value, … }");
+            return false;
+        }
+        const auto text_of = [&](const char* key, const std::string& expected) -> std::optional<std::string> {
+            const auto found = document_->value.find(key);
+            if (found == document_->value.end()) {
+                problems_->refuse(k_missing_key, document_->where(""),
+                                  "the key " + text::in_quotes(key) + " is missing", "the key is required",
+                                  "add " + text::in_quotes(key) + ": " + text::in_quotes(expected));
+            } else if (!found->is_string() && !found->is_discarded()) {
+                problems_->refuse(k_wrong_type, document_->where(child_pointer("", key)), described(*found),
+                                  "must be a string", "write " + text::in_quotes(expected));
+            } else if (found->is_string()) {
+                return found->get<std::string>();
+            }
+            return std::nullopt;
+        };
+        const auto schema = text_of("schema", "gumcert/job/1");
+        if (schema && *schema != "gumcert/job/1") {
+            problems_->refuse(k_wrong_schema, document_->where("/schema"), text::in_quotes(*schema),
+                              "must be \"gumcert/job/1\"",
+                              "check that the file is a job, and which version of the program it is for");
+        }
+        const auto kind = text_of("kind", std::string(k_budget_kind));
+        if (kind && *kind != k_budget_kind) {
+            problems_->refuse(k_wrong_kind, document_->where("/kind"), "a job of kind " + text::in_quotes(*kind),
+                              "a job of kind \"budget\" is expected here", "use the command for this kind of job");
+        }
+        return kind && *kind == k_budget_kind;
+    }
+
+    void read_common(const JsonObject& root) {
+        JobReader reader(root);
+        reader.read(stated_, {"title"});
+        reader.read(stated_, {"coverage_probability"});
+        reader.read(stated_, {"coverage"});
+        read_unused_texts(root);
+        reader.read(stated_, {"reporting"});
+    }
+
+    void read_model(const JsonObject& root) {
+        const json* model = root.find("model");
+        if (model == nullptr) {
+            return;
+        }
+        const auto add = [&](const json& text, const std::string& where) {
+            if (auto equation = equation_text_of(text, where, *problems_)) {
+                job_.model.push_back(std::move(*equation));
+            } else {
+                model_is_whole_ = false;
+            }
+        };
+        if (model->is_string()) {
+            add(*model, root.where("model"));
+        } else if (!model->is_array()) {
+            root.refuse(k_wrong_type, "model", described(*model), "must be an array of equations",
+                        "write [\"name = expression\"]");
+            model_is_whole_ = false;
+        } else {
+            for (std::size_t i = 0; i < model->size(); ++i) {
+                add((*model)[i], document_->where(child_pointer(root.pointer("model"), i)));
+            }
+        }
+    }
+
+    /// Members of an object, in the order of the file, each an object with some keys.
+    template <typename Use>
+    void for_each_member(const JsonObject& root, std::string_view key, std::span<const std::string_view> keys,
+                         const Use& use) {
+        const json* object = root.find(key);
+        if (object == nullptr) {
+            return;
+        }
+        if (!object->is_object()) {
+            root.refuse(k_wrong_type, key, described(*object), "must be an object", "name each of them");
+            model_is_whole_ = false;
+            return;
+        }
+        for (const std::string& name : keys_in_order(*document_, root.pointer(key))) {
+            const std::string pointer = child_pointer(root.pointer(key), name);
+            if (!object->at(name).is_object()) {
+                problems_->refuse(k_wrong_type, document_->where(pointer), described(object->at(name)),
+                                  "must be an object", "write " + text::in_quotes(name) + ": {\"unit\": …}");
+                model_is_whole_ = false;
+                continue;
+            }
+            use(name, JsonObject(*document_, pointer, keys, *problems_));
+        }
+    }
+
+    void read_unknowns(const JsonObject& root) {
+        for_each_member(root, "solve_for", keys_of<UnknownStatement>(),
+                        [&](const std::string& name, const JsonObject& object) {
+                            const bool is_name = is_quantity_name(name, object.where(), *problems_);
+                            const auto unit = read_unit(object, "unit", *problems_);
+                            UnknownStatement stated;
+                            JobReader(object).read(stated);
+                            model_is_whole_ = model_is_whole_ && is_name && unit;
+                            if (unit) {
+                                job_.unknowns.push_back({name, unit->to_si(stated.start), *unit});
+                            }
+                        });
+    }
+
+    void read_outputs(const JsonObject& root) {
+        for_each_member(
+            root, "outputs", keys_of<OutputStatement>(), [&](const std::string& name, const JsonObject& object) {
+                gum::BudgetOutput output;
+                output.name = name;
+                output.where = object.where();
+                const nlohmann::json* const stated = object.find("description");
+                certificate::LocalisedText description;
+                if (stated != nullptr && stated->is_object()) {
+                    read_localised(*stated, description, true, {&*document_, object.pointer("description"), problems_});
+                } else {
+                    description = object.optional_string("description").value_or("");
+                }
+                if (!description.empty()) {
+                    job_.output_descriptions[name] = std::move(description);
+                }
+                OutputStatement probability;
+                JobReader(object).read(probability);
+                output.coverage_probability = probability.coverage_probability;
+                output.coverage = probability.coverage;
+                if (object.has("unit")) {
+                    output.unit = read_unit(object, "unit", *problems_);
+                    model_is_whole_ = model_is_whole_ && output.unit;
+                }
+                job_.outputs.push_back(std::move(output));
+            });
+    }
+
+    // ---- the model as a whole ---------------------------------------------------------------------------------------
+
+    void check_model(const JsonObject& root, const BudgetInputs& inputs) {
+        if (job_.model.empty()) {
+            if (model_is_whole_) {
+                check_without_model(root, inputs);
+            }
+            return;
+        }
+        if (!model_is_whole_ || !inputs.symbols_are_whole()) {
+            // Names and units are not known: what can be said is whether the equations are equations.
+            for (const gum::EquationText& equation : job_.model) {
+                try {
+                    (void)gum::equation_names(equation);
+                } catch (const gum::DiagnosedError& error) {
+                    refuse_as(error, "", *problems_);
+                }
+            }
+            return;
+        }
+        const bool is_accepted = problems_->refusals() == 0;
+        std::vector<gum::InputSymbol> symbols = gum::model_inputs(job_);
+        if (!is_accepted) {
+            // The inputs that were refused for what they state have a name and a unit all the same.
+            symbols = inputs.symbols();
+            std::map<std::string, std::optional<double>> constants;
+            for (const gum::InputSymbol& known : gum::model_inputs(job_)) {
+                constants.emplace(known.name, known.constant);
+            }
+            for (gum::InputSymbol& symbol : symbols) {
+                const auto known = constants.find(symbol.name);
+                symbol.constant = known == constants.end() ? std::nullopt : known->second;
+            }
+            for (const gum::BudgetFit& fit : job_.fits) {
+                for (const gum::BudgetFit::Parameter& parameter : fit.parameters) {
+                    symbols.push_back({parameter.name, parameter.unit, std::nullopt});
+                }
+            }
+        }
+        try {
+            const gum::EquationSystem system =
+                gum::EquationSystem::compile(job_.model, symbols, job_.unknowns, gum::model_outputs(job_));
+            for (const gum::Diagnostic& warning : system.warnings()) {
+                problems_->warn(InputCode{warning.code, {}}, warning.where, warning.what, warning.rule, warning.action);
+            }
+            for (const std::size_t unused : system.unused_inputs()) {
+                if (is_accepted && unused < job_.inputs.size() &&
+                    !inputs.is_read_by_specification(job_.inputs[unused].name)) {
+                    problems_->warn(k_warn_unused_input, job_.inputs[unused].where,
+                                    "no result depends on the input " + text::in_quotes(job_.inputs[unused].name),
+                                    "an input that is not used has no part in any uncertainty",
+                                    "remove it, or complete the model");
+                }
+            }
+        } catch (const gum::DiagnosedError& error) {
+            refuse_as(error, "", *problems_);
+        }
+    }
+
+    void check_without_model(const JsonObject& root, const BudgetInputs& inputs) {
+        if (!job_.unknowns.empty()) {
+            root.refuse(k_nothing_to_evaluate, "solve_for", "unknowns without equations",
+                        "an unknown is solved for from equations \"0 = expression\"", "add the model");
+        }
+        if (inputs.names().empty() && job_.fits.empty()) {
+            if (inputs.symbols_are_whole()) {
+                root.refuse(k_nothing_to_evaluate, "inputs", "a job without model, inputs and fits",
+                            "there must be a quantity to evaluate", "add \"model\" and \"inputs\"");
+            }
+            return;
+        }
+        std::map<std::string, gum::Unit> known;
+        for (const gum::InputSymbol& symbol : inputs.symbols()) {
+            known.emplace(symbol.name, symbol.unit);
+        }
+        for (const gum::BudgetFit& fit : job_.fits) {
+            for (const gum::BudgetFit::Parameter& parameter : fit.parameters) {
+                known.emplace(parameter.name, parameter.unit);
+            }
+        }
+        for (const gum::BudgetOutput& output : job_.outputs) {
+            const auto found = known.find(output.name);
+            if (found == known.end()) {
+                if (inputs.symbols_are_whole() && problems_->refusals() == 0) {
+                    problems_->refuse(k_output_unknown, output.where,
+                                      text::in_quotes(output.name) + " is no input and no parameter",
+                                      "without a model the inputs and the parameters of fits are the results",
+                                      "correct the name, or add the model");
+                }
+            } else if (output.unit &&
+                       (!(output.unit->dimension() == found->second.dimension()) ||
+                        output.unit->is_celsius_temperature() != found->second.is_celsius_temperature())) {
+                problems_->refuse(k_unit_does_not_fit, output.where,
+                                  text::in_quotes(output.name) + " is asked for in " +
+                                      text::visible(output.unit->text()) + ", and is stated in " +
+                                      text::visible(found->second.text()),
+                                  "both must be units of one kind of quantity", "correct the unit");
+            }
+        }
+    }
+
+    JobFiles files_;
+    ProblemList* problems_ = nullptr;
+    std::optional<JsonDocument> document_;
+    BudgetStatement stated_;
+    BudgetJob& job_ = stated_.job;
+    bool model_is_whole_ = true;  ///< equations, unknowns and outputs could be read
+};
+
+const std::vector<JobKeys>& all_keys() {
+    static const std::vector<JobKeys> k_all = [] {
+        static const JobKeyTable k_described(budget_fields());
+        std::vector<JobKeys> all(k_described.objects().begin(), k_described.objects().end());
+        all.push_back({"/covariance", budget_covariance_keys()});
+        for (const std::span<const JobKeys> part : {budget_statement_keys(), budget_fit_keys()}) {
+            all.insert(all.end(), part.begin(), part.end());
+        }
+        return all;
+    }();
+    return k_all;
+}
+
+}  // namespace
+
+const JobFields& budget_fields() {
+    return fields_of<BudgetStatement>();
+}
+
+std::span<const JobKeys> budget_job_keys() {
+    return all_keys();
+}
+
+BudgetJob read_budget_job(const FileSource& source, const std::string& job_file) {
+    return Reader(source, job_file).result();
+}
+
+BudgetJob read_budget_job(const std::filesystem::path& job_file) {
+    return read_budget_job(DiskFileSource(job_file.parent_path()), job_file.filename().string());
+}
+
+}  // namespace gumcert::jobs

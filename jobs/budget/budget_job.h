@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "certificate/certificate_data.h"
+#include "certificate/localised_text.h"
+#include "gum/budget/budget.h"
+#include "gum/quantity/diagnostic.h"
+#include "jobs/file_source.h"
+#include "jobs/job_kind.h"
+
+namespace gumcert::jobs {
+
+/// A job of kind `budget`: the budget, and the job as it was read.
+struct BudgetJob : gum::Budget {
+    std::string title;
+    /// What inputs and outputs are, by their names: "length of the standard"; those without are not here.
+    std::map<std::string, certificate::LocalisedText> input_descriptions, output_descriptions;
+    nlohmann::json document;
+    std::optional<certificate::CertificateData> certificate;  ///< from the job or a file of its own
+    std::vector<std::string> files;                           ///< names as the job gives them, each once, the job first
+    std::vector<gum::Diagnostic> warnings;
+};
+
+/// The keys of a job of kind `budget`, object by object; `*` in a pointer stands for any name or position.
+/// schemas/job-1.schema.json states the same ones.
+[[nodiscard]] std::span<const JobKeys> budget_job_keys();
+
+/// Reads a job of kind `budget` with all its files, checks it completely and converts it to coherent SI.
+///
+/// Inputs, outputs, fits and parameters come in the order in which they stand in the file. The model and the equations
+/// of the fits are compiled once to check them: syntax, names, units, cycles (gum/expression).
+/// \throws InputError    with every problem of every file
+/// \throws StorageError  if a file cannot be read
+[[nodiscard]] BudgetJob read_budget_job(const std::filesystem::path& job_file);
+[[nodiscard]] BudgetJob read_budget_job(const FileSource& source, const std::string& job_file);
+
+}  // namespace gumcert::jobs

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "jobs/budget/budget_job.h"
+#include "jobs/job_common_fields.h"
+#include "jobs/job_fields.h"
+#include "jobs/monte_carlo_request.h"
+
+namespace gumcert::jobs {
+
+// What the file of a budget job says, and its description (jobs/job_fields.h). The statements of inputs, points and fits
+// are alternatives of each other, which their readers decide among: their definitions in the schema are kept by hand
+// (docs/adr/0044-jobs-described-once.md).
+
+/// An unknown of an implicit equation.
+struct UnknownStatement {
+    double start = 0.0;  ///< in its unit
+    std::string description;
+};
+
+struct OutputStatement {
+    std::optional<double> coverage_probability;
+    std::optional<gum::CoverageChoice> coverage;
+};
+
+struct BudgetStatement {
+    BudgetJob job;
+    std::vector<UnknownStatement> solve_for;
+    std::vector<OutputStatement> outputs;
+    MonteCarloStatement monte_carlo;
+};
+
+template <class Archive>
+void describe_unit(Archive& a) {
+    a.by_hand("unit", R"({"$ref": "#/definitions/name"})", "a unit",
+              "A unit (docs/budget_job.md), e.g. um, nm/K, degC; 1 when left out.");
+}
+
+template <class Archive>
+void describe(Archive& a, UnknownStatement& r) {
+    a.needed("start", r.start, In{}, "Where the solution is looked for, in the unit.");
+    describe_unit(a);
+    a("description", r.description, AnyText{}, "What the quantity is.");
+}
+
+template <class Archive>
+void describe(Archive& a, OutputStatement& r) {
+    describe_unit(a);
+    a("coverage_probability", r.coverage_probability, In{k_coverage_probability}, "Of this result.");
+    a("coverage", r.coverage, gum::k_coverage_choices, "Which evaluation of this result is reported.");
+    a.by_hand("description", R"({"$ref": "#/definitions/description"})", "a text, or one in each language",
+              "What the quantity is.");
+}
+
+template <class Archive>
+void describe(Archive& a, BudgetStatement& r) {
+    describe_head(a, k_budget_kind);
+    a("title", r.job.title, Line{1000}, "Free text.");
+    a("coverage_probability", r.job.coverage_probability, In{k_coverage_probability},
+      "Of all results that do not state their own; 0.9545 when left out.");
+    describe_certificate(a);
+    a.part("monte_carlo", r.monte_carlo,
+           "Monte Carlo beside the law of propagation; left out: only where the law of propagation does not hold.");
+    describe_notes(a);
+    a.by_hand("model", R"({"$ref": "#/definitions/budget_model"})", "an array of equations, or one",
+              "Left out: the inputs and the parameters of fits are the results.");
+    a.by_hand("inputs", R"({"$ref": "#/definitions/budget_inputs"})", "an object of objects",
+              "What is known of each input quantity, under its name.");
+    a.by_hand("correlations", R"({"$ref": "#/definitions/budget_correlations"})", "an array of arrays",
+              "Two names of inputs and their correlation coefficient.");
+    a.by_hand("covariance", R"({"$ref": "#/definitions/budget_covariance"})", "an object",
+              "Inputs and their covariance matrix.");
+    a.by_hand("simultaneous", R"({"$ref": "#/definitions/budget_simultaneous"})", "an array of arrays of names",
+              "Inputs that were observed together.");
+    a.named("solve_for", r.solve_for, "Unknowns of implicit equations, by name.");
+    a.named("outputs", r.outputs, "Results that are asked for, by name.");
+    a.by_hand("points", R"({"$ref": "#/definitions/budget_points"})", "an array of objects, or a file",
+              "A table of test points.");
+    a.by_hand("fits", R"({"$ref": "#/definitions/budget_fits"})", "an object of objects",
+              "Least-squares fits whose parameters are used like inputs.");
+    a.part("reporting", r.job, "How numbers are reported.", [](auto& in, BudgetJob& job) {
+        constexpr Words<bool, 2> k_degrees{{{"exact", false}, {"truncated", true}}};
+        constexpr Words<gum::RoundingMode, 2> k_rounding{
+            {{"half_even", gum::RoundingMode::half_even}, {"up", gum::RoundingMode::up}}};
+        in("degrees_of_freedom", job.truncate_degrees_of_freedom, k_degrees,
+           "Whether k is taken for the effective degrees of freedom as they are (exact, when left out).");
+        in("rounding", job.rounding, k_rounding, "Of printed expanded uncertainties; half_even when left out.");
+    });
+    a("coverage", r.job.coverage, gum::k_coverage_choices,
+      "Which evaluation is reported of results that do not state their own; as_validated when left out: the law of "
+      "propagation where it is adequate, Monte Carlo elsewhere.");
+}
+
+/// The keys of a budget job, what they mean and what they allow.
+[[nodiscard]] const JobFields& budget_fields();
+
+}  // namespace gumcert::jobs

@@ -1,0 +1,122 @@
+#include "jobs/certificate/certificate_statement.h"
+
+#include "encoding/base64.h"
+#include "encoding/sha2.h"
+#include "gum/quantity/diagnostic.h"
+#include "jobs/certificate/certificate_archive.h"
+#include "jobs/image_format.h"
+#include "jobs/input_text.h"
+#include "text/visible_text.h"
+
+namespace gumcert::jobs {
+
+namespace {
+
+using certificate::CertificateData;
+using certificate::Profile;
+using nlohmann::json;
+
+constexpr std::size_t k_largest_symbol = std::size_t{1} << 20U;  // [byte]
+
+/// \return nothing when it was refused, with the problems in the list of the file
+std::optional<Profile> read_profile(std::string_view bytes, ProblemList& problems) {
+    const std::optional<JsonDocument> document = read_json_document(bytes, problems);
+    if (!document || document->value.is_discarded()) {
+        return std::nullopt;
+    }
+    Profile profile;
+    CertificateArchive::read_struct_at(profile, {&*document, "", &problems});
+    return problems.refusals() == 0 ? std::optional{std::move(profile)} : std::nullopt;
+}
+
+/// The picture goes into the record as it is, so that a record can be printed by itself.
+void read_symbol(JobFiles& files, certificate::Accreditation& accreditation) {
+    const std::string& name = *accreditation.symbol_file;
+    const std::optional<JobFiles::File> file = files.open(name);
+    if (!file) {
+        return;
+    }
+    const auto refuse = [&](std::string what, std::string rule, std::string action) {
+        file->problems->refuse(k_certificate_symbol, text::visible(file->problems->file()), std::move(what),
+                               std::move(rule), std::move(action));
+    };
+    if (file->bytes.size() > k_largest_symbol) {
+        refuse(file->bytes.size() > k_file_limit ? "more than 64 MiB" : std::to_string(file->bytes.size()) + " bytes",
+               "the symbol of an accreditation has at most 1 MiB (1048576 bytes)", "use a smaller picture");
+        return;
+    }
+    ImageFormat format = image_format(file->bytes);
+    if (format.media_type.empty()) {
+        refuse(std::move(format.objection),
+               "the symbol of an accreditation is a whole PNG or JPEG picture of 1 to 10000 pixels a side",
+               "export the symbol of the accreditation body as PNG");
+        return;
+    }
+    accreditation.symbol_sha256 = encoding::sha256(file->bytes);
+    accreditation.symbol_media_type = std::move(format.media_type);
+    accreditation.symbol_base64 = encoding::base64(file->bytes);
+}
+
+/// \param place  of the object
+std::optional<CertificateData> read_data(JobFiles& files, const CertificatePlace& place) {
+    const std::size_t refusals = place.problems->refusals();
+    CertificateData data;
+    CertificateArchive::read_struct_at(data, place);
+    check_lists(data, place);
+    if (!place.document->value.at(json::json_pointer(place.pointer)).contains("status")) {
+        data.status = data.accreditation ? "accredited" : "specimen";
+    }
+    if (data.accreditation && data.accreditation->symbol_file && !data.accreditation->symbol_file->empty()) {
+        read_symbol(files, *data.accreditation);
+    }
+    if (data.profile.ends_with(".json")) {
+        if (const std::optional<JobFiles::File> file = files.open(data.profile)) {
+            data.own_profile = read_profile(file->bytes, *file->problems);
+        }
+    }
+    return place.problems->refusals() == refusals ? std::optional{std::move(data)} : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<CertificateData> read_certificate(JobFiles& files, const JsonDocument& job, ProblemList& problems) {
+    const auto found = job.value.find("certificate");
+    if (found == job.value.end() || found->is_discarded()) {
+        return std::nullopt;
+    }
+    const CertificatePlace place{&job, "/certificate", &problems};
+    if (found->is_object()) {
+        return read_data(files, place);
+    }
+    if (!found->is_string()) {
+        place.refuse(k_wrong_type, described(*found), "must be an object or the name of a file", "correct the value");
+        return std::nullopt;
+    }
+    const std::string& name = found->get_ref<const std::string&>();
+    if (!acceptable_text(name, certificate::TextForm::file, place)) {
+        return std::nullopt;
+    }
+    const std::optional<JobFiles::File> file = files.open(name);
+    const std::optional<JsonDocument> document = file ? read_json_document(file->bytes, *file->problems) : std::nullopt;
+    if (!document) {
+        return std::nullopt;
+    }
+    const CertificatePlace root{&*document, "", file->problems};
+    if (!document->value.is_object()) {
+        root.refuse(k_wrong_type, "the document is " + described(document->value), "must be an object",
+                    "write { \"key\": value, … }");
+        return std::nullopt;
+    }
+    return read_data(files, root);
+}
+
+Profile parse_profile(std::string_view bytes, const std::string& file) {
+    ProblemList problems(file);
+    std::optional<Profile> profile = read_profile(bytes, problems);
+    if (!profile) {
+        throw gum::InputError(problems.refused());
+    }
+    return std::move(*profile);
+}
+
+}  // namespace gumcert::jobs

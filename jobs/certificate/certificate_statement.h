@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "certificate/certificate_data.h"
+#include "jobs/job_files.h"
+#include "jobs/json_object.h"
+
+namespace gumcert::jobs {
+
+/// The key `certificate` of a job: an object, or the name of a file with one. Checked completely; files that it names
+/// (symbol, profile) are read too. docs/certificate_data.md says every key.
+/// \param job       document whose value is an object
+/// \param problems  of the job
+/// \return nothing without the key, or when it was refused (the problems are in `files`)
+[[nodiscard]] std::optional<certificate::CertificateData> read_certificate(JobFiles& files, const JsonDocument& job,
+                                                                           ProblemList& problems);
+
+/// A profile of an accreditation body.
+/// \param bytes  content of templates/profiles/<id>.json
+/// \throws gum::InputError  with every problem
+[[nodiscard]] certificate::Profile parse_profile(std::string_view bytes, const std::string& file);
+
+}  // namespace gumcert::jobs

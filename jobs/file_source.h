@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace gumcert::jobs {
+
+/// Largest file that is read, [byte].
+inline constexpr std::size_t k_file_limit = std::size_t{64} << 20U;
+
+/// Where a reader gets the files of a job from: a folder, or memory for tests.
+class FileSource {
+public:
+    virtual ~FileSource() = default;
+
+    /// The bytes of a file; never more than `k_file_limit` + 1, so that a larger file can be recognised and refused.
+    /// \param name  as the job names it, relative to the job file
+    /// \throws StorageError  if the file cannot be opened or read, or is not a regular file
+    [[nodiscard]] virtual std::string read(const std::string& name) const = 0;
+};
+
+/// Files of one folder of the disk.
+class DiskFileSource : public FileSource {
+public:
+    explicit DiskFileSource(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    [[nodiscard]] std::string read(const std::string& name) const override;
+
+private:
+    std::filesystem::path folder_;
+};
+
+/// Files in memory, name to content.
+class MemoryFileSource : public FileSource {
+public:
+    explicit MemoryFileSource(std::map<std::string, std::string> files) : files_(std::move(files)) {}
+    [[nodiscard]] std::string read(const std::string& name) const override;
+
+private:
+    std::map<std::string, std::string> files_;
+};
+
+/// Another source of which every file is read once: what is parsed, parsed again and digested are the same bytes, also
+/// where a file changes meanwhile. Two spellings of a name ("a.csv", "x/../a.csv") are two names.
+class ReadOnceSource : public FileSource {
+public:
+    explicit ReadOnceSource(const FileSource& source) : source_(source) {}
+    [[nodiscard]] std::string read(const std::string& name) const override;
+
+private:
+    const FileSource& source_;
+    mutable std::mutex lock_;
+    mutable std::map<std::string, std::string> read_;
+};
+
+}  // namespace gumcert::jobs

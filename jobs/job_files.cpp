@@ -1,0 +1,147 @@
+#include "jobs/job_files.h"
+#include "text/visible_text.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace gumcert::jobs {
+
+JobFiles::JobFiles(const FileSource& source, const std::string& job_file)
+    : source_(source), folder_(job_file.substr(0, job_file.rfind('/') + 1)) {
+    names_.push_back(job_file);
+    problems_.emplace_back(job_file);
+}
+
+JobFiles::File JobFiles::job() {
+    return {source_.read(names_.front()), &problems_.front()};
+}
+
+std::optional<JobFiles::File> JobFiles::open(const std::string& name_in_job) {
+    const std::string name = folder_ + name_in_job;
+    if (std::find(names_.begin(), names_.end(), name) == names_.end()) {
+        names_.push_back(name);
+    }
+    ProblemList& problems = problems_.emplace_back(name);
+    try {
+        return File{source_.read(name), &problems};
+    } catch (const gum::StorageError& error) {
+        not_readable_.insert(not_readable_.end(), error.diagnostics().begin(), error.diagnostics().end());
+        return std::nullopt;
+    }
+}
+
+std::optional<std::string> JobFiles::file_name_objection(std::string_view name) {
+    const bool has_drive = name.size() > 1 && name[1] == ':';
+    if (name.empty() || name.front() == '/' || has_drive || name.find('\\') != std::string_view::npos) {
+        return "file names are relative to the job file and have / between folders";
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> JobFiles::file_name(const JsonObject& object, std::string_view key, bool required) {
+    const std::optional<std::string> name =
+        required ? object.required_name(key, 4096) : object.optional_name(key, 4096);
+    if (!name) {
+        return std::nullopt;
+    }
+    if (const auto objection = file_name_objection(*name)) {
+        object.refuse(k_file_name, key, "the file name " + text::in_quotes(*name), *objection,
+                      "put the file beside the job and give its name");
+        return std::nullopt;
+    }
+    return name;
+}
+
+void JobFiles::add(const std::vector<std::string>& names, const std::vector<gum::Diagnostic>& warnings) {
+    for (const std::string& name : names) {
+        if (std::find(names_.begin(), names_.end(), name) == names_.end()) {
+            names_.push_back(name);
+        }
+    }
+    warnings_elsewhere_.insert(warnings_elsewhere_.end(), warnings.begin(), warnings.end());
+}
+
+void JobFiles::add(const gum::InputError& error) {
+    refused_elsewhere_.insert(refused_elsewhere_.end(), error.diagnostics().begin(), error.diagnostics().end());
+}
+
+void JobFiles::add(const gum::StorageError& error) {
+    not_readable_.insert(not_readable_.end(), error.diagnostics().begin(), error.diagnostics().end());
+}
+
+void JobFiles::refuse_if_needed() const {
+    std::vector<gum::Diagnostic> refused = not_readable_;
+    for (const ProblemList& list : problems_) {
+        const std::vector<gum::Diagnostic> of_file = list.refused();
+        refused.insert(refused.end(), of_file.begin(), of_file.end());
+    }
+    refused.insert(refused.end(), refused_elsewhere_.begin(), refused_elsewhere_.end());
+    if (!not_readable_.empty()) {
+        throw gum::StorageError(std::move(refused));
+    }
+    if (!refused.empty()) {
+        throw gum::InputError(std::move(refused));
+    }
+}
+
+std::vector<gum::Diagnostic> JobFiles::warnings() const {
+    std::vector<gum::Diagnostic> all;
+    for (const ProblemList& list : problems_) {
+        const std::vector<gum::Diagnostic> of_file = list.warnings();
+        all.insert(all.end(), of_file.begin(), of_file.end());
+    }
+    all.insert(all.end(), warnings_elsewhere_.begin(), warnings_elsewhere_.end());
+    return all;
+}
+
+std::vector<CsvHeaderField> csv_header(std::string_view bytes) {
+    if (bytes.starts_with("\xEF\xBB\xBF")) {
+        bytes.remove_prefix(3);
+    }
+    std::size_t start = 0;
+    while (start < bytes.size() && (bytes[start] == '\n' || bytes[start] == '\r')) {
+        ++start;
+    }
+    text::PlaceFinder finder(bytes);
+    std::vector<CsvHeaderField> fields;
+    for (std::size_t i = start; i < bytes.size();) {
+        CsvHeaderField field{{}, finder.at(i)};
+        if (bytes[i] == '"') {
+            for (++i; i < bytes.size() && (bytes[i] != '"' || bytes.substr(i, 2) == "\"\""); ++i) {
+                field.name += bytes[i];
+                i += bytes[i] == '"' ? 1U : 0U;
+            }
+            ++i;
+        }
+        for (; i < bytes.size() && bytes[i] != ',' && bytes[i] != '\n' && bytes[i] != '\r'; ++i) {
+            field.name += bytes[i];
+        }
+        fields.push_back(std::move(field));
+        if (i >= bytes.size() || bytes[i] != ',') {
+            break;
+        }
+        if (++i == bytes.size()) {
+            fields.push_back({{}, finder.at(i)});
+        }
+    }
+    return fields;
+}
+
+std::vector<std::string> keys_in_order(const JsonDocument& document, const std::string& pointer) {
+    std::vector<std::tuple<std::size_t, std::size_t, std::string>> keys;
+    for (const auto& [key, value] : document.value.at(nlohmann::json::json_pointer(pointer)).items()) {
+        const auto place = document.places.find(child_pointer(pointer, key));
+        const text::Place at = place == document.places.end() ? text::Place{} : place->second;
+        keys.emplace_back(at.line, at.column, key);
+    }
+    std::sort(keys.begin(), keys.end());
+    std::vector<std::string> names;
+    names.reserve(keys.size());
+    for (auto& key : keys) {
+        names.push_back(std::move(std::get<2>(key)));
+    }
+    return names;
+}
+
+}  // namespace gumcert::jobs

@@ -1,0 +1,114 @@
+#include "reports/forms/asset_files.h"
+
+#include "gum/quantity/diagnostic.h"
+#include "json/strict_parser.h"
+#include "reports/wording.h"
+#include "text/place.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+
+namespace gumcert::reports {
+
+std::string read_asset(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream whole;
+    whole << stream.rdbuf();
+    std::string text = stream ? whole.str() : std::string();
+    if (text.empty()) {
+        throw gum::StorageError(
+            gum::Diagnostic{.code = "GC-REPORT-0002",
+                            .where = file.string(),
+                            .what = "missing, empty or not readable",
+                            .rule = "documents are made with the templates of this release",
+                            .action = "install the program again, or name the folder of templates"});
+    }
+    return text;
+}
+
+nlohmann::json read_json_asset(const std::filesystem::path& file) {
+    const auto refuse = [](std::string where, std::string what) {
+        throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0001",
+                                                .where = std::move(where),
+                                                .what = std::move(what),
+                                                .rule = "wording files are JSON",
+                                                .action = "take the templates of this release"});
+    };
+    std::optional<nlohmann::json> read = gumcert::json::parse(
+        read_asset(file), {.byte_order_mark = true}, [&](const gumcert::json::ParsingProblem& problem) {
+            refuse(file.string() + " (" + text::line_and_column(problem.place) + ")", problem.what);
+        });
+    if (!read || !read->is_object()) {
+        refuse(file.string(), "not a JSON object");
+    }
+    return std::move(*read);
+}
+
+namespace {
+
+/// \throws gum::StorageError if there is no wording of this language
+nlohmann::json wording_of(const std::string& language, const RenderAssets& assets) {
+    // The language becomes part of a file name: letters and hyphens only.
+    const bool plain = !language.empty() && std::all_of(language.begin(), language.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-';
+    });
+    const std::filesystem::path file = assets.templates / "wording" / (language + ".json");
+    if (!plain || !std::filesystem::is_regular_file(file)) {
+        throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0006",
+                                                .where = "language",
+                                                .what = '"' + language + '"',
+                                                .rule = "a document is printed in a language of templates/wording",
+                                                .action = "choose another language, e.g. en"});
+    }
+    return read_json_asset(file);
+}
+
+nlohmann::json wording_of(const std::vector<std::string>& languages, const RenderAssets& assets) {
+    if (languages.size() > 2) {
+        throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0006",
+                                                .where = "language",
+                                                .what = std::to_string(languages.size()) + " languages",
+                                                .rule = "at most two languages stand side by side on a document",
+                                                .action = "choose one or two, the binding one first"});
+    }
+    nlohmann::json all = nlohmann::json::array();
+    for (const std::string& language : languages) {
+        if (language != languages.front() || all.empty()) {
+            all.push_back(wording_of(language, assets));
+        }
+    }
+    all.front()[Wording::k_sentences_key] = read_json_asset(assets.templates / "wording" / "sentences.json");
+    return all;
+}
+
+}  // namespace
+
+std::vector<std::string> languages_of(const EvaluationRecord& record, const RenderAssets& assets) {
+    std::vector<std::string> languages = assets.languages;
+    if (languages.empty() && record.certificate) {
+        languages = record.certificate->data.languages;
+        languages.resize(std::min<std::size_t>(languages.size(), 2));
+    }
+    if (languages.empty() && record.comparison) {
+        languages = record.comparison->languages;
+        languages.resize(std::min<std::size_t>(languages.size(), 2));
+    }
+    return languages.empty() ? std::vector<std::string>{"en"} : languages;
+}
+
+nlohmann::json read_wording(const RenderAssets& assets, const EvaluationRecord& record) {
+    return wording_of(languages_of(record, assets), assets);
+}
+
+nlohmann::json read_wording(const RenderAssets& assets) {
+    return wording_of(assets.languages.empty() ? std::vector<std::string>{"en"} : assets.languages, assets);
+}
+
+}  // namespace gumcert::reports

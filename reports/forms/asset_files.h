@@ -1,0 +1,31 @@
+#pragma once
+
+#include "reports/forms/render.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gumcert::reports {
+
+/// The whole of a file of the product.
+/// \throws gum::StorageError if it cannot be read
+[[nodiscard]] std::string read_asset(const std::filesystem::path& file);
+
+/// The object of a JSON file of the product, read strictly.
+/// \throws gum::StorageError if it cannot be read, or is none
+[[nodiscard]] nlohmann::json read_json_asset(const std::filesystem::path& file);
+
+/// Languages that a document is printed in, the binding one first: those that the assets ask for, else the first two of
+/// the certificate data, else English.
+[[nodiscard]] std::vector<std::string> languages_of(const EvaluationRecord& record, const RenderAssets& assets);
+
+/// The wording of a document as certificate_view() takes it.
+/// \throws gum::StorageError if there is none of a language, or there are more than two languages
+[[nodiscard]] nlohmann::json read_wording(const RenderAssets& assets, const EvaluationRecord& record);
+/// The wording of the languages that the assets ask for, else of English.
+[[nodiscard]] nlohmann::json read_wording(const RenderAssets& assets);
+
+}  // namespace gumcert::reports

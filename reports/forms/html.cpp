@@ -1,0 +1,68 @@
+#include "gum/quantity/diagnostic.h"
+#include "reports/forms/asset_files.h"
+#include "reports/forms/document_forms.h"
+#include "reports/forms/render.h"
+#include "reports/view/certificate_view.h"
+
+#if defined(__GNUC__) && !defined(__clang__)
+// The copy constructor of kainjow's data holds pointers of which one is set; g++ 12 sees the others as dereferenced.
+#pragma GCC diagnostic ignored "-Wnull-dereference"
+#endif
+#include <kainjow/mustache.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <string>
+#include <utility>
+
+namespace gumcert::reports {
+
+namespace {
+
+using kainjow::mustache::data;
+
+/// A view as the template engine takes it. Its set() and push_back() copy all that is below, at every level; parts are
+/// moved into their places instead.
+data to_mustache(const nlohmann::json& value) {
+    if (value.is_object()) {
+        data object{data::type::object};
+        for (const auto& [key, item] : value.items()) {
+            object[key] = to_mustache(item);
+        }
+        return object;
+    }
+    if (value.is_array()) {
+        data list{data::type::list};
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            list.push_back(data{data::type::invalid});
+        }
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            const_cast<data&>(list.list_value()[i]) = to_mustache(value[i]);  // `list` itself is not const
+        }
+        return list;
+    }
+    return data{value.get<std::string>()};
+}
+
+}  // namespace
+
+std::string view_as_html(nlohmann::json view, const RenderAssets& assets) {
+    view["style"] = read_asset(assets.templates / "certificate.css");
+    const std::filesystem::path file = assets.templates / "certificate.html.mustache";
+    kainjow::mustache::mustache page{read_asset(file)};
+    std::string html = page.is_valid() ? page.render(to_mustache(view)) : std::string();
+    if (!page.is_valid()) {
+        throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0001",
+                                                .where = file.string(),
+                                                .what = page.error_message(),
+                                                .rule = "the template is Mustache",
+                                                .action = "take the templates of this release"});
+    }
+    return html;
+}
+
+std::string render_html(const EvaluationRecord& record, const RenderAssets& assets) {
+    return view_as_html(certificate_view(record, read_wording(assets, record), assets.kinds), assets);
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,100 @@
+#include "gum/quantity/diagnostic.h"
+#include "reports/forms/asset_files.h"
+#include "reports/forms/document_forms.h"
+#include "reports/forms/pdf_conformity.h"
+#include "reports/forms/pdf_page_texts.h"
+#include "reports/forms/pdf_worker.h"
+#include "reports/forms/render.h"
+#include "reports/view/certificate_view.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gumcert::reports {
+
+namespace {
+
+/// Whether a text has characters of scripts that the built-in fonts lack: from U+2E80 (CJK radicals) upwards, without
+/// the replacement character U+FFFD.
+bool needs_further_fonts(std::string_view utf8) {
+    for (std::size_t i = 0; i < utf8.size(); ++i) {
+        const auto byte = [&](std::size_t at) {
+            return at < utf8.size() ? static_cast<unsigned>(static_cast<unsigned char>(utf8[at])) : 0U;
+        };
+        const unsigned lead = byte(i);
+        if (lead < 0xE2U) {
+            continue;
+        }
+        const unsigned code =
+            lead >= 0xF0U ? 0x10000U : ((lead & 0x0FU) << 12U) | ((byte(i + 1) & 0x3FU) << 6U) | (byte(i + 2) & 0x3FU);
+        if (code >= 0x2E80U && code != 0xFFFDU) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// What the PDF template needs beyond the view that all forms share.
+nlohmann::json with_pdf_keys(nlohmann::json view, bool further_fonts, bool attachment) {
+    // Noto Serif CJK has the Chinese, Japanese and Korean characters; TC draws them as in Taiwan and Hong Kong.
+    view["fonts"] = further_fonts ? nlohmann::json::array({"Noto Serif CJK TC"}) : nlohmann::json::array();
+    view["attachment"] = nlohmann::json::array();
+    if (attachment) {
+        view["attachment"].push_back(
+            {{"name", "certificate.xml"}, {"description", "Digital calibration certificate (DCC)"}});
+    }
+    // PDF/A demands a date of creation; that of the computer would change the bytes with every run.
+    if (!view.contains("created")) {
+        view["created"] = {{"year", "1970"}, {"month", "1"}, {"day", "1"}};
+    }
+    return view;
+}
+
+/// What must not be missing on any page, whatever the template does.
+std::vector<std::string> texts_of_every_page(const nlohmann::json& view) {
+    std::vector<std::string> texts;
+    for (const auto& [list, key] : {std::pair("identity", "number"), std::pair("mark", "text")}) {
+        for (const nlohmann::json& entry : view.value(list, nlohmann::json::array())) {
+            texts.push_back(entry.at(key).get<std::string>());
+        }
+    }
+    return texts;
+}
+
+std::string checked_pdf(const nlohmann::json& view, const RenderAssets& assets, const std::string& dcc,
+                        PdfWorker& worker) {
+    const bool further_fonts = !assets.fonts.empty() && needs_further_fonts(view.dump());
+    std::string pdf = worker.set(with_pdf_keys(view, further_fonts, !dcc.empty()).dump(), dcc, further_fonts);
+    std::vector<gum::Diagnostic> findings = check_pdf(pdf, dcc);
+    if (findings.empty()) {
+        findings = check_pages(pdf, texts_of_every_page(view));
+    }
+    if (!findings.empty()) {
+        throw gum::NoResultError(std::move(findings));
+    }
+    return pdf;
+}
+
+}  // namespace
+
+std::string view_as_pdf(const nlohmann::json& view, const RenderAssets& assets) {
+    PdfWorker worker(assets);
+    return checked_pdf(view, assets, {}, worker);
+}
+
+std::string render_pdf(const EvaluationRecord& record, const RenderAssets& assets, const std::string& dcc,
+                       PdfWorker* worker) {
+    const nlohmann::json view = certificate_view(record, read_wording(assets, record), assets.kinds);
+    if (worker != nullptr) {
+        return checked_pdf(view, assets, dcc, *worker);
+    }
+    PdfWorker own(assets);
+    return checked_pdf(view, assets, dcc, own);
+}
+
+}  // namespace gumcert::reports

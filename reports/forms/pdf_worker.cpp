@@ -1,0 +1,455 @@
+#include "reports/forms/pdf_worker.h"
+
+#include "gum/quantity/diagnostic.h"
+#include "reports/forms/asset_files.h"
+#include "reports/view/certificate_view.h"
+#include "text/markup.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace gumcert::reports {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* k_set_up = "run scripts/setup, which installs it";
+constexpr const char* k_make_room = "make room on the disk of this folder, or name another with TMPDIR";
+constexpr const char* k_package = "@myriaddreamin/typst-ts-node-compiler";
+
+// The pinned Typst package keeps about 1.2 MB for good for each certificate of three pages (measured over 1000), and a
+// fresh process costs about 0.1 s. So a process ends after so many documents, or sooner when they are large.
+constexpr int k_documents_per_process = 50;
+constexpr std::uint64_t k_memory_per_process = 600'000'000;  // bytes
+
+[[noreturn]] void storage_error(const std::string& where, const std::string& what, const std::string& rule,
+                                const std::string& action) {
+    throw gum::StorageError(
+        gum::Diagnostic{.code = "GC-REPORT-0010", .where = where, .what = what, .rule = rule, .action = action});
+}
+
+/// A folder that only this user can enter; removed with everything in it at the end.
+class PrivateFolder {
+public:
+    explicit PrivateFolder(const fs::path& parent) {
+        std::string name = (fs::absolute(parent) / "gumcert-XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr) {
+            storage_error(parent.string(), std::string("cannot make a folder in it: ") + std::strerror(errno),
+                          "the PDF step needs a folder for its files",
+                          "name a folder that can be written to with TMPDIR");
+        }
+        path_ = name;
+    }
+    ~PrivateFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    PrivateFolder(const PrivateFolder&) = delete;
+    PrivateFolder& operator=(const PrivateFolder&) = delete;
+
+    [[nodiscard]] const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
+
+void make_folder(const fs::path& path) {
+    std::error_code failure;
+    fs::create_directory(path, failure);
+    if (failure) {
+        storage_error(path.string(), "cannot be made: " + failure.message(),
+                      "the PDF step needs a folder for its files", k_make_room);
+    }
+}
+
+/// The folder with the files of one document: empty at first, gone at the end.
+class DocumentFolder {
+public:
+    explicit DocumentFolder(fs::path path) : path_(std::move(path)) { make_folder(path_); }
+    ~DocumentFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    DocumentFolder(const DocumentFolder&) = delete;
+    DocumentFolder& operator=(const DocumentFolder&) = delete;
+
+private:
+    fs::path path_;
+};
+
+void write_file(const fs::path& name, std::string_view bytes) {
+    std::ofstream file(name, std::ios::binary);
+    file << bytes;
+    if (!file.flush()) {
+        storage_error(name.string(), "cannot be written", "the PDF step needs room for its files", k_make_room);
+    }
+}
+
+/// Owns a file descriptor.
+class Descriptor {
+public:
+    Descriptor() = default;
+    explicit Descriptor(int number) : number_(number) {}
+    ~Descriptor() { close(); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+
+    [[nodiscard]] int number() const { return number_; }
+    void take(int number) {
+        close();
+        number_ = number;
+    }
+    void close() {
+        if (number_ >= 0) {
+            ::close(std::exchange(number_, -1));
+        }
+    }
+
+private:
+    int number_ = -1;
+};
+
+void open_pipe(Descriptor& reading, Descriptor& writing) {
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
+        storage_error("PDF", std::string("no pipe: ") + std::strerror(errno), "node is spoken to through pipes",
+                      "end programs that hold many files open");
+    }
+    reading.take(ends[0]);
+    writing.take(ends[1]);
+}
+
+/// Writing to a pipe whose reader ended raises SIGPIPE, which would end the program. A library must not change how the
+/// program treats signals, so the signal is held back in this thread alone, and taken away if it came.
+class NoPipeSignal {
+public:
+    NoPipeSignal() {
+        sigemptyset(&pipe_);
+        sigaddset(&pipe_, SIGPIPE);
+        sigset_t pending;
+        sigpending(&pending);
+        was_pending_ = sigismember(&pending, SIGPIPE) == 1;
+        pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
+    }
+    ~NoPipeSignal() {
+        if (!was_pending_) {
+            const timespec at_once{};
+            while (::sigtimedwait(&pipe_, nullptr, &at_once) < 0 && errno == EINTR) {
+            }
+        }
+        pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+    }
+    NoPipeSignal(const NoPipeSignal&) = delete;
+    NoPipeSignal& operator=(const NoPipeSignal&) = delete;
+
+private:
+    sigset_t pipe_{};
+    sigset_t before_{};
+    bool was_pending_ = false;
+};
+
+void check_installation(const RenderAssets& assets) {
+    if (!fs::is_regular_file(assets.node_program)) {
+        storage_error(assets.node_program.empty() ? "node" : assets.node_program.string(), "not found",
+                      "PDF is set by Typst, which runs in Node.js 18 or later", k_set_up);
+    }
+    if (!fs::is_directory(assets.node_modules / k_package)) {
+        storage_error((assets.node_modules / k_package).string(), "not found",
+                      "PDF is set by the Typst package that package-lock.json names", k_set_up);
+    }
+}
+
+}  // namespace
+
+/// The child process with its pipes and its folder.
+class PdfWorker::Process {
+public:
+    explicit Process(const RenderAssets& assets) : assets_(assets), folder_(assets.temporary_folder) {
+        // Typst would offer the fonts of the machine; a list of folders with one empty folder keeps them away.
+        make_folder(folder_.path() / "no_fonts");
+        write_file(folder_.path() / "fonts.conf", "<?xml version=\"1.0\"?>\n<fontconfig><dir>" +
+                                                      text::escaped_markup((folder_.path() / "no_fonts").string()) +
+                                                      "</dir></fontconfig>\n");
+        start();
+    }
+    ~Process() {
+        if (child_ > 0) {
+            ::kill(child_, SIGKILL);
+            wait_for_end(0);
+        }
+    }
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+
+    /// Whether it can take another document.
+    [[nodiscard]] bool is_fit() {
+        return documents_ < k_documents_per_process && memory_ < k_memory_per_process && !wait_for_end(WNOHANG);
+    }
+
+    std::string set(const std::string& view, const std::string& attachment, bool further_fonts) {
+        const fs::path workspace = folder_.path() / "document";
+        const DocumentFolder files(workspace);
+        write_file(workspace / "view.json", view);
+        if (!attachment.empty()) {
+            write_file(workspace / "certificate.xml", attachment);
+        }
+        const nlohmann::json request = {
+            {"template", fs::absolute(assets_.templates / "pdf" / "certificate.typ").string()},
+            {"further_fonts", further_fonts}};
+        const Clock::time_point deadline = Clock::now() + assets_.pdf_time_limit;
+        send(request.dump() + '\n', deadline);
+        const nlohmann::json answer = nlohmann::json::parse(receive_line(deadline), nullptr, false);
+        ++documents_;
+        const std::string status = answer.is_object() ? answer.value("status", std::string()) : std::string();
+        if (status == "template") {
+            throw gum::NoResultError(gum::Diagnostic{
+                .code = "GC-REPORT-0012",
+                .where = "PDF",
+                .what = messages(answer),
+                .rule = "the template templates/pdf/certificate.typ is set by Typst with the texts of the record",
+                .action = "correct the template at the place that is named, or use the one that comes "
+                          "with the program (docs/templates.md)"});
+        }
+        if (status == "refused") {
+            throw gum::NoResultError(gum::Diagnostic{
+                .code = "GC-REPORT-0011",
+                .where = "PDF",
+                .what = messages(answer),
+                .rule = "a PDF/A-3a shows every character and carries its fonts",
+                .action = "replace characters that the fonts lack, install fonts-noto-cjk for Chinese, or use HTML"});
+        }
+        if (status != "done") {
+            storage_error("PDF",
+                          "node could not set the document" + (answer.is_object() ? ": " + messages(answer) : ""),
+                          "the PDF step answers with a document", is_full(answer) ? k_make_room : k_set_up);
+        }
+        memory_ = answer.value("memory", std::uint64_t{0});
+        std::string pdf = read_asset(workspace / "certificate.pdf");
+        if (!pdf.starts_with("%PDF-")) {
+            storage_error("PDF", "what node wrote is no PDF", "the PDF step ends with a document", k_set_up);
+        }
+        return pdf;
+    }
+
+private:
+    void start() {
+        Descriptor child_input;
+        Descriptor child_output;
+        open_pipe(child_input, input_);
+        open_pipe(output_, child_output);
+        // Neither a full nor an empty pipe may stop the program beyond the time limit.
+        ::fcntl(input_.number(), F_SETFL, O_NONBLOCK);
+        ::fcntl(output_.number(), F_SETFL, O_NONBLOCK);
+
+        posix_spawn_file_actions_t actions;
+        posix_spawn_file_actions_init(&actions);
+        const std::string log = log_file().string();
+        posix_spawn_file_actions_adddup2(&actions, child_input.number(), STDIN_FILENO);
+        posix_spawn_file_actions_adddup2(&actions, child_output.number(), STDOUT_FILENO);
+        posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
+        posix_spawnattr_t attributes;
+        posix_spawnattr_init(&attributes);
+        sigset_t none;
+        sigemptyset(&none);
+        sigset_t pipe_signal;
+        sigemptyset(&pipe_signal);
+        sigaddset(&pipe_signal, SIGPIPE);
+        posix_spawnattr_setsigmask(&attributes, &none);
+        posix_spawnattr_setsigdefault(&attributes, &pipe_signal);
+        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+
+        std::vector<std::string> arguments = {
+            assets_.node_program.string(), fs::absolute(assets_.templates / "pdf" / "render.mjs").string(),
+            fs::absolute(assets_.node_modules).string(), (folder_.path() / "document").string()};
+        for (const fs::path& fonts : assets_.fonts) {
+            arguments.push_back(fs::absolute(fonts).string());
+        }
+        std::vector<std::string> settings = {"HOME=" + folder_.path().string(), "LC_ALL=C.UTF-8", "TZ=UTC",
+                                             "FONTCONFIG_FILE=" + (folder_.path() / "fonts.conf").string()};
+        const int failure = ::posix_spawn(&child_, arguments[0].c_str(), &actions, &attributes,
+                                          pointers(arguments).data(), pointers(settings).data());
+        posix_spawnattr_destroy(&attributes);
+        posix_spawn_file_actions_destroy(&actions);
+        if (failure != 0) {
+            child_ = 0;
+            storage_error(arguments[0], std::string("cannot be started: ") + std::strerror(failure),
+                          "PDF is set by Typst, which runs in Node.js 18 or later", k_set_up);
+        }
+    }
+
+    static std::vector<char*> pointers(std::vector<std::string>& texts) {
+        std::vector<char*> out;
+        for (std::string& text : texts) {
+            out.push_back(text.data());
+        }
+        out.push_back(nullptr);
+        return out;
+    }
+
+    [[nodiscard]] fs::path log_file() const { return folder_.path() / "log.txt"; }
+
+    /// \return true if the child has ended
+    bool wait_for_end(int options) {
+        pid_t ended = 0;
+        do {
+            ended = child_ > 0 ? ::waitpid(child_, &status_, options) : -1;
+        } while (ended < 0 && child_ > 0 && errno == EINTR);
+        if (ended != 0) {
+            child_ = 0;
+        }
+        return child_ == 0;
+    }
+
+    /// Waits until the descriptor is ready.
+    /// \throws gum::StorageError at the deadline
+    void wait_until_ready(int descriptor, short events, Clock::time_point deadline) const {
+        for (;;) {
+            const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
+            pollfd waiting{.fd = descriptor, .events = events, .revents = 0};
+            const int ready = left <= 0 ? 0 : ::poll(&waiting, 1, static_cast<int>(std::min<long>(left, 3'600'000)));
+            if (ready > 0) {
+                return;
+            }
+            if (ready == 0 && Clock::now() >= deadline) {
+                storage_error("PDF", "not finished after " + std::to_string(assets_.pdf_time_limit.count()) + " s",
+                              "the PDF step has a time limit",
+                              "print fewer rows, look for a loop without end in a template of your own, or use HTML");
+            }
+            if (ready < 0 && errno != EINTR) {
+                storage_error("PDF", std::string("waiting for node failed: ") + std::strerror(errno),
+                              "the program waits for its child process", "report this as a defect");
+            }
+        }
+    }
+
+    void send(std::string_view text, Clock::time_point deadline) {
+        const NoPipeSignal held_back;
+        while (!text.empty()) {
+            wait_until_ready(input_.number(), POLLOUT, deadline);
+            const ssize_t written = ::write(input_.number(), text.data(), text.size());
+            if (written > 0) {
+                text.remove_prefix(static_cast<std::size_t>(written));
+            } else if (written < 0 && errno != EINTR && errno != EAGAIN) {
+                ended_early();
+            }
+        }
+    }
+
+    std::string receive_line(Clock::time_point deadline) {
+        constexpr std::size_t k_longest_answer = 1'000'000;
+        std::string line;
+        std::array<char, 4096> part{};
+        for (;;) {
+            wait_until_ready(output_.number(), POLLIN, deadline);
+            const ssize_t count = ::read(output_.number(), part.data(), part.size());
+            if (count == 0 || line.size() > k_longest_answer) {
+                ended_early();
+            }
+            if (count < 0) {
+                if (errno != EINTR && errno != EAGAIN) {
+                    ended_early();
+                }
+                continue;
+            }
+            line.append(part.data(), static_cast<std::size_t>(count));
+            if (line.back() == '\n') {
+                return line;
+            }
+        }
+    }
+
+    /// The signal that ended the child; 0 for none. Its output is closed, so it has ended or will at once.
+    int ending_signal() {
+        for (int i = 0; i < 100 && !wait_for_end(WNOHANG); ++i) {
+            ::usleep(10'000);
+        }
+        return child_ == 0 && WIFSIGNALED(status_) ? WTERMSIG(status_) : 0;
+    }
+
+    [[noreturn]] void ended_early() {
+        if (const int signal = ending_signal(); signal != 0) {
+            storage_error("PDF", "node was ended by signal " + std::to_string(signal) + " before it answered",
+                          "the PDF step answers with a document",
+                          "somebody or the system ended it, perhaps for lack of memory: close other programs, and try "
+                          "again");
+        }
+        std::error_code failure;
+        std::string said = fs::file_size(log_file(), failure) > 0 && !failure ? read_asset(log_file()) : std::string();
+        std::replace(said.begin(), said.end(), '\n', ' ');
+        said = shortened(printable(said), 600);
+        storage_error("PDF", "node ended before it answered" + (said.empty() ? "" : ": " + said),
+                      "the PDF step answers with a document", k_set_up);
+    }
+
+    static bool is_full(const nlohmann::json& answer) {
+        const std::string code = answer.is_object() ? answer.value("code", std::string()) : std::string();
+        return code == "ENOSPC" || code == "EDQUOT" || code == "EROFS";
+    }
+
+    static std::string messages(const nlohmann::json& answer) {
+        std::string all;
+        const auto found = answer.find("messages");
+        if (found != answer.end() && found->is_array()) {
+            for (const nlohmann::json& text : *found) {
+                all += (all.empty() ? "" : "; ") + (text.is_string() ? text.get<std::string>() : std::string());
+            }
+        }
+        return shortened(printable(all), 600);
+    }
+
+    const RenderAssets& assets_;
+    PrivateFolder folder_;
+    Descriptor input_;   ///< requests go in here
+    Descriptor output_;  ///< answers come out here
+    pid_t child_ = 0;
+    int status_ = 0;  ///< of the child, once it has ended
+    int documents_ = 0;
+    std::uint64_t memory_ = 0;  ///< bytes that were resident after the last document
+};
+
+PdfWorker::PdfWorker(RenderAssets assets) : assets_(std::move(assets)) {}
+PdfWorker::~PdfWorker() = default;
+
+std::string PdfWorker::set(const std::string& view, const std::string& attachment, bool further_fonts) {
+    if (process_ != nullptr && !process_->is_fit()) {
+        process_.reset();
+    }
+    if (process_ == nullptr) {
+        check_installation(assets_);
+        process_ = std::make_unique<Process>(assets_);
+    }
+    try {
+        return process_->set(view, attachment, further_fonts);
+    } catch (const gum::NoResultError&) {
+        throw;  // the document is at fault, not the process
+    } catch (...) {
+        process_.reset();
+        throw;
+    }
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "reports/forms/render.h"
+
+namespace gumcert::reports {
+
+/// A Node process that stays, for many documents: the Typst compiler and its fonts are loaded once. It is started at
+/// the first document, and again when it ended, took too long, or has set so many documents that its memory may have
+/// grown. One document at a time; not for several threads at once.
+///
+/// Typst sees the files of one document in a private folder, which is removed after it, the fonts that are built in,
+/// and those of RenderAssets::fonts; never the fonts of the machine. So the bytes depend on the document alone.
+class PdfWorker {
+public:
+    explicit PdfWorker(RenderAssets assets);
+    ~PdfWorker();
+    PdfWorker(const PdfWorker&) = delete;
+    PdfWorker& operator=(const PdfWorker&) = delete;
+
+    /// \param view           what the template reads as view.json, JSON text
+    /// \param attachment     the DCC, read by the template as certificate.xml; "" without
+    /// \param further_fonts  whether the document needs RenderAssets::fonts, which take time to open
+    /// \return the PDF, unchecked
+    /// \throws gum::StorageError, gum::NoResultError  as render_pdf()
+    [[nodiscard]] std::string set(const std::string& view, const std::string& attachment, bool further_fonts = false);
+
+private:
+    class Process;
+    RenderAssets assets_;
+    std::unique_ptr<Process> process_;
+};
+
+}  // namespace gumcert::reports

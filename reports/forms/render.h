@@ -1,0 +1,49 @@
+#pragma once
+
+#include "reports/record/evaluation_record.h"
+#include "reports/view/document_kinds.h"
+
+#include <chrono>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gumcert::reports {
+
+/// Where the renderers find what they need. The caller knows the folders; nothing is searched for.
+struct RenderAssets {
+    std::filesystem::path templates;     ///< folder with certificate.html.mustache, pdf/, wording/
+    std::filesystem::path node_program;  ///< the program node, for PDF only
+    std::filesystem::path node_modules;  ///< folder with @myriaddreamin/typst-ts-node-compiler, for PDF only
+    std::filesystem::path temporary_folder = "/tmp";  ///< PDF only: a private folder is made in it and removed again
+    std::vector<std::filesystem::path>
+        fonts;  ///< folders with fonts for scripts that the built-in fonts lack; PDF only
+    /// Languages to print in, the binding one first, at most two; empty: those of the certificate data, else English.
+    std::vector<std::string> languages;
+    std::chrono::seconds pdf_time_limit{60};
+    std::span<const DocumentKind> kinds = document_kinds();  ///< what records of each kind show
+};
+
+/// The certificate as one HTML file: style and plots inside, no scripts, nothing to load.
+/// \throws gum::StorageError if a template is missing or damaged
+[[nodiscard]] std::string render_html(const EvaluationRecord& record, const RenderAssets& assets);
+
+/// The certificate as plain text, UTF-8, lines of at most 100 characters. Plots are left out.
+/// \throws gum::StorageError if the wording is missing or damaged
+[[nodiscard]] std::string render_text(const EvaluationRecord& record, const RenderAssets& assets);
+
+class PdfWorker;
+
+/// The certificate as PDF/A-3a, set by Typst in a child process. The same record gives the same bytes. What was set is
+/// checked (reports/forms/pdf_conformity.h) before it is returned.
+///
+/// The creation date is the date of issue; 1970-01-01 where the record states none, for PDF/A demands one.
+/// \param dcc     the digital certificate to attach, signed or not; "" without
+/// \param worker  for many documents; none: a process for this one alone
+/// \throws gum::StorageError   if node or the Typst package is missing, or the child process fails or takes too long
+/// \throws gum::NoResultError  if Typst refuses the document, e.g. for a character that its fonts do not have
+[[nodiscard]] std::string render_pdf(const EvaluationRecord& record, const RenderAssets& assets,
+                                     const std::string& dcc = {}, PdfWorker* worker = nullptr);
+
+}  // namespace gumcert::reports

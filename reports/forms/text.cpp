@@ -1,0 +1,442 @@
+#include "reports/forms/asset_files.h"
+#include "reports/forms/document_forms.h"
+#include "reports/forms/render.h"
+#include "reports/view/certificate_view.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gumcert::reports {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t k_columns = 100;
+constexpr std::size_t k_part_indent = 2;
+
+struct Glyph {
+    std::string bytes;
+    std::size_t width = 1;  ///< columns of a terminal or a fixed-width font
+};
+
+/// Characters of a valid UTF-8 text; combining marks are joined to the character before them.
+std::vector<Glyph> glyphs(const std::string& text) {
+    std::vector<Glyph> all;
+    std::size_t i = 0;
+    while (i < text.size()) {
+        const auto lead = static_cast<unsigned char>(text[i]);
+        const std::size_t length = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
+        const std::string c = text.substr(i, length);
+        i += length;
+        const bool combining = (c >= "\u0300" && c <= "\u036F") || (c >= "\u200B" && c <= "\u200D");
+        if (combining && !all.empty()) {
+            all.back().bytes += c;
+            continue;
+        }
+        const bool wide = (c >= "\u1100" && c <= "\u115F") || (c >= "\u2E80" && c <= "\uA4CF") ||
+                          (c >= "\uAC00" && c <= "\uD7A3") || (c >= "\uF900" && c <= "\uFAFF") ||
+                          (c >= "\uFF00" && c <= "\uFF60") || (c >= "\U0001F300" && c <= "\U0003FFFD");
+        all.push_back({c, combining ? 0U : wide ? 2U : 1U});
+    }
+    return all;
+}
+
+std::size_t width(const std::string& text) {
+    std::size_t sum = 0;
+    for (const Glyph& g : glyphs(text)) {
+        sum += g.width;
+    }
+    return sum;
+}
+
+/// Signs that must not begin a line.
+bool closes(const std::string& glyph) {
+    static constexpr std::string_view k_signs = "。，、；：！？）」』》%,.;:!?)";
+    return k_signs.find(glyph) != std::string_view::npos;
+}
+
+/// Signs that must not end a line.
+bool opens(const std::string& glyph) {
+    static constexpr std::string_view k_signs = "（「『《(";
+    return k_signs.find(glyph) != std::string_view::npos;
+}
+
+/// Lines of at most `most` columns, broken at blanks, beside wide characters (Chinese has no blanks), and inside a word
+/// only where the word alone is longer.
+std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
+    std::vector<std::string> lines(1);
+    std::size_t used = 0;
+    std::vector<Glyph> word;
+    std::size_t word_width = 0;
+    bool after_blank = true;
+    const auto put_word = [&] {
+        if (word.empty()) {
+            return;
+        }
+        const std::size_t gap = used > 0 && after_blank ? 1 : 0;
+        if (used + gap + word_width > most && used > 0) {
+            lines.emplace_back();
+            used = 0;
+        }
+        if (used > 0 && after_blank) {
+            lines.back() += ' ';
+            ++used;
+        }
+        for (const Glyph& g : word) {
+            if (used + g.width > most && used > 0) {
+                lines.emplace_back();
+                used = 0;
+            }
+            lines.back() += g.bytes;
+            used += g.width;
+        }
+        word.clear();
+        word_width = 0;
+        after_blank = false;
+    };
+    for (const Glyph& g : glyphs(text)) {
+        if (g.bytes == " ") {
+            put_word();
+            after_blank = true;
+            continue;
+        }
+        const bool wide = g.width == 2 || (!word.empty() && word.back().width == 2);
+        if (wide && !word.empty() && !closes(g.bytes) && !opens(word.back().bytes)) {
+            put_word();
+        }
+        word.push_back(g);
+        word_width += g.width;
+    }
+    put_word();
+    return lines;
+}
+
+std::string padded(const std::string& text, std::size_t to, bool right) {
+    const std::size_t own = width(text);
+    const std::string blanks(to > own ? to - own : 0, ' ');
+    return right ? blanks + text : text + blanks;
+}
+
+std::string text_of(const json& object, const char* key) {
+    return object.at(key).get<std::string>();
+}
+
+/// A text, and that of the second language behind a stroke where it differs.
+std::string both(const json& object, const char* key) {
+    std::string text = text_of(object, key);
+    for (const json& second : object.at(std::string_view(key) == "text" ? "also" : std::string(key) + "_also")) {
+        text += " / " + text_of(second, "text");
+    }
+    return text;
+}
+
+std::string centred(const std::string& text) {
+    std::string out;
+    for (const std::string& line : wrapped(text, k_columns)) {
+        out += std::string((k_columns - width(line)) / 2, ' ') + line + "\n";
+    }
+    return out;
+}
+
+std::string paragraph(const std::string& text, std::size_t indent) {
+    std::string out;
+    for (const std::string& line : wrapped(text, k_columns - indent)) {
+        out += std::string(line.empty() ? 0 : indent, ' ') + line + "\n";
+    }
+    return out;
+}
+
+/// A sentence in the binding language, below it the same in the second one.
+std::string sentences(const json& object, const char* key, const std::string& before = {}) {
+    std::string out = paragraph(before + text_of(object, key), 0);
+    for (const json& second : object.at(std::string_view(key) == "text" ? "also" : std::string(key) + "_also")) {
+        out += paragraph("/ " + text_of(second, "text"), 0);
+    }
+    return out;
+}
+
+std::string definitions(const json& block) {
+    std::size_t labels = 0;
+    for (const json& row : block.at("rows")) {
+        labels = std::max(labels, std::min<std::size_t>(40, width(both(row, "label"))));
+    }
+    std::string out;
+    for (const json& row : block.at("rows")) {
+        const std::vector<std::string> left = wrapped(both(row, "label"), labels);
+        const std::vector<std::string> right = wrapped(both(row, "value"), k_columns - labels - 4);
+        for (std::size_t i = 0; i < std::max(left.size(), right.size()); ++i) {
+            const std::string value = i < right.size() ? right[i] : "";
+            const std::string label = "  " + padded(i < left.size() ? left[i] : "", value.empty() ? 0 : labels, false);
+            out += label + (value.empty() ? "" : "  " + value) + "\n";
+        }
+    }
+    return out;
+}
+
+/// One table line of cells that may each have several lines.
+std::string table_line(const std::vector<std::vector<std::string>>& cells, const std::vector<std::size_t>& widths,
+                       const std::vector<bool>& numbers, std::size_t gap, bool at_bottom) {
+    std::size_t height = 1;
+    for (const auto& cell : cells) {
+        height = std::max(height, cell.size());
+    }
+    std::string out;
+    for (std::size_t i = 0; i < height; ++i) {
+        std::string line;
+        for (std::size_t c = 0; c < cells.size(); ++c) {
+            const std::size_t skip = at_bottom ? height - cells[c].size() : 0;
+            const bool here = i >= skip && i - skip < cells[c].size();
+            line += std::string(c == 0 ? 0 : gap, ' ') + padded(here ? cells[c][i - skip] : "", widths[c], numbers[c]);
+        }
+        line.erase(line.find_last_not_of(' ') + 1);
+        out += line + "\n";
+    }
+    return out;
+}
+
+std::size_t span_of(const json& cell) {
+    const std::string text = text_of(cell, "span");
+    std::size_t span = 1;
+    (void)std::from_chars(text.data(), text.data() + text.size(), span);
+    return span;
+}
+
+bool bilingual(const json& columns) {
+    return std::any_of(columns.begin(), columns.end(), [](const json& c) { return !c.at("head_also").empty(); });
+}
+
+/// The least width of a column of which no word is broken, in its head or in its cells; numbers are one word.
+std::size_t longest_word(const json& column, const json& rows, std::size_t c) {
+    std::size_t longest = 2;
+    const auto see = [&](const std::string& text, std::size_t indent) {
+        std::size_t word = indent;
+        for (const Glyph& g : glyphs(text)) {
+            word = g.bytes == " " || g.width == 2 ? indent : word + g.width;
+            longest = std::max(longest, word);
+        }
+    };
+    see(both(column, "head"), 0);
+    for (const json& unit : column.at("unit")) {
+        see("/" + text_of(unit, "text"), 0);
+    }
+    const bool number = text_of(column, "align") == "number";
+    for (const json& row : rows) {
+        const json& cell = row.at("cells").at(c);
+        const std::size_t indent = c == 0 && text_of(row, "kind") == "part" ? k_part_indent : 0;
+        if (number) {
+            longest = std::max(longest, indent + width(both(cell, "text")) + text_of(cell, "pad").size());
+        } else {
+            see(both(cell, "text"), indent);
+        }
+    }
+    return longest;
+}
+
+std::string table(const json& block) {
+    const json& columns = block.at("columns");
+    const std::size_t count = columns.size();
+    std::vector<std::size_t> widths(count, 1);
+    std::vector<bool> numbers(count);
+    std::vector<bool> may_shrink(count);
+    std::vector<std::string> heads(count);
+    for (std::size_t c = 0; c < count; ++c) {
+        heads[c] = both(columns[c], "head");
+        for (const json& unit : columns[c].at("unit")) {
+            heads[c] += " /" + text_of(unit, "text");
+        }
+        numbers[c] = text_of(columns[c], "align") == "number";
+        may_shrink[c] = !numbers[c];
+        for (std::size_t from = 0; from < heads[c].size();) {  // a head is wrapped, but never inside a word
+            const std::size_t to = std::min(heads[c].find(' ', from), heads[c].size());
+            widths[c] = std::max(widths[c], width(heads[c].substr(from, to - from)));
+            from = to + 1;
+        }
+        std::size_t two_lines = 0;
+        for (const std::string& line : wrapped(heads[c], std::max(widths[c], 1 + width(heads[c]) / 2))) {
+            two_lines = std::max(two_lines, width(line));
+        }
+        widths[c] = std::max(widths[c], two_lines);
+        for (const json& row : block.at("rows")) {
+            const json& cell = row.at("cells").at(c);
+            const std::size_t indent = c == 0 && text_of(row, "kind") == "part" ? k_part_indent : 0;
+            widths[c] = std::max(widths[c], indent + width(both(cell, "text")) + text_of(cell, "pad").size());
+        }
+    }
+    std::size_t gap = 2;
+    for (const json& group : block.at("groups")) {  // the head of a group fits above its columns
+        std::size_t first = 0;
+        for (const json& cell : group.at("cells")) {
+            const std::size_t span = span_of(cell);
+            std::size_t room = span - 1;  // with the narrow gap
+            for (std::size_t c = first; c < first + span; ++c) {
+                room += widths[c];
+            }
+            const std::size_t own = width(both(cell, "text"));
+            widths[first] += own > room ? own - room : 0;
+            first += span;
+        }
+    }
+    const auto total = [&] {
+        std::size_t sum = gap * (count - 1);
+        for (const std::size_t w : widths) {
+            sum += w;
+        }
+        return sum;
+    };
+    if (total() > k_columns) {
+        gap = 1;
+    }
+    // Heads in two languages take as many lines as they have words before anything else gives way.
+    std::vector<std::size_t> least = widths;
+    for (std::size_t c = 0; c < count && bilingual(columns); ++c) {
+        least[c] = std::min(widths[c], longest_word(columns[c], block.at("rows"), c));
+    }
+    while (total() > k_columns) {  // the widest column of texts gives way; numbers only when no text is left to wrap
+        std::size_t widest = count;
+        for (const int step : {0, 1, 2}) {
+            for (std::size_t c = 0; c < count; ++c) {
+                const bool candidate = step == 0 ? widths[c] > least[c] : widths[c] > 8 && (may_shrink[c] || step == 2);
+                if (candidate && (widest == count || widths[c] > widths[widest])) {
+                    widest = c;
+                }
+            }
+            if (widest != count) {
+                break;
+            }
+        }
+        if (widest == count) {
+            break;
+        }
+        --widths[widest];
+    }
+
+    std::string out = sentences(block, "caption", both(block, "number") + ". ");
+    const std::string rule(std::min(total(), k_columns), '-');
+    out += rule + "\n";
+    for (const json& group : block.at("groups")) {
+        std::string line;
+        std::size_t c = 0;
+        for (const json& cell : group.at("cells")) {
+            const std::size_t span = span_of(cell);
+            std::size_t room = gap * (span - 1);
+            for (std::size_t i = 0; i < span; ++i) {
+                room += widths[c + i];
+            }
+            line += std::string(c == 0 ? 0 : gap, ' ') + padded(both(cell, "text"), room, true);
+            c += span;
+        }
+        line.erase(line.find_last_not_of(' ') + 1);
+        out += line + "\n";
+    }
+    std::vector<std::vector<std::string>> cells;
+    for (std::size_t c = 0; c < count; ++c) {
+        cells.push_back(wrapped(heads[c], widths[c]));
+    }
+    out += table_line(cells, widths, numbers, gap, true) + rule + "\n";
+    for (const json& row : block.at("rows")) {
+        cells.clear();
+        const std::string kind = text_of(row, "kind");
+        if (kind == "closing") {
+            out += rule + "\n";
+        }
+        for (std::size_t c = 0; c < count; ++c) {
+            const json& cell = row.at("cells").at(c);
+            const std::size_t indent = c == 0 && kind == "part" ? k_part_indent : 0;
+            std::vector<std::string> lines = wrapped(both(cell, "text"), widths[c] - indent);
+            for (std::string& line : lines) {
+                line.insert(0, indent, ' ');
+            }
+            lines.back() += std::string(text_of(cell, "pad").size(), ' ');
+            cells.push_back(std::move(lines));
+        }
+        out += table_line(cells, widths, numbers, gap, false);
+    }
+    return out + rule + "\n";
+}
+
+std::string section_text(const json& section) {
+    std::string out;
+    std::size_t longest = 0;
+    for (const std::string& line : wrapped(both(section, "heading"), k_columns)) {
+        out += line + "\n";
+        longest = std::max(longest, width(line));
+    }
+    out += std::string(longest, '=') + "\n";
+    for (const json& block : section.at("blocks")) {
+        std::string text;
+        for (const json& item : block.at("paragraph")) {
+            text = sentences(item, "text");
+        }
+        for (const json& item : block.at("formula")) {
+            text = paragraph(text_of(item, "text"), 4);
+        }
+        for (const json& item : block.at("definitions")) {
+            text = definitions(item);
+        }
+        for (const json& item : block.at("table")) {
+            text = table(item);
+        }
+        if (!text.empty()) {
+            out += "\n" + text;
+        }
+    }
+    return out;
+}
+
+/// The first page of a certificate.
+std::string identity_text(const json& identity, const json& view) {
+    std::string out = centred(both(identity, "laboratory"));
+    for (const json& line : identity.at("address")) {
+        out += centred(both(line, "text"));
+    }
+    out += identity.at("accreditation").empty() ? "" : "\n";
+    for (const json& line : identity.at("accreditation")) {
+        out += centred(both(line, "text"));
+    }
+    out += "\n" + centred(both(view, "type")) +
+           centred(both(identity, "number_label") + ": " + text_of(identity, "number"));
+    for (const json& section : identity.at("sections")) {
+        out += "\n\n" + section_text(section);
+    }
+    for (const json& line : identity.at("foot")) {
+        out += "\n" + sentences(line, "text");
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string view_as_text(const nlohmann::json& view) {
+    const std::string rule(k_columns, '=');
+    std::string out;
+    for (const json& mark : view.at("mark")) {
+        out += rule + "\n" + centred(both(mark, "text")) + rule + "\n" + sentences(mark, "reason") + "\n";
+    }
+    for (const json& identity : view.at("identity")) {
+        out += identity_text(identity, view);
+    }
+    if (view.at("identity").empty()) {
+        out += centred(both(view, "type")) + centred(both(view, "title"));
+    }
+    for (const json& section : view.at("sections")) {
+        out += "\n\n" + section_text(section);
+    }
+    out += "\n" + std::string(k_columns, '-') + "\n";
+    for (const json& line : view.at("closing")) {
+        out += sentences(line, "text") + "\n";
+    }
+    return out + centred(both(view, "end_mark"));
+}
+
+std::string render_text(const EvaluationRecord& record, const RenderAssets& assets) {
+    return view_as_text(certificate_view(record, read_wording(assets, record), assets.kinds));
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,128 @@
+#include "reports/plots/certified_plots.h"
+
+#include "reports/view/certificate_view.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gumcert::reports {
+
+namespace {
+
+using certificate::CertifiedColumn;
+using certificate::CertifiedTable;
+using certificate::CertifiedValue;
+
+constexpr std::size_t k_least_values = 3;
+constexpr std::size_t k_most_panels = 12;
+
+/// A printed number as the number that the table shows: the plot and the table cannot disagree.
+std::optional<double> number_of(std::string printed) {
+    static constexpr std::string_view k_minus = "\u2212";
+    if (printed.starts_with(k_minus)) {
+        printed.replace(0, k_minus.size(), "-");
+    }
+    double v = 0.0;
+    const auto [end, error] = std::from_chars(printed.data(), printed.data() + printed.size(), v);
+    if (error != std::errc() || end != printed.data() + printed.size() || !std::isfinite(v)) {
+        return std::nullopt;
+    }
+    return v;
+}
+
+/// One limit of all values: a line where it is the same for all, else a mark at each value.
+struct LimitLine {
+    std::vector<PlotPoint> points;
+    bool constant = true;
+
+    void add(double x, const std::optional<double>& limit) {
+        if (limit) {
+            constant = constant && (points.empty() || points.front().y == *limit);
+            points.push_back({.x = x, .y = *limit, .U = 0.0});
+        }
+    }
+    void put(PlotPanel& panel, const std::string& label) const {
+        if (points.empty()) {
+            return;
+        }
+        if (constant) {
+            panel.limits.push_back({points.front().y, label});
+        } else {
+            panel.series.push_back({.label = label, .points = points, .marker = PlotMarker::cross});
+        }
+    }
+};
+
+PlotPanel panel_of(const CertifiedTable& table, const CertifiedColumn& column, const Wording& words) {
+    PlotSeries series{.label = "", .points = {}, .marker = PlotMarker::disc, .bars = PlotBars::bars, .joined = true};
+    LimitLine lower;
+    LimitLine upper;
+    LimitLine acceptance_lower;
+    LimitLine acceptance_upper;
+    for (std::size_t i = 0; i < column.values.size(); ++i) {
+        const CertifiedValue& value = column.values[i];
+        const std::optional<double>& x = table.argument->values[i];
+        const std::optional<double> y = number_of(value.printed_value);
+        if (!x || !y) {
+            continue;
+        }
+        series.points.push_back({.x = *x, .y = *y, .U = number_of(value.printed_U).value_or(0.0)});
+        if (value.verdict) {
+            const certificate::Verdict& v = *value.verdict;
+            lower.add(*x, v.lower);
+            upper.add(*x, v.upper);
+            if (v.acceptance_lower != v.lower) {
+                acceptance_lower.add(*x, v.acceptance_lower);
+            }
+            if (v.acceptance_upper != v.upper) {
+                acceptance_upper.add(*x, v.acceptance_upper);
+            }
+        }
+    }
+    const std::string unit = column.printed_unit.empty() ? "" : " / " + column.printed_unit;
+    const std::string name = shortened(printable(column.result), 24);
+    PlotPanel panel{.heading = name, .y_label = name + unit, .series = {}, .limits = {}};
+    const std::string tolerance = words("certificate", "tolerance_limit").first();
+    const std::string acceptance = words("certificate", "acceptance_limit").first();
+    panel.series.push_back(std::move(series));
+    lower.put(panel, tolerance);
+    upper.put(panel, tolerance);
+    acceptance_lower.put(panel, acceptance);
+    acceptance_upper.put(panel, acceptance);
+    return panel;
+}
+
+}  // namespace
+
+std::optional<Plot> certified_plot(const CertifiedTable& table, const std::string& caption, const Wording& words,
+                                   const std::string& id) {
+    if (!table.argument || table.columns.empty() || table.columns.size() > k_most_panels) {
+        return std::nullopt;
+    }
+    const bool is_angle = table.argument->unit == "degree" || table.argument->printed_unit == "°";
+    Plot plot{.id = id,
+              .title = caption,
+              .description = words.filled("statement", "certified_figure", {{"table", caption}}).first(),
+              .x_label = is_angle
+                             ? words("plot", "angle_axis").first()
+                             : shortened(printable(table.argument->name), 40) +
+                                   (table.argument->printed_unit.empty() ? "" : " / " + table.argument->printed_unit),
+              .panels = {},
+              .columns = table.columns.size() > 3 ? 2 : 1,
+              .panel_height = 150.0,
+              .x_is_angle = is_angle};
+    for (const CertifiedColumn& column : table.columns) {
+        PlotPanel panel = panel_of(table, column, words);
+        if (panel.series.front().points.size() < k_least_values) {
+            return std::nullopt;
+        }
+        plot.panels.push_back(std::move(panel));
+    }
+    return plot;
+}
+
+}  // namespace gumcert::reports

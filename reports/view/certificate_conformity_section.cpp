@@ -1,0 +1,273 @@
+#include "reports/view/certificate_conformity_section.h"
+
+#include "gum/quantity/unit.h"
+#include "reports/printed_texts.h"
+#include "reports/result_names.h"
+#include "reports/view/certified_value_tables.h"
+#include "reports/view/decision_formula.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gumcert::reports {
+
+namespace {
+
+using certificate::AgreedSpecification;
+using certificate::Certificate;
+using certificate::CertifiedColumn;
+using certificate::CertifiedTable;
+using certificate::CertifiedValue;
+
+/// A value with a verdict, and where it stands.
+struct Decided {
+    const CertifiedColumn* column = nullptr;
+    const CertifiedValue* value = nullptr;
+    const CertifiedTable::Argument* argument = nullptr;
+    std::string at;          ///< printed argument; "" without
+    std::string table = {};  ///< id
+};
+
+std::vector<Decided> decided_by(const Certificate& certificate, const AgreedSpecification& specification) {
+    std::vector<Decided> all;
+    for (const CertifiedTable& table : certificate.tables) {
+        for (const CertifiedColumn& column : table.columns) {
+            for (std::size_t i = 0; i < column.values.size(); ++i) {
+                const CertifiedValue& v = column.values[i];
+                if (v.verdict && v.verdict->specification == specification.id) {
+                    all.push_back({.column = &column,
+                                   .value = &v,
+                                   .argument = table.argument ? &*table.argument : nullptr,
+                                   .at = table.argument ? table.argument->printed.at(i) : std::string(),
+                                   .table = table.id});
+                }
+            }
+        }
+    }
+    return all;
+}
+
+/// One text a decided value, for a column of the table of verdicts.
+template <class Take>
+std::vector<std::string> texts_of(const std::vector<Decided>& decided, Take take) {
+    std::vector<std::string> texts;
+    for (const Decided& d : decided) {
+        texts.push_back(take(d));
+    }
+    return texts;
+}
+
+Text rule_parameters(const AgreedSpecification& s, const Wording& words) {
+    Text text;
+    const auto parameter = [&](const std::string& name, const std::optional<double>& v, const std::string& unit) {
+        if (v) {
+            const Text one = words.filled("statement", "rule_parameter",
+                                          {{"name", name}, {"value", with_unit(words.number(plain(*v)), unit)}});
+            text = text.empty() ? one : text + "; " + one;
+        }
+    };
+    parameter("r", s.rule.guard_factor, "");
+    const std::string unit = gum::unit_for_people(s.unit);
+    parameter("w", s.rule.guard_band, unit);
+    parameter("p", s.rule.probability, "");
+    parameter("TUR", s.rule.test_uncertainty_ratio, "");
+    parameter("U_max", s.rule.largest_U, unit);
+    parameter("EOPR", s.rule.population_reliability, "");
+    parameter("s_0", s.rule.population_deviation, unit);
+    return text;
+}
+
+Text tolerance_limits(const std::vector<Decided>& decided, const AgreedSpecification& s, const Wording& words) {
+    const auto lower = common(texts_of(decided, [](const Decided& d) { return d.value->verdict->printed.lower; }));
+    const auto upper = common(texts_of(decided, [](const Decided& d) { return d.value->verdict->printed.upper; }));
+    const std::string unit = decided.empty() ? gum::unit_for_people(s.unit) : decided.front().column->printed_unit;
+    const auto limit = [&](const char* key, const std::optional<std::string>& printed) {
+        return printed && !printed->empty()
+                   ? words("certificate", key) + " = " + with_unit(words.number(*printed), unit)
+                   : Text();
+    };
+    const Text low = limit("TL", lower);
+    const Text high = limit("TU", upper);
+    return low.empty() || high.empty() ? low + high : low + "; " + high;
+}
+
+void specification_rows(CertificateBuilder& builder, const Wording& words, const AgreedSpecification& s,
+                        const std::vector<Decided>& decided) {
+    Facts rows = {{words("certificate", "specification"), document_of(s)}};
+    add_fact(rows, words("certificate", "tolerance"), tolerance_limits(decided, s, words));
+    rows.emplace_back(words("certificate", "decision_rule"), s.rule.id + ": " + words("rule_name", s.rule.id));
+    add_fact(rows, words("certificate", "rule_parameters"), rule_parameters(s, words));
+    add_fact(rows, words("certificate", "agreed_wording"), words.localised(s.rule.text));
+    add_fact(rows, words("certificate", "prescribed_by"), s.rule.prescribed_by);
+    std::vector<std::string> agreed;
+    for (const std::string& part : {s.agreed_by, s.agreed_on, s.agreement}) {
+        if (!part.empty()) {
+            agreed.push_back(part);
+        }
+    }
+    add_fact(rows, words("certificate", "agreed"), joined(agreed));
+    builder.definitions(rows);
+}
+
+/// D-1: by which rule and formula, with which guard band and risk.
+void decision_sentences(CertificateBuilder& builder, const Wording& words, const std::vector<Decided>& decided) {
+    std::vector<std::pair<std::string, std::string>> formulas;
+    for (const Decided& d : decided) {
+        const std::pair<std::string, std::string> one = {d.value->verdict->rule, d.value->verdict->formula};
+        const bool decided_by_it = !one.second.empty();  // else the note says why nothing is decided
+        if (decided_by_it && std::find(formulas.begin(), formulas.end(), one) == formulas.end()) {
+            formulas.push_back(one);
+        }
+    }
+    const auto bands = common(texts_of(decided, [](const auto& d) { return d.value->verdict->printed.guard_band; }));
+    const auto risks =
+        common(texts_of(decided, [](const auto& d) { return d.value->verdict->printed.largest_specific_risk; }));
+    const std::string& unit = decided.front().column->printed_unit;
+    for (const auto& [rule, formula] : formulas) {
+        Text text = words.filled("statement", "conformity_sentence",
+                                 {{"rule", rule}, {"formula", decision_formula(formula, words)}});
+        if (bands && !bands->empty()) {
+            text += " " +
+                    words.filled("statement", "conformity_guard_band", {{"w", with_unit(words.number(*bands), unit)}});
+        }
+        if (risks && !risks->empty()) {
+            text += " " + words.filled("statement", "conformity_risk", {{"risk", words.number(*risks)}});
+        }
+        builder.paragraph(text);
+    }
+}
+
+/// Head of the places of the values: that of their table where all stand in tables of one argument.
+Column argument_column(const std::vector<Decided>& decided, const Wording& words) {
+    const auto of = [](const Decided& d) { return d.argument == nullptr ? "" : d.argument->name + d.argument->unit; };
+    const CertifiedTable::Argument* const argument = decided.front().argument;
+    return argument != nullptr && common(texts_of(decided, of))
+               ? Column{argument_head(*argument, words), argument->printed_unit, is_numeric(*argument)}
+               : Column{words("certificate", "point"), ""};
+}
+
+/// One column of the table of verdicts.
+struct VerdictColumn {
+    Text head;
+    std::string unit;
+    std::vector<std::string> texts;
+};
+
+void verdict_table(CertificateBuilder& builder, const Wording& words, const AgreedSpecification& s,
+                   const std::vector<Decided>& decided, const std::string& id) {
+    const std::string unit =
+        common(texts_of(decided, [](const Decided& d) { return d.column->printed_unit; })).value_or("");
+    std::vector<VerdictColumn> numbers;
+    const auto number = [&](const char* key, const std::string& in, auto take, bool only_where_different = false) {
+        std::vector<std::string> texts = texts_of(decided, take);
+        if (any_of(texts) && !(only_where_different && common(texts))) {
+            numbers.push_back({words("certificate", key), in, std::move(texts)});
+        }
+    };
+    number("value", unit, [](const Decided& d) { return d.value->printed_value; });
+    number("U_short", unit, [](const Decided& d) { return d.value->printed_U; });
+    number("TL", unit, [](const Decided& d) { return d.value->verdict->printed.lower; });
+    number("TU", unit, [](const Decided& d) { return d.value->verdict->printed.upper; });
+    number("AL", unit, [](const Decided& d) { return d.value->verdict->printed.acceptance_lower; });
+    number("AU", unit, [](const Decided& d) { return d.value->verdict->printed.acceptance_upper; });
+    number("TUR", "", [](const Decided& d) { return d.value->verdict->printed.test_uncertainty_ratio; });
+    number("p_c", "%", [](const Decided& d) { return d.value->verdict->printed.conformance_probability; });
+    number("risk", "%", [](const Decided& d) { return d.value->verdict->printed.specific_risk; });
+    number(
+        "largest_risk", "%", [](const Decided& d) { return d.value->verdict->printed.largest_specific_risk; }, true);
+    number("false_accept", "%", [](const Decided& d) { return d.value->verdict->printed.false_accept; });
+    number("false_reject", "%", [](const Decided& d) { return d.value->verdict->printed.false_reject; });
+    const bool any_argument = any_of(texts_of(decided, [](const Decided& d) { return d.at; }));
+    std::vector<Column> columns = {{words("certificate", "result"), ""}};
+    if (any_argument) {
+        columns.push_back(argument_column(decided, words));
+    }
+    for (const VerdictColumn& column : numbers) {
+        columns.push_back({column.head, column.unit, true});
+    }
+    if (unit.empty() && any_of(texts_of(decided, [](const Decided& d) { return d.column->printed_unit; }))) {
+        columns.push_back({words("certificate", "unit"), ""});
+    }
+    const bool own_unit = columns.size() > numbers.size() + 1 + (any_argument ? 1U : 0U);
+    columns.push_back({words("certificate", "verdict"), ""});
+    Rows lines;
+    for (std::size_t i = 0; i < decided.size(); ++i) {
+        std::vector<Text> row = {name_of_result(decided[i].table, decided[i].column->result, words)};
+        if (any_argument) {
+            row.emplace_back(decided[i].at);
+        }
+        for (const VerdictColumn& column : numbers) {
+            row.emplace_back(column.texts[i]);
+        }
+        if (own_unit) {
+            row.emplace_back(decided[i].column->printed_unit);
+        }
+        row.push_back(words("verdict_name", decided[i].value->verdict->verdict));
+        lines.push_back(std::move(row));
+    }
+    builder.table(id, words.filled("statement", "conformity_table", {{"specification", document_of(s)}}), columns,
+                  lines);
+}
+
+void verdict_meanings(CertificateBuilder& builder, const Wording& words, const std::set<std::string>& used) {
+    static constexpr std::array<const char*, 6> k_order = {
+        "pass", "conditional_pass", "conditional_fail", "undetermined", "fail", "not_applicable"};
+    Facts rows;
+    for (const char* verdict : k_order) {
+        if (used.contains(verdict)) {
+            rows.emplace_back(words("verdict_name", verdict), words("verdict_meaning", verdict));
+        }
+    }
+    builder.paragraph(words("statement", "verdicts"));
+    builder.definitions(rows);
+}
+
+}  // namespace
+
+std::string document_of(const AgreedSpecification& s) {
+    std::string text = s.document.empty() ? s.id : s.document;
+    for (const std::string& part : {s.edition, s.clause}) {
+        text += part.empty() ? "" : ", " + part;
+    }
+    return text;
+}
+
+void conformity_section(CertificateBuilder& builder, const Wording& words, const Certificate& certificate) {
+    builder.section("conformity");
+    std::set<std::string> used;
+    std::vector<std::string> notes;
+    std::size_t number = 0;
+    for (const AgreedSpecification& s : certificate.data.specifications) {
+        const std::vector<Decided> decided = decided_by(certificate, s);
+        if (decided.empty()) {
+            continue;
+        }
+        specification_rows(builder, words, s, decided);
+        decision_sentences(builder, words, decided);
+        verdict_table(builder, words, s, decided, "conformity-" + std::to_string(number++));
+        for (const Decided& d : decided) {
+            used.insert(d.value->verdict->verdict);
+            const std::string& note = d.value->verdict->note;
+            if (!note.empty() && std::find(notes.begin(), notes.end(), note) == notes.end()) {
+                notes.push_back(note);
+            }
+        }
+    }
+    if (used.empty()) {
+        builder.paragraph(words("statement", "no_conformity"));
+        return;
+    }
+    for (const std::string& note : notes) {
+        builder.paragraph(words.sentence(note));
+    }
+    verdict_meanings(builder, words, used);
+    builder.paragraph(words("statement", "conformity_points"));
+}
+
+}  // namespace gumcert::reports

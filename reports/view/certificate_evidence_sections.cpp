@@ -1,0 +1,322 @@
+#include "reports/view/certificate_evidence_sections.h"
+
+#include "gum/quantity/unit.h"
+#include "reports/plots/certificate_plots.h"
+#include "reports/plots/rotary_evidence_plots.h"
+#include "reports/plots/rotary_plots.h"
+#include "reports/plots/svg_plot.h"
+#include "reports/reported_results.h"
+#include "reports/result_names.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gumcert::reports {
+
+namespace {
+
+std::string coordinate_along(const std::string& axis) {
+    return axis == "A" ? "x" : axis == "B" ? "y" : "z";
+}
+
+/// "linear, along x (axial)" of the error motion of that number.
+Text meaning_of_motion(const RotaryTable& r, std::size_t motion, const Wording& words) {
+    static constexpr std::array<const char*, 3> k_coordinates = {"x", "y", "z"};
+    const std::string along = k_coordinates.at(motion % 3);
+    const bool axial = along == coordinate_along(r.axis);
+    const char* kind =
+        motion < 3 ? (axial ? "linear_along" : "linear_across") : (axial ? "angular_about" : "angular_tilt");
+    return words.filled("value", kind, {{"coordinate", along}});
+}
+
+std::vector<Text> parameter_row(const TableParameter& p, const std::string& table, const Wording& words) {
+    return {p.name, result_meaning(table, p.name, p.description, words), p.stated.printed.value,
+            stated_uncertainty(p.stated, words), p.stated.printed.unit};
+}
+
+void overview_table(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
+    Rows rows;
+    for (const RangeRow& range : r.ranges) {
+        const auto at = std::find(r.error_names.begin(), r.error_names.end(), range.name);
+        const auto motion = static_cast<std::size_t>(at - r.error_names.begin());
+        if (motion < r.error_names.size()) {
+            rows.push_back({range.name, words("label", "range") + ", " + meaning_of_motion(r, motion, words),
+                            range.stated.printed.value, stated_uncertainty(range.stated, words),
+                            range.stated.printed.unit});
+        }
+    }
+    if (r.iso230_2) {
+        for (const char* name : {"A", "R", "E"}) {
+            for (const TableParameter& p : r.iso230_2->parameters) {
+                if (p.name == name) {
+                    rows.push_back(parameter_row(p, "positioning", words));
+                }
+            }
+        }
+    }
+    for (const TableParameter& p : r.location_errors) {
+        rows.push_back(parameter_row(p, "location_errors", words));
+    }
+    // Where the axis is in the machine is known, where it is in the fixture is for the annex.
+    for (const TableParameter& p : r.location_errors.empty() ? r.axis_line : std::vector<TableParameter>()) {
+        rows.push_back(parameter_row(p, "axis_line", words));
+    }
+    if (!rows.empty()) {
+        builder.table("overview", words("sentence", "overview_table"),
+                      {{words("label", "name"), ""},
+                       {words("label", "meaning"), ""},
+                       {words("label", "value"), "", true},
+                       {words("label", "U"), "", true},
+                       {words("label", "unit"), ""}},
+                      rows);
+    }
+}
+
+/// What the tests of the evaluation say, one line each.
+void verdicts(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
+    Facts facts;
+    const GlobalTest& test = r.adjustment.global_test;
+    if (!test.printed_lower.empty()) {
+        facts.emplace_back(words("label", "global_test"),
+                           words.fill(test.accepted ? "global_test_passed" : "global_test_failed",
+                                      {{"p", words.number(r.adjustment.printed.p_value)}}));
+    }
+    if (r.group_tests) {
+        const auto suspicious = std::count_if(r.group_tests->kinds.begin(), r.group_tests->kinds.end(),
+                                              [](const GroupTestRow& kind) { return kind.suspicious; });
+        facts.emplace_back(
+            words("label", "group_tests"),
+            words.fill(suspicious == 0 ? "no_group_suspicious" : "groups_suspicious",
+                       {{"count", std::to_string(suspicious)}, {"all", std::to_string(r.group_tests->kinds.size())}}));
+    }
+    if (!r.reliability.empty()) {
+        const auto removed = std::count_if(r.reliability.begin(), r.reliability.end(),
+                                           [](const ReliabilityRow& row) { return row.removed; });
+        facts.emplace_back(words("label", "left_out"),
+                           words.fill("left_out", {{"count", std::to_string(removed)},
+                                                   {"all", std::to_string(r.reliability.size())}}));
+    }
+    if (r.monte_carlo) {
+        facts.emplace_back(words("label", "monte_carlo"),
+                           words.fill("monte_carlo_verdict", {{"validated", std::to_string(r.monte_carlo->validated)},
+                                                              {"all", std::to_string(r.monte_carlo->compared)}}));
+    }
+    if (!facts.empty()) {
+        builder.definitions(facts);
+    }
+}
+
+/// Where the largest test value of a kind was found: "station P1, pass P1-1, 20°", "reflector R3".
+Text subject_of(const GroupTestRow& row, const Wording& words) {
+    if (!row.reflector.empty()) {
+        return words("label", "reflector") + " " + row.reflector;
+    }
+    if (row.station.empty()) {
+        return words("value", "all_stations");
+    }
+    if (row.pass.empty()) {
+        return words("label", "station") + " " + row.station;
+    }
+    return words.fill("one_visit",
+                      {{"station", row.station}, {"pass", row.pass}, {"angle", words.number(row.printed.angle)}});
+}
+
+void group_table(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
+    Rows rows;
+    for (const GroupTestRow& row : r.group_tests->kinds) {
+        const Text unit = row.unit == "um" ? " µm" : row.unit == "ppm" ? " · 10⁻⁶" : "";
+        const auto with_unit = [&](const std::string& printed) {
+            return printed.empty() ? Text() : words.number(printed) + unit;
+        };
+        rows.push_back({words("value", "group_kind", row.kind), std::to_string(row.tests), subject_of(row, words),
+                        row.printed.test_value, row.printed.critical_value, with_unit(row.printed.estimate),
+                        with_unit(row.printed.minimal_detectable),
+                        words("value", row.suspicious ? "suspicious" : "not_suspicious")});
+    }
+    builder.table("group-tests",
+                  words.fill("group_tests_table", {{"alpha", words.number(plain(r.group_tests->alpha))}}),
+                  {{words("label", "tested_group"), ""},
+                   {words("label", "tests"), "", true},
+                   {words("label", "largest_at"), ""},
+                   {"χ²", "", true},
+                   {words("label", "limit"), "", true},
+                   {words("label", "size"), ""},
+                   {words("label", "smallest_found"), ""},
+                   {words("label", "group_verdict"), ""}},
+                  rows);
+}
+
+void reversal_table(CertificateBuilder& builder, const Wording& words, const ReversalModel& model) {
+    Rows rows;
+    for (const ReversalTestRow& row : model.tests) {
+        rows.push_back({row.name, words.number(row.printed.spread), gum::unit_for_people(row.unit),
+                        row.printed.test_value, row.printed.p_value,
+                        words("value", row.depends_on_angle ? "depends_on_angle" : "not_refuted")});
+    }
+    builder.table("reversal-tests", words.fill("reversal_tests_table", {{"alpha", words.number(plain(model.alpha))}}),
+                  {{words("label", "reversal"), ""},
+                   {words("label", "spread_of_angles"), "", true},
+                   {words("label", "unit"), ""},
+                   {"F", "", true},
+                   {"p", "", true},
+                   {words("label", "group_verdict"), ""}},
+                  rows);
+}
+
+void harmonics_table(CertificateBuilder& builder, const Wording& words, const RotaryTable& r, std::size_t first) {
+    std::vector<Column> columns = {{words("label", "harmonic_order"), "", true}};
+    std::vector<std::pair<Text, std::size_t>> groups = {{"", 1}};
+    Rows rows;
+    for (const HarmonicOrder& order : r.harmonics[first].orders) {
+        rows.push_back({std::to_string(order.order)});
+    }
+    rows.push_back({words("label", "rest")});
+    std::vector<RowKind> kinds(rows.size(), RowKind::plain);
+    kinds.back() = RowKind::closing;
+    for (std::size_t m = first; m < first + 3; ++m) {
+        const HarmonicRow& motion = r.harmonics[m];
+        const std::string unit = gum::unit_for_people(motion.unit);
+        groups.emplace_back(motion.name, 3);
+        columns.push_back({words("label", "amplitude"), unit, true});
+        columns.push_back({words("label", "U"), unit, true});
+        columns.push_back({"φ", "°", true});
+        for (std::size_t k = 0; k < motion.orders.size(); ++k) {
+            const HarmonicOrder& order = motion.orders[k];
+            rows[k].insert(rows[k].end(), {order.printed.amplitude, order.printed.U, order.printed.phase});
+        }
+        rows.back().insert(rows.back().end(), {motion.printed_rest, Text(), Text()});
+    }
+    builder.table(first == 0 ? "harmonics-linear" : "harmonics-angular",
+                  words("sentence", first == 0 ? "harmonics_linear" : "harmonics_angular"), columns, rows, groups,
+                  kinds);
+}
+
+void environment_table(CertificateBuilder& builder, const Wording& words, const Environment& e) {
+    Rows rows;
+    for (const StationEnvironment& s : e.stations) {
+        rows.push_back({std::to_string(rows.size() + 1), s.station, s.printed.fixture, s.printed.u_fixture,
+                        s.printed.expansion, s.printed.air, s.printed.pressure, s.printed.humidity});
+    }
+    std::vector<Column> columns = {{words("label", "order"), "", true},
+                                   {words("label", "station"), ""},
+                                   {words("label", "fixture_temperature"), "°C", true},
+                                   {words("label", "u"), "K", true},
+                                   {words("label", "expansion"), "µm", true},
+                                   {words("label", "air_temperature"), "°C", true},
+                                   {words("label", "pressure"), "hPa", true},
+                                   {words("label", "humidity"), "%", true}};
+    for (std::size_t c = columns.size(); c-- > 5;) {  // what no station has is not printed
+        if (std::all_of(rows.begin(), rows.end(), [c](const auto& row) { return row[c].empty(); })) {
+            columns.erase(columns.begin() + static_cast<std::ptrdiff_t>(c));
+            for (auto& row : rows) {
+                row.erase(row.begin() + static_cast<std::ptrdiff_t>(c));
+            }
+        }
+    }
+    builder.table("environment", words("sentence", "environment_table"), columns, rows);
+}
+
+}  // namespace
+
+void overview(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    const RotaryTable& r = *record.rotary;
+    builder.section("overview");
+    overview_table(builder, words, r);
+    verdicts(builder, words, r);
+    const Plot plot = error_motion_plot(r, words);
+    builder.figure(plot.id, words("sentence", r.sense_curves.empty() ? "figure_errors" : "figure_errors_by_sense"),
+                   plot.description, svg(plot));
+}
+
+void positioning_figure(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
+    const auto has_runs = [](const PositioningTarget& t) { return !t.runs_up.empty() || !t.runs_down.empty(); };
+    if (r.iso230_2 && std::any_of(r.iso230_2->targets.begin(), r.iso230_2->targets.end(), has_runs)) {
+        const Plot plot = positioning_plot(r, words);
+        builder.figure(plot.id, words("sentence", "figure_positioning"), plot.description, svg(plot));
+    }
+}
+
+void harmonics(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
+    if (r.harmonics.size() != 6) {
+        return;
+    }
+    builder.section("harmonics");
+    const PolarPlot plot = error_polar_plot(r, words);
+    builder.figure(plot.id, words("sentence", "figure_polar"), plot.description, svg(plot));
+    builder.paragraph(words("sentence", "harmonics"));
+    harmonics_table(builder, words, r, 0);
+    harmonics_table(builder, words, r, 3);
+}
+
+void group_tests(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
+    if (!r.group_tests) {
+        return;
+    }
+    builder.section("group_tests");
+    builder.paragraph(words("sentence", "group_tests"));
+    group_table(builder, words, r);
+    if (r.reversal_model && !r.reversal_model->tests.empty()) {
+        reversal_table(builder, words, *r.reversal_model);
+    }
+    if (std::any_of(r.visits.begin(), r.visits.end(), [](const VisitRow& v) { return v.deviation_um.has_value(); })) {
+        const Plot plot = visit_plot(r, words);
+        builder.figure(plot.id, words("sentence", "figure_visits"), plot.description, svg(plot));
+    }
+    if (std::any_of(r.visits.begin(), r.visits.end(), [](const VisitRow& v) { return v.axial_arcsec.has_value(); })) {
+        const Plot plot = visit_scatter_plot(r, words);
+        Text caption = words("sentence", "figure_visit_scatter");
+        if (r.stations.size() > k_most_residual_panels) {
+            caption += " " + words.fill("first_stations", {{"shown", std::to_string(k_most_residual_panels)},
+                                                           {"count", std::to_string(r.stations.size())}});
+        }
+        builder.figure(plot.id, caption, plot.description, svg(plot));
+    }
+}
+
+void environment(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
+    if (!r.environment) {
+        return;
+    }
+    const Environment& e = *r.environment;
+    builder.section("environment");
+    builder.paragraph(words.fill("environment", {{"lowest", words.number(e.printed.lowest)},
+                                                 {"highest", words.number(e.printed.highest)},
+                                                 {"reference", words.number(e.printed.reference)},
+                                                 {"distance", words.number(e.printed.largest_distance)},
+                                                 {"least", words.number(e.printed.least_expansion)},
+                                                 {"most", words.number(e.printed.most_expansion)},
+                                                 {"expansion", words.number(e.printed.expansion)},
+                                                 {"u", words.number(e.printed.u_expansion)},
+                                                 {"share", words.number(e.printed.largest_share)}}));
+    environment_table(builder, words, e);
+    const Plot plot = temperature_plot(e, words);
+    builder.figure(plot.id, words("sentence", "figure_temperatures"), plot.description, svg(plot));
+}
+
+void distances_as_read(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
+    Rows rows;
+    for (const ReliabilityRow& row : r.reliability) {
+        if (!row.printed_length.empty()) {
+            rows.push_back({row.station, row.reflector, row.pass, plain(row.angle_deg), row.printed_length,
+                            words("value", row.removed ? "removed" : "kept")});
+        }
+    }
+    if (rows.empty()) {
+        return;
+    }
+    builder.section("distances");
+    builder.table("distances", words("sentence", "distances"),
+                  {{words("label", "station"), ""},
+                   {words("label", "reflector"), ""},
+                   {words("label", "pass"), ""},
+                   {words("label", "angle"), "°", true},
+                   {words("label", "distance"), "mm", true},
+                   {words("label", "action"), ""}},
+                  rows);
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,389 @@
+#include "reports/view/certificate_identity_sections.h"
+
+#include "reports/printed_texts.h"
+#include "reports/result_names.h"
+#include "reports/view/certificate_conformity_section.h"
+#include "reports/view/certificate_view.h"
+#include "reports/view/certified_overview.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace gumcert::reports {
+
+namespace {
+
+using certificate::Certificate;
+using certificate::CertificateData;
+using nlohmann::json;
+
+/// The form of the documents: it changes when their layout changes in a way that an assessor would see.
+constexpr const char* k_form = "gumcert-certificate-1";
+
+json line(const Text& text, const Wording& words) {
+    return {{"text", printable(text.first())}, {"also", also(text, words.languages())}};
+}
+
+bool is_draft(const EvaluationRecord& record) {
+    return record.certificate && record.certificate->blocked;
+}
+
+bool is_specimen(const EvaluationRecord& record) {
+    return !record.certificate || record.certificate->data.status == "specimen";
+}
+
+/// Lines of an address with the country, joined by commas.
+std::string in_one_line(const certificate::Address& address) {
+    std::string text;
+    for (const std::string& part : address.lines) {
+        text += (text.empty() ? "" : ", ") + part;
+    }
+    if (!address.country.empty()) {
+        text += (text.empty() ? "" : ", ") + address.country;
+    }
+    return text;
+}
+
+json address_lines(const certificate::Laboratory& laboratory, const Wording& words) {
+    json lines = json::array();
+    if (const std::string address = in_one_line(laboratory.address); !address.empty()) {
+        lines.push_back(line(address, words));
+    }
+    std::string contact;
+    const auto add = [&](const std::string& text) { contact += text.empty() || contact.empty() ? text : " · " + text; };
+    add(laboratory.telephone);
+    add(laboratory.email);
+    add(laboratory.web);
+    if (!contact.empty()) {
+        lines.push_back(line(contact, words));
+    }
+    return lines;
+}
+
+/// What the head says of the accreditation. The number may stand only where the symbol may: both claim the same.
+json accreditation_lines(const Certificate& certificate, const Wording& words) {
+    const CertificateData& data = certificate.data;
+    json lines = json::array();
+    if (certificate.symbol && data.accreditation) {
+        lines.push_back(
+            line(words("certificate", "accredited_by") + ": " + words.localised(data.accreditation->body), words));
+        lines.push_back(line(words("certificate", "accreditation") + ": " + data.accreditation->number, words));
+        lines.push_back(line(data.accreditation->standard, words));
+    } else if (data.status == "not_accredited") {
+        lines.push_back(line(words("statement", "outside_of_accreditation"), words));
+    } else if (data.status == "accredited") {
+        lines.push_back(line(words("statement", "no_symbol"), words));
+    }
+    if (!data.laboratory.code.empty()) {
+        lines.push_back(line(words("certificate", "laboratory_code") + ": " + data.laboratory.code, words));
+    }
+    return lines;
+}
+
+json symbol(const Certificate& certificate, const Wording& words) {
+    if (!certificate.symbol || !certificate.data.accreditation ||
+        certificate.data.accreditation->symbol_base64.empty()) {
+        return json::array();
+    }
+    const certificate::Accreditation& a = *certificate.data.accreditation;
+    const bool png = a.symbol_media_type == "image/png";
+    const Text alt = words.localised(a.body) + ", " + a.number;
+    return json::array(
+        {{{"data_uri", std::string("data:") + (png ? "image/png" : "image/jpeg") + ";base64," + a.symbol_base64},
+          {"base64", a.symbol_base64},
+          {"file", png ? "symbol.png" : "symbol.jpg"},
+          {"alt", printable(alt.first())}}});
+}
+
+/// Facts that an assessor looks for stand there even when nothing was stated: "–".
+void item_section(CertificateBuilder& builder, const Wording& words, const certificate::Item& item) {
+    builder.section("item");
+    Facts rows;
+    bool marked = false;
+    const auto row = [&](const char* key, const Text& value, bool always) {
+        if (always || !value.empty()) {
+            rows.emplace_back(words("certificate", key), item_text(item, key, value));
+            marked = marked || rows.back().second.first() != value.first();
+        }
+    };
+    row("description", words.localised(item.description), true);
+    row("manufacturer", item.manufacturer, true);
+    row("type", item.type, true);
+    row("serial_number", item.serial_number, item.identification.empty());
+    row("identification", item.identification, false);
+    row("condition", words.localised(item.condition), true);
+    row("owner", item.owner, false);
+    builder.definitions(rows);
+    if (marked) {
+        builder.paragraph(words("statement", "stated_by_customer"));
+    }
+}
+
+void customer_section(CertificateBuilder& builder, const Wording& words, const certificate::Customer& customer) {
+    builder.section("customer");
+    Facts rows = {{words("certificate", "customer"), words.localised(customer.name)},
+                  {words("certificate", "address"), in_one_line(customer.address)}};
+    std::string contact = customer.contact;
+    contact += contact.empty() || customer.email.empty() ? customer.email : ", " + customer.email;
+    add_fact(rows, words("certificate", "contact"), contact);
+    add_fact(rows, words("certificate", "order"), customer.order);
+    builder.definitions(rows);
+}
+
+Text place_text(const CertificateData& data, const Wording& words) {
+    Text text = words("place_kind", data.place.kind);
+    const certificate::Address& address = data.place.address.lines.empty() && data.place.kind == "laboratory"
+                                              ? data.laboratory.address
+                                              : data.place.address;
+    if (!data.place.description.empty()) {
+        text += ", " + words.localised(data.place.description);
+    }
+    const std::string where = in_one_line(address);
+    return where.empty() ? text : text + ", " + where;
+}
+
+void dates_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data) {
+    builder.section("dates");
+    Facts rows;
+    add_fact(rows, words("certificate", "received"), data.dates.received);
+    rows.emplace_back(words("certificate", "performed"), from_to(data.dates.performed_from, data.dates.performed_to));
+    rows.emplace_back(words("certificate", "issued"), data.dates.issued);
+    rows.emplace_back(words("certificate", "place"), place_text(data, words));
+    builder.definitions(rows);
+}
+
+/// "pass (10 of 12 values), fail (2 of 12 values)"
+Text verdict_counts(const std::vector<const certificate::Verdict*>& verdicts, const Wording& words) {
+    static constexpr const char* k_order[] = {"pass", "conditional_pass", "conditional_fail", "undetermined",
+                                              "fail", "not_applicable"};
+    Text text;
+    for (const char* name : k_order) {
+        const auto count =
+            std::count_if(verdicts.begin(), verdicts.end(), [&](const auto* v) { return v->verdict == name; });
+        if (count == 0) {
+            continue;
+        }
+        const Text part = verdicts.size() == 1 ? words("verdict_name", name)
+                                               : words.filled("statement", "verdict_count",
+                                                              {{"verdict", words("verdict_name", name)},
+                                                               {"count", std::to_string(count)},
+                                                               {"all", std::to_string(verdicts.size())}});
+        text = text.empty() ? part : text + ", " + part;
+    }
+    return text;
+}
+
+/// The one certified value of the certificate with its column; nothing where there are none or several.
+std::pair<const certificate::CertifiedColumn*, const certificate::CertifiedValue*> only_value(
+    const Certificate& certificate) {
+    std::pair<const certificate::CertifiedColumn*, const certificate::CertifiedValue*> found = {};
+    for (const certificate::CertifiedTable& table : certificate.tables) {
+        for (const certificate::CertifiedColumn& column : table.columns) {
+            for (const certificate::CertifiedValue& value : column.values) {
+                if (found.first != nullptr) {
+                    return {};
+                }
+                found = {&column, &value};
+            }
+        }
+    }
+    return found;
+}
+
+/// "l = 50000838 nm ± 68 nm, k = 2.16" where that is the whole of the results; else where they stand. A value with a
+/// mark (outside of the accreditation, external) stands where the mark is explained.
+Text results_in_one_line(const Certificate& certificate, const Wording& words, const std::string& coverage) {
+    const auto only = only_value(certificate);  // Clang 14 lets no lambda below capture a structured binding
+    const certificate::CertifiedColumn* column = only.first;
+    const certificate::CertifiedValue* value = only.second;
+    const std::string note = value == nullptr ? "" : CertifiedOverview(certificate).note(*value);
+    if (column == nullptr || value->printed_value.empty() || (!note.empty() && note != k_raised_mark)) {
+        return words("statement", "see_following_pages");
+    }
+    const auto quantity = [&](const std::string& printed) {
+        return with_unit(words.number(printed), column->printed_unit);
+    };
+    const Coverage kind = coverage_of(*value);
+    if (kind == Coverage::interval) {
+        const bool has_u = !value->printed_u.empty();
+        return words.filled("statement", has_u ? "result_interval_and_u" : "result_interval",
+                            {{"name", column->result},
+                             {"value", quantity(value->printed_value)},
+                             {"u", has_u ? quantity(value->printed_u) : Text()},
+                             {"low", quantity(value->printed_low)},
+                             {"high", quantity(value->printed_high)},
+                             {"p", words.number(coverage)}});
+    }
+    if (kind == Coverage::none || kind == Coverage::nothing) {
+        return words("statement", "see_following_pages");
+    }
+    Text text = words.filled(
+        "statement", certificate.profile.plus_minus_in_tables ? "result_with_U" : "result_and_U",
+        {{"name", column->result}, {"value", quantity(value->printed_value)}, {"U", quantity(value->printed_U)}});
+    if (!value->printed_k.empty()) {
+        text += words("document", "separator") + words.fill("k_one", {{"k", words.number(value->printed_k)}});
+    }
+    if (value->raised) {
+        text += " " + words("statement", "raised_mark");
+    }
+    return text;
+}
+
+/// Names of the results that a specification holds for, each once; the first ones of many.
+Text decided_names(const std::vector<Text>& all) {
+    constexpr std::size_t k_most = 6;
+    std::vector<Text> names;
+    for (const Text& name : all) {
+        if (std::find(names.begin(), names.end(), name) == names.end()) {
+            names.push_back(name);
+        }
+    }
+    Text text;
+    for (std::size_t i = 0; i < std::min(names.size(), k_most); ++i) {
+        text += (i == 0 ? Text() : Text(", ")) + names[i];
+    }
+    return names.size() > k_most ? text + ", …" : text;
+}
+
+void summary_section(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    const Certificate& certificate = *record.certificate;
+    builder.section("summary");
+    Facts rows = {{words("certificate", "results"), results_in_one_line(certificate, words, record.printed_coverage)}};
+    if (certificate.data.specifications.empty()) {
+        rows.emplace_back(words("certificate", "conformity"), words("statement", "no_conformity"));
+    }
+    for (const certificate::AgreedSpecification& s : certificate.data.specifications) {
+        std::vector<const certificate::Verdict*> verdicts;
+        std::vector<Text> names;
+        for (const certificate::CertifiedTable& table : certificate.tables) {
+            for (const certificate::CertifiedColumn& column : table.columns) {
+                for (const certificate::CertifiedValue& value : column.values) {
+                    if (value.verdict && value.verdict->specification == s.id) {
+                        verdicts.push_back(&*value.verdict);
+                        names.push_back(name_of_result(table.id, column.result, words));
+                    }
+                }
+            }
+        }
+        if (!verdicts.empty()) {
+            rows.emplace_back(words("certificate", "conformity"),
+                              words.filled("statement", "conformity_summary",
+                                           {{"specification", document_of(s)},
+                                            {"results", decided_names(names)},
+                                            {"verdicts", verdict_counts(verdicts, words)},
+                                            {"rule", s.rule.id + ", " + words("rule_name", s.rule.id)}}));
+        }
+    }
+    if (const auto& amendment = certificate.data.amendment) {
+        rows.emplace_back(words("heading", "amendment"), amendment_sentence(*amendment, words));
+    }
+    builder.definitions(rows);
+}
+
+void authorisation_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data) {
+    builder.section("authorisation");
+    Facts rows;
+    const certificate::Person nobody;
+    const certificate::Person& person = data.persons.authorised_by ? *data.persons.authorised_by : nobody;
+    rows.emplace_back(words("certificate", "authorised_by"), person.name);
+    rows.emplace_back(words("certificate", "function"), words.localised(person.function));
+    rows.emplace_back(words("certificate", "authorised"), data.dates.authorised);
+    builder.definitions(rows);
+    builder.paragraph(words("statement", "signature"));
+}
+
+json foot(const Certificate& certificate, const Wording& words) {
+    json lines = json::array({line(words("statement", "only_item"), words),  //
+                              line(words("statement", "reproduction"), words)});
+    // The sentences of an accreditation body speak of its accreditation: they stand only where the symbol may stand.
+    if (certificate.symbol) {
+        for (const certificate::LocalisedText& sentence : certificate.profile.first_page_sentences) {
+            lines.push_back(line(words.localised(sentence), words));
+        }
+    }
+    return lines;
+}
+
+}  // namespace
+
+Text item_text(const certificate::Item& item, const std::string& key, const Text& text) {
+    const auto& marked = item.stated_by_customer;
+    const bool by_customer = std::find(marked.begin(), marked.end(), key) != marked.end();
+    return by_customer && !text.empty() ? text + " †" : text;
+}
+
+std::string from_to(const std::string& from, const std::string& to) {
+    return from.empty() || to.empty() || from == to ? (from.empty() ? to : from) : from + " – " + to;
+}
+
+Text amendment_sentence(const certificate::Amendment& amendment, const Wording& words) {
+    return words.filled("statement", amendment.kind == "replaced" ? "replaced" : "amended",
+                        {{"number", amendment.number}});
+}
+
+nlohmann::json identity_page(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    const Certificate& certificate = *record.certificate;
+    const CertificateData& data = certificate.data;
+    item_section(builder, words, data.item);
+    customer_section(builder, words, data.customer);
+    dates_section(builder, words, data);
+    summary_section(builder, words, record);
+    authorisation_section(builder, words, data);
+    const Text name = words.localised(data.laboratory.name);
+    const Text number = words("certificate", "number");
+    return {{"laboratory", printable(name.first())},
+            {"laboratory_also", also(name, words.languages())},
+            {"address", address_lines(data.laboratory, words)},
+            {"accreditation", accreditation_lines(certificate, words)},
+            {"symbol", symbol(certificate, words)},
+            {"number_label", number.first()},
+            {"number_label_also", also(number, words.languages())},
+            {"number", printable(data.number)},
+            {"sections", builder.take()},
+            {"foot", foot(certificate, words)}};
+}
+
+nlohmann::json certificate_marks(const Wording& words, const EvaluationRecord& record) {
+    json marks = json::array();
+    const auto mark = [&](const Text& text, const Text& reason) {
+        marks.push_back({{"text", text.first()},
+                         {"also", also(text, words.languages())},
+                         {"reason", reason.first()},
+                         {"reason_also", also(reason, words.languages())}});
+    };
+    if (is_draft(record)) {
+        mark(words("document", "draft"), words("document", "draft_reason"));
+    }
+    if (is_specimen(record)) {
+        mark(words("document", "mark"), words("document", record.certificate ? "specimen_reason" : "mark_reason"));
+    }
+    return marks;
+}
+
+nlohmann::json running_texts(const Wording& words, const EvaluationRecord& record) {
+    const std::string title = shortened(printable(record.title), 80);
+    if (!record.certificate) {
+        return {{"header_left", title}, {"header_right", words("document", "mark").first()}, {"footer_left", title}};
+    }
+    const CertificateData& data = record.certificate->data;
+    // Not shortened: the number makes the page a part of this certificate.
+    std::string head = printable(words
+                                     .filled("certificate", "certificate_of_head",
+                                             {{"type", words("document", "type")}, {"number", data.number}})
+                                     .first());
+    if (is_draft(record)) {
+        head += " · " + words("document", "draft").first();
+    }
+    if (is_specimen(record)) {
+        head += " · " + words("document", "mark").first();
+    }
+    return {{"header_left", shortened(printable(words.localised(data.laboratory.name).first()), 80)},
+            {"header_right", head},
+            {"footer_left", std::string(k_form) + " · " + record.software.name + " " + record.software.version}};
+}
+
+}  // namespace gumcert::reports

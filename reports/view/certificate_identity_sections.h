@@ -1,0 +1,37 @@
+#pragma once
+
+#include "reports/document_text.h"
+#include "reports/record/evaluation_record.h"
+#include "reports/view/certificate_builder.h"
+#include "reports/wording.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+namespace gumcert::reports {
+
+/// The first page of a certificate (ISO/IEC 17025:2017, 7.8.2.1 a to e, g to j, l and o): who, what, when and where. An
+/// object of the view; see certificate_view.h. Nothing of it is a result.
+/// \param builder  without open sections; it is empty again afterwards, its numbering goes on
+/// \param record   with certificate data
+[[nodiscard]] nlohmann::json identity_page(CertificateBuilder& builder, const Wording& words,
+                                           const EvaluationRecord& record);
+
+/// What stands in a box above everything: that a document is a draft, or a specimen. Empty for a certificate that can
+/// be issued. An array of objects of the view.
+[[nodiscard]] nlohmann::json certificate_marks(const Wording& words, const EvaluationRecord& record);
+
+/// Head and foot of every page: {header_left, header_right, footer_left}, in the binding language.
+[[nodiscard]] nlohmann::json running_texts(const Wording& words, const EvaluationRecord& record);
+
+/// A text of the certificate data, marked with † where the customer stated it.
+[[nodiscard]] Text item_text(const certificate::Item& item, const std::string& key, const Text& text);
+
+/// "2026-11-18", or "2026-11-18 – 2026-11-19" for two different days.
+[[nodiscard]] std::string from_to(const std::string& from, const std::string& to);
+
+/// Which certificate this one amends or replaces (ISO/IEC 17025:2017, 7.8.8).
+[[nodiscard]] Text amendment_sentence(const certificate::Amendment& amendment, const Wording& words);
+
+}  // namespace gumcert::reports

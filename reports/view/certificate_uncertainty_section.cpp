@@ -1,0 +1,205 @@
+#include "reports/view/certificate_uncertainty_section.h"
+
+#include "certificate/statement_of_uncertainty.h"
+#include "reports/printed_texts.h"
+#include "reports/reported_results.h"
+#include "reports/result_names.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gumcert::reports {
+
+namespace {
+
+using certificate::CertifiedValue;
+
+constexpr std::size_t k_most_contributions = 30;
+
+/// The sentence of the profile in place of U-1 and U-2, with {k} and {coverage} filled in.
+Text profile_sentence(const certificate::LocalisedText& sentence, const Text& k, const Text& coverage,
+                      const Wording& words) {
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < words.languages().size(); ++i) {
+        std::string out;
+        const std::string& text = sentence.in(words.languages()[i]);
+        for (std::size_t at = 0; at < text.size();) {
+            const auto put = [&](std::string_view name, const Text& value) {
+                if (text.compare(at, name.size(), name) != 0) {
+                    return false;
+                }
+                out += value.in(i);
+                at += name.size();
+                return true;
+            };
+            if (!put("{k}", k) && !put("{coverage}", coverage)) {
+                out += text[at++];
+            }
+        }
+        texts.push_back(std::move(out));
+    }
+    return Text(std::move(texts));
+}
+
+/// Trials of what was evaluated by Monte Carlo, where the record holds them.
+std::string trials_of(const EvaluationRecord& record) {
+    for (const Result& r : record.results) {
+        if (r.monte_carlo) {
+            const MonteCarloSummary& m = *r.monte_carlo;
+            return m.printed.trials.empty() ? plain(m.trials) : m.printed.trials;
+        }
+    }
+    return record.rotary && record.rotary->monte_carlo ? plain(record.rotary->monte_carlo->trials) : std::string();
+}
+
+/// "shortest" where a certified interval is the shortest one of its result, "symmetric" else.
+std::string interval_kind(const EvaluationRecord& record, const std::vector<const CertifiedValue*>& values) {
+    for (const Result& r : record.results) {
+        if (!r.monte_carlo) {
+            continue;
+        }
+        const MonteCarloSummary& m = *r.monte_carlo;
+        const bool shortest = std::any_of(values.begin(), values.end(), [&](const CertifiedValue* v) {
+            return v->interval->first == m.shortest[0] && v->interval->second == m.shortest[1] &&
+                   m.shortest != m.symmetric;
+        });
+        if (shortest) {
+            return "shortest";
+        }
+    }
+    return "symmetric";
+}
+
+std::vector<std::string> printed_k(const std::vector<const CertifiedValue*>& values) {
+    std::vector<std::string> texts;
+    for (const CertifiedValue* v : values) {
+        texts.push_back(v->printed_k);
+    }
+    return texts;
+}
+
+Text student_t_sentence(const std::vector<const CertifiedValue*>& values, const Text& k, const Text& p,
+                        const Wording& words) {
+    std::vector<std::string> nus;
+    const CertifiedValue* least = values.front();
+    for (const CertifiedValue* v : values) {
+        nus.push_back(v->printed_nu_eff);
+        least = v->nu_eff.value_or(0.0) < least->nu_eff.value_or(0.0) ? v : least;
+    }
+    const std::string key = common(nus) ? "nu_one" : "nu_between";
+    const Text lowest = words.number(
+        key == "nu_one" ? nus.front() : certificate::whole_degrees_of_freedom(least->nu_eff.value_or(0.0)));
+    const Text nu = words.fill(key, {{key == "nu_one" ? "nu" : "low", lowest}});
+    return words.fill("coverage_student_t", {{"k", k}, {"nu_eff", nu}, {"p", p}});
+}
+
+Text coverage_sentence(Coverage c, const std::vector<const CertifiedValue*>& values, const EvaluationRecord& record,
+                       const Wording& words) {
+    const certificate::LocalisedText& own = record.certificate->profile.uncertainty_sentence;
+    const Text p = words.number(record.printed_coverage);
+    const std::optional<std::string> one_k = common(printed_k(values));
+    const Text k = one_k ? words.fill("k_one", {{"k", words.number(*one_k)}}) : Text("k");
+    const bool ordinary = c == Coverage::normal || c == Coverage::student_t;
+    if (ordinary && one_k && !own.empty()) {
+        return profile_sentence(own, words.number(*one_k), p, words);
+    }
+    switch (c) {
+        case Coverage::normal:
+            return words.fill("coverage_normal", {{"k", k}, {"p", p}});
+        case Coverage::student_t:
+            return one_k ? student_t_sentence(values, k, p, words)
+                         : words.filled("statement", "uncertainty_k_and_nu", {{"p", p}});
+        case Coverage::convolution:
+            return words.fill("coverage_convolution", {{"k", k}, {"p", p}});
+        case Coverage::monte_carlo:
+            return words.fill("coverage_monte_carlo", {{"p", p}});
+        case Coverage::interval:
+            return words.filled("statement", "uncertainty_interval",
+                                {{"trials", words.number(trials_of(record))},
+                                 {"kind", words("statement", "interval_" + interval_kind(record, values))},
+                                 {"p", p}});
+        case Coverage::none:
+        case Coverage::nothing:
+            break;
+    }
+    return words.fill("coverage_none", {});
+}
+
+/// "a, b, c" as each language writes it.
+Text listed(const std::vector<Text>& names, const Wording& words) {
+    Text text;
+    for (const Text& name : names) {
+        text += text.empty() ? name : words("document", "enumeration") + name;
+    }
+    return text;
+}
+
+/// Names of what the budget contains, each once.
+std::vector<Text> contributions(const EvaluationRecord& record, const Wording& words) {
+    std::vector<Text> names;
+    const auto see = [&](const Text& name) {
+        if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) {
+            names.push_back(name);
+        }
+    };
+    if (record.rotary && !record.rotary->budget_sources.empty()) {
+        for (const std::string& source : record.rotary->budget_sources) {
+            see(source_name(source, words));
+        }
+        return names;  // the inputs of the set-up errors have these sources, under other names
+    }
+    for (const Result& r : record.results) {
+        for (const BudgetRow& row : r.budget) {
+            if (row.role != "fit") {
+                see(row.input);
+                continue;
+            }
+            Text data;
+            for (const BudgetRow& part : row.components) {
+                if (part.role == "fit_data") {
+                    data += (data.empty() ? Text() : words("document", "enumeration")) + part.input;
+                }
+            }
+            see(words.filled("statement", "contribution_of_fit", {{"data", data}, {"name", row.input}}));
+        }
+    }
+    if (names.size() > k_most_contributions) {
+        names.resize(k_most_contributions);
+        names.emplace_back("…");
+    }
+    return names;
+}
+
+}  // namespace
+
+void uncertainty_section(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record,
+                         const CertifiedOverview& overview) {
+    builder.section("statement_of_uncertainty");
+    if (overview.exact()) {
+        builder.paragraph(words("statement", "exact_values"));
+    } else if (overview.used().empty()) {
+        builder.paragraph(words("statement", "no_uncertainty"));
+    }
+    for (const Coverage c : overview.used()) {
+        const std::string letter = overview.letter(c);
+        builder.paragraph((letter.empty() ? Text() : Text(letter + " ")) +
+                          coverage_sentence(c, overview.values(c), record, words));
+    }
+    for (const Text& sentence : reasons_for_monte_carlo(record, words)) {
+        builder.paragraph(sentence);
+    }
+    if (overview.raised()) {
+        builder.paragraph(words("statement", "raised"));
+    }
+    if (const std::vector<Text> names = contributions(record, words); !names.empty()) {
+        builder.paragraph(words.filled("statement", "contributions", {{"names", listed(names, words)}}));
+    }
+    builder.paragraph(words.fill("validity", {}));
+}
+
+}  // namespace gumcert::reports

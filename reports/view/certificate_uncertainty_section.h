@@ -1,0 +1,16 @@
+#pragma once
+
+#include "reports/record/evaluation_record.h"
+#include "reports/view/certificate_builder.h"
+#include "reports/view/certified_overview.h"
+#include "reports/wording.h"
+
+namespace gumcert::reports {
+
+/// What the uncertainties of the certified tables mean: one sentence for each kind of coverage that occurs, chosen from
+/// the record; contributions that were considered, and what is not contained (ILAC-P14:09/2020).
+/// \param record  with certificate data
+void uncertainty_section(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record,
+                         const CertifiedOverview& overview);
+
+}  // namespace gumcert::reports

@@ -1,0 +1,221 @@
+#include "reports/view/certificate_view.h"
+
+#include "gum/quantity/diagnostic.h"
+#include "reports/view/certificate_builder.h"
+#include "reports/view/certificate_identity_sections.h"
+#include "reports/view/certificate_statement_sections.h"
+#include "reports/view/document_kinds.h"
+#include "reports/wording.h"
+#include "text/utf8.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gumcert::reports {
+
+namespace {
+
+using nlohmann::json;
+
+void messages(CertificateBuilder& builder, const Wording& words, const std::vector<gum::Diagnostic>& diagnostics) {
+    builder.section("messages");
+    builder.paragraph(words("sentence", "messages"));
+    static constexpr std::array<const char*, 3> k_severities = {"note", "warning", "error"};
+    Facts rows;
+    for (const gum::Diagnostic& d : diagnostics) {
+        rows.emplace_back(
+            words("value", "severity", k_severities.at(static_cast<std::size_t>(d.severity))) + " " + printable(d.code),
+            words.message(d));
+    }
+    builder.definitions(rows);
+}
+
+/// The codes of the laboratories whose budgets are files, by the names of these files, where documents must not name
+/// laboratories: the name of a file tells whose it is.
+std::map<std::string, std::string> confidential_budgets(const EvaluationRecord& record) {
+    std::map<std::string, std::string> codes;
+    if (!record.comparison || record.comparison->form != "laboratories" || record.comparison->names_released) {
+        return codes;
+    }
+    const nlohmann::json job = nlohmann::json::parse(record.job_json, nullptr, false);
+    for (const auto& [list, code] : {std::pair("participants", "id"), std::pair("results", "participant")}) {
+        if (!job.is_object() || !job.contains(list) || !job[list].is_array()) {
+            continue;
+        }
+        for (const nlohmann::json& one : job[list]) {
+            const bool named = one.is_object() && one.contains(code) && one[code].is_string();
+            if (named && one.contains("budget") && one["budget"].is_string()) {
+                codes.emplace(one["budget"].get<std::string>(), one[code].get<std::string>());
+            }
+        }
+    }
+    return codes;
+}
+
+/// The messages, with the code of a laboratory in place of the name of its budget.
+std::vector<gum::Diagnostic> without_file_names(const EvaluationRecord& record) {
+    std::vector<gum::Diagnostic> diagnostics = record.diagnostics;
+    for (const auto& [file, code] : confidential_budgets(record)) {
+        for (gum::Diagnostic& d : diagnostics) {
+            for (std::string* text : {&d.where, &d.what, &d.rule, &d.action}) {
+                for (std::size_t at = text->find(file); !file.empty() && at != std::string::npos;
+                     at = text->find(file, at + code.size())) {
+                    text->replace(at, file.size(), code);
+                }
+            }
+        }
+    }
+    return diagnostics;
+}
+
+/// Files by their names, but budgets by the codes of their laboratories, and what they read in turn by its number.
+void input(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    builder.section("input");
+    const std::map<std::string, std::string> codes = confidential_budgets(record);
+    Rows rows;
+    for (const InputFile& file : record.job_files) {
+        const auto code = codes.find(file.name);
+        const bool is_job = rows.empty();
+        Text name = file.name;
+        if (code != codes.end()) {
+            name = words.filled("comparison", "budget_file_of", {{"participant", code->second}});
+        } else if (!codes.empty() && !is_job) {
+            name = words.filled("comparison", "file_number", {{"number", std::to_string(rows.size() + 1)}});
+        }
+        rows.push_back({name, file.sha256});
+    }
+    builder.table("files", words("sentence", "files"), {{words("label", "file"), ""}, {words("label", "sha256"), ""}},
+                  rows);
+}
+
+/// What the laboratory certifies, and the beginning of the annexes, which do not repeat it: a certified U may be the
+/// capability of the laboratory and then differs from the evaluated one.
+void certified_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record,
+                        const DocumentKind& kind) {
+    findings_section(builder, words, *record.certificate);
+    method_sections(builder, words, record);
+    result_sections(builder, words, record);
+    kind.conventions(builder, words, record);
+    closing_sections(builder, words, record);
+    // What the scope covers are the certified tables: nothing else of the document claims the accreditation.
+    builder.annexes(record.certificate->symbol);
+    kind.evaluation(builder, words, record);
+}
+
+/// "2026-11-21" as {year, month, day} without leading zeros; 1970-01-01 where no date is stated, because PDF/A demands
+/// one and that of the computer would change the bytes with every run.
+json date_of_creation(const EvaluationRecord& record) {
+    std::array<int, 3> parts = {1970, 1, 1};
+    const std::string date = record.certificate                               ? record.certificate->data.dates.issued
+                             : record.comparison && record.comparison->issuer ? record.comparison->issuer->issued
+                                                                              : "";
+    if (date.size() == 10 && date[4] == '-' && date[7] == '-') {
+        std::array<int, 3> read = {};
+        const auto digits = [&](std::size_t from, std::size_t count, int& v) {
+            const char* const end = date.data() + from + count;
+            const auto [last, error] = std::from_chars(date.data() + from, end, v);
+            return error == std::errc() && last == end && v > 0;
+        };
+        if (digits(0, 4, read[0]) && digits(5, 2, read[1]) && digits(8, 2, read[2]) && read[1] <= 12 && read[2] <= 31) {
+            parts = read;
+        }
+    }
+    return {{"year", std::to_string(parts[0])}, {"month", std::to_string(parts[1])}, {"day", std::to_string(parts[2])}};
+}
+
+json pages(const Wording& words) {
+    json all = json::array();
+    const Text page = words("document", "page");
+    const Text of = words("document", "of");
+    const Text end = words("document", "page_end");
+    for (std::size_t i = 0; i < words.languages().size(); ++i) {
+        all.push_back({{"page", page.in(i)}, {"of", of.in(i)}, {"end", end.in(i)}});
+    }
+    return all;
+}
+
+}  // namespace
+
+std::string printable(const std::string& text) {
+    static constexpr const char* k_replacement = "\uFFFD";
+    if (std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; })) {
+        return text;  // most texts of a document are numbers
+    }
+    std::string out;
+    for (std::size_t i = 0; i < text.size();) {
+        const text::Character character = text::decode_utf8(text, i);
+        const std::size_t bytes = std::max<std::size_t>(character.bytes, 1);
+        if (character.code == U'\n' || character.code == U'\t') {
+            out += ' ';
+        } else if (character.bytes == 0 || (text::is_hidden(character.code) && !text::is_joiner(character.code))) {
+            out += k_replacement;
+        } else {
+            out += text.substr(i, bytes);
+        }
+        i += bytes;
+    }
+    return out;
+}
+
+std::string shortened(const std::string& text, std::size_t most) {
+    std::size_t characters = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool starts = !text::is_continuation(text[i]);
+        if (starts && characters++ == most) {
+            return text.substr(0, i) + "…";
+        }
+    }
+    return text;
+}
+
+nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::json& wording,
+                                std::span<const DocumentKind> kinds) {
+    const Wording words(wording);
+    const std::vector<std::string>& languages = words.languages();
+    const DocumentKind& kind = document_kind(record, kinds);
+    const bool is_certificate = record.certificate && !kind.is_report();
+    const auto of_kind = [&](const char* text) { return words("document", std::string(kind.report) + text); };
+    CertificateBuilder builder(words);
+    json view = kind.running_texts(words, record);
+    view["identity"] = json::array();
+    if (is_certificate) {
+        view["identity"].push_back(identity_page(builder, words, record));
+        certified_sections(builder, words, record, kind);
+    } else {
+        kind.specimen(builder, words, record);
+    }
+    kind.evidence(builder, words, record);
+    if (!record.diagnostics.empty()) {
+        messages(builder, words, without_file_names(record));
+    }
+    input(builder, words, record);
+    kind.measured_values(builder, words, record);
+
+    view["language"] = words.language();
+    view["mark"] = kind.is_report() ? json::array() : certificate_marks(words, record);
+    view["running_title"] = shortened(printable(record.title), 80);
+    view["pages"] = pages(words);
+    view["created"] = date_of_creation(record);
+    view["attachment"] = json::array();
+    view["closing"] = json::array();
+    if (!is_certificate) {  // the first page of a certificate says it
+        const Text only = of_kind("only_items");
+        view["closing"].push_back({{"text", only.first()}, {"also", also(only, languages)}});
+    }
+    put(view, "type", of_kind("type"), languages);
+    put(view, "title", record.title, languages);
+    put(view, "end_mark", of_kind("end_mark"), languages);
+    view["sections"] = builder.take();
+    return view;
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,89 @@
+#include "certificate/gates/finding_list.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/support/finding_severities.h"
+#include "tests/unit/certificate/passed_certificate.h"
+
+namespace gumcert::certificate {
+namespace {
+
+TEST(FindingList, KeepsWhatAGateFindsInItsOrder) {
+    const CertificateData data;
+    FindingList list(data);
+    list.critical("X01", "7.1", "/number", "is missing", "State it.");
+    list.major("X02", "7.2", "/item", "is none", "Mend it.");
+    list.add(FindingSeverity::minor, "X03", "7.3", "", "a", "b");
+    Finding other;
+    other.id = "X04";
+    list.append({other});
+    const std::vector<Finding> found = list.take();
+    EXPECT_EQ(ids(found), (std::vector<std::string>{"X01", "X02", "X03", "X04"}));
+    expect_finding(found[0], "X01", "7.1", k_critical, "/number");
+    EXPECT_EQ(found[0].what, "is missing");
+    EXPECT_EQ(found[0].action, "State it.");
+    expect_finding(found[1], "X02", "7.2", k_major, "/item");
+    EXPECT_TRUE(list.take().empty()) << "taken once";
+}
+
+TEST(FindingList, ItemIsLeftOutForAStatedReason) {
+    CertificateData data;
+    data.omissions = {{.clause = "7.8.2.1 h", .reason = "The item stays installed."},
+                      {.clause = "7.8.2.1 e", .reason = "The owner wishes not to be named on paper."},
+                      {.clause = "7.8.2.1 n", .reason = "-"},
+                      {.clause = "7.8.2.1 f", .reason = "The customer asked for it in writing."}};
+    FindingList list(data);
+    for (const char letter : {'h', 'e', 'n', 'f'}) {
+        list.item(k_critical, letter, "/place", "is missing", "State it.");
+    }
+    const std::vector<Finding> found = list.take();
+    ASSERT_EQ(found.size(), 4U);
+    expect_finding(found[0], "R07-h", "ISO/IEC 17025:2017, 7.8.2.1 h", FindingSeverity::information, "/place");
+    EXPECT_EQ(found[0].what, "is missing; left out for the reason: The item stays installed.");
+    EXPECT_EQ(found[0].action, "");
+    EXPECT_EQ(found[1].severity, k_major) << "the customer is still not named";
+    EXPECT_EQ(found[1].action, "State it, unless the reason is one that an assessor accepts.");
+    EXPECT_EQ(found[2].severity, k_critical) << "a dash is no reason";
+    EXPECT_EQ(found[2].what, "is missing");
+    EXPECT_EQ(found[3].severity, k_critical) << "no reason replaces the method";
+}
+
+TEST(FindingList, TellsItemsThatMayBeLeftOut) {
+    std::string may;
+    for (char letter = 'a'; letter <= 'z'; ++letter) {
+        may += may_be_left_out(std::string("7.8.2.1 ") + letter) ? std::string(1, letter) : "";
+    }
+    EXPECT_EQ(may, "cehknp");
+    for (const char* clause : {"", "7.8.2.1", "7.8.2.1 ", "7.8.4.1 c", "7.8.2.1 cc", "c"}) {
+        EXPECT_FALSE(may_be_left_out(clause)) << clause;
+    }
+    EXPECT_EQ(severity_of_omission("7.8.2.1 p"), k_major);
+    EXPECT_EQ(severity_of_omission("7.8.2.1 c"), FindingSeverity::minor);
+    EXPECT_EQ(severity_of_omission("7.8.2.1 k"), FindingSeverity::information);
+    EXPECT_EQ(severity_of_omission(""), FindingSeverity::information);
+}
+
+TEST(FindingList, PlacesAndClausesInText) {
+    EXPECT_EQ(iso_17025("7.8.2.1 e"), "ISO/IEC 17025:2017, 7.8.2.1 e");
+    EXPECT_EQ(place_in("/standards", 3, "valid_to"), "/standards/3/valid_to");
+    EXPECT_EQ(place_in("/remarks", 0), "/remarks/0");
+    Dates dates;
+    dates.performed_from = "2026-11-02";
+    EXPECT_EQ(last_day(dates), "2026-11-02") << "one day of work";
+    dates.performed_to = "2026-11-03";
+    EXPECT_EQ(last_day(dates), "2026-11-03");
+}
+
+TEST(FindingList, KnowsTheResultsOfTheCertificate) {
+    const Certificate certificate = passed_certificate();
+    EXPECT_TRUE(names_a_result(certificate, {"x", "l"}));
+    EXPECT_TRUE(names_a_result(certificate, {"E*"}));
+    EXPECT_FALSE(names_a_result(certificate, {"x", "EBB"}));
+    EXPECT_FALSE(names_a_result(certificate, {}));
+}
+
+}  // namespace
+}  // namespace gumcert::certificate

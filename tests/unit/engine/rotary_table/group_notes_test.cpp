@@ -1,0 +1,87 @@
+#include "engine/rotary_table/group_notes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace gumcert::engine {
+namespace {
+
+using testing::HasSubstr;
+
+RotaryTableMeasurement two_stations() {
+    RotaryTableMeasurement measurement;
+    measurement.stations = {"P1", "P2"};
+    measurement.passes = {"up"};
+    measurement.reflectors = {"R1", "R2", "R3"};
+    measurement.angles_deg = {0.0, 15.0};
+    return measurement;
+}
+
+GroupTest suspicious(GroupKind kind) {
+    GroupTest test;
+    test.kind = kind;
+    test.station = 1;
+    test.pass = 0;
+    test.angle = 1;
+    test.reflector = 2;
+    test.chi_square = 123.4;
+    test.critical_value = 20.2;
+    test.estimate = 5.04e-6;
+    test.suspicious = true;
+    return test;
+}
+
+TEST(GroupNotes, SayWhichGroupByHowMuchAndWhatToDo) {
+    for (const GroupKind kind : {GroupKind::visit_length, GroupKind::visit_pose, GroupKind::dead_path_change,
+                                 GroupKind::drift, GroupKind::angle_index, GroupKind::succession, GroupKind::station,
+                                 GroupKind::reflector, GroupKind::fixture_scale}) {
+        const auto notes = group_notes({.tests = {suspicious(kind)}, .visits = {}}, two_stations());
+        ASSERT_EQ(notes.size(), 1U);
+        EXPECT_EQ(notes[0].code, k_suspicious_group);
+        EXPECT_EQ(notes[0].severity, gum::Severity::warning);
+        EXPECT_THAT(notes[0].what, HasSubstr("chi-square 123, limit 20.2"));
+        EXPECT_FALSE(notes[0].action.empty());
+    }
+    const auto visit = group_notes({.tests = {suspicious(GroupKind::visit_length)}, .visits = {}}, two_stations());
+    EXPECT_EQ(visit[0].where, "station P2, pass up, 15°");
+    EXPECT_THAT(visit[0].what, HasSubstr("off by 5.04 µm alike"));
+    EXPECT_THAT(visit[0].action,
+                HasSubstr(R"("exclude": [{ "station": "P2", "pass": "up", "angle_deg": 15, "reason": "why" }].)"));
+    EXPECT_THAT(group_notes({.tests = {suspicious(GroupKind::reflector)}, .visits = {}}, two_stations())[0].action,
+                HasSubstr(R"("exclude": [{ "reflector": "R3", "reason": "why" }].)"));
+    EXPECT_THAT(group_notes({.tests = {suspicious(GroupKind::drift)}, .visits = {}}, two_stations())[0].action,
+                testing::Not(HasSubstr("exclude")));
+    EXPECT_EQ(group_notes({.tests = {suspicious(GroupKind::reflector)}, .visits = {}}, two_stations())[0].where,
+              "fixture, reflector R3");
+}
+
+TEST(GroupNotes, SayTheTemperatureThatAScaledFixtureMeans) {
+    RotaryTableMeasurement measurement = two_stations();
+    GroupTest scaled = suspicious(GroupKind::fixture_scale);
+    scaled.estimate = 46e-6;  // of the stated coordinates: the fixture itself is smaller
+    const auto without = group_notes({.tests = {scaled}, .visits = {}}, measurement);
+    EXPECT_EQ(without[0].where, "fixture");
+    EXPECT_THAT(without[0].what, testing::StartsWith("the distances put the whole fixture 46 ppm smaller than its "
+                                                     "coordinates at its temperature (chi-square"));
+    measurement.expansion = 11.5e-6;
+    EXPECT_THAT(group_notes({.tests = {scaled}, .visits = {}}, measurement)[0].what,
+                HasSubstr("as if it were 4 K colder than stated"));
+    scaled.estimate = -46e-6;
+    const auto warmer = group_notes({.tests = {scaled}, .visits = {}}, measurement);
+    EXPECT_THAT(warmer[0].what, HasSubstr("46 ppm larger"));
+    EXPECT_THAT(warmer[0].what, HasSubstr("4 K warmer"));
+    EXPECT_THAT(warmer[0].action, HasSubstr("temperature of the fixture"));
+}
+
+TEST(GroupNotes, SayNothingOfGroupsThatAreNotSuspicious) {
+    GroupTest sound = suspicious(GroupKind::drift);
+    sound.suspicious = false;
+    EXPECT_TRUE(group_notes({.tests = {sound}, .visits = {}}, two_stations()).empty());
+    EXPECT_EQ(
+        group_notes({.tests = std::vector<GroupTest>(9, suspicious(GroupKind::station)), .visits = {}}, two_stations())
+            .size(),
+        5U);
+}
+
+}  // namespace
+}  // namespace gumcert::engine

@@ -1,0 +1,287 @@
+// Groups of distances that are wrong together are found and named first; sound measurements are left in peace.
+#include "engine/rotary_table/group_tests.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/complement.hpp>
+#include <cmath>
+#include <thread>
+#include <vector>
+
+#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "tests/support/planted_blunders.h"
+#include "tests/support/synthetic_campaign.h"
+
+namespace gumcert::engine {
+namespace {
+
+using synthetic::Campaign;
+using synthetic::CampaignPlan;
+
+double upper_tail(double value, double degrees_of_freedom) {
+    return boost::math::cdf(boost::math::complement(boost::math::chi_squared_distribution<double>(degrees_of_freedom),
+                                                    std::max(value, 0.0)));
+}
+
+/// A table with a repeatability of its own, whose components are estimated.
+Campaign campaign(std::uint64_t seed) {
+    CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(24);
+    plan.table_linear = 0.15e-6;
+    plan.table_axial = 1.5e-6;
+    plan.table_tilt = 0.5e-6;
+    plan.seed = seed;
+    Campaign result = simulate(plan);
+    result.measurement.table_repeatability = {RepeatabilityMode::estimate, 0.0, 0.0, 0.0};
+    result.measurement.estimate_length_noise = true;
+    result.measurement.outliers.test = OutlierTest::data_snooping;
+    return result;
+}
+
+GroupTests tests_of(const RotaryTableMeasurement& measurement) {
+    EvaluationOptions options;
+    options.chi_square_upper_tail = upper_tail;
+    const RotaryTableSolution solution = evaluate_jointly(measurement, options);
+    return solution.groups.value();
+}
+
+std::string told(const GroupTests& groups) {
+    std::string text = "scale " + std::to_string(groups.scale) + "\n";
+    for (const GroupTest& test : groups.tests) {
+        text += std::to_string(static_cast<int>(test.kind)) + (test.suspicious ? " ! " : "   ") +
+                std::to_string(test.chi_square) + " (" + std::to_string(test.critical_value) + ") station " +
+                std::to_string(static_cast<int>(test.station)) + " angle " +
+                std::to_string(static_cast<int>(test.angle)) + " reflector " +
+                std::to_string(static_cast<int>(test.reflector)) + " estimate " + std::to_string(test.estimate * 1e6) +
+                " detectable " + std::to_string(test.minimal_detectable * 1e6) + "\n";
+    }
+    return text;
+}
+
+TEST(GroupTests, LeaveSoundMeasurementsInPeace) {
+    // One family of tests has a level of 1 %: of 60, more than three alarms have a probability of 0.3 %.
+    int alarms = 0;
+    std::string told_of_all;
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        const GroupTests groups = tests_of(campaign(seed).measurement);
+        EXPECT_NEAR(groups.scale, 1.0, 0.35);
+        if (std::ranges::any_of(groups.tests, &GroupTest::suspicious)) {
+            ++alarms;
+            told_of_all += "seed " + std::to_string(seed) + "\n" + told(groups);
+        }
+    }
+    EXPECT_LE(alarms, 3) << told_of_all;
+}
+
+TEST(GroupTests, FindAVisitThatIsOff) {
+    for (const double error : {5e-6, -50e-6, 500e-6}) {
+        RotaryTableMeasurement measurement = campaign(31).measurement;
+        for (LengthObservation& length : measurement.lengths) {
+            if (length.station == 2 && length.angle == 7) {
+                length.length += error;
+            }
+        }
+        const GroupTests groups = tests_of(measurement);
+        ASSERT_FALSE(groups.tests.empty());
+        const GroupTest& first = groups.tests.front();
+        EXPECT_TRUE(first.suspicious) << told(groups);
+        EXPECT_EQ(first.kind, GroupKind::visit_length) << told(groups);
+        EXPECT_EQ(first.station, 2U) << told(groups);
+        EXPECT_EQ(first.angle, 7U) << told(groups);
+        EXPECT_NEAR(first.estimate / error, 1.0, 0.3) << told(groups);
+    }
+}
+
+TEST(GroupTests, FindAnInterruptedBeam) {
+    for (const double error : {1e-6, 10e-6, 100e-6}) {
+        RotaryTableMeasurement measurement = campaign(32).measurement;
+        for (LengthObservation& length : measurement.lengths) {
+            if (length.station == 1 && length.angle >= 13) {
+                length.length += error;
+            }
+        }
+        const GroupTests groups = tests_of(measurement);
+        const GroupTest& first = groups.tests.front();
+        EXPECT_TRUE(first.suspicious) << told(groups);
+        EXPECT_EQ(first.kind, GroupKind::dead_path_change) << told(groups);
+        EXPECT_EQ(first.station, 1U) << told(groups);
+        EXPECT_EQ(first.angle, 13U) << told(groups);
+        EXPECT_NEAR(first.estimate / error, 1.0, 0.5) << told(groups);
+    }
+}
+
+/// One to three distances that are off by micrometres to a metre: never a refusal.
+TEST(GroupTests, SurviveDistancesThatAreOffByAnySize) {
+    for (const double error : {0.5e-6, 50e-6, 1.7e-3, 5e-3, 14e-3, 50e-3, 1.0}) {
+        for (std::uint64_t seed = 41; seed < 44; ++seed) {
+            RotaryTableMeasurement measurement = campaign(seed).measurement;
+            for (std::size_t k = 0; k < seed - 40; ++k) {
+                measurement.lengths[(37 * seed + 211 * k) % measurement.lengths.size()].length -= error;
+            }
+            EvaluationOptions options;
+            options.chi_square_upper_tail = upper_tail;
+            const RotaryTableSolution solution = evaluate_jointly(measurement, options);
+            EXPECT_EQ(std::count_if(solution.outliers.begin(), solution.outliers.end(),
+                                    [](const OutlierFinding& finding) { return finding.removed; }) >=
+                          static_cast<long>(seed - 40),
+                      error > 1e-6)
+                << error << ", seed " << seed;
+        }
+    }
+}
+
+TEST(GroupTests, FindDrift) {
+    for (const double drift : {2e-6, 10e-6}) {
+        RotaryTableMeasurement measurement = campaign(33).measurement;
+        for (LengthObservation& length : measurement.lengths) {
+            length.length += drift * static_cast<double>(length.angle) / 23.0;
+        }
+        const GroupTests groups = tests_of(measurement);
+        EXPECT_TRUE(groups.tests.front().suspicious) << told(groups);
+        EXPECT_TRUE(groups.tests.front().kind == GroupKind::drift || groups.tests.front().kind == GroupKind::succession)
+            << told(groups);
+    }
+}
+
+/// The same drift by the order of the rows and by times is told with one size; the rows may then stand in any order.
+TEST(GroupTests, TakeADriftFromTheTimesOfTheDistances) {
+    RotaryTableMeasurement measurement = campaign(40).measurement;
+    const std::size_t angles = measurement.angles.size();
+    for (LengthObservation& length : measurement.lengths) {
+        // Measured from the middle onwards, then from the first angle: the file has the rows by angle.
+        const std::size_t order = (length.angle + angles / 2) % angles;
+        measurement.times.push_back(60.0 * static_cast<double>(order));
+        if (length.station == 3) {
+            length.length += 4e-6 * static_cast<double>(order) / static_cast<double>(angles - 1);
+        }
+    }
+    const GroupTests groups = tests_of(measurement);
+    const GroupTest& first = groups.tests.front();
+    EXPECT_EQ(first.kind, GroupKind::drift) << told(groups);
+    EXPECT_EQ(first.station, 3U);
+    EXPECT_NEAR(first.estimate, 4e-6, 1e-6);
+    measurement.times.clear();  // by its order this is a jump in the middle, and a drift on either side
+    EXPECT_NE(tests_of(measurement).tests.front().kind, GroupKind::drift);
+}
+
+/// The first angle measured again at the end: what the table cannot imitate.
+TEST(GroupTests, KnowADriftOfAllStationsBetterWhereRunsAreClosed) {
+    const auto u_of_common = [](bool closed) {
+        const GroupTests groups = tests_of(synthetic::sound_campaign(5, 24, closed).measurement);
+        for (const DriftEstimate& drift : groups.drifts) {
+            if (drift.station == GroupTest::k_none) {
+                EXPECT_LT(std::abs(drift.estimate), 3.0 * drift.u);
+                EXPECT_GT(drift.minimal_detectable, 3.0 * drift.u);
+                return drift.u;
+            }
+        }
+        ADD_FAILURE() << "no drift of all stations";
+        return 0.0;
+    };
+    EXPECT_LT(u_of_common(true), 0.75 * u_of_common(false));
+}
+
+/// u of the drifts is what they scatter by, and the shares of the kinds leave a tenth for the fixture.
+TEST(GroupTests, StateTheScatterOfDriftsAndDivideTheLevel) {
+    double squares = 0.0;
+    int count = 0;
+    for (std::uint64_t seed = 50; seed < 60; ++seed) {
+        for (const DriftEstimate& drift : tests_of(campaign(seed).measurement).drifts) {
+            squares += std::pow(drift.estimate / drift.u, 2);
+            ++count;
+        }
+    }
+    EXPECT_EQ(count, 70);
+    EXPECT_NEAR(std::sqrt(squares / count), 1.0, 0.25);
+    double shares = 0.0;
+    for (const GroupKind kind : {GroupKind::visit_length, GroupKind::visit_pose, GroupKind::dead_path_change,
+                                 GroupKind::drift, GroupKind::angle_index, GroupKind::succession, GroupKind::station,
+                                 GroupKind::reflector, GroupKind::fixture_scale}) {
+        shares += share_of_level(kind);
+    }
+    EXPECT_NEAR(shares, 0.9, 1e-12);
+}
+
+TEST(GroupTests, FindADisplacedReflector) {
+    for (const double error : {5e-6, 50e-6}) {
+        RotaryTableMeasurement measurement = campaign(34).measurement;
+        measurement.fixture(2, 1) += error;
+        const GroupTests groups = tests_of(measurement);
+        const GroupTest& first = groups.tests.front();
+        EXPECT_TRUE(first.suspicious) << told(groups);
+        EXPECT_EQ(first.kind, GroupKind::reflector) << told(groups);
+        EXPECT_EQ(first.reflector, 2U) << told(groups);
+        EXPECT_EQ(std::count_if(groups.tests.begin(), groups.tests.end(),
+                                [](const GroupTest& t) { return t.suspicious && t.kind == GroupKind::reflector; }),
+                  1)
+            << told(groups);
+    }
+}
+
+/// What the residuals refute is not said to be near 1 by construction.
+TEST(GroupTests, NoReasonContradictsTheVarianceFactor) {
+    CampaignPlan plan;
+    plan.both_senses = true;
+    plan.u_constant = 0.05e-6;
+    plan.u_proportional = 0.0;
+    plan.table_linear = 0.15e-6;
+    plan.table_axial = 1.5e-6;
+    plan.table_tilt = 1.5e-6;
+    RotaryTableMeasurement measurement = simulate(plan).measurement;
+    measurement.table_repeatability = {RepeatabilityMode::estimate, 0.0, 0.0, 0.0};
+    measurement.estimate_length_noise = true;
+    measurement.outliers.test = OutlierTest::data_snooping;
+    const auto says_near = [](const RotaryTableSolution& solution) {
+        return solution.variance_factor_reason.find("near 1 by construction") != std::string::npos;
+    };
+    EXPECT_TRUE(says_near(evaluate_jointly(measurement, EvaluationOptions{})));
+    measurement.fixture(2, 1) += 50e-6;
+    const RotaryTableSolution refuted = evaluate_jointly(measurement, EvaluationOptions{});
+    EXPECT_GT(refuted.variance_factor, 1.5);
+    EXPECT_FALSE(says_near(refuted));
+}
+
+TEST(GroupTests, TellAStationWithOtherAngles) {
+    RotaryTableMeasurement measurement = campaign(35).measurement;
+    for (LengthObservation& length : measurement.lengths) {
+        if (length.station == 4) {
+            length.angle = (length.angle + 1) % measurement.angles.size();
+        }
+    }
+    const GroupTests groups = tests_of(measurement);
+    EXPECT_TRUE(groups.tests.front().suspicious) << told(groups);
+    EXPECT_EQ(groups.tests.front().kind, GroupKind::angle_index) << told(groups);
+    EXPECT_EQ(groups.tests.front().station, 4U) << told(groups);
+}
+
+/// Limits are kept by the one who asked first: a thread that found another's limit half made would print 0 for it.
+TEST(GroupTests, AskForProbabilitiesFromOneThread) {
+    const std::thread::id here = std::this_thread::get_id();
+    std::atomic<int> asked = 0;
+    std::atomic<int> asked_elsewhere = 0;
+    EvaluationOptions options;
+    options.chi_square_upper_tail = [&](double value, double degrees_of_freedom) {
+        ++(std::this_thread::get_id() == here ? asked : asked_elsewhere);
+        return upper_tail(value, degrees_of_freedom);
+    };
+    options.workers = [](std::size_t tasks, const std::function<void(std::size_t)>& task) {
+        std::vector<std::thread> threads;
+        for (std::size_t k = 0; k < tasks; ++k) {
+            threads.emplace_back(task, k);
+        }
+        for (std::thread& thread : threads) {
+            thread.join();
+        }
+    };
+    const RotaryTableMeasurement measurement = campaign(35).measurement;
+    const GroupTests by_threads = evaluate_jointly(measurement, options).groups.value();
+    EXPECT_GT(asked, 0);
+    EXPECT_EQ(asked_elsewhere, 0);
+    EXPECT_EQ(told(by_threads), told(tests_of(measurement)));
+}
+
+}  // namespace
+}  // namespace gumcert::engine

@@ -1,0 +1,292 @@
+// Start values without an operator: whatever the dead paths, the turn, the set-up and the outliers, the joint
+// adjustment converges from them to the truth.
+#include "engine/rotary_table/start_values.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "gum/quantity/diagnostic.h"
+#include "tests/support/synthetic_campaign.h"
+
+namespace gumcert::engine {
+namespace {
+
+using synthetic::Campaign;
+using synthetic::CampaignPlan;
+using synthetic::DeadPaths;
+using synthetic::k_arcsec;
+
+/// The beam of a station is broken before an angle: from there on another dead path.
+void relock(Campaign& campaign, std::size_t station, std::size_t from) {
+    RotaryTableMeasurement& measurement = campaign.measurement;
+    const std::size_t path = measurement.dead_paths.size();
+    measurement.dead_paths.push_back("P" + std::to_string(station + 1) + "/" + std::to_string(path));
+    const double shift = 0.0031 * static_cast<double>(path);
+    for (LengthObservation& length : measurement.lengths) {
+        if (length.station == station && length.angle >= from) {
+            length.dead_path = path;
+            length.length -= shift;
+        }
+    }
+}
+
+void relock_every(Campaign& campaign, std::size_t angles) {
+    for (std::size_t j = 0; j < campaign.measurement.stations.size(); ++j) {
+        for (std::size_t k = 3 + j; k < campaign.measurement.angles.size(); k += angles) {
+            relock(campaign, j, k);
+        }
+    }
+}
+
+struct Scenario {
+    std::string name;
+    std::function<void(CampaignPlan&)> plan;
+    std::function<void(Campaign&)> change = [](Campaign&) {};
+};
+
+void PrintTo(const Scenario& scenario, std::ostream* stream) {
+    *stream << scenario.name;
+}
+
+void coarse_set_up(CampaignPlan& plan) {
+    plan.offset = {5e-3, -4e-3};
+    plan.tilt = {3600.0 * k_arcsec, -2900.0 * k_arcsec};
+}
+
+const std::vector<Scenario> k_scenarios{
+    {"Standard", [](CampaignPlan&) {}},
+    {"DeadPathOfEachReflector", [](CampaignPlan& plan) { plan.dead_paths = DeadPaths::per_station_and_reflector; }},
+    {"DeadPathOfEachReflectorQuarterTurn",
+     [](CampaignPlan& plan) {
+         plan.dead_paths = DeadPaths::per_station_and_reflector;
+         plan.angles_deg = synthetic::partial_turn(90.0, 10);
+     }},
+    {"QuarterTurn", [](CampaignPlan& plan) { plan.angles_deg = synthetic::partial_turn(90.0, 10); }},
+    {"Relocked", [](CampaignPlan&) {},
+     [](Campaign& campaign) {
+         relock(campaign, 2, 17);
+         relock(campaign, 4, 30);
+         relock(campaign, 4, 35);
+     }},
+    {"RelockedOften", [](CampaignPlan&) {}, [](Campaign& campaign) { relock_every(campaign, 5); }},
+    {"RelockedAtEveryAngle", [](CampaignPlan& plan) { plan.angles_deg = synthetic::full_turn(12); },
+     [](Campaign& campaign) { relock_every(campaign, 1); }},
+    {"CoplanarAlongTheAxis",
+     [](CampaignPlan& plan) {
+         for (Eigen::Vector3d& reflector : plan.reflectors) {
+             reflector[1] = 0.1;
+         }
+     }},
+    {"CoplanarObliqueQuarterTurn",
+     [](CampaignPlan& plan) {
+         plan.angles_deg = synthetic::partial_turn(90.0, 10);
+         for (Eigen::Vector3d& reflector : plan.reflectors) {
+             reflector[0] = 0.1 + 0.5 * reflector[1];
+         }
+     }},
+    {"CoarseSetUp", coarse_set_up},
+    {"CoarseSetUpDeadPathOfEachReflector",
+     [](CampaignPlan& plan) {
+         coarse_set_up(plan);
+         plan.dead_paths = DeadPaths::per_station_and_reflector;
+     }},
+    {"CoarseSetUpQuarterTurn",
+     [](CampaignPlan& plan) {
+         coarse_set_up(plan);
+         plan.angles_deg = synthetic::partial_turn(90.0, 10);
+     }},
+    {"OneInTwentyOffByDecimetres",
+     [](CampaignPlan& plan) {
+         plan.outliers = 64;
+         plan.outlier_size = 0.3;
+     }},
+    {"OutliersCoarseSetUpRelocked",
+     [](CampaignPlan& plan) {
+         coarse_set_up(plan);
+         plan.outliers = 64;
+         plan.outlier_size = 0.1;
+     },
+     [](Campaign& campaign) { relock_every(campaign, 9); }},
+    {"OutliersDeadPathOfEachReflector",
+     [](CampaignPlan& plan) {
+         plan.dead_paths = DeadPaths::per_station_and_reflector;
+         plan.outliers = 64;
+         plan.outlier_size = 0.3;
+     }},
+    {"LargeErrorMotions", [](CampaignPlan& plan) { plan.error_factor = 20.0; }},
+    {"FarStationsDeadPathOfEachReflector",
+     [](CampaignPlan& plan) {
+         plan.dead_paths = DeadPaths::per_station_and_reflector;
+         for (Eigen::Vector3d& station : plan.stations) {
+             station *= 2.5;
+         }
+     }},
+    {"StatedPositionsThatAreWrong", [](CampaignPlan&) {},
+     [](Campaign& campaign) {
+         for (auto& stated : campaign.measurement.station_start) {
+             stated = Eigen::Vector3d(-1.0, 0.3, 2.0);
+         }
+     }},
+};
+
+class StartValuesWithoutOperator : public testing::TestWithParam<std::tuple<Scenario, RotaryAxis>> {};
+
+TEST_P(StartValuesWithoutOperator, LeadTheJointAdjustmentToTheTruth) {
+    const Scenario& scenario = std::get<0>(GetParam());
+    CampaignPlan plan;
+    plan.axis = std::get<1>(GetParam());
+    scenario.plan(plan);
+    Campaign campaign = simulate(plan);
+    scenario.change(campaign);
+    RotaryTableMeasurement& measurement = campaign.measurement;
+    if (plan.outliers > 0) {
+        measurement.outliers.test = OutlierTest::data_snooping;
+        measurement.outliers.action = OutlierAction::remove;
+    }
+    std::vector<bool> active(measurement.lengths.size(), true);
+    std::vector<std::size_t> gross = find_gross_errors(measurement);
+    for (const std::size_t i : gross) {
+        active[i] = false;
+    }
+    std::sort(gross.begin(), gross.end());
+    EXPECT_EQ(gross, campaign.truth.outliers);
+
+    // The start values belong to the fixture frame at home; what is left is error motions, here to 12 µrad at 1 m.
+    const StartValues start = find_start_values(measurement, active);
+    for (std::size_t j = 0; j < start.stations.size(); ++j) {
+        const Eigen::Vector3d in_table = synthetic::moved(campaign.truth.set_up, start.stations[j]);
+        EXPECT_LT((in_table - campaign.truth.stations[j]).norm(), plan.error_factor > 1.0 ? 5e-3 : 2e-3)
+            << measurement.stations[j];
+    }
+    const RotaryTableSolution solution = evaluate_jointly(measurement, EvaluationOptions{});
+    const Eigen::VectorXd normalised =
+        (solution.values - campaign.true_values(false)).array() / solution.covariance.diagonal().array().sqrt();
+    EXPECT_LT(std::sqrt(normalised.squaredNorm() / static_cast<double>(normalised.size())), 1.8);
+    EXPECT_NEAR(solution.chi_square / static_cast<double>(solution.degrees_of_freedom), 1.0, 0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(ScenariosAndAxes, StartValuesWithoutOperator,
+                         testing::Combine(testing::ValuesIn(k_scenarios),
+                                          testing::Values(RotaryAxis::a, RotaryAxis::b, RotaryAxis::c)),
+                         [](const auto& tested) {
+                             return std::get<0>(tested.param).name +
+                                    std::string(1, "ABC"[axial_coordinate(std::get<1>(tested.param))]);
+                         });
+
+CampaignPlan coplanar_across(double tilt_factor) {
+    CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(12);
+    plan.tilt *= tilt_factor;
+    for (Eigen::Vector3d& reflector : plan.reflectors) {
+        reflector[0] = 0.1;
+    }
+    return plan;
+}
+
+TEST(StartValues, MirrorImageInAPlaneAcrossTheAxisIsRefusedWithBothPositions) {
+    for (const double tilt_factor : {0.0, 1.0}) {
+        try {
+            (void)find_start_values(simulate(coplanar_across(tilt_factor)).measurement);
+            FAIL() << "one of two sides was taken";
+        } catch (const gum::NoResultError& error) {
+            const gum::Diagnostic& diagnostic = error.diagnostics().front();
+            EXPECT_EQ(diagnostic.code, "GC-RANK-0001");
+            EXPECT_EQ(diagnostic.where, "station P1");
+            EXPECT_NE(diagnostic.what.find("(700, 450, 100) mm"), std::string::npos) << diagnostic.what;
+            EXPECT_NE(diagnostic.what.find("(-500, 450, 100) mm"), std::string::npos) << diagnostic.what;
+            EXPECT_NE(diagnostic.what.find("P2, P3, P4, P5, P6"), std::string::npos) << diagnostic.what;
+            EXPECT_NE(diagnostic.rule.find("mirror image"), std::string::npos) << diagnostic.rule;
+            EXPECT_NE(diagnostic.action.find("stations file"), std::string::npos) << diagnostic.action;
+            EXPECT_NE(diagnostic.action.find("raise alternate holders by 50 mm along x"), std::string::npos);
+        }
+    }
+}
+
+TEST(StartValues, StatedPositionsTellTheSide) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        for (const double tilt_factor : {0.0, 1.0}) {
+            CampaignPlan plan = coplanar_across(tilt_factor);
+            plan.seed = seed;
+            Campaign campaign = simulate(plan);
+            for (std::size_t j = 0; j < 6; ++j) {
+                campaign.measurement.station_start[j] = campaign.truth.stations[j] + Eigen::Vector3d(0.08, -0.05, 0.05);
+            }
+            const StartValues start = find_start_values(campaign.measurement);
+            for (std::size_t j = 0; j < 6; ++j) {
+                EXPECT_LT((start.stations[j] - campaign.truth.stations[j]).norm(), 3e-3)
+                    << "seed " << seed << ", " << j;
+            }
+        }
+    }
+}
+
+TEST(StartValues, OneStatedPositionGivesTheRightSideOfAllOrARefusal) {
+    // A tilt of the fixture holds all stations on one side of the plane: never a mixture, never the wrong side.
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        CampaignPlan plan = coplanar_across(1.0);
+        plan.seed = seed;
+        Campaign campaign = simulate(plan);
+        campaign.measurement.station_start[3] = campaign.truth.stations[3] + Eigen::Vector3d(0.08, -0.05, 0.05);
+        try {
+            const StartValues start = find_start_values(campaign.measurement);
+            for (std::size_t j = 0; j < 6; ++j) {
+                EXPECT_LT((start.stations[j] - campaign.truth.stations[j]).norm(), 3e-3)
+                    << "seed " << seed << ", " << j;
+            }
+        } catch (const gum::NoResultError& error) {
+            EXPECT_EQ(error.diagnostics().front().code, "GC-RANK-0001");
+            EXPECT_EQ(error.diagnostics().front().what.find("P4"), std::string::npos) << error.what();
+        }
+    }
+}
+
+TEST(StartValues, StationOnTheAxisWithADeadPathOfEachReflectorIsRefused) {
+    CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(12);
+    plan.dead_paths = DeadPaths::per_station_and_reflector;
+    plan.offset.setZero();
+    plan.tilt.setZero();
+    plan.error_factor = 0.0;
+    plan.noise = 0.0;
+    plan.stations[2] = {1.0, 0.0, 0.0};
+    try {
+        (void)find_start_values(simulate(plan).measurement);
+        FAIL() << "a position that nothing determines";
+    } catch (const gum::NoResultError& error) {
+        const gum::Diagnostic& diagnostic = error.diagnostics().front();
+        EXPECT_EQ(diagnostic.code, "GC-RANK-0001");
+        EXPECT_EQ(diagnostic.where, "station P3");
+        EXPECT_NE(diagnostic.what.find("0.0 mm off the rotary axis"), std::string::npos) << diagnostic.what;
+        EXPECT_NE(diagnostic.what.find("dead path P3-R6"), std::string::npos) << diagnostic.what;
+        EXPECT_NE(diagnostic.action.find("move the station off the rotary axis"), std::string::npos);
+    }
+}
+
+TEST(StartValues, SameInputSameBytes) {
+    CampaignPlan plan;
+    plan.dead_paths = DeadPaths::per_station_and_reflector;
+    plan.angles_deg = synthetic::full_turn(12);
+    const Campaign campaign = simulate(plan);
+    const StartValues first = find_start_values(campaign.measurement);
+    const StartValues second = find_start_values(campaign.measurement);
+    EXPECT_EQ(first.stations, second.stations);
+    EXPECT_EQ(first.dead_paths, second.dead_paths);
+}
+
+TEST(StartValues, GrossErrorsComeLargestFirstAndSoundDistancesStay) {
+    Campaign campaign = simulate(CampaignPlan{});
+    campaign.measurement.lengths[100].length += 0.05;
+    campaign.measurement.lengths[700].length -= 0.4;
+    campaign.measurement.lengths[701].length += 0.005;  // left to the test of the adjustment
+    EXPECT_EQ(find_gross_errors(campaign.measurement), (std::vector<std::size_t>{700, 100}));
+    EXPECT_TRUE(find_gross_errors(simulate(CampaignPlan{}).measurement).empty());
+}
+
+}  // namespace
+}  // namespace gumcert::engine

@@ -1,0 +1,55 @@
+#include "jobs/job_kind.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "gum/quantity/diagnostic.h"
+#include "jobs/file_source.h"
+#include "tests/support/file_content.h"
+
+namespace gumcert::jobs {
+namespace {
+
+using testing::ElementsAreArray;
+using testing::HasSubstr;
+
+MemoryFileSource job_of_kind(const std::string& kind) {
+    return MemoryFileSource({{"job.json", R"({"schema": "gumcert/job/1", "kind": ")" + kind + "\"}"}});
+}
+
+TEST(JobKinds, IsOneOfTheWordsThatTheSchemaAllows) {
+    const auto schema = nlohmann::json::parse(
+        gumcert::test::file_content(std::filesystem::path(GUMCERT_SOURCE_DIR) / "schemas/job-1.schema.json"));
+    EXPECT_THAT(schema["properties"]["kind"]["enum"].get<std::vector<std::string>>(), ElementsAreArray(k_job_kinds));
+    for (const std::string_view kind : k_job_kinds) {
+        EXPECT_EQ(job_kind(job_of_kind(std::string(kind)), "job.json"), kind);
+    }
+}
+
+TEST(JobKinds, OfAnotherWordIsRefusedWithTheWordsThatThereAre) {
+    try {
+        (void)job_kind(job_of_kind("budgets"), "job.json");
+        FAIL() << "not refused";
+    } catch (const gum::InputError& refused) {
+        const gum::Diagnostic& told = refused.diagnostics().front();
+        EXPECT_EQ(told.code, "GC-INPUT-0028");
+        EXPECT_EQ(told.rule, "must be budget, rotary_table, circle_closure or comparison");
+        EXPECT_THAT(told.action, HasSubstr("\"budget\""));
+    }
+}
+
+TEST(JobKinds, MayBeAWordOfWhoAsks) {
+    constexpr std::array<std::string_view, 2> k_words{"toy", "budget"};
+    EXPECT_EQ(job_kind(job_of_kind("toy"), "job.json", k_words), "toy");
+    EXPECT_THROW((void)job_kind(job_of_kind("comparison"), "job.json", k_words), gum::InputError);
+    // The text has faults, and the word is seen all the same.
+    const std::string half = R"({"schema": "gumcert/job/1", "kind": "toy", )";
+    const MemoryFileSource broken({{"job.json", half}});
+    EXPECT_EQ(probable_job_kind(broken, "job.json", k_words), "toy");
+}
+
+}  // namespace
+}  // namespace gumcert::jobs

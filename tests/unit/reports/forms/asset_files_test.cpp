@@ -1,0 +1,52 @@
+#include "reports/forms/asset_files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::reports {
+namespace {
+
+class AssetFiles : public testing::Test {
+protected:
+    void TearDown() override { std::filesystem::remove(file_); }
+
+    /// What a file with this text is refused for.
+    [[nodiscard]] std::string refusal(const std::string& text) const {
+        std::ofstream(file_, std::ios::binary) << text;
+        try {
+            (void)read_json_asset(file_);
+        } catch (const gum::StorageError& error) {
+            return error.diagnostics().front().code + " " + gum::message(error.diagnostics().front());
+        }
+        return "accepted";
+    }
+
+    std::filesystem::path file_ =
+        std::filesystem::path(testing::TempDir()) /
+        (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".json");
+};
+
+TEST_F(AssetFiles, AreReadAsObjects) {
+    EXPECT_EQ(refusal("\xEF\xBB\xBF{\"language\": \"en\"}"), "accepted");
+    EXPECT_EQ(read_json_asset(file_)["language"], "en");
+}
+
+// Pins: of two equal keys of a wording the last one won, and nobody was told.
+TEST_F(AssetFiles, TellWhereTheyAreWrong) {
+    EXPECT_THAT(refusal("{\"a\": \"x\",\n \"a\": \"y\"}"),
+                testing::HasSubstr(file_.string() + " (line 2, column 2) — the key \"a\" occurs twice"));
+    EXPECT_THAT(refusal("{\"a\": \"x\""), testing::HasSubstr("(line 1, column 10) — the file ends where a comma"));
+    EXPECT_THAT(refusal("[]"), testing::HasSubstr("not a JSON object"));
+    EXPECT_THAT(refusal("{} // a comment"), testing::StartsWith("GC-REPORT-0001"));
+    EXPECT_THAT(refusal(""), testing::StartsWith("GC-REPORT-0002"));
+}
+
+}  // namespace
+}  // namespace gumcert::reports

@@ -1,0 +1,79 @@
+#include "reports/forms/pdf_page_texts.h"
+
+#include "gum/quantity/diagnostic.h"
+#include "reports/forms/asset_files.h"
+#include "reports/forms/render.h"
+#include "tests/unit/reports/certified_sample.h"
+#include "tests/unit/reports/document_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace gumcert::reports {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+/// A draft: certificate data with a critical finding.
+EvaluationRecord draft() {
+    EvaluationRecord record = test::certified_budget_record();
+    record.certificate->blocked = true;
+    record.certificate->symbol = false;
+    return record;
+}
+
+TEST(PdfPageTexts, AreThoseOfEveryPageInFourLanguages) {
+    SKIP_WITHOUT_PDF();
+    RenderAssets a = assets();
+    for (const char* language : {"en", "de", "es"}) {
+        a.languages = {language};
+        const EvaluationRecord record = draft();
+        const std::string pdf = render_pdf(record, a);  // which checks every page itself
+        const std::vector<std::string> pages = texts_of_pages(pdf);
+        ASSERT_GT(pages.size(), 1U) << language;
+        EXPECT_TRUE(check_pages(pdf, {record.certificate->data.number}).empty()) << language;
+        const std::vector<gum::Diagnostic> missing = check_pages(pdf, {"no such text"});
+        EXPECT_EQ(missing.size(), pages.size());
+        EXPECT_THAT(missing.front().what, HasSubstr("no such text"));
+    }
+}
+
+/// A template of a laboratory cannot drop number and mark, on whatever page.
+TEST(PdfPageTexts, RefuseATemplateWithoutNumberOrMark) {
+    SKIP_WITHOUT_PDF();
+    const fs::path folder = fs::path(::testing::TempDir()) / ("gumcert-marks-" + std::to_string(getpid()));
+    const std::vector<std::pair<std::string, std::string>> edits = {
+        {"align(right, breakable(view.header_right))", "[]"},  // no number and mark from page 2 on
+        {"#for mark in view.mark { set-mark(mark) }", ""},     // no mark on page 1
+        {"strong(breakable(page.number))", "[]"},              // no number on page 1
+        {"breakable(view.header_right)", "breakable(view.header_right.slice(0, 12))"}};
+    for (const auto& [what, with] : edits) {
+        fs::remove_all(folder);
+        fs::copy(assets().templates, folder, fs::copy_options::recursive);
+        std::string text = read_asset(folder / "pdf/certificate.typ");
+        const std::size_t at = text.find(what);
+        ASSERT_NE(at, std::string::npos) << what;
+        text.replace(at, what.size(), with);
+        std::ofstream(folder / "pdf/certificate.typ", std::ios::binary) << text;
+        RenderAssets own = assets();
+        own.languages = {"en"};
+        own.templates = folder;
+        try {
+            static_cast<void>(render_pdf(draft(), own));
+            ADD_FAILURE() << "printed with: " << with;
+        } catch (const gum::NoResultError& error) {
+            EXPECT_EQ(error.diagnostics().front().code, "GC-REPORT-0032") << error.what();
+        }
+    }
+    fs::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace gumcert::reports

@@ -1,0 +1,96 @@
+#include "reports/forms/study_document.h"
+
+#include "gum/quantity/diagnostic.h"
+#include "reports/plots/layout_plot.h"
+#include "tests/unit/reports/document_text.h"
+#include "text/utf8.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+
+namespace gumcert::reports {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+StudyDocument study(const std::string& kind) {
+    LayoutPlot layout;
+    layout.stations = {{.name = "P1", .position_mm = {900.0, 100.0, -40.0}}};
+    StudyDocument document;
+    document.kind = kind;
+    document.title = "Study <1> of a rotary table";
+    document.subtitle = "One hundred campaigns with six stations.";
+    document.facts = {{"Job", "job.json"}, {"Seed", "17"}};
+    document.sections = {
+        {.heading = "Tables of the paper",
+         .paragraphs = {"With noise & without."},
+         .tables = {{.caption = "Mean relative deviation.",
+                     .columns = {{"Angles", "", true}, {"here", "%", true}, {"paper", "%", true}},
+                     .rows = {{"36", "0.12", "4.5"}, {"72", "0.081"}}}},
+         .figures = {{.caption = "The layout.", .alternative_text = "one station", .drawing = svg(layout)}}},
+        {.heading = "Coverage", .paragraphs = {}, .tables = {}, .figures = {}}};
+    document.data_json = "{}";
+    return document;
+}
+
+TEST(StudyDocument, EveryFormSaysThatNothingWasMeasured) {
+    for (const auto& [kind, mark] : {std::pair("simulation", "Simulation study – not a calibration certificate"),
+                                     std::pair("plan", "Plan – nothing was measured")}) {
+        const std::string html = render_html(study(kind), assets());
+        for (const std::string& text : {squeezed(render_text(study(kind))), html_text(html)}) {
+            EXPECT_THAT(text, HasSubstr(mark));
+            EXPECT_THAT(text, HasSubstr("Job job.json"));
+            EXPECT_THAT(text, HasSubstr(" 36 0.12 4.5 "));
+            EXPECT_THAT(text, HasSubstr("–")) << "what a row lacks";
+            EXPECT_THAT(text, Not(HasSubstr("Calibration certificate")));
+            EXPECT_THAT(text, Not(HasSubstr("items calibrated")));
+        }
+        EXPECT_THAT(html, HasSubstr("Study &lt;1&gt; of a rotary table"));
+        EXPECT_THAT(html, HasSubstr("With noise &amp; without."));
+        EXPECT_THAT(html, HasSubstr("<figure id=\"figure-1\">"));
+        EXPECT_THAT(html, HasSubstr(">P1</text>"));
+        EXPECT_EQ(render_html(study(kind), assets()), html);
+    }
+}
+
+TEST(StudyDocument, TextHasAtMost100Columns) {
+    StudyDocument wide = study("simulation");
+    wide.title = std::string(300, 'W');
+    wide.sections[0].paragraphs = {std::string(150, 'x') + " y"};
+    for (int c = 0; c < 8; ++c) {
+        wide.sections[0].tables[0].columns.push_back({"a long head", "unit", false});
+        wide.sections[0].tables[0].rows[0].push_back("some longer text in this cell");
+    }
+    std::istringstream lines(render_text(wide));
+    for (std::string line; std::getline(lines, line);) {
+        std::size_t characters = 0;
+        for (const char c : line) {
+            characters += !text::is_continuation(c) ? 1U : 0U;
+        }
+        EXPECT_LE(characters, 100U) << line;
+    }
+}
+
+TEST(StudyDocument, OtherKindsAreRefused) {
+    EXPECT_THROW(static_cast<void>(render_text(study("certificate"))), gum::InputError);
+}
+
+TEST(StudyDocument, PdfHasTheSameTexts) {
+    SKIP_WITHOUT_PDF();
+    const std::string pdf = render_pdf(study("plan"), assets());
+    EXPECT_TRUE(pdf.starts_with("%PDF-1.7"));
+    EXPECT_EQ(render_pdf(study("plan"), assets()), pdf);
+    const std::string text = pdf_text(pdf);
+    if (text.empty()) {
+        GTEST_SKIP() << "pdftotext is missing: the texts of the PDF were not compared";
+    }
+    EXPECT_THAT(text, HasSubstr("Plan – nothing was measured"));
+    EXPECT_THAT(text, HasSubstr("End of plan"));
+}
+
+}  // namespace
+}  // namespace gumcert::reports

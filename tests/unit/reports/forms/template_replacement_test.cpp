@@ -1,0 +1,130 @@
+#include "reports/forms/render.h"
+
+#include "gum/quantity/diagnostic.h"
+#include "reports/forms/asset_files.h"
+#include "tests/unit/reports/certified_sample.h"
+#include "tests/unit/reports/document_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace gumcert::reports {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A copy of the templates, as a laboratory makes one (docs/templates.md); removed again at the end.
+class TemplateReplacement : public ::testing::Test {
+protected:
+    void SetUp() override {
+        own_ = assets();
+        own_.languages = {"en"};
+        folder_ = fs::path(::testing::TempDir()) / ("gumcert-own-templates-" + std::to_string(getpid()));
+        fs::remove_all(folder_);
+        fs::copy(own_.templates, folder_, fs::copy_options::recursive);
+        own_.templates = folder_;
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    void replace(const std::string& file, const std::string& what, const std::string& with) const {
+        std::string text = read_asset(folder_ / file);
+        const std::size_t at = text.find(what);
+        ASSERT_NE(at, std::string::npos) << file << " does not hold " << what;
+        text.replace(at, what.size(), with);
+        std::ofstream(folder_ / file, std::ios::binary) << text;
+    }
+
+    RenderAssets own_;
+    fs::path folder_;
+};
+
+TEST_F(TemplateReplacement, ChangesTheHtmlWithoutChangingTheTexts) {
+    const EvaluationRecord record = test::certified_budget_record();
+    const std::string before = render_html(record, own_);
+    replace("certificate.html.mustache", "<footer>", "<footer class=\"own\"><p>Form QM-17, revision 3</p>");
+    replace("certificate.css", "h1 {", ".own { border: 1px dotted #000; }\nh1 {");
+    const std::string after = render_html(record, own_);
+    EXPECT_THAT(after, HasSubstr("<footer class=\"own\"><p>Form QM-17, revision 3</p>"));
+    EXPECT_THAT(after, HasSubstr(".own { border: 1px dotted #000; }"));
+    std::string text = html_text(after);
+    const std::string added = "Form QM-17, revision 3 ";
+    ASSERT_NE(text.find(added), std::string::npos);
+    text.erase(text.find(added), added.size());
+    EXPECT_EQ(text, html_text(before));
+}
+
+TEST_F(TemplateReplacement, ChangesThePdf) {
+    SKIP_WITHOUT_PDF();
+    if (program("pdftotext").empty()) {
+        GTEST_SKIP() << "pdftotext is missing";
+    }
+    replace("pdf/certificate.typ", "breakable(view.footer_left)", "[Form QM-17]");
+    const std::string text = pdf_text(render_pdf(test::certified_budget_record(), own_));
+    EXPECT_THAT(text, HasSubstr("Form QM-17"));
+    EXPECT_THAT(text, HasSubstr("50000838"));
+    EXPECT_THAT(text, HasSubstr("End of calibration certificate"));
+}
+
+TEST_F(TemplateReplacement, ChangesTheWording) {
+    replace("wording/en.json", "\"Statement of uncertainty\"", "\"Measurement uncertainty\"");
+    EXPECT_THAT(html_text(render_html(test::certified_budget_record(), own_)), HasSubstr(" Measurement uncertainty "));
+}
+
+TEST_F(TemplateReplacement, SaysWhatIsWrongWithATemplate) {
+    replace("certificate.html.mustache", "{{/blocks}}", "{{/blokcs}}");
+    try {
+        static_cast<void>(render_html(test::certified_budget_record(), own_));
+        FAIL() << "a template that does not close its sections was accepted";
+    } catch (const gum::StorageError& error) {
+        EXPECT_THAT(std::string(error.what()), HasSubstr("certificate.html.mustache"));
+    }
+}
+
+/// Every profile has all keys, and texts in every language that documents can have.
+TEST(Profiles, AreComplete) {
+    const std::vector<std::string> keys = {"id",
+                                           "name",
+                                           "sources",
+                                           "digits",
+                                           "rounding",
+                                           "below_capability",
+                                           "mixed_results",
+                                           "plus_minus_in_tables",
+                                           "k_position",
+                                           "opinions_with_symbol",
+                                           "reproduction_sentence_mandatory",
+                                           "receipt_date_mandatory",
+                                           "reviewer_may_be_performer",
+                                           "required_languages",
+                                           "first_page_sentences",
+                                           "uncertainty_sentence"};
+    for (const char* id : {"ilac", "ukas", "dakks", "a2la", "nvlap", "taf", "cgcre"}) {
+        const auto profile =
+            nlohmann::json::parse(read_asset(assets().templates / "profiles" / (std::string(id) + ".json")));
+        EXPECT_EQ(profile.size(), keys.size()) << id;
+        for (const std::string& key : keys) {
+            EXPECT_TRUE(profile.contains(key)) << id << ": " << key;
+        }
+        EXPECT_EQ(profile.at("id"), id);
+        EXPECT_FALSE(profile.at("sources").empty()) << id;
+        EXPECT_THAT(profile.at("sources").dump(), Not(HasSubstr("[check]")));
+        for (const auto& sentence : profile.at("first_page_sentences")) {
+            for (const char* language : {"en", "de", "zh-Hant", "es"}) {
+                EXPECT_TRUE(sentence.contains(language)) << id << ": " << language;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gumcert::reports

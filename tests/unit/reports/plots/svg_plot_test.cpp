@@ -1,0 +1,304 @@
+#include "reports/plots/svg_plot.h"
+
+#include "gum/quantity/diagnostic.h"
+#include "reports/plots/polar_plot.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace gumcert::reports {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Plot one_panel(double low, double high) {
+    PlotSeries series{.label = "a <b> & \"c\"",
+                      .points = {{0.0, low, 0.0}, {180.0, high, 0.0}},
+                      .marker = PlotMarker::square,
+                      .bars = PlotBars::bars,
+                      .joined = true};
+    return {.id = "p",
+            .title = "t < u",
+            .description = "d",
+            .x_label = "x",
+            .panels = {{.heading = "h", .y_label = "y", .series = {series}, .limits = {{1.0, "+1"}}}}};
+}
+
+TEST(SvgPlot, KeepsTheRulesForEveryRenderer) {
+    const std::string text = svg(one_panel(-2.0, 3.0));
+    EXPECT_EQ(text, svg(one_panel(-2.0, 3.0)));
+    EXPECT_THAT(text, HasSubstr("viewBox=\"0 0 680 "));
+    EXPECT_THAT(text, HasSubstr("<title id=\"p-title\">t &lt; u</title>"));
+    EXPECT_THAT(text, HasSubstr("<desc id=\"p-desc\">d</desc>"));
+    EXPECT_THAT(text, HasSubstr("a &lt;b&gt; &amp; &quot;c&quot;"));
+    EXPECT_THAT(text, HasSubstr("stroke-dasharray"));
+    for (const char* part : {"currentColor", "<use", "<tspan", "e-0", "nan", "inf", "\"-0\""}) {
+        EXPECT_THAT(text, Not(HasSubstr(part)));
+    }
+}
+
+TEST(SvgPlot, TicksAreRoundNumbersWithOneSign) {
+    const std::string text = svg(one_panel(-0.043, 0.071));
+    EXPECT_THAT(text, HasSubstr(">\u22120.5<"));  // the limit at 1 sets the scale
+    EXPECT_THAT(text, HasSubstr(">0.0<"));
+    EXPECT_THAT(text, HasSubstr(">1.0<"));
+    Plot free = one_panel(-0.043, 0.071);
+    free.panels[0].limits.clear();
+    EXPECT_THAT(svg(free), HasSubstr(">\u22120.05<"));
+    EXPECT_THAT(svg(free), HasSubstr(">0.00<"));
+    EXPECT_THAT(svg(free), HasSubstr(">0.10<"));
+    EXPECT_THAT(svg(free), HasSubstr(">180<"));
+}
+
+TEST(SvgPlot, DegenerateScalesStillHaveAPlot) {
+    for (const double v : {0.0, 1e-30, 5.0, -1e9}) {
+        Plot flat = one_panel(v, v);
+        flat.panels[0].limits.clear();
+        EXPECT_THAT(svg(flat), Not(HasSubstr("nan"))) << v;
+    }
+    Plot empty = one_panel(0.0, 1.0);
+    empty.panels[0].series.clear();
+    EXPECT_THAT(svg(empty), HasSubstr("</svg>"));
+}
+
+TEST(SvgPlot, ThinsCurvesAndKeepsTheirExtremes) {
+    Plot plot = one_panel(0.0, 1.0);
+    PlotSeries& curve = plot.panels[0].series[0];
+    plot.panels[0].limits.clear();
+    curve.bars = PlotBars::none;
+    curve.marker = PlotMarker::none;
+    curve.label.clear();  // no key: the curve is the first polyline
+    curve.points.clear();
+    for (int i = 0; i < 20000; ++i) {
+        curve.points.push_back({.x = 0.018 * i, .y = i == 7777 ? 10.0 : i == 7778 ? -10.0 : 0.0, .U = 0.0});
+    }
+    const std::string text = svg(plot);
+    const std::size_t at = text.find("<polyline points=\"") + 18;
+    std::istringstream points(text.substr(at, text.find('"', at) - at));
+    std::vector<double> heights;
+    for (std::string point; points >> point;) {
+        heights.push_back(std::stod(point.substr(point.find(',') + 1)));
+    }
+    EXPECT_LT(heights.size(), 1500U);
+    EXPECT_GT(heights.size(), 300U);
+    std::sort(heights.begin(), heights.end());
+    EXPECT_NEAR(heights.back() - heights.front(), plot.panel_height, 0.1) << "both extremes are drawn";
+    EXPECT_GT(heights[1] - heights[0], 0.4 * plot.panel_height);
+}
+
+TEST(PolarPlot, IsAClosedCurveAboutTheCircleOfZero) {
+    PolarPlot plot{.id = "p", .title = "t", .description = "d", .panels = {{.heading = "h", .points = {}}}};
+    for (int i = 0; i < 4; ++i) {
+        plot.panels[0].points.push_back({.x = 90.0 * i, .y = i == 1 ? 2.0 : 0.0, .U = 0.1});
+    }
+    const std::string text = svg(plot);
+    const std::size_t at = text.find("<polyline points=\"") + 18;
+    std::istringstream points(text.substr(at, text.find('"', at) - at));
+    std::vector<std::string> corners;
+    for (std::string point; points >> point;) {
+        corners.push_back(point);
+    }
+    ASSERT_EQ(corners.size(), 5U);
+    EXPECT_EQ(corners.front(), corners.back());
+    // 90° is above the centre, farther from it than the zero of 270° below.
+    const auto height = [&](std::size_t i) { return std::stod(corners[i].substr(corners[i].find(',') + 1)); };
+    const double centre = height(0);
+    EXPECT_GT(centre - height(1), height(3) - centre + 10.0);
+    plot.is_closed = false;
+    EXPECT_NE(svg(plot), text);
+    plot.panels[0].points[0].y = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(static_cast<void>(svg(plot)), gum::NoResultError);
+}
+
+DensityPlot density() {
+    return {.id = "d",
+            .title = "t",
+            .description = "<d>",
+            .x_label = "x",
+            .y_label = "y",
+            .low = -3.0,
+            .high = 3.0,
+            .first_edge = -1.0,
+            .cell_width = 1.0,
+            .cells = {0.5, 0.5},
+            .cells_label = "trials",
+            .curve = {{-3.0, 0.01, 0.0}, {0.0, 0.4, 0.0}, {3.0, 0.01, 0.0}},
+            .curve_label = "curve",
+            .intervals = {{"a & b", -2.0, 2.0}, {"c", -1.9, 4.1}}};
+}
+
+TEST(SvgPlot, BarsRunFromZeroToTheirShare) {
+    BarPlot plot{.id = "b",
+                 .title = "t",
+                 .description = "d",
+                 .x_label = "share / %",
+                 .bars = {{"<x>", 130.0, "130.0"}, {"correlation", -30.0, "-30.0"}}};
+    const std::string text = svg(plot);
+    EXPECT_THAT(text, HasSubstr(">&lt;x&gt;</text>"));
+    EXPECT_THAT(text, HasSubstr(">130.0</text>"));
+    EXPECT_THAT(text, HasSubstr(">\u221220</text>"));
+    EXPECT_EQ(text, svg(plot));
+    plot.bars.clear();
+    EXPECT_THAT(svg(plot), HasSubstr("</svg>"));
+    plot.bars = {{"x", std::numeric_limits<double>::quiet_NaN(), ""}};
+    EXPECT_THROW(static_cast<void>(svg(plot)), gum::NoResultError);
+}
+
+TEST(SvgPlot, StackedBarsFillOneHundredPercent) {
+    StackedPlot plot{.id = "s",
+                     .title = "t",
+                     .description = "d",
+                     .x_label = "share / %",
+                     .text_head = "rms u",
+                     .parts = {"<a>", "b", "c"},
+                     .bars = {{"EXA", {25.0, 75.0, 0.0}, {"25.0", "75.0", "0.0"}, "0.21 µm"},
+                              {"EYA", {130.0, 20.0, -50.0}, {"130.0", "20.0", "-50.0"}, "0.3 µm"}}};
+    const std::string text = svg(plot);
+    EXPECT_EQ(text, svg(plot));
+    for (const char* part : {">&lt;a&gt;</text>", ">25.0</text>", ">75.0</text>", ">130.0</text>", ">0.21 µm</text>",
+                             ">rms u</text>", ">100</text>"}) {
+        EXPECT_THAT(text, HasSubstr(part));
+    }
+    EXPECT_THAT(text, Not(HasSubstr("-50.0")));  // a negative share has no place in a bar
+    EXPECT_THAT(text, Not(HasSubstr("width=\"-")));
+    plot.bars[0].shares[1] = std::numeric_limits<double>::infinity();
+    EXPECT_THROW(static_cast<void>(svg(plot)), gum::NoResultError);
+    plot.bars.clear();
+    EXPECT_THAT(svg(plot), HasSubstr("</svg>"));
+}
+
+TEST(SvgPlot, HistogramHasABarForEveryCellWithCounts) {
+    HistogramPlot plot{.id = "h",
+                       .title = "t",
+                       .description = "d",
+                       .x_label = "r",
+                       .y_label = "n",
+                       .first_edge = 0.0,
+                       .cell_width = 0.25,
+                       .counts = {0.0, 4.0, 40.0, 2.0}};
+    const std::string text = svg(plot);
+    std::size_t bars = 0;
+    for (std::size_t at = text.find("#b5b5b5"); at != std::string::npos; at = text.find("#b5b5b5", at + 1)) {
+        ++bars;
+    }
+    EXPECT_EQ(bars, 3U);
+    EXPECT_THAT(text, HasSubstr(">40</text>"));
+    EXPECT_THAT(text, HasSubstr(">1.0</text>"));
+    plot.counts.assign(4, 0.0);
+    EXPECT_THAT(svg(plot), Not(HasSubstr("nan")));
+    plot.counts[0] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(static_cast<void>(svg(plot)), gum::NoResultError);
+}
+
+TEST(SvgPlot, ManyPointsAreOnePath) {
+    Plot plot = one_panel(-2.0, 3.0);
+    plot.panels[0].series[0].marker = PlotMarker::disc;
+    plot.panels[0].series[0].bars = PlotBars::none;
+    plot.panels[0].series[0].joined = false;
+    for (int i = 0; i < 100000; ++i) {
+        plot.panels[0].series[0].points.push_back({.x = i % 360 * 0.5, .y = (i % 77) * 0.03, .U = 0.0});
+    }
+    const std::string text = svg(plot);
+    EXPECT_THAT(text, HasSubstr("<path d=\"M"));
+    EXPECT_LT(text.size(), 700'000U);
+    EXPECT_EQ(text, svg(plot));
+}
+
+TEST(SvgPlot, WhatIsBeyondAFixedScaleStandsAtItsEdge) {
+    Plot plot = one_panel(-2.0, 300.0);
+    plot.panels[0].limits.clear();
+    plot.panels[0].y_most = 4.0;
+    const std::string text = svg(plot);
+    EXPECT_THAT(text, HasSubstr(">4</text>"));
+    EXPECT_THAT(text, Not(HasSubstr(">300</text>")));
+    EXPECT_THAT(text, Not(HasSubstr("y=\"-")));
+}
+
+TEST(SvgPlot, DensityShowsCellsCurveAndIntervals) {
+    const std::string text = svg(density());
+    for (const char* part : {">a &amp; b</text>", ">c</text>", ">trials</text>", ">curve</text>", "<polygon",
+                             "<polyline", "stroke-dasharray", "&lt;d&gt;"}) {
+        EXPECT_THAT(text, HasSubstr(part));
+    }
+    EXPECT_THAT(text, HasSubstr(">5</text>"));  // the axis holds the interval that is wider than the cells
+    DensityPlot empty = density();
+    empty.cells.clear();
+    empty.curve.clear();
+    EXPECT_THAT(svg(empty), Not(HasSubstr("nan")));
+    DensityPlot bad = density();
+    bad.intervals[0].high = std::numeric_limits<double>::infinity();
+    EXPECT_THROW(static_cast<void>(svg(bad)), gum::NoResultError);
+}
+
+TEST(SvgPlot, AnAxisThatIsNoAngleHasDecimalTicks) {
+    Plot plot = one_panel(-2.0, 3.0);
+    EXPECT_THAT(svg(plot), HasSubstr(">90</text>"));
+    plot.x_is_angle = false;
+    EXPECT_THAT(svg(plot), Not(HasSubstr(">90</text>")));
+    EXPECT_THAT(svg(plot), HasSubstr(">150</text>"));
+}
+
+TEST(SvgPlot, AMarginKeepsPointsOffTheFrame) {
+    Plot plot = one_panel(0.0, 3.0);  // from 0 to 180, and 3 is a tick
+    plot.panels[0].series[0].marker = PlotMarker::disc;
+    EXPECT_THAT(svg(plot), HasSubstr("<circle cx=\"50\""));
+    EXPECT_THAT(svg(plot), HasSubstr("<circle cx=\"670\" cy=\"42\""));
+    plot.margin = 8.0;
+    const std::string text = svg(plot);
+    EXPECT_THAT(text, HasSubstr("<circle cx=\"58\""));
+    EXPECT_THAT(text, HasSubstr("<circle cx=\"662\""));
+    EXPECT_THAT(text, Not(HasSubstr("cy=\"42\"")));
+}
+
+TEST(SvgPlot, NumbersOfPointsHaveWholeTicks) {
+    Plot plot = one_panel(-2.0, 3.0);
+    plot.x_is_number = true;
+    auto& points = plot.panels[0].series[0].points;
+    points = {{1.0, 0.0, 0.0}};
+    EXPECT_THAT(svg(plot), HasSubstr(">1</text>"));
+    EXPECT_THAT(svg(plot), HasSubstr(">2</text>"));
+    points.push_back({3.0, 0.5, 0.0});
+    EXPECT_THAT(svg(plot), HasSubstr(">3</text>"));
+    EXPECT_THAT(svg(plot), Not(HasSubstr(">1.5</text>")));
+    points.push_back({400.0, 0.5, 0.0});
+    EXPECT_THAT(svg(plot), HasSubstr(">400</text>"));
+    // The axis ends behind the last point, which stands at its right end (670).
+    points = {{1.0, 0.0, 0.0}, {216.0, 0.5, 0.0}};
+    plot.panels[0].series[0].marker = PlotMarker::disc;
+    EXPECT_THAT(svg(plot), HasSubstr(">200</text>"));
+    EXPECT_THAT(svg(plot), Not(HasSubstr(">250</text>")));
+    EXPECT_THAT(svg(plot), HasSubstr("<circle cx=\"667"));
+}
+
+TEST(SvgPlot, AKeyThatIsTooLongHasSeveralLines) {
+    Plot plot = one_panel(-2.0, 3.0);
+    plot.panels[0].series[0].label = "one";
+    const std::string one = svg(plot);
+    EXPECT_THAT(one, HasSubstr("x=\"64\" y=\"13.5\""));
+    for (const char* name : {"工作間的三坐標測量機與溫度補償以及空氣折射率補償系統",
+                             "帶有折射率計的激光干涉儀與階梯規和環境站的組合系統"}) {
+        PlotSeries series = plot.panels[0].series[0];
+        series.label = name;
+        plot.panels[0].series.push_back(series);
+    }
+    const std::string three = svg(plot);
+    EXPECT_THAT(three, HasSubstr("x=\"64\" y=\"13.5\""));
+    EXPECT_THAT(three, HasSubstr("x=\"64\" y=\"29.5\""));
+    EXPECT_THAT(three, Not(HasSubstr("y=\"45.5\"")));
+}
+
+TEST(SvgPlot, RefusesNumbersThatAreNotFinite) {
+    for (const double v : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {
+        EXPECT_THROW(static_cast<void>(svg(one_panel(0.0, v))), gum::NoResultError);
+    }
+}
+
+}  // namespace
+}  // namespace gumcert::reports

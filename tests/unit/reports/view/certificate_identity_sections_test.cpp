@@ -1,0 +1,215 @@
+#include "reports/view/certificate_identity_sections.h"
+
+#include "reports/forms/asset_files.h"
+#include "reports/view/certificate_view.h"
+#include "tests/unit/reports/certified_sample.h"
+#include "tests/unit/reports/document_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace gumcert::reports {
+namespace {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+json english() {
+    return json::parse(read_asset(assets().templates / "wording" / "en.json"));
+}
+
+json page_of(const EvaluationRecord& record) {
+    const json texts = english();
+    const Wording words(texts);
+    CertificateBuilder builder(words);
+    return identity_page(builder, words, record);
+}
+
+/// "label=value" of all definitions of a section of the page.
+std::vector<std::string> rows_of(const json& page, const std::string& section) {
+    std::vector<std::string> rows;
+    for (const json& s : page.at("sections")) {
+        for (const json& block : s.at("blocks")) {
+            for (const json& definitions : block.at("definitions")) {
+                for (const json& row : definitions.at("rows")) {
+                    if (s.at("id") == section) {
+                        rows.push_back(row.at("label").get<std::string>() + "=" + row.at("value").get<std::string>());
+                    }
+                }
+            }
+        }
+    }
+    return rows;
+}
+
+std::string texts_of(const json& lines) {
+    std::string text;
+    for (const json& line : lines) {
+        text += line.at("text").get<std::string>() + "\n";
+    }
+    return text;
+}
+
+TEST(CertificateIdentity, SaysWhoWhatWhenAndWhere) {
+    const json page = page_of(test::certified_rotary_record());
+    EXPECT_EQ(page.at("laboratory"), "Example Calibration Laboratory");
+    EXPECT_EQ(page.at("number"), "EX-2026-0042");
+    EXPECT_THAT(texts_of(page.at("address")), HasSubstr("Example Street 1, 12345 Example Town, DE"));
+    EXPECT_THAT(rows_of(page, "item"), ElementsAre("Object=Item under calibration", "Manufacturer=Example Works",
+                                                   "Type=EW 50", "Serial number=SN-1001", "Identification=INV-55 †",
+                                                   "Condition on receipt=No damage seen", "Owner=Example Customer"));
+    EXPECT_THAT(rows_of(page, "customer"),
+                ElementsAre("Customer=Example Customer", "Address=Sample Road 2, 54321 Sample Town, AT",
+                            "Contact=Quality department, quality@example.com", "Order number=PO-2026-77"));
+    EXPECT_THAT(rows_of(page, "dates"),
+                ElementsAre("Date of receipt=2026-11-16", "Date of calibration=2026-11-18 – 2026-11-19",
+                            "Date of issue=2026-11-21",
+                            "Place of calibration=at the laboratory, Measuring room 2, Example Street 1, "
+                            "12345 Example Town, DE"));
+    EXPECT_THAT(rows_of(page, "authorisation"),
+                ElementsAre("Authorised by=Head of laboratory", "Function=Head of laboratory",
+                            "Date of authorisation=2026-11-20"));
+    EXPECT_THAT(texts_of(page.at("foot")), HasSubstr("The results relate only to the item described"));
+    EXPECT_THAT(texts_of(page.at("foot")), HasSubstr("only in full unless the laboratory agrees in writing"));
+}
+
+TEST(CertificateIdentity, SummarisesTheVerdictsWithTheirRule) {
+    EvaluationRecord record = test::certified_rotary_record();
+    EXPECT_THAT(
+        rows_of(page_of(record), "summary").at(1),
+        HasSubstr("Conformity=Drawing 1234, B, 3.2; EAA: pass (36 of 36 values); decision rule DR-03, guarded"));
+    for (certificate::CertifiedColumn& column : record.certificate->tables[0].columns) {
+        if (column.result == "EAA") {
+            column.values[4].verdict->verdict = "fail";
+        }
+    }
+    EXPECT_THAT(rows_of(page_of(record), "summary").at(1),
+                HasSubstr("EAA: pass (35 of 36 values), fail (1 of 36 values); decision rule"));
+    record.certificate->data.specifications.clear();
+    EXPECT_THAT(rows_of(page_of(record), "summary"),
+                ElementsAre("Results=see the following pages", "Conformity=No statement of conformity was requested."));
+}
+
+TEST(CertificateIdentity, StatesTheOneResultInALine) {
+    EvaluationRecord record = test::certified_budget_record();
+    certificate::Certificate& c = *record.certificate;
+    ASSERT_EQ(c.tables.size(), 1U);
+    ASSERT_EQ(c.tables[0].columns.size(), 1U);
+    c.tables[0].columns[0].values.resize(1);
+    certificate::CertifiedValue& value = c.tables[0].columns[0].values[0];
+    value = test::certified_value(-1.0, 0.1, 2.16, {}, {.value = "-1.00", .U = "0.22", .unit = "nm"}, "L1");
+    c.tables[0].columns[0].printed_unit = "nm";
+    value.printed_k = "2.16";
+    const auto line = [&] { return rows_of(page_of(record), "summary").at(0); };
+    EXPECT_EQ(line(), "Results=l = −1.00\u00A0nm ± 0.22\u00A0nm, k = 2.16");
+    c.profile.plus_minus_in_tables = false;
+    EXPECT_EQ(line(), "Results=l = −1.00\u00A0nm, U = 0.22\u00A0nm, k = 2.16");
+    value.interval = {-1.2, -0.7};
+    value.printed_low = "-1.20";
+    value.printed_high = "-0.70";
+    EXPECT_THAT(line(), HasSubstr("coverage interval from −1.20\u00A0nm to −0.70\u00A0nm"));
+    value.scope_entry = "";
+    EXPECT_EQ(line(), "Results=see the following pages") << "the mark * is explained there";
+}
+
+TEST(CertificateIdentity, NamesTheCertificateThatItAmends) {
+    EvaluationRecord record = test::certified_budget_record();
+    record.certificate->data.amendment =
+        certificate::Amendment{.kind = "amended", .number = "EX-2026-0041", .sha256 = "", .reason = {}, .changes = {}};
+    EXPECT_THAT(rows_of(page_of(record), "summary").back(),
+                HasSubstr("Amendment=Amendment to calibration certificate EX-2026-0041."));
+}
+
+TEST(CertificateIdentity, ClaimsTheAccreditationOnlyTogetherWithTheSymbol) {
+    EvaluationRecord record = test::certified_rotary_record();
+    json page = page_of(record);
+    EXPECT_THAT(texts_of(page.at("accreditation")), HasSubstr("Accreditation number: EX-0000"));
+    ASSERT_EQ(page.at("symbol").size(), 1U);
+    EXPECT_EQ(page.at("symbol")[0].at("file"), "symbol.png");
+    EXPECT_THAT(page.at("symbol")[0].at("data_uri").get<std::string>(),
+                ::testing::StartsWith("data:image/png;base64,"));
+    EXPECT_THAT(texts_of(page.at("foot")), HasSubstr("A sentence of the accreditation body."));
+
+    record.certificate->symbol = false;
+    page = page_of(record);
+    EXPECT_THAT(page.dump(), Not(HasSubstr("EX-0000")));
+    EXPECT_THAT(page.at("symbol"), IsEmpty());
+    EXPECT_THAT(texts_of(page.at("accreditation")), HasSubstr("The accreditation is not claimed for this document."));
+    EXPECT_THAT(texts_of(page.at("foot")), Not(HasSubstr("A sentence of the accreditation body.")));
+
+    record.certificate->data.status = "not_accredited";
+    EXPECT_THAT(texts_of(page_of(record).at("accreditation")),
+                HasSubstr("This certificate is issued without reference to an accreditation."));
+}
+
+TEST(CertificateIdentity, ShowsWhatIsMissingAsADash) {
+    EvaluationRecord record = test::certified_rotary_record();
+    record.certificate->data.item = {};
+    record.certificate->data.persons.authorised_by.reset();
+    const json page = page_of(record);
+    EXPECT_THAT(rows_of(page, "item"),
+                ElementsAre("Object=–", "Manufacturer=–", "Type=–", "Serial number=–", "Condition on receipt=–"));
+    EXPECT_EQ(rows_of(page, "authorisation").front(), "Authorised by=–");
+    EXPECT_THAT(page.dump(), Not(HasSubstr("†"))) << "the legend of a mark that does not occur";
+}
+
+TEST(CertificateIdentity, MarksDraftsAndSpecimens) {
+    const json texts = english();
+    const Wording words(texts);
+    EvaluationRecord record = test::certified_rotary_record();
+    EXPECT_THAT(certificate_marks(words, record), IsEmpty());
+    EXPECT_EQ(running_texts(words, record).at("header_right"), "Calibration certificate EX-2026-0042");
+    record.certificate->data.number = std::string(200, '7');
+    EXPECT_THAT(running_texts(words, record).at("header_right").get<std::string>(), HasSubstr(std::string(200, '7')))
+        << "the number is never cut";
+    record = test::drafted(record);
+    EXPECT_EQ(certificate_marks(words, record).at(0).at("text"), "DRAFT — not issued");
+    EXPECT_THAT(running_texts(words, record).at("header_right").get<std::string>(), HasSubstr("DRAFT"));
+    record.certificate->data.status = "specimen";
+    EXPECT_EQ(certificate_marks(words, record).size(), 2U);
+    record.certificate.reset();
+    EXPECT_THAT(texts_of(certificate_marks(words, record)), HasSubstr("SPECIMEN"));
+    EXPECT_THAT(running_texts(words, record).at("header_right").get<std::string>(), HasSubstr("SPECIMEN"));
+}
+
+TEST(CertificateIdentity, OneDayIsOneDate) {
+    EXPECT_EQ(from_to("2026-11-18", "2026-11-18"), "2026-11-18");
+    EXPECT_EQ(from_to("2026-11-18", ""), "2026-11-18");
+    EXPECT_EQ(from_to("", "2026-11-19"), "2026-11-19");
+    EXPECT_EQ(from_to("2026-11-18", "2026-11-19"), "2026-11-18 – 2026-11-19");
+}
+
+TEST(CertificateIdentity, HasNumberAndPageOnEveryPageOfThePdf) {
+    SKIP_WITHOUT_PDF();
+    RenderAssets a = assets();
+    a.languages = {"en"};
+    const std::string text = pdf_text(render_pdf(test::certified_budget_record(), a));
+    if (text.empty()) {
+        GTEST_SKIP() << "pdftotext is missing";
+    }
+    const std::size_t of = text.find("page 1 of ") + std::string("page 1 of ").size();
+    const std::string count = text.substr(of, text.find(' ', of) - of);
+    const int pages = std::stoi(count);
+    EXPECT_GE(pages, 3);
+    std::size_t at = 0;
+    for (int page = 1; page <= pages; ++page) {
+        const std::size_t number = text.find(page == 1 ? "EX-2026-0042" : "Calibration certificate EX-2026-0042", at);
+        at = text.find("page " + std::to_string(page) + " of " + count, at);
+        ASSERT_NE(at, std::string::npos) << page;
+        EXPECT_LT(number, at) << page;
+    }
+    const std::size_t end_mark = text.find("End of calibration certificate");
+    ASSERT_NE(end_mark, std::string::npos);
+    EXPECT_EQ(text.find("End of calibration certificate", end_mark + 1), std::string::npos);
+    EXPECT_LT(text.find("page 1 of "), text.find("Results of the calibration")) << "results start on page 2";
+}
+
+}  // namespace
+}  // namespace gumcert::reports

@@ -1,0 +1,304 @@
+#include "reports/view/certificate_statement_sections.h"
+
+#include "reports/forms/asset_files.h"
+#include "reports/plots/certified_plots.h"
+#include "reports/view/certificate_view.h"
+#include "tests/unit/reports/certified_sample.h"
+#include "tests/unit/reports/document_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gumcert::reports {
+namespace {
+
+using certificate::CertifiedValue;
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+using Sections = std::function<void(CertificateBuilder&, const Wording&, const EvaluationRecord&)>;
+
+json sections_of(const EvaluationRecord& record, const Sections& make, const std::string& language = "en") {
+    const json texts = json::parse(read_asset(assets().templates / "wording" / (language + ".json")));
+    const Wording words(texts);
+    CertificateBuilder builder(words);
+    make(builder, words, record);
+    return builder.take();
+}
+
+std::vector<std::string> ids_of(const json& sections) {
+    std::vector<std::string> ids;
+    for (const json& section : sections) {
+        ids.push_back(section.at("id").get<std::string>());
+    }
+    return ids;
+}
+
+/// All texts of a section: paragraphs, definitions "label=value", tables with their heads.
+std::string text_of(const json& sections, const std::string& id) {
+    std::string text;
+    for (const json& section : sections) {
+        if (section.at("id") != id) {
+            continue;
+        }
+        for (const json& block : section.at("blocks")) {
+            for (const json& p : block.at("paragraph")) {
+                text += p.at("text").get<std::string>() + "\n";
+            }
+            for (const json& d : block.at("definitions")) {
+                for (const json& row : d.at("rows")) {
+                    text += row.at("label").get<std::string>() + "=" + row.at("value").get<std::string>() + "\n";
+                }
+            }
+            for (const json& table : block.at("table")) {
+                std::string heads = table.at("caption").get<std::string>() + "\n";
+                for (const json& column : table.at("columns")) {
+                    heads += column.at("head").get<std::string>();
+                    for (const json& unit : column.at("unit")) {
+                        heads += "/" + unit.at("text").get<std::string>();
+                    }
+                    heads += "|";
+                }
+                text += heads + "\n";
+                for (const json& row : table.at("rows")) {
+                    for (const json& cell : row.at("cells")) {
+                        text += cell.at("text").get<std::string>() + "|";
+                    }
+                    text += "\n";
+                }
+            }
+        }
+    }
+    return text;
+}
+
+/// A certificate of values of one quantity at points, by hand.
+EvaluationRecord of_values(const std::vector<CertifiedValue>& values) {
+    EvaluationRecord record = test::certified_budget_record();
+    record.printed_coverage = "95.45 %";
+    certificate::CertifiedTable& table = record.certificate->tables.front();
+    certificate::CertifiedColumn& column = table.columns.front();
+    column.values = values;
+    table.argument = {.name = "point", .unit = "", .printed_unit = "", .values = {}, .printed = {}};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        table.argument->values.emplace_back(std::nullopt);
+        table.argument->printed.push_back("P" + std::to_string(i + 1));
+    }
+    return record;
+}
+
+CertifiedValue value(const std::string& coverage, const std::string& k, std::optional<double> nu_eff) {
+    CertifiedValue v = test::certified_value(1.0, 0.1, 2.0, nu_eff, {.value = "1.00", .U = "0.20", .unit = "nm"}, "L1");
+    v.coverage = coverage;
+    v.printed_k = k;
+    return v;
+}
+
+std::string statement(const EvaluationRecord& record) {
+    return text_of(sections_of(record, closing_sections), "statement_of_uncertainty");
+}
+
+std::string results(const EvaluationRecord& record) {
+    return text_of(sections_of(record, result_sections), "certified_results");
+}
+
+TEST(CertificateStatement, HasTheSectionsInOrder) {
+    EvaluationRecord record = test::certified_rotary_record();
+    EXPECT_THAT(ids_of(sections_of(record, method_sections)), ElementsAre("method_used", "traceability", "conditions"));
+    record.certificate->data.opinions = {test::sample_opinion()};
+    record.certificate->data.external_results = {{.results = {"EXA"}, .provider = "Example Partner Laboratory"}};
+    record.certificate->data.amendment =
+        certificate::Amendment{.kind = "replaced",
+                               .number = "EX-2026-0041",
+                               .sha256 = "",
+                               .reason = "typing error",
+                               .changes = {certificate::LocalisedText("serial number corrected")}};
+    const json closing = sections_of(record, closing_sections);
+    EXPECT_THAT(ids_of(closing),
+                ElementsAre("statement_of_uncertainty", "conformity", "remarks", "opinions", "external", "amendment"));
+    EXPECT_THAT(text_of(closing, "opinions"), HasSubstr("They are not within the scope of accreditation."));
+    EXPECT_THAT(text_of(closing, "opinions"), HasSubstr("Author=Head of laboratory, Head of laboratory"));
+    EXPECT_THAT(text_of(closing, "external"), HasSubstr("provided by Example Partner Laboratory: EXA."));
+    EXPECT_THAT(text_of(closing, "amendment"),
+                HasSubstr("This certificate replaces calibration certificate EX-2026-0041.\nReason=typing error\n"
+                          "Changes=serial number corrected"));
+}
+
+TEST(CertificateStatement, StatesMethodTraceabilityAndConditions) {
+    const json sections = sections_of(test::certified_rotary_record(), method_sections);
+    EXPECT_THAT(text_of(sections, "method_used"), HasSubstr("Method=CP-01\nVersion=4\n"));
+    EXPECT_THAT(text_of(sections, "method_used"), HasSubstr("Deviations, additions, exclusions=none"));
+    EXPECT_THAT(text_of(sections, "method_used"), HasSubstr("Sampling=not applicable"));
+    EXPECT_THAT(text_of(sections, "traceability"),
+                HasSubstr("Laser interferometer|STD-017|NMI-2026-0117|Example National Metrology Institute (NMI)|"
+                          "2026-03-02|2028-03-01|0.025\u00A0µm (k\u00A0=\u00A02)|R|"));
+    EXPECT_THAT(text_of(sections, "conditions"), HasSubstr("Air temperature|19.8|20.3|0.1|°C|T-04|19|21|"));
+}
+
+TEST(CertificateStatement, PrintsTheCertifiedTextsUntouched) {
+    EvaluationRecord record = test::certified_rotary_record();
+    CertifiedValue& v = record.certificate->tables[0].columns[0].values[0];
+    v.printed_value = "1.0E+2";  // what no other part of the record holds
+    v.printed_U = "9.9E+1";
+    const std::string text = results(record);
+    EXPECT_THAT(text, HasSubstr("\n0|1.0E+2|9.9E+1|4.17|"));
+    EXPECT_THAT(text, HasSubstr("\nEXA|2.99|0.59|*|µm|"));
+    EXPECT_THAT(text, HasSubstr("* Outside of the accreditation of the laboratory."));
+    EXPECT_THAT(text, HasSubstr("The item was not adjusted"));
+    EXPECT_THAT(text, Not(HasSubstr("–: not applicable."))) << "no cell is empty";
+    record.certificate->tables[1].columns[0].values[0].printed_U.clear();
+    EXPECT_THAT(results(record), HasSubstr("–: not applicable."));
+}
+
+TEST(CertificateStatement, PrintsTheMinusSignOfAHyphen) {
+    EvaluationRecord record = test::certified_rotary_record();
+    record.certificate->tables[0].columns[0].values[0].printed_value = "-0.12";
+    EXPECT_THAT(results(record), HasSubstr("\n0|−0.12|"));
+}
+
+TEST(CertificateStatement, PrintsTheEndsOfAConditionWithEqualDecimals) {
+    EvaluationRecord record = test::certified_rotary_record();
+    record.certificate->data.conditions[0].maximum = 20.0;
+    const std::string text = text_of(sections_of(record, method_sections), "conditions");
+    EXPECT_THAT(text, HasSubstr("Quantity|Least value|Greatest value|U|Unit|Sensor|"));
+    EXPECT_THAT(text, HasSubstr("Air temperature|19.8|20.0|"));
+}
+
+TEST(CertificateStatement, NormalDistributionWithOneFactor) {
+    const EvaluationRecord record = of_values({value("normal", "2", {}), value("student_t", "2", {})});
+    EXPECT_THAT(statement(record), HasSubstr("coverage factor k = 2, which for a normal distribution corresponds to a "
+                                             "coverage probability of approximately 95.45 %."));
+    EXPECT_THAT(results(record), HasSubstr("Point|Value/nm|Expanded uncertainty U/nm|\nP1|1.00|0.20|\n"));
+}
+
+TEST(CertificateStatement, StudentDistribution) {
+    EvaluationRecord record = of_values({value("student_t", "2.13", 20.0), value("student_t", "2.13", 20.0)});
+    EXPECT_THAT(statement(record), HasSubstr("coverage factor k = 2.13, which for a t-distribution with effective "
+                                             "degrees of freedom ν_eff = 20"));
+    record = of_values({value("student_t", "2.13", 20.0), value("student_t", "2.28", 10.0)});
+    EXPECT_THAT(statement(record), HasSubstr("coverage factor k stated beside it, which for a t-distribution with the "
+                                             "effective degrees of freedom ν_eff stated with it"));
+    EXPECT_THAT(results(record), HasSubstr("k|ν_eff|\nP1|1.00|0.20|2.13|20|\nP2|1.00|0.20|2.28|10|\n"));
+}
+
+TEST(CertificateStatement, SaysWhichValuesEachSentenceHoldsFor) {
+    CertifiedValue interval = value("monte_carlo", "", {});
+    interval.interval = {0.7, 1.4};
+    interval.printed_low = "0.70";
+    interval.printed_high = "1.40";
+    EvaluationRecord record = of_values(
+        {value("normal", "2.00", {}), value("convolution", "1.65", {}), interval, value("student_t", "2.13", 20.0)});
+    MonteCarloSummary trials;
+    trials.trials = 1000000;
+    trials.symmetric = {0.6, 1.3};
+    trials.shortest = {0.7, 1.4};
+    record.results.front().monte_carlo = trials;
+    const std::string text = statement(record);
+    EXPECT_THAT(text, HasSubstr("(a) The reported expanded uncertainty"));
+    EXPECT_THAT(text, HasSubstr("(b) The reported expanded uncertainty"));
+    EXPECT_THAT(text, HasSubstr("(c) The reported expanded uncertainty"));
+    EXPECT_THAT(text, HasSubstr("(d) The distribution of the measurand was determined by a Monte Carlo method (1000000 "
+                                "trials; JCGM 101:2008). The interval from the lower to the upper end is the shortest "
+                                "coverage interval for a probability of 95.45 %"));
+    EXPECT_THAT(text, HasSubstr("The factor was calculated from the distribution of the result itself"));
+    EXPECT_THAT(results(record), HasSubstr("P1|1.00|0.20|–|–|2.00|–|(a)|\nP2|1.00|0.20|–|–|1.65|–|(c)|\n"
+                                           "P3|1.00|–|0.70|1.40|–|–|(d)|\nP4|1.00|0.20|–|–|2.13|20|(b)|\n"));
+}
+
+TEST(CertificateStatement, FollowsTheProfile) {
+    EvaluationRecord record = of_values({value("normal", "2.00", {})});
+    record.certificate->profile.k_position = "column";
+    EXPECT_THAT(results(record), HasSubstr("|k|\nP1|1.00|0.20|2.00|"));
+    record.certificate->profile.uncertainty_sentence = "Own sentence: k = {k}, p = {coverage}, {other}.";
+    EXPECT_THAT(statement(record), HasSubstr("Own sentence: k = 2.00, p = 95.45 %, {other}."));
+
+    record = of_values({value("normal", "2.00", {}), value("normal", "2.00", {})});
+    record.certificate->tables[0].columns[0].values[1].scope_entry = "";
+    EXPECT_THAT(results(record), HasSubstr("P1|1.00|0.20|\u00A0|\nP2|1.00|0.20|*|\n"));
+    record.certificate->profile.mixed_results = "separate";
+    EXPECT_THAT(results(record), HasSubstr("P1|1.00|0.20|"));
+    EXPECT_THAT(results(record), Not(HasSubstr("P2|")));
+    EXPECT_THAT(text_of(sections_of(record, closing_sections), "outside"), HasSubstr("P2|1.00|0.20|*|"));
+    record.certificate->data.status = "not_accredited";
+    EXPECT_THAT(results(record), HasSubstr("P2|1.00|0.20|\n"));
+}
+
+TEST(CertificateStatement, SaysWhereTheCapabilityStands) {
+    EvaluationRecord record = of_values({value("normal", "2.00", {})});
+    EXPECT_THAT(statement(record), Not(HasSubstr("calibration and measurement capability")));
+    record.certificate->tables[0].columns[0].values[0].raised = true;
+    EXPECT_THAT(statement(record), HasSubstr("calibration and measurement capability of the scope of accreditation"));
+}
+
+TEST(CertificateStatement, MakesTwoTablesOfWhatDoesNotFitOnAPage) {
+    EvaluationRecord record = test::certified_rotary_record();
+    record.certificate->profile.k_position = "column";
+    const json sections = sections_of(record, result_sections);
+    std::vector<std::string> ids;
+    for (const json& block : sections.at(0).at("blocks")) {
+        for (const json& table : block.at("table")) {
+            EXPECT_LE(table.at("columns").size(), 13U);
+            ids.push_back(table.at("id").get<std::string>());
+        }
+    }
+    EXPECT_THAT(ids, ElementsAre("certified-1", "certified-0", "certified-0-1"))
+        << "what the table does as a whole first";
+}
+
+TEST(CertificateStatement, StatesTheDecisionWithItsInputs) {
+    const json sections = sections_of(test::certified_rotary_record(), closing_sections);
+    const std::string text = text_of(sections, "conformity");
+    EXPECT_THAT(text, HasSubstr("Specification=Drawing 1234, B, 3.2\n"));
+    EXPECT_THAT(text, HasSubstr("Tolerance limits=T_L = \u221210.00\u00A0″; T_U = 10.00\u00A0″\n"));
+    EXPECT_THAT(text, HasSubstr("Decision rule=DR-03: guarded acceptance, w = U (ILAC-G8:09/2019, 4.2.2)\n"));
+    EXPECT_THAT(text, HasSubstr("Agreed=Example Customer, purchasing, 2026-11-02, Contract 88-2026\n"));
+    EXPECT_THAT(text, HasSubstr("Conformity was decided by rule DR-03: A_U = T_U − U, A_L = T_L + U."));
+    EXPECT_THAT(text, HasSubstr("Largest specific probability of false acceptance that the rule allows: 2.3"));
+    EXPECT_THAT(text, HasSubstr("Result|θ/°|Value/″|U/″|T_L/″|T_U/″|A_L/″|A_U/″|TUR|p_c/%|Specific risk/%|Verdict|\n"));
+    EXPECT_THAT(text, HasSubstr("EAA|0|3.70|0.76|\u221210.00|10.00|\u22129.24|9.24|21|100.0|0.0|pass|\n"));
+    EXPECT_THAT(text, HasSubstr("nothing is claimed between the points"));
+    EXPECT_THAT(text_of(sections_of(test::certified_budget_record(), closing_sections), "conformity"),
+                HasSubstr("No statement of conformity was requested."));
+}
+
+TEST(CertificateStatement, ListsFindingsOnDraftsOnly) {
+    EvaluationRecord record = test::certified_rotary_record();
+    const Sections findings = [](CertificateBuilder& builder, const Wording& words, const EvaluationRecord& r) {
+        findings_section(builder, words, *r.certificate);
+    };
+    record.certificate->findings = test::drafted(record).certificate->findings;
+    EXPECT_THAT(sections_of(record, findings), IsEmpty());
+    EXPECT_THAT(text_of(sections_of(test::drafted(record), findings), "findings"),
+                HasSubstr("R07-g|ISO/IEC 17025:2017, 7.8.2.1 g|critical|/item/serial_number|neither a serial number"));
+}
+
+TEST(CertifiedPlot, ShowsValuesBarsAndLimits) {
+    const json texts = json::parse(read_asset(assets().templates / "wording" / "en.json"));
+    const Wording words(texts);
+    const EvaluationRecord record = test::certified_rotary_record();
+    const auto& tables = record.certificate->tables;
+    const auto plot = certified_plot(tables[0], "Error motions.", words, "p");
+    ASSERT_TRUE(plot);
+    ASSERT_EQ(plot->panels.size(), 6U);
+    const PlotPanel& panel = plot->panels[3];
+    EXPECT_EQ(panel.heading, "EAA");
+    ASSERT_EQ(panel.limits.size(), 2U) << "tolerance limits are the same for all values";
+    EXPECT_EQ(panel.limits[1].y, 10.0);
+    ASSERT_EQ(panel.series.size(), 3U) << "acceptance limits differ with U";
+    EXPECT_EQ(panel.series[0].points[0].y, 3.70) << "the printed value, not the unrounded one";
+    EXPECT_EQ(panel.series[0].points[0].U, 0.76);
+    EXPECT_THAT(panel.series[0].bars, PlotBars::bars);
+    EXPECT_TRUE(plot->panels[0].limits.empty());
+    EXPECT_FALSE(certified_plot(tables[1], "Ranges.", words, "p")) << "no argument";
+}
+
+}  // namespace
+}  // namespace gumcert::reports
