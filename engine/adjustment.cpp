@@ -408,7 +408,7 @@ BorderedCovariance NormalEquations::bordered_covariance() const {
         // Scaled to a unit diagonal first: metres, radians and scales differ by many powers of ten.
         const Eigen::VectorXd scale = reduced_.diagonal().cwiseSqrt().cwiseInverse();
         const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd(scale.asDiagonal() * reduced_ * scale.asDiagonal()));
-        if (factor.info() != Eigen::Success) {
+        if (!scale.allFinite() || factor.info() != Eigen::Success) {  // the factor lets NaN pass
             throw gum::NoResultError(
                 gum::Diagnostic{"GC-ADJUST-0002", "adjustment", "the normal equations are singular",
                                 "a covariance exists only where the observations determine every parameter",

@@ -34,7 +34,7 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix) {
     // Scaled to a unit diagonal first: metres, radians and scales differ by many powers of ten.
     const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
     const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd(scale.asDiagonal() * matrix * scale.asDiagonal()));
-    if (factor.info() != Eigen::Success) {
+    if (!scale.allFinite() || factor.info() != Eigen::Success) {  // the factor lets NaN pass
         throw gum::NoResultError(
             gum::Diagnostic{"GC-ADJUST-0002", "rotary table trials", "the normal equations are singular",
                             "trials can be solved only where the observations determine every parameter",
