@@ -1,0 +1,106 @@
+#include "gum/rotary_table/positioning_scope.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "engine/rotary_table/positioning_accuracy.h"
+#include "gum/rotary_table/evaluate_rotary_table.h"
+#include "tests/support/synthetic_campaign.h"
+
+namespace gumcert::gum {
+namespace {
+
+/// Repeated runs of a table that scatters by `u_axial` about its axis and errs by `error_factor` times its motions.
+engine::TableParameterModel repeated_runs(std::size_t runs, double u_axial, double error_factor) {
+    engine::synthetic::CampaignPlan plan;
+    plan.angles_deg = engine::synthetic::full_turn(6);
+    plan.start_values = true;
+    plan.runs = runs;
+    plan.table_axial = u_axial;
+    plan.error_factor = error_factor;
+    RotaryTableRequest request;
+    request.measurement = engine::synthetic::simulate(plan).measurement;
+    return *evaluate_rotary_table(request, 1).parameter_model;
+}
+
+/// Standard deviation of the runs, pooled over the targets: all have as many runs.
+double pooled_deviation(const engine::TableParameterModel& model) {
+    double squares = 0.0;
+    double degrees = 0.0;
+    for (const std::vector<Eigen::Index>& target : model.parameters()->runs().up) {
+        const Eigen::VectorXd x = model.nominal_positions()(target);
+        squares += (x.array() - x.mean()).square().sum();
+        degrees += static_cast<double>(x.size() - 1);
+    }
+    return std::sqrt(squares / degrees);
+}
+
+TEST(PositioningScope, ParametersThatRestOnScatterAreThoseThatNeedTwoRuns) {
+    const engine::PositioningRuns one{{{0}, {1}}, {{2}, {3}}};
+    const engine::PositioningRuns two{{{0, 4}, {1, 5}}, {{2, 6}, {3, 7}}};
+    const auto of_one = engine::allowed_parameters(one);
+    const auto of_two = engine::allowed_parameters(two);
+    int resting = 0;
+    for (std::size_t i = 0; i < engine::k_positioning_parameters; ++i) {
+        const std::string name(engine::positioning_parameter_names()[i]);
+        EXPECT_TRUE(of_two[i]) << name;
+        EXPECT_EQ(rests_on_scatter(name), !of_one[i]) << name;
+        resting += rests_on_scatter(name) ? 1 : 0;
+    }
+    EXPECT_EQ(resting, 6);
+    EXPECT_FALSE(rests_on_scatter("EAA"));
+    EXPECT_FALSE(rests_on_scatter("axis_b"));
+    EXPECT_FALSE(rests_on_scatter(""));
+}
+
+TEST(PositioningScope, StatesScatterOnlyWhereItStatesAnything) {
+    PositioningScope scope;
+    EXPECT_FALSE(scope.states("E"));
+    scope.scatter_stated = true;
+    EXPECT_FALSE(scope.states("E"));
+    EXPECT_FALSE(scope.states("R"));
+    scope.stated = true;
+    EXPECT_TRUE(scope.states("E"));
+    EXPECT_TRUE(scope.states("R_up"));
+    scope.scatter_stated = false;
+    EXPECT_TRUE(scope.states("B"));
+    EXPECT_FALSE(scope.states("A_down"));
+}
+
+TEST(PositioningScope, ATableThatScattersMoreThanItsMeasurementHasAllParameters) {
+    const engine::TableParameterModel model = repeated_runs(2, 10e-6, 5.0);
+    const PositioningScope scope = positioning_scope(model);
+    EXPECT_DOUBLE_EQ(scope.largest_ratio, 0.25);
+    EXPECT_DOUBLE_EQ(scope.u_deviation, model.rms_position_uncertainty());
+    EXPECT_NEAR(scope.s_runs, pooled_deviation(model), 1e-12 * scope.s_runs);
+    EXPECT_GT(scope.s_runs, 2.0 * scope.u_deviation);
+    EXPECT_TRUE(scope.stated);
+    EXPECT_TRUE(scope.scatter_stated);
+}
+
+TEST(PositioningScope, RunsThatScatterByTheirMeasurementHaveNoRepeatability) {
+    const engine::TableParameterModel model = repeated_runs(2, 1e-9, 5.0);
+    const PositioningScope scope = positioning_scope(model);
+    EXPECT_NEAR(scope.s_runs, pooled_deviation(model), 1e-12 * scope.s_runs);
+    EXPECT_TRUE(scope.stated);
+    EXPECT_FALSE(scope.scatter_stated);
+    EXPECT_TRUE(scope.states("E_up"));
+    EXPECT_FALSE(scope.states("R_up"));
+}
+
+TEST(PositioningScope, AnIdealTableHasNoParameters) {
+    const engine::TableParameterModel model = repeated_runs(1, 1e-9, 0.0);
+    const PositioningScope scope = positioning_scope(model);
+    const double range = *model.positioning()[engine::PositioningParameter::systematic_up];
+    EXPECT_GT(range, 0.0);
+    EXPECT_GT(scope.u_deviation, 0.25 * range) << "what it seems to err by is noise";
+    EXPECT_FALSE(scope.stated);
+    EXPECT_FALSE(scope.states("E_up"));
+    EXPECT_FALSE(scope.states("R_up"));
+}
+
+}  // namespace
+}  // namespace gumcert::gum
