@@ -8,7 +8,7 @@ namespace gumcert::certificate {
 
 bool is_of_calibration_laboratories(const std::string& text) {
     constexpr std::u32string_view k_bodies =
-        U" iso iec din en bs nf une uni cns abnt nbr ntp nmx ntc iram nch unit gb cnas jis q ks ss ns ds sn onorm "
+        U" iso iec cei din en bs nf une uni cns abnt nbr ntp nmx ntc iram nch unit gb cnas jis q ks ss ns ds sn onorm "
         U"oenorm "
         U"csn pn msz sr stn sfs nen nbn evs lst lvs is i s as nzs sans gost t ";
     bool standard = false;

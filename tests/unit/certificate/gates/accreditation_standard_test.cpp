@@ -8,7 +8,8 @@ namespace {
 TEST(AccreditationStandard, IsThatOfCalibrationLaboratories) {
     for (const char* text :
          {"ISO/IEC 17025", "ISO/IEC 17025:2017", "ISO/IEC 17025:2005", "DIN EN ISO/IEC 17025:2018-03",
-          "GB/T 27025-2019", "iso 17025", "JIS Q 17025:2018", "NF EN ISO/IEC 17025", "BS EN ISO/IEC 17025:2017"}) {
+          "GB/T 27025-2019", "iso 17025", "JIS Q 17025:2018", "NF EN ISO/IEC 17025", "BS EN ISO/IEC 17025:2017",
+          "UNI CEI EN ISO/IEC 17025:2018", "ISO/CEI 17025:2017"}) {
         EXPECT_TRUE(is_of_calibration_laboratories(text)) << text;
     }
 }
