@@ -12,6 +12,9 @@ knows or would add; in a tree without git, at every file outside build folders.
 - links of a document to a file of the tree that is not there
 - conflict marks, and line ends of another system in sources
 - a doc tag (\\param, \\return, \\throws) inside a line of text: each has a line of its own
+- a public header of the domain that declares functions without a unit test of its name in the mirrored folder:
+  gum/a.h has tests/unit/gum/a_test.cpp. Structs, constants, macros and templates are no functions here.
+- a layer of more than 25 units (a header with its source): it has more than one subject, and is to be divided by them
 """
 
 import pathlib
@@ -29,6 +32,10 @@ REGISTRY = re.compile(
 OPEN_END = re.compile(r"\b(?:TO" r"DO|FIX" r"ME|X" r"XX)\b(?!\s*\(?#\d+)")
 LINK = re.compile(r"\]\((?!https?:|mailto:|#)([^)#\s]+)")
 CONFLICT = re.compile(r"^(?:<{7}|>{7}) ")
+DOMAIN = {"text", "encoding", "gum", "engine", "certificate"}  # layers, with those below them
+LAYERS = "cmake/gumcert_layers.cmake"
+MOST_UNITS = 25
+UNTESTED_BY_NAME = {}  # a header of the domain, and the reason why its functions have no test by its name
 TAG_IN_TEXT = re.compile(r"^\s*///.*[^\s/].*\s\\(?:param|return|throws)\b")
 
 
@@ -69,6 +76,73 @@ def breaches(path):
             yield number, "conflict mark of a merge"
 
 
+def without_comments(text):
+    text = re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.DOTALL)
+    text = re.sub(r"^[ \t]*#(?:[^\n\\]|\\\n|\\.)*", "", text, flags=re.MULTILINE)  # and without the preprocessor
+    return re.sub(r'"(?:[^"\\\n]|\\.)*"', '""', text)
+
+
+def functions_declared(text):
+    """Whether a header declares functions: free ones, or members of a class or struct that are defined in its source."""
+    scopes, statement = [], ""
+    for character in without_comments(text):
+        if character not in "{};":
+            statement += character
+            continue
+        words = " ".join(statement.split())
+        statement = ""
+        if character == "}":
+            if scopes:
+                scopes.pop()
+            continue
+        is_template = words.startswith("template")
+        head = re.sub(r"^(?:(?:public|protected|private) ?: ?)+", "", words)
+        opened = "body"
+        if re.match(r"(?:inline )?namespace\b", head):
+            opened = "namespace"
+        elif re.match(r"(?:class|struct|enum|union)\b", head):
+            opened = "type"
+        elif not {"body", "template"}.intersection(scopes) and not is_template and "(" in head:
+            member = "type" in scopes
+            before = head[:head.index("(")]
+            # A bracket inside of < > belongs to the type of a member, as in std::function<double(double)>.
+            is_type = before.count("<") > before.count(">")
+            declares = "=" not in before and not is_type and not re.match(r"(?:using|typedef|friend|static_assert)\b", head)
+            defaulted = re.search(r"= ?(?:default|delete|0)$", head)
+            # A member that is written out in the header belongs to its struct.
+            if declares and not defaulted and not (member and character == "{"):
+                return True
+        if character == "{":
+            scopes.append("template" if is_template else opened)
+    return False
+
+
+def headers_without_tests(root, files):
+    names = {path.relative_to(root).as_posix() for path in files}
+    listed = re.search(r"set\(GUMCERT_PRIVATE_HEADERS([^)]*)\)", (root / LAYERS).read_text(encoding="utf-8")) \
+        if LAYERS in names else None
+    private = set(listed[1].split()) if listed else set()
+    for name in sorted(names):
+        if not name.endswith(".h") or name.split("/")[0] not in DOMAIN or name in private:
+            continue
+        test = f"tests/unit/{name[:-2]}_test.cpp"
+        has_functions = functions_declared((root / name).read_text(encoding="utf-8"))
+        if has_functions and test not in names and name not in UNTESTED_BY_NAME:
+            yield name, f"declares functions, and there is no {test}"
+        if name in UNTESTED_BY_NAME and (test in names or not has_functions):
+            yield name, "needs no reason for its missing test any more; take it off UNTESTED_BY_NAME"
+
+
+def full_layers(root, files):
+    """Layers that have more units than one looks through."""
+    listed = re.search(r"set\(GUMCERT_LAYER_FOLDERS([^)]*)\)", (root / LAYERS).read_text(encoding="utf-8")) \
+        if (root / LAYERS).exists() else None
+    for layer in listed[1].split() if listed else ():
+        units = {path.stem for path in files if path.parent == root / layer and path.suffix in {".h", ".cpp"}}
+        if len(units) > MOST_UNITS:
+            yield layer, f"{len(units)} units; a layer has at most {MOST_UNITS}: divide it by subject (docs/adr/0045-rooms.md)"
+
+
 def main(arguments):
     root = pathlib.Path(arguments[0] if arguments else ".").resolve()
     files = files_of(root)
@@ -77,6 +151,12 @@ def main(arguments):
         for number, reason in breaches(path):
             print(f"{path.relative_to(root).as_posix()}:{number}: {reason}")
             found += 1
+    for layer, reason in full_layers(root, files):
+        print(f"{layer}: {reason}")
+        found += 1
+    for name, reason in headers_without_tests(root, files):
+        print(f"{name}:1: {reason}")
+        found += 1
     if not files:
         print(f"{root}: no file found to check")
         return 1

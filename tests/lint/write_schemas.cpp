@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "jobs/job_schema.h"
+#include "jobs/schema/job_schema.h"
 
 namespace {
 
