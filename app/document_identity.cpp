@@ -8,7 +8,7 @@
 
 #include "certificate/text_words.h"
 #include "reports/dcc/dcc_reader.h"
-#include "reports/view/certificate_view.h"
+#include "reports/printable_text.h"
 
 namespace gumcert::app {
 

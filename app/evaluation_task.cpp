@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "app/certificate_inputs.h"
+#include "app/certificate_profile.h"
 #include "encoding/sha2.h"
 
 namespace gumcert::app {
@@ -15,15 +15,16 @@ constexpr std::size_t k_most_held_bytes = std::size_t{16} << 20U;
 
 }  // namespace
 
-std::string CovarianceOutput::name(CovarianceForm written, const std::vector<reports::InputFile>& files) const {
+std::string CovarianceOutput::name(reports::CovarianceForm written,
+                                   const std::vector<reports::InputFile>& files) const {
     if (file == CovarianceFile::own_folder) {
-        return "covariance" + covariance_ending(written);
+        return "covariance" + reports::covariance_ending(written);
     }
     std::string digests;
     for (const reports::InputFile& read : files) {
         digests += read.sha256;
     }
-    return "covariance-" + encoding::sha256(digests).substr(0, 12) + covariance_ending(written);
+    return "covariance-" + encoding::sha256(digests).substr(0, 12) + reports::covariance_ending(written);
 }
 
 std::vector<reports::InputFile> EvaluationTask::held_files(const std::vector<std::string>& names) const {
@@ -44,9 +45,9 @@ std::optional<certificate::Profile> EvaluationTask::profile_of(
 }
 
 void make_certificate(Evaluation& evaluation, const std::optional<certificate::CertificateData>& data,
-                      const std::optional<certificate::Profile>& profile, const CapabilityInputs& inputs) {
+                      const std::optional<certificate::Profile>& profile, const certificate::CapabilityInputs& inputs) {
     if (data && profile) {
-        certify(evaluation.record, *data, *profile, inputs);
+        reports::certify(evaluation.record, *data, *profile, inputs);
         evaluation.blocked = evaluation.record.certificate->blocked;
     }
 }

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "app/certify.h"
-#include "app/covariance_file.h"
 #include "certificate/certificate_data.h"
 #include "certificate/profile.h"
 #include "gum/quantity/progress.h"
 #include "jobs/file_source.h"
 #include "reports/record/evaluation_record.h"
+#include "reports/record/make/certificate/certify.h"
+#include "reports/record/make/covariance_file.h"
 
 namespace gumcert::app {
 
@@ -27,14 +27,17 @@ enum class CovarianceFile {
 /// The covariance file that is asked for.
 struct CovarianceOutput {
     CovarianceFile file = CovarianceFile::none;
-    CovarianceForm form = CovarianceForm::automatic;
+    reports::CovarianceForm form = reports::CovarianceForm::automatic;
 
     // NOLINTNEXTLINE(google-explicit-constructor): a place alone asks for the form that suits the size
-    CovarianceOutput(CovarianceFile place, CovarianceForm as = CovarianceForm::automatic) : file(place), form(as) {}
+    CovarianceOutput(CovarianceFile place, reports::CovarianceForm as = reports::CovarianceForm::automatic)
+        : file(place), form(as) {}
     /// Whether a covariance file is to be written at all.
-    [[nodiscard]] bool is_written() const { return file != CovarianceFile::none && form != CovarianceForm::none; }
+    [[nodiscard]] bool is_written() const {
+        return file != CovarianceFile::none && form != reports::CovarianceForm::none;
+    }
     /// Its name in this form, for a job with these files.
-    [[nodiscard]] std::string name(CovarianceForm written, const std::vector<reports::InputFile>& files) const;
+    [[nodiscard]] std::string name(reports::CovarianceForm written, const std::vector<reports::InputFile>& files) const;
 };
 
 struct Evaluation {
@@ -67,6 +70,6 @@ struct EvaluationTask {
 
 /// Certifies the record of an evaluation where the job states certificate data; else nothing.
 void make_certificate(Evaluation& evaluation, const std::optional<certificate::CertificateData>& data,
-                      const std::optional<certificate::Profile>& profile, const CapabilityInputs& inputs);
+                      const std::optional<certificate::Profile>& profile, const certificate::CapabilityInputs& inputs);
 
 }  // namespace gumcert::app

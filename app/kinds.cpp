@@ -6,11 +6,6 @@
 #include <array>
 #include <cstddef>
 
-#include "app/budget_record.h"
-#include "app/certificate_inputs.h"
-#include "app/evaluate_comparison.h"
-#include "app/fixture_budget_record.h"
-#include "app/reference_comparison.h"
 #include "gum/budget/evaluate_budget.h"
 #include "gum/budget/reported_covariance.h"
 #include "gum/circle_closure/evaluate_circle_closure.h"
@@ -21,7 +16,12 @@
 #include "jobs/comparison/comparison_job.h"
 #include "jobs/job_kind.h"
 #include "jobs/rotary_table/rotary_table_job.h"
+#include "reports/record/make/budget/budget_record.h"
+#include "reports/record/make/budget/capability_inputs.h"
 #include "reports/record/make/circle_closure/circle_closure_record.h"
+#include "reports/record/make/comparison/evaluate_comparison.h"
+#include "reports/record/make/rotary_table/fixture_budget_record.h"
+#include "reports/record/make/rotary_table/reference_comparison.h"
 #include "reports/record/make/rotary_table/rotary_table_record.h"
 
 namespace gumcert::app {
@@ -52,13 +52,13 @@ Evaluation evaluate_budget_job(const EvaluationTask& task) {
     Evaluation evaluation;
     const std::vector<reports::InputFile> files = task.held_files(job.files);
     if (results > k_most_results_in_record && covariance.size() > 0 && task.covariance.is_written()) {
-        evaluation.covariance = budget_covariance_csv(job, result, covariance);
-        evaluation.covariance_file = task.covariance.name(CovarianceForm::csv, files);
+        evaluation.covariance = reports::budget_covariance_csv(job, result, covariance);
+        evaluation.covariance_file = task.covariance.name(reports::CovarianceForm::csv, files);
     }
-    evaluation.record = budget_record(job, result, files, covariance, evaluation.covariance_file);
+    evaluation.record = reports::budget_record(job, result, files, covariance, evaluation.covariance_file);
     evaluation.negative = result.validation_failed;
     if (job.certificate) {
-        make_certificate(evaluation, job.certificate, profile, capability_inputs(job, result, task.threads));
+        make_certificate(evaluation, job.certificate, profile, reports::capability_inputs(job, result, task.threads));
     }
     return evaluation;
 }
@@ -71,18 +71,19 @@ Evaluation evaluate_rotary_table_job(const EvaluationTask& task) {
     const std::vector<reports::InputFile> files = task.held_files(job.files);
     if (task.covariance.is_written()) {
         const std::vector<gum::OutputQuantity>& quantities = result.solution.quantities.outputs;
-        const CovarianceForm form = chosen_form(task.covariance.form, quantities.size());
+        const reports::CovarianceForm form = reports::chosen_form(task.covariance.form, quantities.size());
         std::vector<double> units;
         for (const gum::OutputQuantity& quantity : quantities) {
             units.push_back(gum::unit_of(quantity).si);
         }
-        evaluation.covariance = covariance_contents(
+        evaluation.covariance = reports::covariance_contents(
             result.reported.covariance, reports::covariance_order(job, result.solution.quantities), units, form);
         evaluation.covariance_file = task.covariance.name(form, files);
     }
-    reports::RotaryRecordParts parts{.fixture_budget = fixture_budget_record(job, result.fixture), .comparison = {}};
+    reports::RotaryRecordParts parts{.fixture_budget = reports::fixture_budget_record(job, result.fixture),
+                                     .comparison = {}};
     if (result.contact_point) {
-        parts.comparison = reference_comparison(job, *result.contact_point);
+        parts.comparison = reports::reference_comparison(job, *result.contact_point);
     }
     evaluation.record = reports::rotary_table_record(job, result, parts, files, evaluation.covariance_file);
     evaluation.negative = result.validation_failed;
@@ -99,7 +100,7 @@ Evaluation evaluate_circle_closure_job(const EvaluationTask& task) {
     const bool is_large = reports::circle_closure_result_names(job).size() > k_most_results_in_record;
     if (is_large && task.covariance.is_written()) {
         evaluation.covariance = reports::circle_closure_covariance_csv(job, result);
-        evaluation.covariance_file = task.covariance.name(CovarianceForm::csv, files);
+        evaluation.covariance_file = task.covariance.name(reports::CovarianceForm::csv, files);
     }
     evaluation.record = reports::circle_closure_record(job, result, files, evaluation.covariance_file);
     evaluation.negative = result.validation_failed;
@@ -115,7 +116,7 @@ Evaluation evaluate_circle_closure_job(const EvaluationTask& task) {
 Evaluation evaluate_comparison_job(const EvaluationTask& task) {
     const jobs::ComparisonJob job = jobs::read_comparison_job(task.files, task.job_file);
     Evaluation evaluation;
-    evaluation.record = evaluate_comparison(job, task.held_files(job.files), task.progress);
+    evaluation.record = reports::evaluate_comparison(job, task.held_files(job.files), task.progress);
     evaluation.negative = !evaluation.record.comparison->items_without_result.empty();
     return evaluation;
 }

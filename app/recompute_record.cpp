@@ -157,10 +157,10 @@ CovarianceOutput covariance_of(const EvaluationRecord& record) {
     const std::string name = record.rotary       ? record.rotary->covariance_file.value_or("")
                              : record.covariance ? record.covariance->file
                                                  : "";
-    const CovarianceForm form = form_of_file(name);
-    return {name.empty()                                     ? CovarianceFile::none
-            : name == "covariance" + covariance_ending(form) ? CovarianceFile::own_folder
-                                                             : CovarianceFile::with_others,
+    const reports::CovarianceForm form = reports::form_of_file(name);
+    return {name.empty()                                              ? CovarianceFile::none
+            : name == "covariance" + reports::covariance_ending(form) ? CovarianceFile::own_folder
+                                                                      : CovarianceFile::with_others,
             form};
 }
 

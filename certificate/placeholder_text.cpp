@@ -157,10 +157,6 @@ bool is_empty_run(std::u32string word) {
     return word.empty();
 }
 
-bool is_digit(char32_t c) {
-    return c >= U'0' && c <= U'9';
-}
-
 /// "abcd", "efgh": letters in the order of the alphabet, four or more.
 bool is_run_of_alphabet(const std::u32string& word) {
     constexpr std::size_t k_least = 4;

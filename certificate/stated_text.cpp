@@ -10,10 +10,6 @@ namespace gumcert::certificate {
 
 namespace {
 
-bool is_digit(char32_t c) {
-    return c >= U'0' && c <= U'9';
-}
-
 /// Letters of a text, an ideograph counted as often as a word of it would need letters.
 std::size_t weight(const std::u32string& letters) {
     constexpr std::size_t k_letters_of_an_ideograph = 3;

@@ -11,10 +11,10 @@
 #include "app/cli/clock.h"
 #include "app/cli/share_folder.h"
 #include "app/document_identity.h"
-#include "app/foreign_certificate.h"
-#include "app/import_certificate.h"
 #include "app/output_files.h"
 #include "app/read_file.h"
+#include "imports/foreign_certificate.h"
+#include "imports/import_certificate.h"
 #include "signing/verify.h"
 
 namespace gumcert::cli {
@@ -84,8 +84,8 @@ void print_verification(const std::string& file, const signing::Verification& ve
     }
 }
 
-app::CertificateTrust trust_of(const std::string& trust_store) {
-    app::CertificateTrust trust{.trusted = {}, .now = seconds_now()};
+imports::CertificateTrust trust_of(const std::string& trust_store) {
+    imports::CertificateTrust trust{.trusted = {}, .now = seconds_now()};
     if (!trust_store.empty()) {
         trust.trusted = signing::read_trust_store(trust_store);
     }
@@ -118,7 +118,8 @@ ExitCode import_certificate(const std::string& file, const std::string& output, 
         app::require_writable(output);
         app::require_not_an_input(output, {file});
     }
-    const app::ImportedJob imported = app::import_certificate(app::read_file(file), file, trust_of(trust_store));
+    const imports::ImportedJob imported =
+        imports::import_certificate(app::read_file(file), file, trust_of(trust_store));
     for (const gum::Diagnostic& remark : imported.remarks) {
         if (!common.quiet || remark.severity != gum::Severity::note) {
             print_message(remark, common);
@@ -138,13 +139,13 @@ ExitCode import_certificate(const std::string& file, const std::string& output, 
 
 ExitCode check_files(const std::vector<std::string>& files, bool certificates, const std::string& trust_store,
                      const std::string& share, const CommonOptions& common) {
-    const app::CertificateTrust trust = certificates ? trust_of(trust_store) : app::CertificateTrust();
+    const imports::CertificateTrust trust = certificates ? trust_of(trust_store) : imports::CertificateTrust();
     ExitCode code = done;
     for (const std::string& file : files) {
         const ExitCode one = explained(common, [&] {
             app::FileCheck check{.kind = "digital certificate", .findings = {}};
             if (certificates) {
-                check.findings = app::check_certificate(app::read_file(file), file, trust);
+                check.findings = imports::check_certificate(app::read_file(file), file, trust);
             } else {
                 ProgressLine progress(!common.quiet);
                 check = app::check_file(file, static_cast<unsigned>(common.threads), templates_folder(share),

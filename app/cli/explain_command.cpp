@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <utility>
 
 #include "app/cli/share_folder.h"
-#include "app/message_explanation.h"
-#include "app/message_register.h"
+#include "app/read_file.h"
 #include "gum/quantity/diagnostic.h"
+#include "reports/message_explanation.h"
+#include "reports/message_register.h"
 #include "text/lists.h"
 
 namespace gumcert::cli {
@@ -21,7 +23,7 @@ bool looks_like_a_finding(const std::string& word) {
            (word.size() == 3 || word[3] == '-');
 }
 
-gum::Diagnostic unknown_word(const app::MessageRegister& all, const std::string& word, const std::string& code) {
+gum::Diagnostic unknown_word(const reports::MessageRegister& all, const std::string& word, const std::string& code) {
     constexpr std::size_t k_most_suggested = 3;
     if (looks_like_a_finding(word)) {
         const std::vector<std::string> becoming = all.codes_of_finding(word);
@@ -39,16 +41,17 @@ gum::Diagnostic unknown_word(const app::MessageRegister& all, const std::string&
 }  // namespace
 
 ExitCode explain(const std::vector<std::string>& words, const std::string& share) {
-    const app::MessageRegister all = app::read_message_register(templates_folder(share));
-    std::string text = words.empty() ? app::list_of_families(all) : "";
+    const std::filesystem::path file = templates_folder(share) / "messages.json";
+    const reports::MessageRegister all(app::read_file(file), file.string());
+    std::string text = words.empty() ? reports::list_of_families(all) : "";
     std::vector<gum::Diagnostic> unknown;
     for (const std::string& word : words) {
-        const std::string code = app::code_as_registered(word);
+        const std::string code = reports::code_as_registered(word);
         text += text.empty() ? "" : "\n";
         if (all.codes().contains(code)) {
-            text += app::explanation_of_code(all, code);
+            text += reports::explanation_of_code(all, code);
         } else if (all.families().contains(code)) {
-            text += app::list_of_codes(all, code);
+            text += reports::list_of_codes(all, code);
         } else {
             unknown.push_back(unknown_word(all, word, code));
         }

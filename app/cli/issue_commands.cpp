@@ -164,7 +164,7 @@ bool naming_job(const fs::path& job, const Work& work) {
 bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> inputs, Issuer& issuer,
              const DocumentOptions& options, const CommonOptions& common, ProgressLine& progress, bool several) {
     app::Evaluation evaluation =
-        app::evaluate_job(job, {app::CovarianceFile::own_folder, *app::covariance_form(options.covariance)},
+        app::evaluate_job(job, {app::CovarianceFile::own_folder, *reports::covariance_form(options.covariance)},
                           static_cast<unsigned>(common.threads), templates_folder(options.share),
                           [&](const std::string& text) { progress(text); });
     const reports::EvaluationRecord& record = evaluation.record;
@@ -322,7 +322,7 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
     app::Evaluation evaluation =
         app::evaluate_job(job,
                           {to_stdout ? app::CovarianceFile::none : app::CovarianceFile::with_others,
-                           *app::covariance_form(options.covariance)},
+                           *reports::covariance_form(options.covariance)},
                           static_cast<unsigned>(common.threads), templates_folder(share),
                           [&](const std::string& text) { progress(text); });
     const std::string text = reports::to_canonical_json(evaluation.record);

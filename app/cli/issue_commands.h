@@ -16,7 +16,7 @@ struct DocumentOptions {
     std::vector<std::string> languages;  ///< --language
     bool draft = false;                  ///< --draft
     std::string signer;                  ///< --sign: signer description; "" = not signed
-    std::string covariance = "auto";     ///< --covariance: a word of app::covariance_form()
+    std::string covariance = "auto";     ///< --covariance: a word of reports::covariance_form()
 };
 
 /// `gumcert run`: evaluates jobs and writes record, covariance and documents of each.

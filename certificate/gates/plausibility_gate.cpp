@@ -87,7 +87,7 @@ bool same_person(const std::optional<Person>& a, const std::optional<Person>& b)
     return a && b && is_stated(a->name) && letters_of(a->name) == letters_of(b->name);
 }
 
-void persons(FindingList& found, const CertificateData& data, const Profile& profile) {
+void plausible_persons(FindingList& found, const CertificateData& data, const Profile& profile) {
     const auto& [performed_by, reviewed_by, authorised_by] = data.persons;
     if (!performed_by || !is_name(performed_by->name)) {
         found.add(FindingSeverity::minor, "P06", iso_17025("7.8.1.1"), "/persons/performed_by",
@@ -292,7 +292,7 @@ void physical(FindingList& found, const CertificateData& data) {
     }
 }
 
-void conditions(FindingList& found, const CertificateData& data) {
+void plausible_conditions(FindingList& found, const CertificateData& data) {
     physical(found, data);
     for (std::size_t i = 0; i < data.conditions.size(); ++i) {
         const Condition& c = data.conditions[i];
@@ -333,10 +333,10 @@ std::vector<Finding> plausibility_findings(const Certificate& certificate) {
     FindingList found(data);
     same_texts(found, data);
     own_customer(found, data);
-    persons(found, data, certificate.profile);
+    plausible_persons(found, data, certificate.profile);
     customers(found, data);
     periods(found, data);
-    conditions(found, data);
+    plausible_conditions(found, data);
     agreements(found, data);
     return found.take();
 }

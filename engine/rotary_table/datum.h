@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -45,6 +46,24 @@ struct DatumSolution {
 /// Coordinates across the axis in right-handed order: (y, z) for A, (z, x) for B, (x, y) for C.
 [[nodiscard]] constexpr std::array<int, 2> across_axis(RotaryAxis axis) {
     return {(axial_coordinate(axis) + 1) % 3, (axial_coordinate(axis) + 2) % 3};
+}
+
+/// The same in alphabetic order, that of the names of quantities across the axis.
+[[nodiscard]] constexpr std::array<int, 2> cross_coordinates(RotaryAxis axis) {
+    const std::array<int, 2> across = across_axis(axis);
+    return {std::min(across[0], across[1]), std::max(across[0], across[1])};
+}
+
+/// What a right-handed tilt of the axis about a coordinate across it does to the direction of the axis, to first order:
+/// tilt = sign · direction[component].
+struct AxisTilt {
+    int component;
+    double sign;
+};
+/// \param cross  one of cross_coordinates()
+[[nodiscard]] constexpr AxisTilt axis_tilt(RotaryAxis axis, int cross) {
+    const int axial = axial_coordinate(axis);
+    return cross == (axial + 1) % 3 ? AxisTilt{(axial + 2) % 3, -1.0} : AxisTilt{(axial + 1) % 3, 1.0};
 }
 
 }  // namespace gumcert::engine

@@ -56,13 +56,6 @@ Eigen::Matrix3d start_rotation(const Eigen::MatrixXd& from, const Eigen::MatrixX
     return svd.matrixV() * Eigen::Vector3d(1.0, 1.0, sign).asDiagonal() * svd.matrixU().transpose();
 }
 
-/// Coordinates across the axis in alphabetic order, that of the names.
-std::array<int, 2> cross_coordinates(RotaryAxis axis) {
-    std::array<int, 2> result = across_axis(axis);
-    std::sort(result.begin(), result.end());
-    return result;
-}
-
 /// S with S Sᵀ = covariance, symmetric; also of a singular one.
 template <int n>
 Eigen::Matrix<double, n, n> root_of(const Eigen::Matrix<double, n, n>& covariance) {
@@ -82,16 +75,6 @@ gum::InputGroup standard_group(const char* name, const char* source, Eigen::Inde
     group.value = Eigen::VectorXd::Zero(size);
     group.covariance = Eigen::MatrixXd::Ones(size, 1);
     return group;
-}
-
-/// Component of the direction that shows a right-handed tilt about `cross`, and its sign.
-struct Tilt {
-    int component;
-    double sign;
-};
-
-Tilt tilt_about(int axial, int cross) {
-    return cross == (axial + 1) % 3 ? Tilt{(axial + 2) % 3, -1.0} : Tilt{(axial + 1) % 3, 1.0};
 }
 
 }  // namespace
@@ -204,7 +187,7 @@ Eigen::VectorXd LocationErrorModel::evaluate(const Eigen::VectorXd& x) const {
     for (int c = 0; c < 2; ++c) {
         const int coordinate = cross[static_cast<std::size_t>(c)];
         result[c] = pierced[coordinate] - nominal_point_[coordinate];
-        const auto [component, sign] = tilt_about(axial, coordinate);
+        const auto [component, sign] = axis_tilt(axis_, coordinate);
         // The axis of a table has no sense: it is taken along the coordinate axis of the machine.
         result[2 + c] = std::atan(sign * line.direction[component] / line.direction[axial]);
     }

@@ -38,13 +38,6 @@ Vector6 set_up_parameters(RotaryAxis axis, const Eigen::Vector4d& set_up) {
     return result;
 }
 
-/// Coordinates across the axis in alphabetic order, that of the names.
-std::array<int, 2> cross_coordinates(RotaryAxis axis) {
-    std::array<int, 2> result = across_axis(axis);
-    std::sort(result.begin(), result.end());
-    return result;
-}
-
 /// Point where the axis pierces the plane through the origin of the fixture across the axis, its direction there, and
 /// the derivatives of both; c counts (O, O, S, S).
 struct AxisInFixture {
@@ -83,17 +76,6 @@ AxisInFixture axis_in_fixture(RotaryAxis axis, const Eigen::Vector4d& set_up) {
     return result;
 }
 
-/// Right-handed rotation about the cross axis that takes the axis to the projection of its direction.
-struct Tilt {
-    int component;  ///< of the direction that shows it
-    double sign;
-};
-
-Tilt tilt_about(RotaryAxis axis, int cross) {
-    const int k = axial_coordinate(axis);
-    return cross == (k + 1) % 3 ? Tilt{(k + 2) % 3, -1.0} : Tilt{(k + 1) % 3, 1.0};
-}
-
 Eigen::Matrix4d axis_line_derivatives(RotaryAxis axis, const Eigen::Vector4d& set_up) {
     const AxisInFixture line = axis_in_fixture(axis, set_up);
     const int k = axial_coordinate(axis);
@@ -102,7 +84,7 @@ Eigen::Matrix4d axis_line_derivatives(RotaryAxis axis, const Eigen::Vector4d& se
     for (int c = 0; c < 2; ++c) {
         const int coordinate = cross[static_cast<std::size_t>(c)];
         result.row(c) = line.point_by.row(coordinate);
-        const auto [component, sign] = tilt_about(axis, coordinate);
+        const auto [component, sign] = axis_tilt(axis, coordinate);
         const double u = line.direction[component];
         const double w = line.direction[k];
         result.row(2 + c) =
@@ -174,7 +156,7 @@ Eigen::Vector4d axis_line(RotaryAxis axis, const Eigen::Vector4d& set_up) {
     for (int c = 0; c < 2; ++c) {
         const int coordinate = cross[static_cast<std::size_t>(c)];
         result[c] = line.point[coordinate];
-        const auto [component, sign] = tilt_about(axis, coordinate);
+        const auto [component, sign] = axis_tilt(axis, coordinate);
         result[2 + c] = std::atan2(sign * line.direction[component], line.direction[axial_coordinate(axis)]);
     }
     return result;

@@ -29,9 +29,9 @@ using BesselPolicy =
                                   boost::math::policies::overflow_error<boost::math::policies::ignore_error>,
                                   boost::math::policies::underflow_error<boost::math::policies::ignore_error>>;
 
-constexpr std::size_t k_cells = std::size_t{1} << 15U;
+constexpr std::size_t k_convolution_cells = std::size_t{1} << 15U;
 // A margin of cells, so that the probability at the last ones does not wrap around to the other side of the grid.
-constexpr std::size_t k_last_cell = k_cells / 2 * 10 / 11;
+constexpr std::size_t k_last_cell = k_convolution_cells / 2 * 10 / 11;
 constexpr double k_tail_beyond_grid = 1e-9;  // probability of a term outside the grid, of those without limits
 constexpr double k_negligible_cell = 1e-15;  // of a probability; what Fourier transforms leave behind is smaller
 constexpr double k_widest_grid = 60.0;       // in standard deviations of the sum; wider where the tails ask for it
@@ -52,7 +52,7 @@ double width(const Distribution& distribution) {
 /// Probabilities of the cells (k ± ½) h of a symmetric distribution, k = 0 … n/2, then mirrored at the end of the array
 /// as a Fourier transform wants it. What lies beyond the last cell goes there.
 std::vector<double> cell_probabilities(const Distribution& distribution, double h) {
-    std::vector<double> cells(k_cells, 0.0);
+    std::vector<double> cells(k_convolution_cells, 0.0);
     double outside = 0.5;  // P(X > lower edge of cell k); symmetric about 0
     double above = upper_tail_probability(distribution, 0.5 * h);
     cells[0] = 2.0 * (outside - above);
@@ -61,18 +61,19 @@ std::vector<double> cell_probabilities(const Distribution& distribution, double 
         const bool more = k < k_last_cell && outside > 0.0;
         above = more ? upper_tail_probability(distribution, (static_cast<double>(k) + 0.5) * h) : 0.0;
         cells[k] = outside - above;
-        cells[k_cells - k] = cells[k];
+        cells[k_convolution_cells - k] = cells[k];
     }
     return cells;
 }
 
 /// Probabilities of the same cells of any distribution.
 std::vector<double> asymmetric_cells(const Centred& centred, double h) {
-    std::vector<double> cells(k_cells, 0.0);
+    std::vector<double> cells(k_convolution_cells, 0.0);
     const auto last = static_cast<std::ptrdiff_t>(k_last_cell);
     const auto place = [&](std::ptrdiff_t k) {
         const std::ptrdiff_t inside = std::clamp(centred.mirrored ? -k : k, -last, last);
-        return static_cast<std::size_t>(inside < 0 ? inside + static_cast<std::ptrdiff_t>(k_cells) : inside);
+        return static_cast<std::size_t>(inside < 0 ? inside + static_cast<std::ptrdiff_t>(k_convolution_cells)
+                                                   : inside);
     };
     const Distribution& d = centred.distribution;
     if (d.kind == DistributionKind::empirical) {
@@ -475,8 +476,8 @@ ConvolutionInterval symmetric_interval(const CellSum& convolved, double coverage
         edge *= coverage_probability / inside;
         return {-edge, edge};
     }
-    for (std::size_t k = 1; k < k_cells / 2; ++k) {
-        const double next = inside + sum[k] + sum[k_cells - k];
+    for (std::size_t k = 1; k < k_convolution_cells / 2; ++k) {
+        const double next = inside + sum[k] + sum[k_convolution_cells - k];
         if (next >= coverage_probability) {
             edge += h * (coverage_probability - inside) / (next - inside);
             break;
@@ -490,14 +491,14 @@ ConvolutionInterval symmetric_interval(const CellSum& convolved, double coverage
 /// The same tail on either side, counted from its own end.
 ConvolutionInterval interval_with_equal_tails(const CellSum& convolved, double coverage_probability) {
     const double tail = 0.5 * (1.0 - coverage_probability);
-    const auto half = static_cast<std::ptrdiff_t>(k_cells / 2);
+    const auto half = static_cast<std::ptrdiff_t>(k_convolution_cells / 2);
     const auto end = [&](std::ptrdiff_t direction) {
         double outside = 0.0;
         for (std::ptrdiff_t k = half - 1; k > -half; --k) {
             const std::ptrdiff_t at = direction * k;
-            const double here = std::max(
-                0.0,
-                convolved.cells[static_cast<std::size_t>(at < 0 ? at + static_cast<std::ptrdiff_t>(k_cells) : at)]);
+            const double here =
+                std::max(0.0, convolved.cells[static_cast<std::size_t>(
+                                  at < 0 ? at + static_cast<std::ptrdiff_t>(k_convolution_cells) : at)]);
             if (outside + here >= tail) {
                 return convolved.h * (static_cast<double>(k) + 0.5 - (tail - outside) / here);
             }
@@ -540,7 +541,7 @@ ConvolutionInterval convolution_interval(std::span<const ConvolutionTerm> terms,
         const CellSum sum = convolve(distributions, widest_grid, tail);
         const ConvolutionInterval interval = symmetric ? symmetric_interval(sum, coverage_probability)
                                                        : interval_with_equal_tails(sum, coverage_probability);
-        const double reach = 0.5 * static_cast<double>(k_cells) * sum.h;
+        const double reach = 0.5 * static_cast<double>(k_convolution_cells) * sum.h;
         if (!sum.cut || std::max(-interval.low, interval.high) <= k_trusted * reach) {
             return interval;
         }
@@ -559,14 +560,14 @@ struct CumulativeCells {
     double h = 0.0;
     std::vector<double> upto;  // P(Y ≤ (i + 1 + ½ − n/2) h)
 
-    [[nodiscard]] double reach() const { return 0.5 * static_cast<double>(k_cells) * h; }
+    [[nodiscard]] double reach() const { return 0.5 * static_cast<double>(k_convolution_cells) * h; }
     [[nodiscard]] double at(double x) const {
-        const double place = x / h - 1.5 + 0.5 * static_cast<double>(k_cells);
+        const double place = x / h - 1.5 + 0.5 * static_cast<double>(k_convolution_cells);
         if (!(place > 0.0)) {
             return place <= -1.0 ? 0.0 : upto.front() * std::max(0.0, place + 1.0);
         }
-        const auto i = static_cast<std::size_t>(std::min(place, static_cast<double>(k_cells)));
-        if (i + 1 >= k_cells) {
+        const auto i = static_cast<std::size_t>(std::min(place, static_cast<double>(k_convolution_cells)));
+        if (i + 1 >= k_convolution_cells) {
             return 1.0;
         }
         const double part = place - static_cast<double>(i);
@@ -577,8 +578,8 @@ struct CumulativeCells {
 CumulativeCells cumulative(const CellSum& sum) {
     CumulativeCells result{.h = sum.h, .upto = {}};
     double total = 0.0;
-    for (std::size_t i = 0; i < k_cells; ++i) {  // from k = 1 − n/2 on
-        total += std::max(0.0, sum.cells[(i + 1 + k_cells / 2) % k_cells]);
+    for (std::size_t i = 0; i < k_convolution_cells; ++i) {  // from k = 1 − n/2 on
+        total += std::max(0.0, sum.cells[(i + 1 + k_convolution_cells / 2) % k_convolution_cells]);
         result.upto.push_back(total);
     }
     for (double& value : result.upto) {
@@ -651,9 +652,10 @@ ConvolutionDistribution::ConvolutionDistribution(std::span<const ConvolutionTerm
     } else {
         const CellSum sum = convolve(distributions, k_widest_grid);
         double total = 0.0;
-        for (std::size_t i = 0; i < k_cells; ++i) {
+        for (std::size_t i = 0; i < k_convolution_cells; ++i) {
             if (sum.cells[i] > k_negligible_cell) {
-                const double k = static_cast<double>(i) - (i > k_cells / 2 ? static_cast<double>(k_cells) : 0.0);
+                const double k = static_cast<double>(i) -
+                                 (i > k_convolution_cells / 2 ? static_cast<double>(k_convolution_cells) : 0.0);
                 table.others.emplace_back(k * sum.h, sum.cells[i]);
                 total += sum.cells[i];
             }
@@ -824,10 +826,10 @@ Eigen::Index draws_of_group(double coverage_probability) {
     return static_cast<Eigen::Index>(k_draws_of_group * std::min(std::floor(more), k_most_times));
 }
 
-constexpr Eigen::Index k_batches = 16;
+constexpr Eigen::Index k_convolution_batches = 16;
 
 /// Contribution of a group that is drawn by a copula or by rows, as the distribution of many draws.
-/// \param batch  one of k_batches equal parts of the draws; none: all of them
+/// \param batch  one of k_convolution_batches equal parts of the draws; none: all of them
 Distribution drawn_contribution(const InputGroup& group, const Eigen::RowVectorXd& c, double coverage_probability,
                                 std::optional<Eigen::Index> batch) {
     auto values = std::make_shared<std::vector<double>>();
@@ -842,9 +844,9 @@ Distribution drawn_contribution(const InputGroup& group, const Eigen::RowVectorX
         constexpr std::uint64_t k_seed = 1;
         const InputDraws draws({sorted.group}, k_seed, {});
         const Eigen::Index count = draws_of_group(coverage_probability);
-        const Eigen::Index begin = batch ? *batch * (count / k_batches) : 0;
-        const Eigen::Index end = batch ? begin + count / k_batches : count;
-        Eigen::MatrixXd x(std::min(k_draws_of_group, count / k_batches), group.size());
+        const Eigen::Index begin = batch ? *batch * (count / k_convolution_batches) : 0;
+        const Eigen::Index end = batch ? begin + count / k_convolution_batches : count;
+        Eigen::MatrixXd x(std::min(k_draws_of_group, count / k_convolution_batches), group.size());
         for (Eigen::Index first = begin; first < end; first += x.rows()) {
             draws.draw(static_cast<std::uint64_t>(first), x);
             add(x, sorted);
@@ -971,13 +973,13 @@ std::optional<DrawnTerms> terms_of(const MeasurementModel& model, const Propagat
 double error_from_draws(const MeasurementModel& model, const Propagation& propagation, Eigen::Index output) {
     double sum = 0.0;
     double squares = 0.0;
-    for (Eigen::Index batch = 0; batch < k_batches; ++batch) {
+    for (Eigen::Index batch = 0; batch < k_convolution_batches; ++batch) {
         const double U = convolution_half_width(terms_of(model, propagation, output, batch)->terms,
                                                 propagation.coverage_probability);
         sum += U;
         squares += U * U;
     }
-    constexpr auto k_count = static_cast<double>(k_batches);
+    constexpr auto k_count = static_cast<double>(k_convolution_batches);
     const double variance = (squares - sum * sum / k_count) / (k_count - 1.0);
     return std::sqrt(std::max(0.0, variance) / k_count);
 }

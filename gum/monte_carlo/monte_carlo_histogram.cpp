@@ -7,7 +7,7 @@
 namespace gumcert::gum {
 namespace {
 
-constexpr std::size_t k_cells = 60;
+constexpr std::size_t k_histogram_cells = 60;
 constexpr double k_standard_deviations = 4.0;
 
 }  // namespace
@@ -18,9 +18,9 @@ Histogram empty_histogram(const Moments& moments) {
     // Where the sums of squares leave the range of double, `reach` is not finite, and the extremes remain.
     result.low = std::max(moments.smallest, moments.mean - reach);
     result.high = std::min(moments.largest, moments.mean + reach);
-    const double cells_a_unit = static_cast<double>(k_cells) / (result.high - result.low);
+    const double cells_a_unit = static_cast<double>(k_histogram_cells) / (result.high - result.low);
     if (result.low < result.high && std::isfinite(cells_a_unit) && cells_a_unit > 0.0) {
-        result.counts.assign(k_cells, 0);
+        result.counts.assign(k_histogram_cells, 0);
     } else {
         result.low = result.high = 0.0;
     }

@@ -80,7 +80,7 @@ void ParticipantsReader::read_items() {
         root_.refuse(k_wrong_size, "items", "an empty list of items", "there must be at least one",
                      "list the items, or leave the key out when there is one");
     }
-    engine::read_items(reading_, *array, defaults_, items_.index);
+    jobs::read_items(reading_, *array, defaults_, items_.index);
     is_whole_ = is_whole_ && reading_.job.items.size() == array->size();
 }
 

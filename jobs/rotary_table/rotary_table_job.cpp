@@ -317,17 +317,6 @@ DiskJob on_disk(const std::filesystem::path& job_file) {
 
 }  // namespace
 
-double gum::source_paper_fixture_uncertainty(double coordinate) {
-    constexpr double k_constant = 0.401 * k_micrometre;
-    constexpr double k_proportional = 3.32e-7;  // L and u_c in the same unit
-    return std::hypot(k_constant, k_proportional * coordinate);
-}
-
-std::string gum::fixture_coordinate_name(const std::string& reflector, std::size_t axis) {
-    static constexpr std::array<const char*, 3> k_suffixes{".x", ".y", ".z"};
-    return reflector + k_suffixes[axis];
-}
-
 const JobFields& rotary_table_fields() {
     return fields_of<RotaryTableStatement>();
 }

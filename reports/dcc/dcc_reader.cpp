@@ -1,5 +1,7 @@
 #include "reports/dcc/dcc_reader.h"
+
 #include "encoding/sha2.h"
+#include "reports/printable_text.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,7 @@
 #include "reports/dcc/dcc_statements.h"
 
+#include "reports/printable_text.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "reports/dcc/dcc_structure.h"
 
+#include "reports/printable_text.h"
+
 #include <algorithm>
 #include <map>
 #include <mutex>

@@ -1,5 +1,7 @@
 #include "reports/dcc/xml_document.h"
 
+#include "reports/printable_text.h"
+
 #include <libxml/SAX2.h>
 #include <libxml/parser.h>
 #include <libxml/parserInternals.h>

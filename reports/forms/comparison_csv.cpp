@@ -1,4 +1,5 @@
 #include "reports/forms/comparison_csv.h"
+
 #include "text/csv_field.h"
 #include "text/numbers.h"
 

@@ -1,4 +1,5 @@
 #include "reports/forms/pdf_conformity.h"
+
 #include "reports/forms/qpdf_objects.h"
 
 #include <cstddef>

@@ -2,6 +2,7 @@
 
 #include "gum/quantity/diagnostic.h"
 #include "reports/forms/asset_files.h"
+#include "reports/printable_text.h"
 #include "reports/view/certificate_view.h"
 #include "text/markup.h"
 

@@ -2,6 +2,7 @@
 
 #include "gum/quantity/diagnostic.h"
 #include "reports/forms/document_forms.h"
+#include "reports/printable_text.h"
 #include "reports/view/certificate_builder.h"
 #include "reports/view/certificate_view.h"
 #include "reports/wording.h"

@@ -1,7 +1,8 @@
 #include "reports/plots/budget_plots.h"
 
 #include "gum/quantity/unit.h"
-#include "reports/view/certificate_view.h"
+#include "reports/plots/plot_frame.h"
+#include "reports/printable_text.h"
 
 #include <algorithm>
 #include <array>
@@ -27,15 +28,6 @@ Scale scale_of(double most) {
         return {};
     }
     return {.exponent = 3 * static_cast<int>(std::floor(std::log10(most) / 3.0))};
-}
-
-std::string superscript(int exponent) {
-    static constexpr std::array<const char*, 10> k_digits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-    std::string text = exponent < 0 ? "⁻" : "";
-    for (const char digit : std::to_string(std::abs(exponent))) {
-        text += k_digits[static_cast<std::size_t>(digit - '0')];
-    }
-    return text;
 }
 
 /// "x / µm", "x / 10⁻⁶ m", "x"

@@ -1,6 +1,6 @@
 #include "reports/plots/certified_plots.h"
 
-#include "reports/view/certificate_view.h"
+#include "reports/printable_text.h"
 
 #include <charconv>
 #include <cmath>
@@ -18,7 +18,7 @@ using certificate::CertifiedTable;
 using certificate::CertifiedValue;
 
 constexpr std::size_t k_least_values = 3;
-constexpr std::size_t k_most_panels = 12;
+constexpr std::size_t k_most_certified_panels = 12;
 
 /// A printed number as the number that the table shows: the plot and the table cannot disagree.
 std::optional<double> number_of(std::string printed) {
@@ -35,7 +35,7 @@ std::optional<double> number_of(std::string printed) {
 }
 
 /// One limit of all values: a line where it is the same for all, else a mark at each value.
-struct LimitLine {
+struct CertifiedLimit {
     std::vector<PlotPoint> points;
     bool constant = true;
 
@@ -59,10 +59,10 @@ struct LimitLine {
 
 PlotPanel panel_of(const CertifiedTable& table, const CertifiedColumn& column, const Wording& words) {
     PlotSeries series{.label = "", .points = {}, .marker = PlotMarker::disc, .bars = PlotBars::bars, .joined = true};
-    LimitLine lower;
-    LimitLine upper;
-    LimitLine acceptance_lower;
-    LimitLine acceptance_upper;
+    CertifiedLimit lower;
+    CertifiedLimit upper;
+    CertifiedLimit acceptance_lower;
+    CertifiedLimit acceptance_upper;
     for (std::size_t i = 0; i < column.values.size(); ++i) {
         const CertifiedValue& value = column.values[i];
         const std::optional<double>& x = table.argument->values[i];
@@ -100,7 +100,7 @@ PlotPanel panel_of(const CertifiedTable& table, const CertifiedColumn& column, c
 
 std::optional<Plot> certified_plot(const CertifiedTable& table, const std::string& caption, const Wording& words,
                                    const std::string& id) {
-    if (!table.argument || table.columns.empty() || table.columns.size() > k_most_panels) {
+    if (!table.argument || table.columns.empty() || table.columns.size() > k_most_certified_panels) {
         return std::nullopt;
     }
     const bool is_angle = table.argument->unit == "degree" || table.argument->printed_unit == "°";

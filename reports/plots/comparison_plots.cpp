@@ -1,10 +1,10 @@
 // The plots of a method against a reference method.
 
 #include "reports/plots/comparison_plots.h"
+#include "reports/printable_text.h"
 
 #include "gum/quantity/unit.h"
 #include "reports/plots/plot_frame.h"
-#include "reports/view/certificate_view.h"
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
 // Values and scores of a comparison between laboratories.
 
 #include "reports/plots/comparison_plots.h"
+#include "reports/printable_text.h"
 
 #include "gum/quantity/unit.h"
 #include "reports/plots/plot_frame.h"
-#include "reports/view/certificate_view.h"
-#include "reports/view/comparison_parts.h"
+#include "reports/record/comparison_scores.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "gum/quantity/diagnostic.h"
 #include "reports/plots/svg_drawing.h"
-#include "reports/view/certificate_view.h"
+#include "reports/printable_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +15,10 @@ namespace gumcert::reports {
 
 namespace {
 
-constexpr double k_left = 52.0;     // tick labels and the label of the vertical axis
-constexpr double k_right = 8.0;     // after the last panel
-constexpr double k_between = 60.0;  // between the panels of a row
-constexpr double k_below = 40.0;    // tick labels and label of the horizontal axis
+constexpr double k_layout_left = 52.0;     // tick labels and the label of the vertical axis
+constexpr double k_layout_right = 8.0;     // after the last panel
+constexpr double k_layout_between = 60.0;  // between the panels of a row
+constexpr double k_below = 40.0;           // tick labels and label of the horizontal axis
 constexpr double k_most_height = 470.0;
 constexpr double k_label_size = 9.5;
 constexpr const char* k_ellipse = "fill=\"none\" stroke=\"#6a6a6a\" stroke-width=\"0.8\"";
@@ -305,12 +305,12 @@ void draw_view(Drawing& drawing, const LayoutPlot& plot, const View& view, std::
 /// \return height of the key
 double draw_key(Drawing& drawing, const LayoutPlot& plot, const LayoutMagnification& magnification) {
     constexpr double k_line = 16.0;
-    double x = k_left;
+    double x = k_layout_left;
     double y = 9.0;
     const auto entry = [&](const std::string& text, double symbol_width, const auto& symbol) {
         const double room = symbol_width + 6.0 + text_width(text, 10.5) + 18.0;
-        if (x > k_left && x + room > k_drawing_width) {
-            x = k_left;
+        if (x > k_layout_left && x + room > k_drawing_width) {
+            x = k_layout_left;
             y += k_line;
         }
         symbol(x + 0.5 * symbol_width, y);
@@ -372,7 +372,7 @@ std::string svg(const LayoutPlot& plot) {
 
     Drawing drawing;
     const double top = draw_key(drawing, plot, magnification);
-    const double room_across = k_drawing_width - k_left - k_between - k_right;
+    const double room_across = k_drawing_width - k_layout_left - k_layout_between - k_layout_right;
     const double scale = std::min(room_across / (range[0].length() + range[1].length()),
                                   k_most_height / (range[2].length() + range[1].length()));
     // Where the height decides, the views are widened to the whole width, but not made taller.
@@ -394,9 +394,9 @@ std::string svg(const LayoutPlot& plot) {
                     .across_range = range[across],
                     .up_range = up_range};
     };
-    const View front = view_of(0, 2, k_left, top);
-    const View side = view_of(1, 2, front.frame.right + k_between, top);
-    const View plan = view_of(0, 1, k_left, front.frame.bottom + k_below + 6.0);
+    const View front = view_of(0, 2, k_layout_left, top);
+    const View side = view_of(1, 2, front.frame.right + k_layout_between, top);
+    const View plan = view_of(0, 1, k_layout_left, front.frame.bottom + k_below + 6.0);
     const double height = plan.frame.bottom + k_below;
 
     Drawing whole;

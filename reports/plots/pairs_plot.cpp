@@ -1,9 +1,9 @@
 // Pairs of laboratories of one item.
 
 #include "reports/plots/comparison_plots.h"
+#include "reports/printable_text.h"
 
 #include "reports/plots/plot_frame.h"
-#include "reports/view/certificate_view.h"
 
 #include <algorithm>
 #include <cmath>

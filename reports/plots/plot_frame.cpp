@@ -1,4 +1,5 @@
 #include "reports/plots/plot_frame.h"
+
 #include "text/utf8.h"
 
 #include <algorithm>
@@ -14,15 +15,6 @@ constexpr const char* k_tick = "stroke=\"#000000\" stroke-width=\"0.8\"";
 constexpr double k_tick_size = 10.0;
 constexpr double k_title_size = 11.0;
 constexpr double k_key_size = 10.5;
-
-std::string superscript(int n) {
-    static constexpr const char* k_digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-    std::string text = n < 0 ? "⁻" : "";
-    for (const char c : std::to_string(std::abs(n))) {
-        text += k_digits[c - '0'];
-    }
-    return text;
-}
 
 void draw_symbol(Drawing& drawing, PlotKey::Symbol symbol, double x, double y) {
     switch (symbol) {
@@ -71,6 +63,15 @@ void draw_symbol(Drawing& drawing, PlotKey::Symbol symbol, double x, double y) {
 }
 
 }  // namespace
+
+std::string superscript(int n) {
+    static constexpr const char* k_digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    std::string text = n < 0 ? "⁻" : "";
+    for (const char c : std::to_string(std::abs(n))) {
+        text += k_digits[c - '0'];
+    }
+    return text;
+}
 
 AxisScale AxisScale::of(double largest, double most) {
     const double magnitude = std::abs(largest);

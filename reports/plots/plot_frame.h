@@ -49,6 +49,9 @@ void require_finite(const std::string& where, std::initializer_list<double> numb
 /// Width of a text, about, in drawing units; ideographs count as squares.
 [[nodiscard]] double label_width(const std::string& text, double size);
 
+/// An exponent in superscript digits: "⁻¹²".
+[[nodiscard]] std::string superscript(int exponent);
+
 /// At most so many characters of a name. What is left out of a longer one was in its middle: names of laboratories
 /// often differ at their end only.
 [[nodiscard]] std::string shortened_name(const std::string& name, std::size_t most);

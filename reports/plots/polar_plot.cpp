@@ -16,9 +16,9 @@ namespace {
 constexpr int k_columns = 3;
 constexpr double k_pitch = k_drawing_width / k_columns;
 constexpr double k_radius = 84.0;  // of the outermost ring, drawing units
-constexpr double k_head = 26.0;
-constexpr double k_foot = 22.0;   // angles below a panel
-constexpr double k_inner = 0.16;  // of the radius, left free about the centre
+constexpr double k_polar_head = 26.0;
+constexpr double k_polar_foot = 22.0;  // angles below a panel
+constexpr double k_inner = 0.16;       // of the radius, left free about the centre
 
 /// Places of a panel: its centre, and how values become radii.
 struct PolarFrame {
@@ -116,12 +116,12 @@ std::string svg(const PolarPlot& plot) {
         }
     }
     Drawing drawing;
-    const double pitch = k_head + 2.0 * k_radius + k_foot;
+    const double pitch = k_polar_head + 2.0 * k_radius + k_polar_foot;
     const int rows = (static_cast<int>(plot.panels.size()) + k_columns - 1) / k_columns;
     for (std::size_t i = 0; i < plot.panels.size(); ++i) {
         const auto at = static_cast<int>(i);
         const PolarFrame frame{.x = (at % k_columns + 0.5) * k_pitch,
-                               .y = (at / k_columns) * pitch + k_head + k_radius,
+                               .y = (at / k_columns) * pitch + k_polar_head + k_radius,
                                .rings = rings_of(plot.panels[i])};
         draw_polar_panel(drawing, plot.panels[i], frame, plot.is_closed);
     }

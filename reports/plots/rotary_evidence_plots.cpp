@@ -2,7 +2,7 @@
 
 #include "reports/plots/certificate_plots.h"
 #include "reports/plots/rotary_plots.h"
-#include "reports/view/certificate_view.h"
+#include "reports/printable_text.h"
 
 #include <algorithm>
 #include <array>

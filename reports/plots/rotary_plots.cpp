@@ -1,8 +1,8 @@
 #include "reports/plots/rotary_plots.h"
 
 #include "gum/quantity/unit.h"
+#include "reports/printable_text.h"
 #include "reports/result_names.h"
-#include "reports/view/certificate_view.h"
 
 #include <algorithm>
 #include <array>

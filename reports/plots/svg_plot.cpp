@@ -23,12 +23,12 @@ constexpr double k_foot = 8.0;      // below a panel that has no tick labels
 constexpr double k_axis = 42.0;     // tick labels and label of the horizontal axis
 constexpr double k_key = 20.0;      // the key above the panels
 constexpr double k_between = 14.0;  // between columns
-constexpr const char* k_grid = "stroke=\"#e2e2e2\" stroke-width=\"0.6\"";
-constexpr const char* k_tick = "stroke=\"#000000\" stroke-width=\"0.8\"";
+constexpr const char* k_plot_grid = "stroke=\"#e2e2e2\" stroke-width=\"0.6\"";
+constexpr const char* k_plot_tick = "stroke=\"#000000\" stroke-width=\"0.8\"";
 constexpr const char* k_solid = "fill=\"none\" stroke=\"#000000\" stroke-width=\"1\"";
 constexpr const char* k_dashed = "fill=\"none\" stroke=\"#000000\" stroke-width=\"1\" stroke-dasharray=\"5 2.5\"";
 constexpr const char* k_edge = "fill=\"none\" stroke=\"#555555\" stroke-width=\"0.8\" stroke-dasharray=\"2 2\"";
-constexpr std::size_t k_many = 150;  // points of a series above which they are drawn as one path
+constexpr std::size_t k_many_points = 150;  // points of a series above which they are drawn as one path
 
 /// One path of dots for points too many to be told apart one by one. Dots that fall on the same place are drawn once.
 void draw_dense(Drawing& drawing, const std::vector<PlotPoint>& sorted, const PlotFrame& frame, double shift) {
@@ -93,7 +93,7 @@ void draw_series(Drawing& drawing, const PlotSeries& series, const PlotFrame& fr
     if (series.joined || series.bars == PlotBars::band) {
         sorted = thinned(sorted, frame);
     }
-    if (sorted.size() > k_many && series.marker == PlotMarker::disc && !series.joined) {
+    if (sorted.size() > k_many_points && series.marker == PlotMarker::disc && !series.joined) {
         draw_dense(drawing, sorted, frame, series.shift);
         return;
     }
@@ -125,7 +125,7 @@ void draw_series(Drawing& drawing, const PlotSeries& series, const PlotFrame& fr
     if (series.joined) {
         draw_curve(drawing, sorted, frame, series.shift, 0.0, series.dashed ? k_dashed : k_solid);
     }
-    if (series.joined && sorted.size() > k_many) {
+    if (series.joined && sorted.size() > k_many_points) {
         return;  // markers would hide the curve
     }
     for (const PlotPoint& p : sorted) {
@@ -424,8 +424,8 @@ std::string svg(const BarPlot& plot) {
     Drawing drawing;
     for (int i = 0; i < ticks.count(); ++i) {
         const double x = px(ticks.at(i));
-        drawing.line(x, top, x, bottom, k_grid);
-        drawing.line(x, bottom, x, bottom + 4.0, k_tick);
+        drawing.line(x, top, x, bottom, k_plot_grid);
+        drawing.line(x, bottom, x, bottom + 4.0, k_plot_tick);
         drawing.text(x, bottom + 15.0, tick_text(ticks.at(i), ticks.decimals), "middle", 10.0);
     }
     for (std::size_t i = 0; i < plot.bars.size(); ++i) {
@@ -587,8 +587,8 @@ std::string svg(const StackedPlot& plot) {
     drawing.body += key.body;
     drawing.text(labels + width + 8.0, top - 4.0, plot.text_head, "start", 10.5);
     for (int percent = 0; percent <= 100; percent += 10) {
-        drawing.line(px(percent), top, px(percent), bottom, k_grid);
-        drawing.line(px(percent), bottom, px(percent), bottom + 4.0, k_tick);
+        drawing.line(px(percent), top, px(percent), bottom, k_plot_grid);
+        drawing.line(px(percent), bottom, px(percent), bottom + 4.0, k_plot_tick);
         drawing.text(px(percent), bottom + 15.0, tick_text(percent, 0), "middle", 10.0);
     }
     for (std::size_t i = 0; i < plot.bars.size(); ++i) {

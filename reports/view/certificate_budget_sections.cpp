@@ -1,12 +1,12 @@
 #include "reports/view/certificate_budget_sections.h"
-#include "reports/record/reported_result.h"
-#include "reports/reported_results.h"
 
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
 #include "reports/plots/budget_plots.h"
 #include "reports/plots/svg_plot.h"
+#include "reports/record/reported_result.h"
+#include "reports/reported_results.h"
 #include "reports/result_names.h"
 #include "text/numbers.h"
 

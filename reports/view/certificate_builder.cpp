@@ -1,6 +1,7 @@
 #include "reports/view/certificate_builder.h"
 
 #include "certificate/statement_of_uncertainty.h"
+#include "reports/printable_text.h"
 #include "reports/view/certificate_view.h"
 #include "text/numbers.h"
 

@@ -1,5 +1,6 @@
 #include "reports/view/certificate_identity_sections.h"
 
+#include "reports/printable_text.h"
 #include "reports/printed_texts.h"
 #include "reports/result_names.h"
 #include "reports/view/certificate_conformity_section.h"

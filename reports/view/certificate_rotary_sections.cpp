@@ -26,7 +26,7 @@ namespace {
 constexpr std::size_t k_most_listed = 60;  // rows of a list of exceptions; the record holds all
 
 /// A number that has no printed form in the record, with two significant digits and U+2212 as minus sign.
-std::string rounded(double v) {
+std::string rounded_with_minus(double v) {
     const std::string text = gum::round_significant(v, 2);
     return text.starts_with('-') ? "\u2212" + text.substr(1) : text;
 }
@@ -59,7 +59,7 @@ std::string fixed_signed(double v) {
 
 /// A minimal detectable bias; none where nothing controls the observation.
 std::string detectable(double bias_um) {
-    return bias_um > 0.0 ? rounded(bias_um) : "";
+    return bias_um > 0.0 ? rounded_with_minus(bias_um) : "";
 }
 
 /// What Monte Carlo says of a quantity; "" where it was not asked.
@@ -638,8 +638,9 @@ void reliability(CertificateBuilder& builder, const Wording& words, const Rotary
     if (least != nullptr && largest != nullptr) {
         facts.emplace_back(words("label", "least_redundancy"),
                            words.number(text::fixed(least->redundancy_number, 3)) + " (" + distance(*least) + ")");
-        facts.emplace_back(words("label", "largest_bias"), words.number(rounded(largest->minimal_detectable_bias_um)) +
-                                                               " µm (" + distance(*largest) + ")");
+        facts.emplace_back(
+            words("label", "largest_bias"),
+            words.number(rounded_with_minus(largest->minimal_detectable_bias_um)) + " µm (" + distance(*largest) + ")");
     }
     const FixtureReliabilityRow* least_fixture = nullptr;
     const FixtureReliabilityRow* largest_fixture = nullptr;
@@ -659,7 +660,7 @@ void reliability(CertificateBuilder& builder, const Wording& words, const Rotary
             words("label", "least_redundancy_fixture"),
             words.number(text::fixed(least_fixture->redundancy_number, 3)) + " (" + coordinate(*least_fixture) + ")");
         facts.emplace_back(words("label", "largest_bias_fixture"),
-                           words.number(rounded(largest_fixture->minimal_detectable_bias_um)) + " µm (" +
+                           words.number(rounded_with_minus(largest_fixture->minimal_detectable_bias_um)) + " µm (" +
                                coordinate(*largest_fixture) + ")");
     }
     builder.definitions(facts);
@@ -682,8 +683,9 @@ void reliability(CertificateBuilder& builder, const Wording& words, const Rotary
         Rows rows;
         for (const ExternalReliability* e : worst) {
             rows.push_back({words.sentence(e->quantity), e->angle_deg ? plain(*e->angle_deg) : "",
-                            rounded(e->influence), gum::unit_for_people(e->unit), rounded(e->ratio_to_U), e->station,
-                            e->reflector, e->pass, plain(e->at_angle_deg), detectable(e->minimal_detectable_bias_um)});
+                            rounded_with_minus(e->influence), gum::unit_for_people(e->unit),
+                            rounded_with_minus(e->ratio_to_U), e->station, e->reflector, e->pass,
+                            plain(e->at_angle_deg), detectable(e->minimal_detectable_bias_um)});
         }
         builder.table("external-reliability", words("sentence", "external_reliability"),
                       {{words("label", "quantity"), ""},
@@ -704,7 +706,7 @@ void reliability(CertificateBuilder& builder, const Wording& words, const Rotary
             if (rows.size() == k_most_listed) {
                 break;
             }
-            rows.push_back({row.reflector, row.coordinate, rounded(row.residual_um),
+            rows.push_back({row.reflector, row.coordinate, rounded_with_minus(row.residual_um),
                             text::fixed(row.redundancy_number, 3), fixed_signed(row.test_value),
                             detectable(row.minimal_detectable_bias_um)});
         }

@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <span>
-#include <string>
 
 namespace gumcert::reports {
 
@@ -43,12 +42,5 @@ namespace gumcert::reports {
 /// \throws gum::StorageError if the wording lacks a text
 [[nodiscard]] nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::json& wording,
                                               std::span<const DocumentKind> kinds = document_kinds());
-
-/// A text as it may stand in a document: tab and line feed become blanks; other control characters, characters that
-/// change the direction of writing, and bytes that are not UTF-8 become U+FFFD.
-[[nodiscard]] std::string printable(const std::string& text);
-
-/// At most `most` characters of a UTF-8 text, with an ellipsis where something was left out.
-[[nodiscard]] std::string shortened(const std::string& text, std::size_t most);
 
 }  // namespace gumcert::reports

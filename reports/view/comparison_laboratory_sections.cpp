@@ -4,6 +4,7 @@
 #include "gum/rounding.h"
 #include "reports/plots/comparison_plots.h"
 #include "reports/printed_texts.h"
+#include "reports/record/comparison_scores.h"
 #include "reports/view/comparison_parts.h"
 #include "reports/view/comparison_sections.h"
 

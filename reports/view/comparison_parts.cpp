@@ -116,15 +116,6 @@ Text some_of(const Wording& words, const std::vector<std::string>& names) {
                                    {"count", plain(static_cast<std::int64_t>(names.size() - k_most_names))}});
 }
 
-std::optional<double> score_of(const ComparisonPoint& p, const std::string& score) {
-    return score == "En"        ? p.En.number
-           : score == "zeta"    ? p.zeta.number
-           : score == "z"       ? p.z.number
-           : score == "z_prime" ? p.z_prime.number
-           : score == "D"       ? std::optional<double>(p.D.number)
-                                : std::nullopt;
-}
-
 std::string unrounded(const std::optional<double>& v) {
     return v ? plain(*v) : "";
 }

@@ -47,9 +47,6 @@ void remarks_section(CertificateBuilder& builder, const Wording& words, const Co
 /// The first names of a list with the number of the others: "A, B, C and 17 more".
 [[nodiscard]] Text some_of(const Wording& words, const std::vector<std::string>& names);
 
-/// A score of a result by its name in the record; none where the result has no such score.
-[[nodiscard]] std::optional<double> score_of(const ComparisonPoint& point, const std::string& score);
-
 /// A number of the record without a printed text: all its digits, so that it reads back as the same number.
 [[nodiscard]] std::string unrounded(const std::optional<double>& v);
 

@@ -3,6 +3,7 @@
 #include "gum/quantity/unit.h"
 #include "reports/plots/certificate_plots.h"
 #include "reports/plots/svg_plot.h"
+#include "reports/printable_text.h"
 #include "reports/record/record_kinds.h"
 #include "reports/reported_results.h"
 #include "reports/view/certificate_budget_sections.h"

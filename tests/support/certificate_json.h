@@ -146,7 +146,7 @@ inline certificate::CertificateData complete_certificate_data() {
     d.external_results = {{.results = {"ECA"}, .provider = "Other Example Laboratory"}};
     d.parameters = {{.name = "T", .unit = "degC", .value = 20.1}};
     d.sampling = gumcert::test::in_two_languages("All items", "Alle Teile");
-    d.adjustment = engine::Adjustment{.adjusted = true, .as_found = "Certificate EX-2026-0041"};
+    d.adjustment = Adjustment{.adjusted = true, .as_found = "Certificate EX-2026-0041"};
     d.simplified_agreement = "Contract 88-2026, 4";
     d.recalibration_date = "2028-11-21";
     d.recalibration_agreement = "Contract 88-2026, 5";

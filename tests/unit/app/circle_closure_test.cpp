@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "app/compared_job_side.h"
 #include "app/evaluate_job.h"
 #include "app/recompute_record.h"
 #include "gum/circle_closure/evaluate_circle_closure.h"
@@ -20,6 +19,7 @@
 #include "reports/forms/record_sentences.h"
 #include "reports/record/make/circle_closure/circle_closure_findings.h"
 #include "reports/record/make/circle_closure/circle_closure_record.h"
+#include "reports/record/make/comparison/compared_job_side.h"
 
 namespace gumcert::app {
 namespace {
@@ -281,14 +281,14 @@ TEST(CircleClosureRecord, FalseAlarmsAreRare) {
 }
 
 TEST(ComparedJobSide, TakesTheMeanOffWithItsCovariance) {
-    MethodSide side;
+    reports::MethodSide side;
     side.value = {1.0, 2.0, 6.0};
     side.uncertainty.resize(3);
     for (gum::ResultUncertainty& u : side.uncertainty) {
         u = {.u = 0.5, .U = 1.0, .k = 2.0, .degrees_of_freedom = 8.0};
     }
     side.covariance = 0.25 * Eigen::Matrix3d::Identity();
-    take_off_mean(side, 0.95);
+    reports::take_off_mean(side, 0.95);
     EXPECT_NEAR(side.value[0], -2.0, 1e-15);
     EXPECT_NEAR(side.value[2], 3.0, 1e-15);
     EXPECT_NEAR(side.uncertainty[0].u, 0.5 * std::sqrt(2.0 / 3.0), 1e-15);
@@ -296,7 +296,7 @@ TEST(ComparedJobSide, TakesTheMeanOffWithItsCovariance) {
     EXPECT_NEAR(side.covariance(0, 1), -0.25 / 3.0, 1e-15);
     // A part that all points share goes with the mean.
     side.covariance = Eigen::Matrix3d::Constant(4.0);
-    take_off_mean(side, 0.95);
+    reports::take_off_mean(side, 0.95);
     EXPECT_LT(side.covariance.cwiseAbs().maxCoeff(), 1e-14);
 }
 
@@ -310,8 +310,8 @@ TEST(ComparedJobSide, BothMethodsAgreeOnTheSameTable) {
     double values = 0.0;
     double references = 0.0;
     for (const reports::ComparisonPoint& point : comparison.points) {
-        values += point.value;
-        references += point.reference_value;
+        values += point.value.number;
+        references += point.reference_value.number;
     }
     EXPECT_NEAR(values, 0.0, 1e-9);
     EXPECT_NEAR(references, 0.0, 1e-9);
@@ -319,17 +319,17 @@ TEST(ComparedJobSide, BothMethodsAgreeOnTheSameTable) {
     // One angle of the tracking interferometer is 3.6 u off its truth, which is in its readings.
     const reports::ComparisonSummary& summary = comparison.summary.front();
     EXPECT_LE(summary.count_above_1, *summary.count_by_chance);
-    EXPECT_LT(summary.mean_abs_En, 0.7);
-    EXPECT_GT(*summary.p_high, 0.025);
+    EXPECT_LT(summary.mean_abs_En.number, 0.7);
+    EXPECT_GT(*summary.p_high.number, 0.025);
     ASSERT_TRUE(summary.bias);
-    EXPECT_NEAR(summary.bias->constant, 0.0, 1e-9);
-    EXPECT_LT(std::abs(summary.bias->slope), 3.0 * summary.bias->u_slope);
+    EXPECT_NEAR(summary.bias->constant.number, 0.0, 1e-9);
+    EXPECT_LT(std::abs(summary.bias->slope.number), 3.0 * summary.bias->u_slope);
     // Against the truth, both: the datum is that of the sum.
     const auto truth = truth_of("truth.csv");
     for (std::size_t i = 0; i < 36; ++i) {
-        EXPECT_LT(std::abs(comparison.points[i].reference_value - truth[i][2]),
+        EXPECT_LT(std::abs(comparison.points[i].reference_value.number - truth[i][2]),
                   4.5 * *comparison.points[i].reference_u);
-        EXPECT_LT(std::abs(comparison.points[i].value - truth[i][2]), 4.5 * *comparison.points[i].u);
+        EXPECT_LT(std::abs(comparison.points[i].value.number - truth[i][2]), 4.5 * *comparison.points[i].u);
     }
 }
 

@@ -16,17 +16,18 @@ reports::InputFile file_with(const std::string& digest) {
 
 TEST(CovarianceOutput, HasANameThatDependsOnTheFilesOnlyBesideOthers) {
     const CovarianceOutput alone(CovarianceFile::own_folder);
-    EXPECT_EQ(alone.name(CovarianceForm::csv, {file_with("ab")}), "covariance.csv");
-    EXPECT_EQ(alone.name(CovarianceForm::npy, {file_with("cd")}), "covariance.npy");
+    EXPECT_EQ(alone.name(reports::CovarianceForm::csv, {file_with("ab")}), "covariance.csv");
+    EXPECT_EQ(alone.name(reports::CovarianceForm::npy, {file_with("cd")}), "covariance.npy");
     const CovarianceOutput beside(CovarianceFile::with_others);
     // The first twelve digits of the SHA-256 of "abc" (FIPS 180-2, B.1).
-    EXPECT_EQ(beside.name(CovarianceForm::csv, {file_with("a"), file_with("bc")}), "covariance-ba7816bf8f01.csv");
+    EXPECT_EQ(beside.name(reports::CovarianceForm::csv, {file_with("a"), file_with("bc")}),
+              "covariance-ba7816bf8f01.csv");
 }
 
 TEST(CovarianceOutput, IsNotWrittenWhereNoPlaceOrNoFormIsAsked) {
     EXPECT_TRUE(CovarianceOutput(CovarianceFile::own_folder).is_written());
     EXPECT_FALSE(CovarianceOutput(CovarianceFile::none).is_written());
-    EXPECT_FALSE(CovarianceOutput(CovarianceFile::own_folder, CovarianceForm::none).is_written());
+    EXPECT_FALSE(CovarianceOutput(CovarianceFile::own_folder, reports::CovarianceForm::none).is_written());
 }
 
 TEST(EvaluationTask, HoldsFilesUpToEightMebibytesEachAndSixteenTogether) {

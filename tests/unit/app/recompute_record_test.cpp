@@ -18,12 +18,12 @@ namespace {
 using nlohmann::json;
 using reports::EvaluationRecord;
 
-const std::filesystem::path k_examples = std::filesystem::path(GUMCERT_SOURCE_DIR) / "examples";
-const std::filesystem::path k_templates = std::filesystem::path(GUMCERT_SOURCE_DIR) / "templates";
+const std::filesystem::path k_shipped_examples = std::filesystem::path(GUMCERT_SOURCE_DIR) / "examples";
+const std::filesystem::path k_shipped_templates = std::filesystem::path(GUMCERT_SOURCE_DIR) / "templates";
 
 std::string record_of(const std::string& job) {
     return reports::to_canonical_json(
-        evaluate_job(k_examples / job, CovarianceFile::with_others, 1, k_templates).record);
+        evaluate_job(k_shipped_examples / job, CovarianceFile::with_others, 1, k_shipped_templates).record);
 }
 
 EvaluationRecord read(const std::string& text) {
@@ -33,7 +33,8 @@ EvaluationRecord read(const std::string& text) {
 std::vector<gum::Diagnostic> refusals(const std::string& text) {
     try {
         EvaluationRecord record = read(text);
-        if (const std::optional<gum::Diagnostic> why = recompute_record(record, "record.json", 1, k_templates)) {
+        if (const std::optional<gum::Diagnostic> why =
+                recompute_record(record, "record.json", 1, k_shipped_templates)) {
             return {*why};
         }
     } catch (const gum::InputError& error) {
@@ -124,7 +125,7 @@ struct Edits {
 /// Random edits of single values, each closed with a digest that fits: only the recomputation stands against them.
 Edits edit_at_random(const std::string& text, int count, unsigned seed) {
     const json record = json::parse(text);
-    const EvaluationRecord evaluated = evaluated_again(read(text), "record.json", 1, k_templates);
+    const EvaluationRecord evaluated = evaluated_again(read(text), "record.json", 1, k_shipped_templates);
     EXPECT_TRUE(disagreements(read(text), evaluated, "record.json").empty());
     // Half of the edits go to a value of a group of values chosen first, so that long lists do not take all of them.
     const std::vector<std::string> all = leaves(record);
@@ -160,12 +161,12 @@ Edits edit_at_random(const std::string& text, int count, unsigned seed) {
             const EvaluationRecord stated = read(reports::with_digest(copy));
             refused = not_recomputable(stated, "record.json").has_value();
             if (!refused) {
-                refused =
-                    !disagreements(stated,
-                                   at.starts_with("/job/files") ? evaluated_again(stated, "record.json", 1, k_templates)
-                                                                : evaluated,
-                                   "record.json")
-                         .empty();
+                refused = !disagreements(stated,
+                                         at.starts_with("/job/files")
+                                             ? evaluated_again(stated, "record.json", 1, k_shipped_templates)
+                                             : evaluated,
+                                         "record.json")
+                               .empty();
             }
         } catch (const gum::InputError&) {
             refused = true;
@@ -194,13 +195,13 @@ void expect_no_silent_edit(const std::string& text, int count) {
     testing::Test::RecordProperty("refused", edits.refused);
 }
 
-struct Kind {
+struct KindOfRecord {
     const char* name;
     const char* job;
     int edits;
 };
 
-class EveryRecord : public testing::TestWithParam<Kind> {};
+class EveryRecord : public testing::TestWithParam<KindOfRecord> {};
 
 TEST_P(EveryRecord, AgreesWithItsJob) {
     EXPECT_EQ(codes(record_of(GetParam().job)), std::vector<std::string>());
@@ -211,17 +212,17 @@ TEST_P(EveryRecord, RefusesEveryEditOfAValue) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryRecord,
-                         testing::Values(Kind{"budget", "end_gauge/job.json", 1000},
-                                         Kind{"monte_carlo", "gauge_block/job.json", 400},
-                                         Kind{"outputs", "resistance_and_reactance/job.json", 400},
-                                         Kind{"points", "multimeter/job.json", 400},
-                                         Kind{"fit", "thermometer/job.json", 400},
-                                         Kind{"certificate", "certificate/end_gauge.json", 1000},
-                                         Kind{"rotary_table", "rotary_table/job.json", 40},
-                                         Kind{"laboratories", "comparison/key_comparison.json", 300},
-                                         Kind{"proficiency_test", "comparison/proficiency_test.json", 200},
-                                         Kind{"methods", "comparison/methods.json", 300}),
-                         [](const testing::TestParamInfo<Kind>& kind) { return std::string(kind.param.name); });
+                         testing::Values(KindOfRecord{"budget", "end_gauge/job.json", 1000},
+                                         KindOfRecord{"monte_carlo", "gauge_block/job.json", 400},
+                                         KindOfRecord{"outputs", "resistance_and_reactance/job.json", 400},
+                                         KindOfRecord{"points", "multimeter/job.json", 400},
+                                         KindOfRecord{"fit", "thermometer/job.json", 400},
+                                         KindOfRecord{"certificate", "certificate/end_gauge.json", 1000},
+                                         KindOfRecord{"rotary_table", "rotary_table/job.json", 40},
+                                         KindOfRecord{"laboratories", "comparison/key_comparison.json", 300},
+                                         KindOfRecord{"proficiency_test", "comparison/proficiency_test.json", 200},
+                                         KindOfRecord{"methods", "comparison/methods.json", 300}),
+                         [](const testing::TestParamInfo<KindOfRecord>& kind) { return std::string(kind.param.name); });
 
 TEST(RecomputeRecord, NamesThePlaceAndWhatTheJobGives) {
     const std::string text = record_of("certificate/end_gauge.json");
@@ -250,7 +251,7 @@ TEST(RecomputeRecord, GatesAreThoseOfTheJob) {
         files.emplace(file.name, reports::bytes_of(file).value());
     }
     const std::string text = reports::to_canonical_json(
-        evaluate_job(jobs::MemoryFileSource(files), "job.json", CovarianceFile::none, 1, k_templates).record);
+        evaluate_job(jobs::MemoryFileSource(files), "job.json", CovarianceFile::none, 1, k_shipped_templates).record);
     ASSERT_TRUE(json::parse(text)["certificate"]["blocked"]);
     EXPECT_EQ(codes(edited(text, "/certificate/blocked", false)), std::vector<std::string>{"GC-RECORD-0022"});
 }
@@ -315,7 +316,7 @@ TEST(RecomputeRecord, SaysWhyItCannot) {
 
 TEST(RecomputeRecord, DoesNotDependOnTheNumberOfThreads) {
     EvaluationRecord record = read(record_of("gauge_block/job.json"));
-    EXPECT_EQ(recompute_record(record, "record.json", 3, k_templates), std::nullopt);
+    EXPECT_EQ(recompute_record(record, "record.json", 3, k_shipped_templates), std::nullopt);
 }
 
 // What is printed was computed here: a number that differs by less than two computers may differ is not taken over.
@@ -324,7 +325,7 @@ TEST(RecomputeRecord, BecomesTheRecordThatTheJobGives) {
     EvaluationRecord record = read(text);
     const double stated = record.results.front().budget.front().u;
     record.results.front().budget.front().u *= 1.0 + 9e-10;
-    EXPECT_EQ(recompute_record(record, "record.json", 1, k_templates), std::nullopt);
+    EXPECT_EQ(recompute_record(record, "record.json", 1, k_shipped_templates), std::nullopt);
     EXPECT_EQ(record.results.front().budget.front().u, stated);
     EXPECT_EQ(reports::to_canonical_json(record), text);
 }
@@ -335,7 +336,7 @@ TEST(RecomputeRecord, ComparesCovariancesWithTheirOwnUncertainties) {
         "model": ["f = a", "C = b"], "inputs": {"a": {"value": 1e9, "u": 141, "unit": "Hz"},
         "b": {"value": 1e-12, "u": 1.4e-16, "unit": "F"}}, "outputs": {"f": {"unit": "Hz"}, "C": {"unit": "F"}}})"}};
     const std::string text = reports::to_canonical_json(
-        evaluate_job(jobs::MemoryFileSource(files), "job.json", CovarianceFile::none, 1, k_templates).record);
+        evaluate_job(jobs::MemoryFileSource(files), "job.json", CovarianceFile::none, 1, k_shipped_templates).record);
     EXPECT_EQ(codes(text), std::vector<std::string>());
     json record = json::parse(text);
     json& matrix = record["covariance"]["matrix"];

@@ -24,11 +24,11 @@ void find_all(const std::string& text, const char* pattern, const std::string& p
     }
 }
 
-/// Ids that the gates and app/certify can give: texts of the form "X01", and the letters of FindingList::item.
+/// Ids that the gates and the makers of records can give: texts of the form "X01", and the letters of FindingList::item.
 std::set<std::string> ids_of_the_program() {
     std::set<std::string> ids;
-    for (const char* folder : {"certificate", "app"}) {
-        for (const auto& entry : std::filesystem::directory_iterator(k_tree / folder)) {
+    for (const char* folder : {"certificate", "reports/record/make"}) {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(k_tree / folder)) {
             if (entry.path().extension() != ".cpp") {
                 continue;
             }

@@ -6,7 +6,7 @@
 namespace gumcert::certificate {
 namespace {
 
-constexpr const char* k_p14 = "ILAC-P14:09/2020";
+constexpr const char* k_policy = "ILAC-P14:09/2020";
 
 CertifiedValue& length(Certificate& c) {
     return c.tables[0].columns[0].values[0];
@@ -20,10 +20,10 @@ TEST(UncertaintyGate, CountsTheDigitsOfU) {
     Certificate c = passed_certificate();
     length(c).printed_value = "50000838.0";
     length(c).printed_U = "92.6";
-    expect_finding(only(uncertainty_findings(c)), "R01", k_p14, FindingSeverity::major, "l");
+    expect_finding(only(uncertainty_findings(c)), "R01", k_policy, FindingSeverity::major, "l");
     length(c).printed_value = "5.0001E+7";
     length(c).printed_U = "1.4E+3";  // ends at the hundreds, the value at the thousands
-    expect_finding(only(uncertainty_findings(c)), "R02", k_p14, FindingSeverity::major, "l");
+    expect_finding(only(uncertainty_findings(c)), "R02", k_policy, FindingSeverity::major, "l");
 }
 
 TEST(UncertaintyGate, HoldsTheProfileToOneDigit) {
@@ -39,7 +39,7 @@ TEST(UncertaintyGate, HoldsTheProfileToOneDigit) {
 TEST(UncertaintyGate, WantsTheCoverageFactor) {
     Certificate c = passed_certificate();
     length(c).printed_k.clear();
-    expect_finding(only(uncertainty_findings(c)), "R04", k_p14, FindingSeverity::critical, "l");
+    expect_finding(only(uncertainty_findings(c)), "R04", k_policy, FindingSeverity::critical, "l");
     length(c).coverage = "monte_carlo";
     EXPECT_THAT(ids(uncertainty_findings(c)), testing::IsEmpty());
 }
@@ -47,7 +47,7 @@ TEST(UncertaintyGate, WantsTheCoverageFactor) {
 TEST(UncertaintyGate, FindsANegativeZero) {
     Certificate c = passed_certificate();
     c.tables[0].columns[1].values[0].printed_value = "-0.00";
-    expect_finding(only(uncertainty_findings(c)), "R06", k_p14, FindingSeverity::minor, "EAA");
+    expect_finding(only(uncertainty_findings(c)), "R06", k_policy, FindingSeverity::minor, "EAA");
 }
 
 TEST(UncertaintyGate, FindsAVerdictThatThePrintedNumbersDoNotGive) {

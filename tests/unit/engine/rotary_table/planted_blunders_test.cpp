@@ -18,14 +18,14 @@ using synthetic::Blunder;
 using synthetic::plant;
 using synthetic::Planted;
 
-double upper_tail(double value, double degrees_of_freedom) {
+double upper_tail_of_blunders(double value, double degrees_of_freedom) {
     return boost::math::cdf(boost::math::complement(boost::math::chi_squared_distribution<double>(degrees_of_freedom),
                                                     std::max(value, 0.0)));
 }
 
 RotaryTableSolution evaluated(const RotaryTableMeasurement& measurement) {
     EvaluationOptions options;
-    options.chi_square_upper_tail = upper_tail;
+    options.chi_square_upper_tail = upper_tail_of_blunders;
     return evaluate_jointly(measurement, options);
 }
 

@@ -23,14 +23,14 @@ using synthetic::CampaignPlan;
 using synthetic::Vector6;
 
 constexpr Eigen::Index k_reflectors = 6;
-constexpr Eigen::Index k_angles = 12;
+constexpr Eigen::Index k_route_angles = 12;
 
 /// One axis, 6 stations, 6 reflectors, 12 angles; no table repeatability, scale fixed, no temperature; coordinates of
 /// each reflector correlated by the CMM.
 Campaign campaign_of(RotaryAxis axis, std::uint64_t seed) {
     CampaignPlan plan;
     plan.axis = axis;
-    plan.angles_deg = synthetic::full_turn(static_cast<int>(k_angles));
+    plan.angles_deg = synthetic::full_turn(static_cast<int>(k_route_angles));
     plan.seed = seed;
     Campaign campaign = simulate(plan);
     for (Eigen::Index m = 0; m < k_reflectors; ++m) {
@@ -56,7 +56,7 @@ Eigen::Vector3d carried(const Vector6& pose, const Eigen::Matrix3d& turn, const 
 /// Points at all angles (rows angle by angle, 3·6 each) as rigid motions of those at home.
 RigidSolution rigid_motions_of(const Eigen::VectorXd& points, const Eigen::MatrixXd& covariance,
                                const std::vector<Eigen::Matrix3d>& turns) {
-    const Eigen::Index poses = 6 * (k_angles - 1);
+    const Eigen::Index poses = 6 * (k_route_angles - 1);
     const Eigen::Index size = poses + 3 * k_reflectors;
     // Metres: a unit of a micrometre keeps the factor of the covariance well scaled.
     const Eigen::LLT<Eigen::MatrixXd> factor(covariance * 1e12);
@@ -66,7 +66,7 @@ RigidSolution rigid_motions_of(const Eigen::VectorXd& points, const Eigen::Matri
     solution.parameters.tail(3 * k_reflectors) = points.head(3 * k_reflectors);
     const auto predicted = [&](const Eigen::VectorXd& x) {
         Eigen::VectorXd result(points.size());
-        for (Eigen::Index i = 0; i < k_angles; ++i) {
+        for (Eigen::Index i = 0; i < k_route_angles; ++i) {
             const Vector6 pose = i == 0 ? Vector6(Vector6::Zero()) : Vector6(x.segment<6>(6 * (i - 1)));
             for (Eigen::Index m = 0; m < k_reflectors; ++m) {
                 result.segment<3>(3 * (k_reflectors * i + m)) =
@@ -116,7 +116,7 @@ TEST_P(PointNetworkRoute, GivesThePosesAndCovariancesOfTheJointAdjustment) {
     // (b) Free points: one a reflector and angle; those at home observed by the CMM. Stations and constants free.
     std::vector<NetworkPoint> points;
     std::vector<Eigen::Matrix3d> turns;
-    for (Eigen::Index i = 0; i < k_angles; ++i) {
+    for (Eigen::Index i = 0; i < k_route_angles; ++i) {
         turns.push_back(synthetic::turn(axial_coordinate(measurement.axis),
                                         measurement.angles[static_cast<std::size_t>(i)] - measurement.angles[0]));
         for (Eigen::Index m = 0; m < k_reflectors; ++m) {
@@ -143,7 +143,7 @@ TEST_P(PointNetworkRoute, GivesThePosesAndCovariancesOfTheJointAdjustment) {
         const Eigen::VectorXd variance = joint.stated_variance(v);
         for (std::size_t k = 0; k < visit.observations.size(); ++k) {
             const LengthObservation& length = measurement.lengths[visit.observations[k]];
-            distances.push_back({static_cast<std::size_t>(k_reflectors * k_angles) + length.station,
+            distances.push_back({static_cast<std::size_t>(k_reflectors * k_route_angles) + length.station,
                                  static_cast<std::size_t>(k_reflectors) * length.angle + length.reflector,
                                  length.dead_path, length.length + k_nominal_dead_path,
                                  std::sqrt(variance[static_cast<Eigen::Index>(k)])});
@@ -151,7 +151,7 @@ TEST_P(PointNetworkRoute, GivesThePosesAndCovariancesOfTheJointAdjustment) {
     }
     const NetworkSolution network = adjust_distance_network(points, measurement.dead_paths.size(), distances, options,
                                                             4.13, PointCovariance::joint);
-    const Eigen::Index coordinates = 3 * k_reflectors * k_angles;
+    const Eigen::Index coordinates = 3 * k_reflectors * k_route_angles;
     ASSERT_EQ(network.joint_covariance.rows(), coordinates + 18);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const auto at = static_cast<Eigen::Index>(3 * i);
@@ -168,7 +168,7 @@ TEST_P(PointNetworkRoute, GivesThePosesAndCovariancesOfTheJointAdjustment) {
     // Comparison in units of the standard deviations: poses and points at home, with their full covariance.
     std::vector<Eigen::Index> columns;
     Eigen::VectorXd expected(rigid.parameters.size());
-    for (Eigen::Index i = 1; i < k_angles; ++i) {
+    for (Eigen::Index i = 1; i < k_route_angles; ++i) {
         for (int c = 0; c < 6; ++c) {
             const auto block = joint.pose_block(static_cast<std::size_t>(i));
             expected[static_cast<Eigen::Index>(columns.size())] = joint.adjustment().parameters(block)[c];
@@ -199,14 +199,15 @@ TEST_P(PointNetworkRoute, GivesThePosesAndCovariancesOfTheJointAdjustment) {
     RotaryTableMeasurement home = measurement;
     home.datum = Datum::home;
     const RotaryTableSolution evaluated = evaluate_jointly(home, EvaluationOptions{});
-    Eigen::MatrixXd poses = Eigen::MatrixXd::Zero(6, k_angles);
-    poses.rightCols(k_angles - 1) = rigid.parameters.head(6 * (k_angles - 1)).reshaped(6, k_angles - 1);
+    Eigen::MatrixXd poses = Eigen::MatrixXd::Zero(6, k_route_angles);
+    poses.rightCols(k_route_angles - 1) =
+        rigid.parameters.head(6 * (k_route_angles - 1)).reshaped(6, k_route_angles - 1);
     const DatumSolution datum = transform_to_datum(home, poses, RigidMotion{}, Datum::home);
-    Eigen::MatrixXd pose_covariance = Eigen::MatrixXd::Zero(6 * k_angles, 6 * k_angles);
-    pose_covariance.bottomRightCorner(6 * (k_angles - 1), 6 * (k_angles - 1)) =
-        rigid.covariance.topLeftCorner(6 * (k_angles - 1), 6 * (k_angles - 1));
+    Eigen::MatrixXd pose_covariance = Eigen::MatrixXd::Zero(6 * k_route_angles, 6 * k_route_angles);
+    pose_covariance.bottomRightCorner(6 * (k_route_angles - 1), 6 * (k_route_angles - 1)) =
+        rigid.covariance.topLeftCorner(6 * (k_route_angles - 1), 6 * (k_route_angles - 1));
     const Eigen::MatrixXd by_network = datum.carried(datum.carried(pose_covariance).transpose());
-    for (Eigen::Index c = 6; c < 6 * k_angles; ++c) {
+    for (Eigen::Index c = 6; c < 6 * k_route_angles; ++c) {
         const double sd = std::sqrt(evaluated.covariance(c, c));
         EXPECT_NEAR(datum.errors.reshaped()[c], evaluated.values[c], 1e-4 * sd) << c;
         EXPECT_NEAR(std::sqrt(by_network(c, c)) / sd, 1.0, 1e-3) << c;  // linear map at another T_s: 200 µrad

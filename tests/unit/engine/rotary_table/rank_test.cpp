@@ -31,7 +31,7 @@ bool mentions(const gum::Diagnostic& diagnostic, const std::string& text) {
 }
 
 /// Six reflectors on a ring about the rotary axis, alternate ones raised; station P3 on the axis.
-CampaignPlan ring(double raised) {
+CampaignPlan ring_of_stations(double raised) {
     CampaignPlan plan;
     plan.angles_deg = synthetic::full_turn(12);
     plan.offset.setZero();
@@ -48,7 +48,7 @@ CampaignPlan ring(double raised) {
 
 TEST(Rank, RingOfReflectorsSeenFromTheAxisIsRefused) {
     for (const RotaryAxis axis : {RotaryAxis::a, RotaryAxis::b, RotaryAxis::c}) {
-        CampaignPlan plan = ring(0.0);
+        CampaignPlan plan = ring_of_stations(0.0);
         plan.axis = axis;
         plan.start_values = true;
         Campaign campaign = simulate(plan);
@@ -65,7 +65,7 @@ TEST(Rank, RingOfReflectorsSeenFromTheAxisIsRefused) {
 
 TEST(Rank, RingWithoutAnyStartValuesIsRefused) {
     // A flat ring leaves the side of every station open (mirror image): no result from distances alone.
-    EXPECT_EQ(rank_refusal(simulate(ring(0.0)).measurement).code, "GC-RANK-0001");
+    EXPECT_EQ(rank_refusal(simulate(ring_of_stations(0.0)).measurement).code, "GC-RANK-0001");
 }
 
 TEST(Rank, NoisyRingIsRefusedOrHonest) {
@@ -73,7 +73,7 @@ TEST(Rank, NoisyRingIsRefusedOrHonest) {
     for (const double raised : {0.0, 1e-3, 1e-2}) {
         for (const bool start_values : {false, true}) {
             for (const bool set_up : {false, true}) {
-                CampaignPlan plan = ring(raised);
+                CampaignPlan plan = ring_of_stations(raised);
                 plan.noise = 1.0;
                 plan.start_values = start_values;
                 if (set_up) {
@@ -103,7 +103,7 @@ TEST(Rank, NoisyRingIsRefusedOrHonest) {
 }
 
 TEST(Rank, RingOfReflectorsIsRefusedWithStartValuesToo) {
-    CampaignPlan plan = ring(0.0);
+    CampaignPlan plan = ring_of_stations(0.0);
     plan.start_values = true;
     const Campaign campaign = simulate(plan);
     const gum::Diagnostic diagnostic = rank_refusal(campaign.measurement);
@@ -116,7 +116,7 @@ TEST(Rank, RingOfReflectorsIsRefusedWithStartValuesToo) {
 }
 
 TEST(Rank, RaisedHoldersCureTheRing) {
-    CampaignPlan plan = ring(0.05);
+    CampaignPlan plan = ring_of_stations(0.05);
     plan.start_values = true;
     const Campaign campaign = simulate(plan);
     const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});

@@ -15,7 +15,7 @@ namespace {
 using synthetic::CampaignPlan;
 
 // Relative to the variance of the quantity, or to the uncertainties of a pair; the rounding of the dense algebra.
-constexpr double k_equal = 1e-9;
+constexpr double k_equal_sums = 1e-9;
 
 struct Dense {
     Eigen::MatrixXd jacobian;
@@ -48,7 +48,7 @@ void expect_same(const RotaryTableContributions& found, const Dense& expected, c
     Eigen::Index first = 0;
     for (std::size_t g = 0; g < expected.variance.size(); ++g) {
         for (Eigen::Index i = 0; i < total.size(); ++i) {
-            EXPECT_NEAR(found.variance[g][i], expected.variance[g][i], k_equal * total[i] + 1e-40)
+            EXPECT_NEAR(found.variance[g][i], expected.variance[g][i], k_equal_sums * total[i] + 1e-40)
                 << model.inputs()[g].name << ", quantity " << i;
         }
         if (model.inputs()[g].size() == 1) {
@@ -62,7 +62,7 @@ void expect_same(const RotaryTableContributions& found, const Dense& expected, c
     for (Eigen::Index i = 0; i < total.size(); ++i) {
         for (Eigen::Index j = 0; j <= i; ++j) {
             EXPECT_NEAR(found.covariance(i, j), expected.covariance(i, j),
-                        k_equal * std::sqrt(total[i] * total[j]) + 1e-40)
+                        k_equal_sums * std::sqrt(total[i] * total[j]) + 1e-40)
                 << i << ' ' << j;
         }
     }

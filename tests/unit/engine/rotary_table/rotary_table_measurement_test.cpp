@@ -8,7 +8,7 @@
 namespace gumcert::engine {
 namespace {
 
-// ISO 230-7:2015, 3.4: the second letter is the direction of the motion, the third one the axis that turns.
+// ISO 230-7: the second letter is the direction of the motion, the third one the axis that turns.
 TEST(RotaryTableMeasurement, ErrorMotionsHaveTheNamesOfTheStandard) {
     EXPECT_EQ(error_motion_names(RotaryAxis::a),
               (std::array<std::string, 6>{"EXA", "EYA", "EZA", "EAA", "EBA", "ECA"}));

@@ -25,7 +25,7 @@ Campaign to_estimate(const CampaignPlan& plan) {
     return campaign;
 }
 
-CampaignPlan real_table() {
+CampaignPlan table_with_repeatability() {
     CampaignPlan plan;
     plan.table_linear = 0.3e-6;
     plan.table_axial = 5e-6;
@@ -46,7 +46,7 @@ TEST(VarianceComponents, AreRecoveredWithinTheirStatedUncertainty) {
     double squares = 0.0;
     constexpr int k_campaigns = 6;
     for (int k = 0; k < k_campaigns; ++k) {
-        CampaignPlan plan = real_table();
+        CampaignPlan plan = table_with_repeatability();
         plan.axis = std::array{RotaryAxis::a, RotaryAxis::b, RotaryAxis::c}[static_cast<std::size_t>(k % 3)];
         plan.seed = 2000 + static_cast<std::uint64_t>(k);
         const RotaryTableSolution solution = evaluate_jointly(to_estimate(plan).measurement, EvaluationOptions{});
@@ -80,7 +80,7 @@ TEST(VarianceComponents, AreRecoveredWithinTheirStatedUncertainty) {
 }
 
 TEST(VarianceComponents, ComponentsAreAFixedPoint) {
-    const CampaignPlan plan = real_table();
+    const CampaignPlan plan = table_with_repeatability();
     const Campaign campaign = to_estimate(plan);
     const RotaryTableMeasurement& measurement = campaign.measurement;
     const RotaryTableSolution solution = evaluate_jointly(measurement, EvaluationOptions{});
@@ -146,7 +146,7 @@ TEST(VarianceComponents, PerfectTableHasNoRepeatabilityToSpeakOf) {
 }
 
 TEST(VarianceComponents, SingleDistanceAVisitKeepsTheLengthNoiseAsStated) {
-    CampaignPlan plan = real_table();
+    CampaignPlan plan = table_with_repeatability();
     plan.one_reflector_a_pass = true;
     plan.dead_paths = synthetic::DeadPaths::per_station_and_reflector;
     plan.start_values = true;
@@ -223,7 +223,7 @@ TEST(VarianceComponents, StatedUncertaintyOfEachAgreesWithTheScatterOverCampaign
     Eigen::MatrixXd value(5, k_campaigns);
     Eigen::MatrixXd u(5, k_campaigns);
     for (int k = 0; k < k_campaigns; ++k) {
-        CampaignPlan plan = real_table();
+        CampaignPlan plan = table_with_repeatability();
         plan.angles_deg = synthetic::full_turn(24);
         plan.seed = 9000 + static_cast<std::uint64_t>(k);
         Campaign campaign = to_estimate(plan);
@@ -235,7 +235,7 @@ TEST(VarianceComponents, StatedUncertaintyOfEachAgreesWithTheScatterOverCampaign
             u(c, k) = solution.components[static_cast<std::size_t>(c)].u;
         }
     }
-    CampaignPlan plan = real_table();
+    CampaignPlan plan = table_with_repeatability();
     const double cmm = std::sqrt(simulate(plan).measurement.fixture_covariance.diagonal().mean());
     const std::array<double, 5> truth{plan.u_constant, plan.table_linear, plan.table_axial, plan.table_tilt, cmm};
     for (Eigen::Index c = 0; c < 5; ++c) {
@@ -250,7 +250,7 @@ TEST(VarianceComponents, StatedUncertaintyOfEachAgreesWithTheScatterOverCampaign
 }
 
 TEST(VarianceComponents, CheckOfTheFixtureDoesNotTouchTheResult) {
-    CampaignPlan plan = real_table();
+    CampaignPlan plan = table_with_repeatability();
     plan.seed = 12;
     Campaign campaign = to_estimate(plan);
     campaign.measurement.fixture_component = FixtureComponent::given;
@@ -284,7 +284,7 @@ TEST(VarianceComponents, CheckOfTheFixtureDoesNotTouchTheResult) {
 
 TEST(VarianceComponents, FixtureStatedWrongIsFoundOut) {
     for (const double factor : {1.0 / 9.0, 9.0}) {
-        CampaignPlan plan = real_table();
+        CampaignPlan plan = table_with_repeatability();
         plan.seed = 40;
         Campaign campaign = to_estimate(plan);
         campaign.measurement.fixture_covariance *= factor;

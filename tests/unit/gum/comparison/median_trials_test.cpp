@@ -15,7 +15,7 @@ namespace {
 using test::agrees;
 using test::code_of;
 
-constexpr double k_p = 0.95;
+constexpr double k_median_p = 0.95;
 
 LaboratoryResults equal_results(Eigen::Index n, double x, double u) {
     return {.x = Eigen::VectorXd::Constant(n, x), .u = Eigen::VectorXd::Constant(n, u)};
@@ -30,7 +30,7 @@ LaboratoryResults key_comparison_of_medians() {
 // distribution, H. L. Jones 1948). The median is symmetric about 0.
 TEST(MedianTrials, MedianOfThreeNormalResults) {
     const std::size_t trials = 1'000'000;
-    const MedianTrials outcome = median_trials(equal_results(3, 100.0, 0.5), trials, 7, k_p);
+    const MedianTrials outcome = median_trials(equal_results(3, 100.0, 0.5), trials, 7, k_median_p);
     const double u = 0.5 * std::sqrt(1.0 - std::sqrt(3.0) / 3.14159265358979323846);
     const double five_sigma = 5.0 / std::sqrt(2.0 * static_cast<double>(trials));
     EXPECT_TRUE(agrees(outcome.u, u, five_sigma));
@@ -51,7 +51,7 @@ TEST(MedianTrials, MedianOfThreeNormalResults) {
 
 TEST(MedianTrials, MedianOfTwoIsTheirMean) {
     const LaboratoryResults labs{.x = Eigen::VectorXd{{1.0, 4.0}}, .u = Eigen::VectorXd{{0.3, 0.4}}};
-    const MedianTrials outcome = median_trials(labs, 400'000, 3, k_p);
+    const MedianTrials outcome = median_trials(labs, 400'000, 3, k_median_p);
     EXPECT_NEAR(outcome.median, 2.5, 5.0 * 0.25 / std::sqrt(4e5));
     EXPECT_TRUE(agrees(outcome.u, 0.25, 0.006));
     EXPECT_TRUE(agrees(outcome.u_d(0), 0.25, 0.006));
@@ -63,7 +63,7 @@ TEST(MedianTrials, FullyCorrelatedResultsMoveTogether) {
     LaboratoryResults labs = key_comparison_of_medians();
     labs.u.setConstant(0.2);
     labs.covariance = Eigen::MatrixXd::Constant(6, 6, 0.04);  // r = 1 everywhere
-    const MedianTrials outcome = median_trials(labs, 100'000, 5, k_p);
+    const MedianTrials outcome = median_trials(labs, 100'000, 5, k_median_p);
     EXPECT_TRUE(agrees(outcome.u, 0.2, 0.012));
     EXPECT_LT(outcome.u_d.maxCoeff(), 1e-12);
     EXPECT_NEAR(outcome.d(4), 12.95 - 12.28, 1e-12);
@@ -76,9 +76,9 @@ TEST(MedianTrials, SameNumbersForAnyNumberOfThreads) {
             labs.covariance = 0.3 * labs.u * labs.u.transpose();
             labs.covariance.diagonal() = labs.u.array().square();
         }
-        const MedianTrials one = median_trials(labs, 60'001, 11, k_p, 1);
+        const MedianTrials one = median_trials(labs, 60'001, 11, k_median_p, 1);
         for (const unsigned threads : {2u, 5u}) {
-            const MedianTrials several = median_trials(labs, 60'001, 11, k_p, threads);
+            const MedianTrials several = median_trials(labs, 60'001, 11, k_median_p, threads);
             EXPECT_EQ(one.median, several.median);
             EXPECT_EQ(one.u, several.u);
             EXPECT_EQ(one.low, several.low);
@@ -88,7 +88,7 @@ TEST(MedianTrials, SameNumbersForAnyNumberOfThreads) {
             EXPECT_EQ(one.d_low, several.d_low);
             EXPECT_EQ(one.d_high, several.d_high);
         }
-        EXPECT_NE(one.median, median_trials(labs, 60'001, 12, k_p, 1).median);
+        EXPECT_NE(one.median, median_trials(labs, 60'001, 12, k_median_p, 1).median);
     }
 }
 
@@ -105,7 +105,7 @@ TEST(MedianTrials, BlocksOfResultsBelongToTheSameTrials) {
             labs.covariance = labs.u.array().square().matrix().asDiagonal();
             labs.covariance(1, 2) = labs.covariance(2, 1) = 0.5;
         }
-        const MedianTrials outcome = median_trials(labs, 60'000, 1, k_p);  // 279 results a block
+        const MedianTrials outcome = median_trials(labs, 60'000, 1, k_median_p);  // 279 results a block
         EXPECT_TRUE(agrees(outcome.u_d(0), outcome.u, 1e-6));
         EXPECT_TRUE(agrees(outcome.u_d(n - 1), outcome.u, 1e-6));
         EXPECT_NEAR(outcome.d(n - 1), 50.0 - outcome.median, 1e-9);
@@ -118,27 +118,28 @@ TEST(MedianTrials, CommonOffsetCostsNoDigits) {
     near.x = Eigen::VectorXd{{0.25, 0.5, 0.3125, 0.75, 0.4375, 0.625}};
     LaboratoryResults far = near;
     far.x.array() += 1073741824.0;
-    const MedianTrials a = median_trials(near, 10'000, 2, k_p);
-    const MedianTrials b = median_trials(far, 10'000, 2, k_p);
+    const MedianTrials a = median_trials(near, 10'000, 2, k_median_p);
+    const MedianTrials b = median_trials(far, 10'000, 2, k_median_p);
     EXPECT_EQ(a.u, b.u);
     EXPECT_EQ(a.d, b.d);
 }
 
 TEST(MedianTrials, RefusesTrialsThatCannotBeDone) {
     const LaboratoryResults labs = key_comparison_of_medians();
-    EXPECT_EQ(code_of<InputError>([&] { (void)median_trials(labs, 999, 1, k_p); }), "GC-GUM-0136");
-    EXPECT_EQ(code_of<InputError>([&] { (void)median_trials(labs, 10'000'001, 1, k_p); }), "GC-GUM-0136");
-    EXPECT_EQ(code_of<InputError>([&] { (void)median_trials(equal_results(2000, 0, 1), 1'000'000, 1, k_p); }),
+    EXPECT_EQ(code_of<InputError>([&] { (void)median_trials(labs, 999, 1, k_median_p); }), "GC-GUM-0136");
+    EXPECT_EQ(code_of<InputError>([&] { (void)median_trials(labs, 10'000'001, 1, k_median_p); }), "GC-GUM-0136");
+    EXPECT_EQ(code_of<InputError>([&] { (void)median_trials(equal_results(2000, 0, 1), 1'000'000, 1, k_median_p); }),
               "GC-GUM-0136");
     EXPECT_NE(test::message_of<InputError>([&] {
-                  (void)median_trials(equal_results(2000, 0, 1), 1'000'000, 1, k_p);
+                  (void)median_trials(equal_results(2000, 0, 1), 1'000'000, 1, k_median_p);
               }).find("State at most 250000 trials"),
               std::string::npos);
     LaboratoryResults correlated = equal_results(100, 0.0, 1.0);
     correlated.covariance = Eigen::MatrixXd::Identity(100, 100);
-    EXPECT_EQ(code_of<InputError>([&] { (void)median_trials(correlated, 1'000'000, 1, k_p); }), "GC-GUM-0136");
+    EXPECT_EQ(code_of<InputError>([&] { (void)median_trials(correlated, 1'000'000, 1, k_median_p); }), "GC-GUM-0136");
     EXPECT_EQ(code_of<InputError>([&] { (void)median_trials(labs, 10'000, 1, 1.0); }), "GC-GUM-0004");
-    EXPECT_EQ(code_of<InputError>([] { (void)median_trials(equal_results(1, 0, 1), 10'000, 1, k_p); }), "GC-GUM-0131");
+    EXPECT_EQ(code_of<InputError>([] { (void)median_trials(equal_results(1, 0, 1), 10'000, 1, k_median_p); }),
+              "GC-GUM-0131");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ Eigen::VectorXd vector(const std::vector<double>& values) {
     return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-LaboratoryResults results(const std::vector<double>& x, const std::vector<double>& u) {
+LaboratoryResults results_of(const std::vector<double>& x, const std::vector<double>& u) {
     return {.x = vector(x), .u = vector(u)};
 }
 
@@ -63,14 +63,14 @@ TEST(RandomEffects, PauleMandelAndCochranOfKacker) {
 // statsmodels. The last digits of what R prints are rounding of its own; NumPy gives tau² 0.00167839819127394.
 TEST(RandomEffects, DerSimonianLairdWithHartungKnapp) {
     const LaboratoryResults labs =
-        results({2.70805020110221, 1.25672336971146, 0.374938517449009, 1.65822807660353, 0.784954729813068,
-                 0.361663949151077, 0.575364144903562, 0.250542525502324, 0.650587566141149, 0.0918075492531229,
-                 0.273865253802803, 0.485755524477543, 0.182321556793955, 0.980829253011726, 1.31218638896617,
-                 -0.259511195485085, 0.138402322859119},
-                {1.1130538571376, 0.505568465186247, 0.390847133738078, 0.680511012471685, 0.434831536798166,
-                 0.26249802054503, 0.490562645746402, 0.376864733063505, 0.529771411128472, 0.458411099840008,
-                 0.193159187510219, 0.206827050443269, 0.441477021807833, 0.713624032148063, 1.18251919576455,
-                 0.604874380241894, 0.329592099997789});
+        results_of({2.70805020110221, 1.25672336971146, 0.374938517449009, 1.65822807660353, 0.784954729813068,
+                    0.361663949151077, 0.575364144903562, 0.250542525502324, 0.650587566141149, 0.0918075492531229,
+                    0.273865253802803, 0.485755524477543, 0.182321556793955, 0.980829253011726, 1.31218638896617,
+                    -0.259511195485085, 0.138402322859119},
+                   {1.1130538571376, 0.505568465186247, 0.390847133738078, 0.680511012471685, 0.434831536798166,
+                    0.26249802054503, 0.490562645746402, 0.376864733063505, 0.529771411128472, 0.458411099840008,
+                    0.193159187510219, 0.206827050443269, 0.441477021807833, 0.713624032148063, 1.18251919576455,
+                    0.604874380241894, 0.329592099997789});
     const double k = coverage_factor(0.95, std::numeric_limits<double>::infinity());
     const ReferenceValue fixed = weighted_mean(labs);
     EXPECT_TRUE(prints_as(fixed.value, "0.428036725396544"));
@@ -441,7 +441,7 @@ TEST(RandomEffects, PowerModeratedMeanOfCcri) {
                 members.push_back(i);
             }
         }
-        const LaboratoryResults all = results(x, u);
+        const LaboratoryResults all = results_of(x, u);
         const LaboratoryResults inside = selected_results(all, members);
         const ReferenceValue mean = power_moderated_mean(inside);
         EXPECT_TRUE(prints_as(mean.value, ccri.kcrv));
@@ -485,7 +485,7 @@ TEST(RandomEffects, PowersOfThePowerModeratedMeanBetweenTheTwoMeans) {
 }
 
 TEST(RandomEffects, ConsistentResultsHaveNoVarianceBetweenLaboratories) {
-    const LaboratoryResults labs = results({1.0, 1.1, 0.95, 1.02}, {0.1, 0.1, 0.2, 0.1});
+    const LaboratoryResults labs = results_of({1.0, 1.1, 0.95, 1.02}, {0.1, 0.1, 0.2, 0.1});
     const ReferenceValue weighted = weighted_mean(labs);
     for (const ReferenceValue& mean : {mandel_paule(labs), dersimonian_laird(labs)}) {
         EXPECT_EQ(mean.between_standard_deviation, 0.0);
@@ -494,14 +494,14 @@ TEST(RandomEffects, ConsistentResultsHaveNoVarianceBetweenLaboratories) {
     }
     EXPECT_EQ(cochran_between_standard_deviation(labs), 0.0);
     // Equal values: nothing is left, by any of them.
-    const LaboratoryResults equal = results({5.0, 5.0, 5.0}, {0.1, 0.2, 0.3});
+    const LaboratoryResults equal = results_of({5.0, 5.0, 5.0}, {0.1, 0.2, 0.3});
     EXPECT_EQ(mandel_paule(equal).between_standard_deviation, 0.0);
     EXPECT_EQ(power_moderated_mean(equal).value, 5.0);
     EXPECT_EQ(hartung_knapp_u(equal, mandel_paule(equal)), 0.0);
 }
 
 TEST(RandomEffects, MandelPauleWithUncertaintiesOverTwelveDecades) {
-    const LaboratoryResults labs = results({1.0, 2.0, 3.0, 10.0}, {1e-6, 1e-3, 1.0, 1e6});
+    const LaboratoryResults labs = results_of({1.0, 2.0, 3.0, 10.0}, {1e-6, 1e-3, 1.0, 1e6});
     const ReferenceValue mean = mandel_paule(labs);
     const double tau2 = mean.between_standard_deviation * mean.between_standard_deviation;
     double chi_square = 0.0;
@@ -511,12 +511,12 @@ TEST(RandomEffects, MandelPauleWithUncertaintiesOverTwelveDecades) {
     }
     EXPECT_TRUE(agrees(chi_square, 3.0, 1e-12));
     // Barely above the limit: chi-square 2.000002 of two equal u for n − 1 = 1 leaves τ² = 1e-6 u².
-    const ReferenceValue barely = mandel_paule(results({0.0, std::sqrt(2.0 * (1.0 + 1e-6))}, {1.0, 1.0}));
+    const ReferenceValue barely = mandel_paule(results_of({0.0, std::sqrt(2.0 * (1.0 + 1e-6))}, {1.0, 1.0}));
     EXPECT_NEAR(barely.between_standard_deviation, 1e-3, 1e-9);
 }
 
 TEST(RandomEffects, CommonOffsetCostsNoDigits) {
-    LaboratoryResults near = results({0.25, 0.5, 0.3125, 0.75, 0.4375}, {0.01, 0.02, 0.015, 0.01, 0.03});
+    LaboratoryResults near = results_of({0.25, 0.5, 0.3125, 0.75, 0.4375}, {0.01, 0.02, 0.015, 0.01, 0.03});
     LaboratoryResults far = near;
     far.x.array() += 1073741824.0;
     EXPECT_TRUE(
@@ -527,14 +527,17 @@ TEST(RandomEffects, CommonOffsetCostsNoDigits) {
 }
 
 TEST(RandomEffects, RefusesWhatItCannotTake) {
-    LaboratoryResults correlated = results({1.0, 2.0}, {0.1, 0.1});
+    LaboratoryResults correlated = results_of({1.0, 2.0}, {0.1, 0.1});
     correlated.covariance = Eigen::Matrix2d{{0.01, 0.005}, {0.005, 0.01}};
     EXPECT_EQ(code_of<InputError>([&] { (void)mandel_paule(correlated); }), "GC-GUM-0139");
     EXPECT_EQ(code_of<InputError>([&] { (void)dersimonian_laird(correlated); }), "GC-GUM-0139");
     EXPECT_EQ(code_of<InputError>([&] { (void)power_moderated_mean(correlated); }), "GC-GUM-0139");
-    EXPECT_EQ(code_of<InputError>([] { (void)mandel_paule(results({1.0}, {0.1})); }), "GC-GUM-0131");
-    EXPECT_EQ(code_of<InputError>([] { (void)dersimonian_laird(results({1.0, 2.0}, {0.1, 0.0})); }), "GC-GUM-0003");
-    EXPECT_EQ(code_of<InputError>([] { (void)power_moderated_mean(results({1.0, 2.0}, {0.1, 0.0})); }), "GC-GUM-0003");
+    EXPECT_EQ(code_of<InputError>([] { (void)mandel_paule(results_of({1.0}, {0.1})); }), "GC-GUM-0131");
+    EXPECT_EQ(code_of<InputError>([] { (void)dersimonian_laird(results_of({1.0, 2.0}, {0.1, 0.0})); }), "GC-GUM-0003");
+    EXPECT_EQ(code_of<InputError>([] {
+                  (void)power_moderated_mean(results_of({1.0, 2.0}, {0.1, 0.0}));
+              }),
+              "GC-GUM-0003");
 }
 
 }  // namespace

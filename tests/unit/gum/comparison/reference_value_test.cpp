@@ -43,12 +43,12 @@ LaboratoryResults with_correlation(LaboratoryResults of, Eigen::Index i, Eigen::
 }
 
 /// Key comparison of golden vector 6.
-LaboratoryResults key_comparison() {
+LaboratoryResults key_comparison_results() {
     return laboratory_results({12.31, 12.18, 12.42, 12.25, 12.95, 12.05}, {0.10, 0.15, 0.20, 0.12, 0.15, 0.30});
 }
 
 TEST(ReferenceValue, GoldenVectorSixOfAKeyComparison) {
-    const LaboratoryResults labs = key_comparison();
+    const LaboratoryResults labs = key_comparison_results();
     const ReferenceValue mean = weighted_mean(labs);
     EXPECT_TRUE(prints_as(mean.value, "12.37236"));
     EXPECT_TRUE(prints_as(mean.u, "0.05828"));
@@ -73,7 +73,7 @@ TEST(ReferenceValue, GoldenVectorSixOfAKeyComparison) {
 }
 
 TEST(ReferenceValue, LaboratoryOutsideTheMeanTakesThePlusSign) {
-    const LaboratoryResults labs = key_comparison();
+    const LaboratoryResults labs = key_comparison_results();
     const std::vector<std::size_t> members = {0, 1, 2, 3, 5};
     const ReferenceValue mean = spread_weights(weighted_mean(selected_results(labs, members)), members, 6);
     EXPECT_EQ(mean.weights(4), 0.0);
@@ -221,8 +221,8 @@ TEST(ReferenceValue, ArithmeticMeanHasTheStandardDeviationOfTheValues) {
 TEST(ReferenceValue, IncompatiblePairs) {
     // Differences of laboratory 5: 0.64, 0.77, 0.53, 0.70, 0.90; twice their uncertainties: 0.361, 0.424, 0.5, 0.384,
     // 0.671. All other pairs: at most 0.37.
-    EXPECT_EQ(incompatible_pairs(key_comparison(), 2.0), 5u);
-    EXPECT_EQ(incompatible_pairs(key_comparison(), 10.0), 0u);
+    EXPECT_EQ(incompatible_pairs(key_comparison_results(), 2.0), 5u);
+    EXPECT_EQ(incompatible_pairs(key_comparison_results(), 10.0), 0u);
     const LaboratoryResults pair = laboratory_results({0.0, 2.0}, {1.0, 1.0});
     EXPECT_EQ(incompatible_pairs(pair, 2.0), 0u);
     EXPECT_EQ(incompatible_pairs(with_correlation(pair, 0, 1, 0.9), 2.0), 1u);

@@ -17,10 +17,10 @@ using test::code_of;
 using test::printed;
 using test::prints_as;
 
-const ToleranceLimits k_unit_tolerance{.lower = -1.0, .upper = 1.0};
+const ToleranceLimits k_risk_tolerance{.lower = -1.0, .upper = 1.0};
 
 GlobalRisk unguarded(double deviation, double u) {
-    return global_risk(k_unit_tolerance, k_unit_tolerance, 0.0, deviation, u);
+    return global_risk(k_risk_tolerance, k_risk_tolerance, 0.0, deviation, u);
 }
 
 /// Percentages as the table prints them, within 1e-3 relative or half a unit of the last digit.
@@ -65,7 +65,7 @@ TEST(GlobalRisk, AnyLimitsAndCentres) {
     const ToleranceLimits upper{.upper = 1.0};
     const ToleranceLimits lower{.lower = -1.0};
     for (const Case& c : std::vector<Case>{
-             {k_unit_tolerance,
+             {k_risk_tolerance,
               {-0.9, 0.95},
               0.3,
               0.5,
@@ -75,11 +75,11 @@ TEST(GlobalRisk, AnyLimitsAndCentres) {
               0.0150476397983962},
              {upper, {.upper = 0.9}, 0.2, 0.4, 0.1, 0.000906110617891028, 0.0229335158765331, 0.000948585961056085},
              {lower, {.lower = -0.9}, -0.2, 0.4, 0.1, 0.000906110617891028, 0.0229335158765331, 0.000948585961056085},
-             {k_unit_tolerance, k_unit_tolerance, 0.0, 0.5, 4.0, 0.00859675905903134, 0.767177152634634,
+             {k_risk_tolerance, k_risk_tolerance, 0.0, 0.5, 4.0, 0.00859675905903134, 0.767177152634634,
               0.0438790726229649},
-             {k_unit_tolerance, k_unit_tolerance, 0.0, 0.5, 1e-3, 8.59414977533865e-05, 8.63734259174217e-05,
+             {k_risk_tolerance, k_risk_tolerance, 0.0, 0.5, 1e-3, 8.59414977533865e-05, 8.63734259174217e-05,
               9.00383031998385e-05},
-             {k_unit_tolerance,
+             {k_risk_tolerance,
               {-1.25, 1.25},
               0.0,
               0.5,
@@ -99,7 +99,7 @@ TEST(GlobalRisk, AddsUpToTheProbabilities) {
     for (const double deviation : {1e-3, 0.1, 0.7, 3.0, 1e4}) {
         for (const double u : {1e-6, 0.01, 0.3, 2.0, 1e3}) {
             const ToleranceLimits acceptance{.lower = -0.8, .upper = 0.9};
-            const GlobalRisk risk = global_risk(k_unit_tolerance, acceptance, 0.2, deviation, u);
+            const GlobalRisk risk = global_risk(k_risk_tolerance, acceptance, 0.2, deviation, u);
             const auto inside = [](double a, double b) {
                 return 0.5 * (std::erf(b / std::sqrt(2.0)) - std::erf(a / std::sqrt(2.0)));
             };
@@ -122,7 +122,7 @@ TEST(GlobalRisk, DoesNotDependOnTheUnit) {
 }
 
 TEST(GlobalRisk, NothingAccepted) {
-    const GlobalRisk risk = global_risk(k_unit_tolerance, {0.1, -0.1}, 0.0, 0.5, 0.1);
+    const GlobalRisk risk = global_risk(k_risk_tolerance, {0.1, -0.1}, 0.0, 0.5, 0.1);
     EXPECT_EQ(risk.false_accept, 0.0);
     EXPECT_EQ(risk.conditional_false_accept, 0.0);
     EXPECT_TRUE(agrees(risk.false_reject, 0.954499736103642, 1e-13));  // every good item
@@ -154,7 +154,7 @@ TEST(LargestFalseAccept, TableOfHandbookMethods) {
                                            {6.0, "1.53", "0", "1.0000", "1.53", "0.9860", "1.23", "0.833", "0.03"}}) {
         const double U = 1.0 / row.ratio;
         const auto largest = [&](double a) {
-            return largest_false_accept(k_unit_tolerance, guarded_limits(k_unit_tolerance, 1.0 - a), 0.5 * U);
+            return largest_false_accept(k_risk_tolerance, guarded_limits(k_risk_tolerance, 1.0 - a), 0.5 * U);
         };
         const double multiple = std::max(0.0, 1.04 - std::exp(0.38 * std::log(row.ratio) - 0.54));
         EXPECT_NEAR(multiple, printed(row.multiple).value, 5.1e-5);
@@ -165,13 +165,13 @@ TEST(LargestFalseAccept, TableOfHandbookMethods) {
         EXPECT_NEAR(largest(1.0 - U), printed(row.method5).value / 100.0, 5e-5) << row.ratio;
     }
     // All digits at a ratio of 4, by bounded minimisation with SciPy.
-    EXPECT_TRUE(agrees(largest_false_accept(k_unit_tolerance, k_unit_tolerance, 0.125), 0.022382048613, 1e-10));
-    EXPECT_TRUE(agrees(largest_false_accept(k_unit_tolerance, k_unit_tolerance, 0.5), 0.073726784181, 1e-10));
+    EXPECT_TRUE(agrees(largest_false_accept(k_risk_tolerance, k_risk_tolerance, 0.125), 0.022382048613, 1e-10));
+    EXPECT_TRUE(agrees(largest_false_accept(k_risk_tolerance, k_risk_tolerance, 0.5), 0.073726784181, 1e-10));
 }
 
 TEST(LargestFalseAccept, IsNeverExceeded) {
     for (const double u : {0.01, 0.125, 0.5, 2.0, 20.0}) {
-        const double largest = largest_false_accept(k_unit_tolerance, k_unit_tolerance, u);
+        const double largest = largest_false_accept(k_risk_tolerance, k_risk_tolerance, u);
         for (double deviation = 0.01; deviation < 1000.0; deviation *= 1.17) {
             EXPECT_LE(unguarded(deviation, u).false_accept, largest * (1.0 + 1e-12)) << deviation << ' ' << u;
         }
@@ -180,13 +180,13 @@ TEST(LargestFalseAccept, IsNeverExceeded) {
 
 TEST(PopulationDeviation, FromReliability) {
     EXPECT_TRUE(agrees(population_deviation(2.0, 0.9544997361036416), 1.0, 1e-12));
-    EXPECT_TRUE(agrees(*population_deviation(k_unit_tolerance, 0.0, 0.9), population_deviation(1.0, 0.9), 1e-14));
-    EXPECT_TRUE(agrees(*population_deviation(k_unit_tolerance, 0.3, 0.9), 0.529252944525274, 1e-12));
+    EXPECT_TRUE(agrees(*population_deviation(k_risk_tolerance, 0.0, 0.9), population_deviation(1.0, 0.9), 1e-14));
+    EXPECT_TRUE(agrees(*population_deviation(k_risk_tolerance, 0.3, 0.9), 0.529252944525274, 1e-12));
     EXPECT_TRUE(agrees(*population_deviation({.upper = 1.0}, 0.0, 0.977249868051821), 0.5, 1e-12));
     EXPECT_TRUE(agrees(*population_deviation({.lower = -1.0}, 0.0, 0.977249868051821), 0.5, 1e-12));
     EXPECT_FALSE(population_deviation({.upper = 1.0}, 0.0, 0.5));
-    EXPECT_FALSE(population_deviation(k_unit_tolerance, 1.0, 0.9));
-    EXPECT_FALSE(population_deviation(k_unit_tolerance, -1.2, 0.9));
+    EXPECT_FALSE(population_deviation(k_risk_tolerance, 1.0, 0.9));
+    EXPECT_FALSE(population_deviation(k_risk_tolerance, -1.2, 0.9));
     EXPECT_EQ(code_of<InputError>([] { (void)population_deviation(1.0, 1.0); }), "GC-GUM-0004");
 }
 
@@ -199,12 +199,12 @@ TEST(PopulationDeviation, FromObservedDeviation) {
 TEST(GuardBandForGlobalRisk, SolvesForTheRisk) {
     // EOPR 0.9, TUR 2, 1 %: by Brent's method with SciPy.
     const double s0 = population_deviation(1.0, 0.9);
-    EXPECT_TRUE(agrees(*guard_band_for_global_risk(k_unit_tolerance, 0.0, s0, 0.25, 0.01, FalseAccept::unconditional),
+    EXPECT_TRUE(agrees(*guard_band_for_global_risk(k_risk_tolerance, 0.0, s0, 0.25, 0.01, FalseAccept::unconditional),
                        0.154418217216571, 1e-11));
-    EXPECT_TRUE(agrees(*guard_band_for_global_risk(k_unit_tolerance, 0.0, s0, 0.25, 0.01, FalseAccept::conditional),
+    EXPECT_TRUE(agrees(*guard_band_for_global_risk(k_risk_tolerance, 0.0, s0, 0.25, 0.01, FalseAccept::conditional),
                        0.193420634667528, 1e-11));
     // Unguarded, the risk is 2.26 %: no guard band is needed for 3 %.
-    EXPECT_EQ(guard_band_for_global_risk(k_unit_tolerance, 0.0, s0, 0.25, 0.03, FalseAccept::unconditional), 0.0);
+    EXPECT_EQ(guard_band_for_global_risk(k_risk_tolerance, 0.0, s0, 0.25, 0.03, FalseAccept::unconditional), 0.0);
 }
 
 TEST(GuardBandForGlobalRisk, KeepsTheLimitOnEitherSide) {
@@ -219,8 +219,8 @@ TEST(GuardBandForGlobalRisk, KeepsTheLimitOnEitherSide) {
 
 TEST(GuardBandForGlobalRisk, ThereMayBeNone) {
     // A wide population measured badly: the best reading still says little.
-    EXPECT_FALSE(guard_band_for_global_risk(k_unit_tolerance, 0.0, 3.0, 2.0, 0.02, FalseAccept::conditional));
-    EXPECT_TRUE(guard_band_for_global_risk(k_unit_tolerance, 0.0, 3.0, 2.0, 0.02, FalseAccept::unconditional));
+    EXPECT_FALSE(guard_band_for_global_risk(k_risk_tolerance, 0.0, 3.0, 2.0, 0.02, FalseAccept::conditional));
+    EXPECT_TRUE(guard_band_for_global_risk(k_risk_tolerance, 0.0, 3.0, 2.0, 0.02, FalseAccept::unconditional));
 }
 
 }  // namespace

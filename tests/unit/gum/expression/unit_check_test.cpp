@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::vector<InputSymbol> quantities() {
+std::vector<InputSymbol> checked_quantities() {
     return {input("x", "mm"),
             input("l", "m"),
             input("T", "K"),
@@ -30,7 +30,7 @@ std::vector<InputSymbol> quantities() {
 }
 
 std::string code(const std::string& equation, const std::vector<OutputSymbol>& outputs = {}) {
-    return codes(problems_of({equation}, quantities(), {}, outputs));
+    return codes(problems_of({equation}, checked_quantities(), {}, outputs));
 }
 
 TEST(UnitCheck, SumsBalance) {
@@ -43,20 +43,20 @@ TEST(UnitCheck, SumsBalance) {
     EXPECT_EQ(code("y = hypot(x, l) + sqrt(A_m) + abs(x)"), "");
     EXPECT_EQ(code("y = x + 1"), "0030 m/0, column 7");
     EXPECT_EQ(code("y = x + 0 - max(x, 0) + min(0, l, -0)"), "");
-    const std::string text = messages(problems_of({"y = 2*x + T"}, quantities()));
+    const std::string text = messages(problems_of({"y = 2*x + T"}, checked_quantities()));
     EXPECT_THAT(text, HasSubstr("m + K"));
     EXPECT_THAT(text, HasSubstr("\"2*x\" is in m"));
     EXPECT_THAT(text, HasSubstr("\"T\" is in K"));
-    EXPECT_THAT(messages(problems_of({"y = x + T"}, quantities())), HasSubstr("mm + K"));
+    EXPECT_THAT(messages(problems_of({"y = x + T"}, checked_quantities())), HasSubstr("mm + K"));
 }
 
 TEST(UnitCheck, GoesThroughIntermediateQuantitiesAndImplicitEquations) {
-    EXPECT_EQ(codes(problems_of({"y = z + x", "z = l*T"}, quantities())), "0030 m/0, column 7");
-    EXPECT_EQ(codes(problems_of({"0 = R*(1 + A*q) - l"}, quantities(), {unknown("q", 20, "degC")})),
+    EXPECT_EQ(codes(problems_of({"y = z + x", "z = l*T"}, checked_quantities())), "0030 m/0, column 7");
+    EXPECT_EQ(codes(problems_of({"0 = R*(1 + A*q) - l"}, checked_quantities(), {unknown("q", 20, "degC")})),
               "0030 m/0, column 17");
-    EXPECT_EQ(codes(problems_of({"0 = R*(1 + A*q) - R"}, quantities(), {unknown("q", 20, "degC")})), "");
+    EXPECT_EQ(codes(problems_of({"0 = R*(1 + A*q) - R"}, checked_quantities(), {unknown("q", 20, "degC")})), "");
     // One problem, not one for every equation that follows from it.
-    EXPECT_EQ(codes(problems_of({"y = z + x", "z = l + T", "w = z*2"}, quantities())), "0030 m/1, column 7");
+    EXPECT_EQ(codes(problems_of({"y = z + x", "z = l + T", "w = z*2"}, checked_quantities())), "0030 m/1, column 7");
 }
 
 TEST(UnitCheck, ArgumentsOfFunctions) {
@@ -66,7 +66,7 @@ TEST(UnitCheck, ArgumentsOfFunctions) {
     EXPECT_EQ(code("y = sin(phi) + cos(deg) + tan(asin(n)) + sin(0)"), "");
     EXPECT_EQ(code("y = sin(n)"), "0032 m/0, column 5");
     EXPECT_EQ(code("y = sin(x)"), "0032 m/0, column 5");
-    EXPECT_THAT(messages(problems_of({"y = sin(n)"}, quantities())), HasSubstr("*rad"));
+    EXPECT_THAT(messages(problems_of({"y = sin(n)"}, checked_quantities())), HasSubstr("*rad"));
     EXPECT_EQ(code("y = asin(n) + acos(n) + atan(x/l) + atan2(x, l) - phi"), "");
     EXPECT_EQ(code("y = atan2(x, T)"), "0030 m/0, column 5");
 }
@@ -74,8 +74,8 @@ TEST(UnitCheck, ArgumentsOfFunctions) {
 TEST(UnitCheck, TheRadianIsNotOne) {
     EXPECT_EQ(code("y = l*phi", {output("y", "m")}), "0035 output y");
     EXPECT_EQ(code("y = l*phi/rad", {output("y", "m")}), "");
-    EXPECT_THAT(messages(problems_of({"y = l*phi"}, quantities(), {}, {output("y", "m")})), HasSubstr("/rad"));
-    EXPECT_THAT(messages(problems_of({"y = l*phi + x"}, quantities())), HasSubstr("(\"/rad\")"));
+    EXPECT_THAT(messages(problems_of({"y = l*phi"}, checked_quantities(), {}, {output("y", "m")})), HasSubstr("/rad"));
+    EXPECT_THAT(messages(problems_of({"y = l*phi + x"}, checked_quantities())), HasSubstr("(\"/rad\")"));
     EXPECT_EQ(code("y = n*rad + phi"), "");
 }
 
@@ -96,8 +96,8 @@ TEST(UnitCheck, Exponents) {
 TEST(UnitCheck, UnitsOfOutputs) {
     EXPECT_EQ(code("y = x", {output("y", "nm")}), "");
     EXPECT_EQ(code("y = x", {output("y", "K")}), "0035 output y");
-    EXPECT_EQ(system_of({"y = x*l"}, quantities()).output_unit(0).dimension().text(), "m2");
-    EXPECT_EQ(system_of({"y = x*l"}, quantities(), {}, {output("y", "mm2")}).output_unit(0).text(), "mm2");
+    EXPECT_EQ(system_of({"y = x*l"}, checked_quantities()).output_unit(0).dimension().text(), "m2");
+    EXPECT_EQ(system_of({"y = x*l"}, checked_quantities(), {}, {output("y", "mm2")}).output_unit(0).text(), "mm2");
     EXPECT_EQ(code("y = 0", {output("y", "m")}), "");
 }
 
@@ -151,12 +151,14 @@ TEST(TemperatureKind, Table) {
 }
 
 TEST(TemperatureKind, IsInferredAndCured) {
-    EXPECT_TRUE(system_of({"y = (t + t2)/2"}, quantities()).output_unit(0).is_celsius_temperature());
-    EXPECT_FALSE(system_of({"y = t - t2"}, quantities()).output_unit(0).is_celsius_temperature());
-    EXPECT_THAT(messages(problems_of({"y = T"}, quantities(), {}, {output("y", "degC")})), HasSubstr("celsius(…)"));
-    EXPECT_THAT(messages(problems_of({"y = t"}, quantities(), {}, {output("y", "K")})), HasSubstr("kelvin(t)"));
-    EXPECT_EQ(codes(problems_of({"0 = q - T"}, quantities(), {unknown("q", 20, "degC")})), "0036 m/0, column 1");
-    EXPECT_EQ(codes(problems_of({"0 = q - celsius(T)"}, quantities(), {unknown("q", 20, "degC")})), "");
+    EXPECT_TRUE(system_of({"y = (t + t2)/2"}, checked_quantities()).output_unit(0).is_celsius_temperature());
+    EXPECT_FALSE(system_of({"y = t - t2"}, checked_quantities()).output_unit(0).is_celsius_temperature());
+    EXPECT_THAT(messages(problems_of({"y = T"}, checked_quantities(), {}, {output("y", "degC")})),
+                HasSubstr("celsius(…)"));
+    EXPECT_THAT(messages(problems_of({"y = t"}, checked_quantities(), {}, {output("y", "K")})), HasSubstr("kelvin(t)"));
+    EXPECT_EQ(codes(problems_of({"0 = q - T"}, checked_quantities(), {unknown("q", 20, "degC")})),
+              "0036 m/0, column 1");
+    EXPECT_EQ(codes(problems_of({"0 = q - celsius(T)"}, checked_quantities(), {unknown("q", 20, "degC")})), "");
     EXPECT_EQ(system_of({"y = celsius(T)"}, {input("T", "K")}).evaluate(vector({293.15}))(0), 293.15 - 273.15);
 }
 
@@ -213,7 +215,7 @@ TEST(UnitCheck, CuresLeadToTheRightNumber) {
         {"y = v", "Hz", "0035", "by the radian (\"/rad\")", "y = v/rad", "Hz", 2.0 * pi},
         {"y = f_v - v", "", "0030", "divide the second by a turn (\"/(2*pi*rad)\")", "y = f_v - v/(2*pi*rad)", "", 2.0},
         {"y = N_v", "1", "0035", "by a turn (\"/(2*pi*rad)\")", "y = N_v/(2*pi*rad)", "1", 3.0}};
-    std::vector<InputSymbol> inputs = quantities();
+    std::vector<InputSymbol> inputs = checked_quantities();
     inputs.push_back(input("v", "rpm"));
     inputs.push_back(input("f_v", "Hz"));
     inputs.push_back(input("N_v", "turn"));

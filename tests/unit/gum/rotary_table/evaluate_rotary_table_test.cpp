@@ -156,9 +156,9 @@ TEST(EvaluateRotaryTable, StatesADisplacementWhereThereIsAReference) {
 }
 
 TEST(DocumentUnits, AreMicrometresAndArcseconds) {
-    EXPECT_STREQ(unit_of({.name = "d", .unit = "m"}).record, "um");
-    EXPECT_STREQ(unit_of({.name = "e", .unit = "rad"}).print, "″");
-    EXPECT_DOUBLE_EQ(unit_of({.name = "d", .unit = "m"}).si, 1e-6);
+    EXPECT_STREQ(unit_of(OutputQuantity{.name = "d", .unit = "m"}).record, "um");
+    EXPECT_STREQ(unit_of(OutputQuantity{.name = "e", .unit = "rad"}).print, "″");
+    EXPECT_DOUBLE_EQ(unit_of(OutputQuantity{.name = "d", .unit = "m"}).si, 1e-6);
 }
 
 }  // namespace

@@ -16,18 +16,18 @@
 namespace gumcert::gum {
 namespace {
 
-using engine::test::Files;
-using engine::test::replace;
 using jobs::RotaryTableJob;
+using jobs::test::Files;
+using jobs::test::replace;
 using testing::HasSubstr;
 
 constexpr double k_micro = 1e-6;
 
 Files campaign_with_budget() {
-    Files files = engine::test::small_campaign();
+    Files files = jobs::test::small_campaign();
     replace(files.at("job.json"), "\"coordinates\"", "\"budget\": \"fixture_budget.json\", \"coordinates\"");
-    files["fixture_budget.json"] = engine::test::small_fixture_budget();
-    files["fixture_points.csv"] = engine::test::small_fixture_points();
+    files["fixture_budget.json"] = jobs::test::small_fixture_budget();
+    files["fixture_points.csv"] = jobs::test::small_fixture_points();
     return files;
 }
 
@@ -41,7 +41,7 @@ double largest_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 }
 
 TEST(FixtureBudget, GivesTheCovarianceOfTheCoordinates) {
-    RotaryTableJob job = engine::test::read(campaign_with_budget());
+    RotaryTableJob job = jobs::test::read(campaign_with_budget());
     const FixtureUncertainty fixture = apply_fixture_budget(job);
     const Eigen::MatrixXd& V = job.measurement.fixture_covariance;
     ASSERT_EQ(V.rows(), 12);
@@ -60,12 +60,12 @@ TEST(FixtureBudget, GivesTheCovarianceOfTheCoordinates) {
 
 TEST(FixtureBudget, FollowsTheOrderOfTheCoordinatesNotOfThePoints) {
     Files files = campaign_with_budget();
-    RotaryTableJob first = engine::test::read(files);
+    RotaryTableJob first = jobs::test::read(files);
     const FixtureUncertainty in_order = apply_fixture_budget(first);
     std::string& points = files.at("fixture_points.csv");
     replace(points, "R1.x,33.25\n", "");
     points += "R1.x,33.25\n";
-    RotaryTableJob second = engine::test::read(files);
+    RotaryTableJob second = jobs::test::read(files);
     const FixtureUncertainty other = apply_fixture_budget(second);
     EXPECT_EQ(first.measurement.fixture_covariance, second.measurement.fixture_covariance);
     ASSERT_EQ(other.model->outputs().size(), 12U);
@@ -76,7 +76,7 @@ TEST(FixtureBudget, FollowsTheOrderOfTheCoordinatesNotOfThePoints) {
 }
 
 TEST(FixtureBudget, JointModelHasTheCovarianceAndTheValuesOfThePoints) {
-    RotaryTableJob job = engine::test::read(campaign_with_budget());
+    RotaryTableJob job = jobs::test::read(campaign_with_budget());
     const FixtureUncertainty fixture = apply_fixture_budget(job);
     EXPECT_LT(largest_difference(propagated(*fixture.model), job.measurement.fixture_covariance), 1e-12);
     const Eigen::VectorXd y = fixture.model->evaluate(input_estimates(*fixture.model));
@@ -86,7 +86,7 @@ TEST(FixtureBudget, JointModelHasTheCovarianceAndTheValuesOfThePoints) {
 }
 
 TEST(FixtureBudget, JointModelDrawsWhatThePointsHaveInCommonTogether) {
-    RotaryTableJob job = engine::test::read(campaign_with_budget());
+    RotaryTableJob job = jobs::test::read(campaign_with_budget());
     const FixtureUncertainty fixture = apply_fixture_budget(job);
     MonteCarloOptions options;
     options.trials = 100'000;
@@ -110,7 +110,7 @@ TEST(FixtureBudget, JointModelTakesOneProbabilityWhereACommonInputDiffersBetween
             "\"specification\": {\"of\": \"l\", \"percent_of_reading\": 0.001}, \"between_points\": \"common\"}");
     replace(files.at("fixture_budget.json"), "l * d_scale", "l * d_scale + d_p");
     replace(files.at("fixture_budget.json"), "\"l\": {\"value\": 0", "\"l\": {\"value\": 1");
-    RotaryTableJob job = engine::test::read(files);
+    RotaryTableJob job = jobs::test::read(files);
     const FixtureUncertainty fixture = apply_fixture_budget(job);
     const Eigen::MatrixXd& V = job.measurement.fixture_covariance;
     const auto l = [&](Eigen::Index i) { return std::abs(job.measurement.fixture(i / 3, i % 3)); };
@@ -131,7 +131,7 @@ TEST(FixtureBudget, RefusesOutputsThatAreNoLength) {
             "\"x = l + d_cmm + l * d_scale\", \"y = 2*d_scale\"");
     replace(files.at("fixture_budget.json"), "\"outputs\": {\"x\": {\"unit\": \"mm\"}}",
             "\"outputs\": {\"x\": {\"unit\": \"mm\"}, \"y\": {}}");
-    RotaryTableJob job = engine::test::read(files);
+    RotaryTableJob job = jobs::test::read(files);
     try {
         (void)apply_fixture_budget(job);
         FAIL() << "two outputs were accepted";
@@ -145,7 +145,7 @@ TEST(FixtureBudget, RefusesValuesThatAreNotThoseOfTheCoordinatesFile) {
     Files files = campaign_with_budget();
     replace(files.at("fixture_points.csv"), "R2.x,85.5", "R2.x,85.5002");
     replace(files.at("fixture_points.csv"), "R4.z,-0.75", "R4.z,-0.75009");  // 0.09 µm is within the tolerance
-    RotaryTableJob job = engine::test::read(files);
+    RotaryTableJob job = jobs::test::read(files);
     try {
         (void)apply_fixture_budget(job);
         FAIL() << "another coordinate was accepted";
@@ -159,7 +159,7 @@ TEST(FixtureBudget, RefusesValuesThatAreNotThoseOfTheCoordinatesFile) {
 TEST(FixtureBudget, WarnsOfColumnsThatAreFarOff) {
     Files files = campaign_with_budget();
     replace(files.at("fixture.csv"), "5.25,0.4,0.5,0.4", "5.25,0.4,5,0.4");
-    RotaryTableJob job = engine::test::read(files);
+    RotaryTableJob job = jobs::test::read(files);
     const FixtureUncertainty fixture = apply_fixture_budget(job);
     ASSERT_EQ(fixture.notes.size(), 1U);
     EXPECT_EQ(fixture.notes[0].code, "GC-WARN-0012");
@@ -167,7 +167,7 @@ TEST(FixtureBudget, WarnsOfColumnsThatAreFarOff) {
 }
 
 TEST(FixtureBudget, LeavesAFixtureWithoutBudgetAlone) {
-    RotaryTableJob job = engine::test::read(engine::test::small_campaign());
+    RotaryTableJob job = jobs::test::read(jobs::test::small_campaign());
     const Eigen::MatrixXd before = job.measurement.fixture_covariance;
     const FixtureUncertainty fixture = apply_fixture_budget(job);
     EXPECT_EQ(job.measurement.fixture_covariance, before);
@@ -177,7 +177,7 @@ TEST(FixtureBudget, LeavesAFixtureWithoutBudgetAlone) {
 
 TEST(FixtureBudget, RefusesPointsThatAreNotTheCoordinates) {
     const auto what = [](auto change) {
-        RotaryTableJob job = engine::test::read(campaign_with_budget());
+        RotaryTableJob job = jobs::test::read(campaign_with_budget());
         Budget budget = *job.fixture_budget;
         change(budget.points);
         job.fixture_budget = std::make_shared<const Budget>(std::move(budget));

@@ -1,4 +1,5 @@
 #include "reports/forms/render.h"
+#include "reports/printable_text.h"
 
 #include "gum/quantity/diagnostic.h"
 #include "reports/view/certificate_view.h"

@@ -18,7 +18,7 @@ using ::testing::ElementsAre;
 using ::testing::SizeIs;
 
 /// The sample, with location errors beside the axis line.
-RotaryTable sample_table() {
+RotaryTable stated_table() {
     RotaryTable table = *test::sample_record().rotary;
     table.location_errors = {table.axis_line[0]};
     table.location_errors[0].name = "EY0A";
@@ -27,7 +27,7 @@ RotaryTable sample_table() {
 }
 
 TEST(StatedValues, AreAllThatTheTableHasInTheOrderOfTheRecord) {
-    const RotaryTable table = sample_table();
+    const RotaryTable table = stated_table();
     const ConstStatedPlaces places = stated_values(table);
     ASSERT_THAT(places, SizeIs(36 * 6 + 6 + 6 + 4 + 1 + table.iso230_2->parameters.size()));
     std::vector<std::string> groups;
@@ -44,7 +44,7 @@ TEST(StatedValues, AreAllThatTheTableHasInTheOrderOfTheRecord) {
 }
 
 TEST(StatedValues, HaveTheirNameMeaningAndUnit) {
-    const RotaryTable table = sample_table();
+    const RotaryTable table = stated_table();
     for (const auto& place : stated_values(table)) {
         const bool angle = place.stated.printed.unit == "″";
         EXPECT_EQ(place.unit, angle ? "arcsec" : "um") << place.name;
@@ -59,7 +59,7 @@ TEST(StatedValues, HaveTheirNameMeaningAndUnit) {
 }
 
 TEST(StatedValues, OfOneMotionStandTogetherWhereThatIsAskedFor) {
-    const RotaryTable table = sample_table();
+    const RotaryTable table = stated_table();
     const ConstStatedPlaces places = stated_values(table, ErrorOrder::by_motion);
     EXPECT_EQ(&places[35].stated, &table.errors[35].errors[0]);
     EXPECT_EQ(&places[36].stated, &table.errors[0].errors[1]);
@@ -69,7 +69,7 @@ TEST(StatedValues, OfOneMotionStandTogetherWhereThatIsAskedFor) {
 
 TEST(StatedValues, ArePointedAtAsInTheRecord) {
     EvaluationRecord record = test::sample_record();
-    record.rotary = sample_table();
+    record.rotary = stated_table();
     const nlohmann::json rotary = nlohmann::json::parse(to_canonical_json(record)).at("rotary");
     for (const auto& place : stated_values(std::as_const(*record.rotary))) {
         EXPECT_EQ(rotary.at(nlohmann::json::json_pointer(pointer_of(place))).at("value"), place.stated.value);
@@ -77,7 +77,7 @@ TEST(StatedValues, ArePointedAtAsInTheRecord) {
 }
 
 TEST(StatedValues, HaveResultNamesThatDiffer) {
-    const RotaryTable table = sample_table();
+    const RotaryTable table = stated_table();
     std::set<std::string> names;
     for (const auto& place : stated_values(table)) {
         if (place.group != StatedGroup::error_motions || place.index == 0) {
@@ -88,7 +88,7 @@ TEST(StatedValues, HaveResultNamesThatDiffer) {
 }
 
 TEST(StatedValues, CanBeChangedInTheTable) {
-    RotaryTable table = sample_table();
+    RotaryTable table = stated_table();
     for (const auto& place : stated_values(table)) {
         place.stated.printed.value = "changed";
     }

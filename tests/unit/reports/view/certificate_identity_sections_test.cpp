@@ -33,7 +33,7 @@ json page_of(const EvaluationRecord& record) {
 }
 
 /// "label=value" of all definitions of a section of the page.
-std::vector<std::string> rows_of(const json& page, const std::string& section) {
+std::vector<std::string> lines_of_section(const json& page, const std::string& section) {
     std::vector<std::string> rows;
     for (const json& s : page.at("sections")) {
         for (const json& block : s.at("blocks")) {
@@ -62,18 +62,19 @@ TEST(CertificateIdentity, SaysWhoWhatWhenAndWhere) {
     EXPECT_EQ(page.at("laboratory"), "Example Calibration Laboratory");
     EXPECT_EQ(page.at("number"), "EX-2026-0042");
     EXPECT_THAT(texts_of(page.at("address")), HasSubstr("Example Street 1, 12345 Example Town, DE"));
-    EXPECT_THAT(rows_of(page, "item"), ElementsAre("Object=Item under calibration", "Manufacturer=Example Works",
-                                                   "Type=EW 50", "Serial number=SN-1001", "Identification=INV-55 †",
-                                                   "Condition on receipt=No damage seen", "Owner=Example Customer"));
-    EXPECT_THAT(rows_of(page, "customer"),
+    EXPECT_THAT(lines_of_section(page, "item"),
+                ElementsAre("Object=Item under calibration", "Manufacturer=Example Works", "Type=EW 50",
+                            "Serial number=SN-1001", "Identification=INV-55 †", "Condition on receipt=No damage seen",
+                            "Owner=Example Customer"));
+    EXPECT_THAT(lines_of_section(page, "customer"),
                 ElementsAre("Customer=Example Customer", "Address=Sample Road 2, 54321 Sample Town, AT",
                             "Contact=Quality department, quality@example.com", "Order number=PO-2026-77"));
-    EXPECT_THAT(rows_of(page, "dates"),
+    EXPECT_THAT(lines_of_section(page, "dates"),
                 ElementsAre("Date of receipt=2026-11-16", "Date of calibration=2026-11-18 – 2026-11-19",
                             "Date of issue=2026-11-21",
                             "Place of calibration=at the laboratory, Measuring room 2, Example Street 1, "
                             "12345 Example Town, DE"));
-    EXPECT_THAT(rows_of(page, "authorisation"),
+    EXPECT_THAT(lines_of_section(page, "authorisation"),
                 ElementsAre("Authorised by=Head of laboratory", "Function=Head of laboratory",
                             "Date of authorisation=2026-11-20"));
     EXPECT_THAT(texts_of(page.at("foot")), HasSubstr("The results relate only to the item described"));
@@ -83,17 +84,17 @@ TEST(CertificateIdentity, SaysWhoWhatWhenAndWhere) {
 TEST(CertificateIdentity, SummarisesTheVerdictsWithTheirRule) {
     EvaluationRecord record = test::certified_rotary_record();
     EXPECT_THAT(
-        rows_of(page_of(record), "summary").at(1),
+        lines_of_section(page_of(record), "summary").at(1),
         HasSubstr("Conformity=Drawing 1234, B, 3.2; EAA: pass (36 of 36 values); decision rule DR-03, guarded"));
     for (certificate::CertifiedColumn& column : record.certificate->tables[0].columns) {
         if (column.result == "EAA") {
             column.values[4].verdict->verdict = "fail";
         }
     }
-    EXPECT_THAT(rows_of(page_of(record), "summary").at(1),
+    EXPECT_THAT(lines_of_section(page_of(record), "summary").at(1),
                 HasSubstr("EAA: pass (35 of 36 values), fail (1 of 36 values); decision rule"));
     record.certificate->data.specifications.clear();
-    EXPECT_THAT(rows_of(page_of(record), "summary"),
+    EXPECT_THAT(lines_of_section(page_of(record), "summary"),
                 ElementsAre("Results=see the following pages", "Conformity=No statement of conformity was requested."));
 }
 
@@ -107,7 +108,7 @@ TEST(CertificateIdentity, StatesTheOneResultInALine) {
     value = test::certified_value(-1.0, 0.1, 2.16, {}, {.value = "-1.00", .U = "0.22", .unit = "nm"}, "L1");
     c.tables[0].columns[0].printed_unit = "nm";
     value.printed_k = "2.16";
-    const auto line = [&] { return rows_of(page_of(record), "summary").at(0); };
+    const auto line = [&] { return lines_of_section(page_of(record), "summary").at(0); };
     EXPECT_EQ(line(), "Results=l = −1.00\u00A0nm ± 0.22\u00A0nm, k = 2.16");
     c.profile.plus_minus_in_tables = false;
     EXPECT_EQ(line(), "Results=l = −1.00\u00A0nm, U = 0.22\u00A0nm, k = 2.16");
@@ -123,7 +124,7 @@ TEST(CertificateIdentity, NamesTheCertificateThatItAmends) {
     EvaluationRecord record = test::certified_budget_record();
     record.certificate->data.amendment =
         certificate::Amendment{.kind = "amended", .number = "EX-2026-0041", .sha256 = "", .reason = {}, .changes = {}};
-    EXPECT_THAT(rows_of(page_of(record), "summary").back(),
+    EXPECT_THAT(lines_of_section(page_of(record), "summary").back(),
                 HasSubstr("Amendment=Amendment to calibration certificate EX-2026-0041."));
 }
 
@@ -154,9 +155,9 @@ TEST(CertificateIdentity, ShowsWhatIsMissingAsADash) {
     record.certificate->data.item = {};
     record.certificate->data.persons.authorised_by.reset();
     const json page = page_of(record);
-    EXPECT_THAT(rows_of(page, "item"),
+    EXPECT_THAT(lines_of_section(page, "item"),
                 ElementsAre("Object=–", "Manufacturer=–", "Type=–", "Serial number=–", "Condition on receipt=–"));
-    EXPECT_EQ(rows_of(page, "authorisation").front(), "Authorised by=–");
+    EXPECT_EQ(lines_of_section(page, "authorisation").front(), "Authorised by=–");
     EXPECT_THAT(page.dump(), Not(HasSubstr("†"))) << "the legend of a mark that does not occur";
 }
 

@@ -24,17 +24,17 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-json view_of(const EvaluationRecord& record) {
+json rotary_view_of(const EvaluationRecord& record) {
     std::ifstream file(std::string(GUMCERT_SOURCE_DIR) + "/templates/wording/en.json");
     return certificate_view(record, json::parse(file));
 }
 
-std::string text_of(const EvaluationRecord& record) {
+std::string rotary_text_of(const EvaluationRecord& record) {
     return squeezed(render_text(record, assets()));
 }
 
 TEST(RotaryCertificate, AxisLineSaysWhereMonteCarloAgrees) {
-    const auto rows = rows_of(view_of(test::sample_record()), "axis-line");
+    const auto rows = rows_of(rotary_view_of(test::sample_record()), "axis-line");
     ASSERT_EQ(rows.size(), 4U);
     EXPECT_THAT(rows[0], ElementsAre("axis_y", "position of the axis average line along y in the frame of the fixture",
                                      "−59.43", "0.29", "µm", "2.00", "380", "validated"));
@@ -44,8 +44,8 @@ TEST(RotaryCertificate, AxisLineSaysWhereMonteCarloAgrees) {
         p.stated.monte_carlo.reset();
         p.stated.nu_eff.reset();
     }
-    EXPECT_EQ(rows_of(view_of(without), "axis-line")[0].size(), 7U);
-    EXPECT_EQ(rows_of(view_of(without), "axis-line")[0].back(), "∞");
+    EXPECT_EQ(rows_of(rotary_view_of(without), "axis-line")[0].size(), 7U);
+    EXPECT_EQ(rows_of(rotary_view_of(without), "axis-line")[0].back(), "∞");
 }
 
 /// The sample, with a machine whose frame is known by three probed reflectors.
@@ -67,29 +67,29 @@ EvaluationRecord in_a_machine(const std::string& by) {
 }
 
 TEST(RotaryCertificate, LocationErrorsAreThoseOfAMachine) {
-    const auto rows = rows_of(view_of(in_a_machine("probing")), "location-errors");
+    const auto rows = rows_of(rotary_view_of(in_a_machine("probing")), "location-errors");
     ASSERT_EQ(rows.size(), 4U);
     EXPECT_EQ(rows[0][0], "EY0A");
     EXPECT_EQ(rows[0][1], "position of the axis along y in the frame of the machine, against the nominal point");
     EXPECT_EQ(rows[3][1], "tilt of the axis about z in the frame of the machine");
     EXPECT_THAT(
-        text_of(in_a_machine("probing")),
+        rotary_text_of(in_a_machine("probing")),
         HasSubstr("The frame of the machine is known by 3 reflectors probed by its axes; their residuals are 1.3 µm "
                   "(rms), p = 0.41."));
-    EXPECT_THAT(text_of(in_a_machine("stations")), HasSubstr("known by 3 stations of the tracer"));
-    const std::string without = text_of(test::sample_record());
+    EXPECT_THAT(rotary_text_of(in_a_machine("stations")), HasSubstr("known by 3 stations of the tracer"));
+    const std::string without = rotary_text_of(test::sample_record());
     EXPECT_THAT(without, Not(HasSubstr("EY0A")));
     EXPECT_THAT(without, Not(HasSubstr("frame of the machine")));
 }
 
 TEST(RotaryCertificate, PositioningHasParametersAndTargets) {
-    const json view = view_of(test::sample_record());
+    const json view = rotary_view_of(test::sample_record());
     EXPECT_EQ(rows_of(view, "positioning").size(), 12U);
     EXPECT_THAT(rows_of(view, "positioning")[5],
                 ElementsAre("R_up", "unidirectional repeatability of positioning, positive approach", "4.25", "0.22",
                             "″", "2.00", "380", "validated"));
     EXPECT_THAT(rows_of(view, "positioning-targets")[1], ElementsAre("30", "0.96", "0.35", "0.21", "0.24", "0.61"));
-    const std::string text = text_of(test::sample_record());
+    const std::string text = rotary_text_of(test::sample_record());
     EXPECT_THAT(text, HasSubstr("from 5 runs in the positive (↑) and 5 runs in the negative (↓) sense of approach"));
     EXPECT_THAT(text, HasSubstr("u = 0.092″"));
     EXPECT_THAT(text, HasSubstr("Five runs in each direction: the positional deviations are corrected for nothing."));
@@ -97,7 +97,7 @@ TEST(RotaryCertificate, PositioningHasParametersAndTargets) {
 
 TEST(RotaryCertificate, AdjustmentShowsBothFactorsAndTheTestInWords) {
     EvaluationRecord r = test::sample_record();
-    std::string text = text_of(r);
+    std::string text = rotary_text_of(r);
     EXPECT_THAT(text, HasSubstr("Variance factor a priori 1 "));
     EXPECT_THAT(text, HasSubstr("Variance factor a posteriori 0.987 "));
     EXPECT_THAT(text, HasSubstr("Reason The variance components were estimated"));
@@ -107,11 +107,11 @@ TEST(RotaryCertificate, AdjustmentShowsBothFactorsAndTheTestInWords) {
     r.rotary->adjustment.global_test.accepted = false;
     r.rotary->adjustment.chi_square = 2000.0;
     r.rotary->adjustment.printed.chi_square = "2000.0";
-    EXPECT_THAT(text_of(r), HasSubstr("χ² = 2000.0 is above the upper limit 1137.5"));
+    EXPECT_THAT(rotary_text_of(r), HasSubstr("χ² = 2000.0 is above the upper limit 1137.5"));
     r.rotary->adjustment.chi_square = 900.0;
     r.rotary->adjustment.printed.chi_square = "900.0";
-    EXPECT_THAT(text_of(r), HasSubstr("χ² = 900.0 is below the lower limit 958.3"));
-    const auto rows = rows_of(view_of(r), "variance-components");
+    EXPECT_THAT(rotary_text_of(r), HasSubstr("χ² = 900.0 is below the lower limit 958.3"));
+    const auto rows = rows_of(rotary_view_of(r), "variance-components");
     EXPECT_THAT(rows[0], ElementsAre("length noise", "0.0512", "0.0011", "µm", "0.05", "787", "812.0", "estimated",
                                      "in the weights"));
     EXPECT_THAT(rows[3], ElementsAre("table angular, tilt", "0.290", "0.020", "″", "0.3", "–", "68.0", "as stated",
@@ -120,17 +120,17 @@ TEST(RotaryCertificate, AdjustmentShowsBothFactorsAndTheTestInWords) {
 
 TEST(RotaryCertificate, FlaggedDistancesAreListedInTheirOrderWithReasons) {
     EvaluationRecord r = test::sample_record();
-    const auto rows = rows_of(view_of(r), "flagged");
+    const auto rows = rows_of(rotary_view_of(r), "flagged");
     EXPECT_THAT(rows[0], ElementsAre("1", "P1", "R3", "P1-1", "20", "3.12", "61.2", "58.7 (3.89)", "3.24", "removed"));
     EXPECT_THAT(rows[1], ElementsAre("2", "P4", "R6", "P4-1", "310", "−0.24", "4.3", "4.3 (3.89)", "−0.27", "kept"));
-    EXPECT_THAT(text_of(r), HasSubstr("No. 1 largest test value of the first search"));
+    EXPECT_THAT(rotary_text_of(r), HasSubstr("No. 1 largest test value of the first search"));
     r.rotary->flagged.assign(4, r.rotary->flagged[0]);
     r.rotary->flagged[3].reason = "another";
-    EXPECT_THAT(text_of(r), HasSubstr("No. 1–3 largest test value of the first search No. 4 another"));
+    EXPECT_THAT(rotary_text_of(r), HasSubstr("No. 1–3 largest test value of the first search No. 4 another"));
 }
 
 TEST(RotaryCertificate, ReliabilityNamesTheWorstOfEveryErrorMotion) {
-    const json view = view_of(test::sample_record());
+    const json view = rotary_view_of(test::sample_record());
     const auto rows = rows_of(view, "external-reliability");
     ASSERT_EQ(rows.size(), 10U);
     EXPECT_THAT(rows[0], ElementsAre("EXA", "350", "0.47", "µm", "0.65", "P4", "R6", "P4-1", "350", "0.33"));
@@ -141,11 +141,11 @@ TEST(RotaryCertificate, ReliabilityNamesTheWorstOfEveryErrorMotion) {
     EXPECT_THAT(text, HasSubstr("Largest minimal detectable bias of the fixture 2.1 µm (x of R1)"));
     EvaluationRecord uncontrolled = test::sample_record();
     uncontrolled.rotary->fixture_reliability[0].minimal_detectable_bias_um = 0.0;
-    EXPECT_EQ(rows_of(view_of(uncontrolled), "fixture-reliability")[0].back(), "–") << "nothing controls it";
+    EXPECT_EQ(rows_of(rotary_view_of(uncontrolled), "fixture-reliability")[0].back(), "–") << "nothing controls it";
 }
 
 TEST(RotaryCertificate, FixtureHasTheFormOfThePapersTable) {
-    const json view = view_of(test::sample_record());
+    const json view = rotary_view_of(test::sample_record());
     const auto rows = rows_of(view, "fixture");
     ASSERT_EQ(rows.size(), 6U);
     const Reflector m = test::sample_record().rotary->reflectors[1];
@@ -156,13 +156,13 @@ TEST(RotaryCertificate, FixtureHasTheFormOfThePapersTable) {
     }
     EXPECT_EQ(rows_of(view, "fixture-budget").size(), 2U);
     EXPECT_THAT(block(view, "table", "fixture-budget")["caption"].get<std::string>(), HasSubstr("x of R6"));
-    EXPECT_THAT(text_of(test::sample_record()),
+    EXPECT_THAT(rotary_text_of(test::sample_record()),
                 HasSubstr("The maximum permissible error is taken as a uniform bound."));
 }
 
 TEST(RotaryCertificate, MonteCarloNamesWhatIsNotValidated) {
     EvaluationRecord r = test::sample_record();
-    const json view = view_of(r);
+    const json view = rotary_view_of(r);
     const auto groups = rows_of(view, "monte-carlo-groups");
     EXPECT_THAT(groups[0], ElementsAre("EXA", "36", "35", "1", "0"));
     EXPECT_THAT(groups[5], ElementsAre("ECA", "36", "35", "0", "1"));
@@ -175,15 +175,15 @@ TEST(RotaryCertificate, MonteCarloNamesWhatIsNotValidated) {
                                      e.monte_carlo->printed.symmetric[1], e.monte_carlo->printed.shortest[0],
                                      e.monte_carlo->printed.shortest[1], "µm", "not validated"));
     EXPECT_EQ(rows[1].back(), "not validated") << "what cannot be said is counted, not listed";
-    EXPECT_THAT(text_of(r), HasSubstr("more trials decide it"));
-    EXPECT_THAT(text_of(r), HasSubstr("Steps of a trial until it converged 2.31 on average, 4 at most"));
+    EXPECT_THAT(rotary_text_of(r), HasSubstr("more trials decide it"));
+    EXPECT_THAT(rotary_text_of(r), HasSubstr("Steps of a trial until it converged 2.31 on average, 4 at most"));
 
     for (ErrorsAtAngle& at : r.rotary->errors) {
         at.errors[0].monte_carlo->validation->validated = false;
         at.errors[1].monte_carlo->validation->validated = false;
     }
-    EXPECT_EQ(rows_of(view_of(r), "monte-carlo-exceptions").size(), 60U);
-    EXPECT_THAT(text_of(r), HasSubstr("The record holds 14 more."));
+    EXPECT_EQ(rows_of(rotary_view_of(r), "monte-carlo-exceptions").size(), 60U);
+    EXPECT_THAT(rotary_text_of(r), HasSubstr("The record holds 14 more."));
 
     for (ErrorsAtAngle& at : r.rotary->errors) {
         for (StatedValue& value : at.errors) {
@@ -192,11 +192,12 @@ TEST(RotaryCertificate, MonteCarloNamesWhatIsNotValidated) {
     }
     r.rotary->ranges.clear();
     r.rotary->axis_line.clear();
-    EXPECT_THAT(text_of(r), HasSubstr("The law of propagation is validated for every quantity that was compared"));
+    EXPECT_THAT(rotary_text_of(r),
+                HasSubstr("The law of propagation is validated for every quantity that was compared"));
 }
 
 TEST(RotaryCertificate, HasThePlotsWithTextsForScreenReaders) {
-    const json view = view_of(test::sample_record());
+    const json view = rotary_view_of(test::sample_record());
     for (const char* id : {"plot-errors", "plot-sources", "plot-station-residuals", "plot-redundancy", "plot-layout",
                            "plot-reflectors"}) {
         const json figure = block(view, "figure", id);
@@ -251,7 +252,7 @@ TEST(RotaryCertificate, ARecordWithoutTheNewPartsHasNoEmptyPlaces) {
         m.printed_cmm.clear();
         m.printed_U_cmm.clear();
     }
-    const json view = view_of(old);
+    const json view = rotary_view_of(old);
     std::vector<std::string> ids;
     for (const json& section : view["sections"]) {
         ids.push_back(section["id"]);
@@ -262,7 +263,7 @@ TEST(RotaryCertificate, ARecordWithoutTheNewPartsHasNoEmptyPlaces) {
     EXPECT_THAT(rows_of(view, "variance-components")[0],
                 ElementsAre("length noise", "0.0512", "0.0011", "µm", "812.0", "estimated"));
     EXPECT_THAT(rows_of(view, "flagged")[0], ElementsAre("P1", "R3", "P1-1", "20", "3.12", "61.2", "removed"));
-    const std::string text = text_of(old);
+    const std::string text = rotary_text_of(old);
     EXPECT_THAT(text, Not(HasSubstr("Global test: χ²")));
     EXPECT_THAT(text, Not(HasSubstr("Monte Carlo")));
 }

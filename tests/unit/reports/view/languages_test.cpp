@@ -1,6 +1,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "reports/forms/asset_files.h"
 #include "reports/forms/render.h"
+#include "reports/printable_text.h"
 #include "reports/view/certificate_builder.h"
 #include "reports/view/certificate_view.h"
 #include "reports/wording.h"

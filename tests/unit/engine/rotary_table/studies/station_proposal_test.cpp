@@ -21,7 +21,7 @@ using planned::layout_of;
 using planned::narrow_cone;
 using synthetic::CampaignPlan;
 
-ExpectedUncertainty expected(const RotaryTableMeasurement& measurement) {
+ExpectedUncertainty expected_of_layout(const RotaryTableMeasurement& measurement) {
     return expected_uncertainty(measurement, start_variances(measurement.table_repeatability), EvaluationOptions{});
 }
 
@@ -101,7 +101,8 @@ TEST(StationProposal, ANarrowConeBecomesAboutAsGoodAsTheBestOfManyLayouts) {
     EXPECT_EQ(last, proposal.ratio_after);
     plan.stations = proposal.positions;
     const RotaryTableMeasurement moved = layout_of(plan);
-    EXPECT_NEAR(largest_ratio(expected(moved).covariance.diagonal(), 12, k_wanted) / proposal.ratio_after, 1.0, 1e-7)
+    EXPECT_NEAR(largest_ratio(expected_of_layout(moved).covariance.diagonal(), 12, k_wanted) / proposal.ratio_after,
+                1.0, 1e-7)
         << "the ratio that is claimed is not that of the positions";
 
     synthetic::Noise noise(4);

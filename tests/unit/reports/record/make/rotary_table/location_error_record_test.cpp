@@ -16,7 +16,7 @@ TEST(LocationErrorRecord, HasTheFrameThePointsAndTheErrors) {
     frame.nominal_point = {0.1, 0.2, 0.3};
     frame.source = "calibrated axes";
     gum::LocationErrors errors;
-    errors.fit.residuals = Eigen::Matrix3d::Constant(1e-6);
+    errors.fit.residuals = Eigen::Matrix3d::Constant(1.2e-6);
     errors.fit.degrees_of_freedom = 3.0;
     errors.p_value = 0.25;
 
@@ -29,8 +29,8 @@ TEST(LocationErrorRecord, HasTheFrameThePointsAndTheErrors) {
     ASSERT_EQ(without.machine_frame->points.size(), 3U);
     EXPECT_EQ(without.machine_frame->points[0].name, "S3");
     EXPECT_DOUBLE_EQ(without.machine_frame->points[0].u_um, 2.0);
-    EXPECT_DOUBLE_EQ(without.machine_frame->points[0].residual_um[2], 1.0);
-    EXPECT_EQ(without.machine_frame->printed_residual, "1.0");
+    EXPECT_DOUBLE_EQ(without.machine_frame->points[0].residual_um[2], 1.2);
+    EXPECT_EQ(without.machine_frame->printed_residual, "1.2");
     EXPECT_EQ(without.machine_frame->printed_p, "0.25");
     EXPECT_TRUE(without.location_errors.empty());
 

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gum/monte_carlo/trial_distribution.h"
+#include "gum/rounding.h"
+
+namespace gumcert::certificate {
+
+/// Values of an input of a budget, for the capabilities that depend on it.
+struct InputValues {
+    std::string unit;            ///< UDUNITS-2
+    std::vector<double> values;  ///< in `unit`, one a point of the table, or one for all
+};
+
+/// What the evaluation knows beside its record.
+struct CapabilityInputs {
+    std::map<std::string, InputValues> values;  ///< by the name of the input
+    /// P(Y ≤ x) of results whose k comes from a convolution, by Result::name; x in the unit of the result.
+    std::map<std::string, std::function<double(double)>> distributions;
+    /// P(Y < x) of the same results, where it differs: where single values have a probability of their own.
+    std::map<std::string, std::function<double(double)>> distributions_below;
+    /// Trials of results whose U comes from Monte Carlo, by Result::name. Counted where a decision needs them, one
+    /// result after the other: they take memory.
+    std::map<std::string, gum::TrialsOfOutput> trials = {};
+    gum::RoundingMode rounding = gum::RoundingMode::half_even;  ///< of U, as the job asks for it
+};
+
+}  // namespace gumcert::certificate

@@ -1,0 +1,459 @@
+#include "imports/import_certificate.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "gum/expression/syntax_tree.h"
+#include "json/strict_parser.h"
+#include "reports/dcc/dcc_reader.h"
+#include "reports/printable_text.h"
+
+namespace gumcert::imports {
+
+namespace {
+
+using reports::ImportedCertificate;
+using reports::ImportedNumber;
+using reports::ImportedQuantity;
+
+/// A number of a certificate as JSON wants it, with the digits that stand there: "+.50" → "0.50", "5." → "5". Nothing
+/// for NaN or another text that is no finite number.
+std::optional<std::string> json_number(const std::string& text) {
+    std::string number = text.starts_with('+') ? text.substr(1) : text;
+    const bool negative = number.starts_with('-');
+    std::string rest = negative ? number.substr(1) : number;
+    const std::size_t exponent_at = std::min(rest.find_first_of("eE"), rest.size());
+    std::string digits = rest.substr(0, exponent_at);
+    if (digits.starts_with('.')) {
+        digits.insert(0, "0");
+    }
+    if (digits.ends_with('.')) {
+        digits.pop_back();
+    }
+    const std::size_t whole = std::min(digits.find('.'), digits.size());
+    const std::size_t first = std::min(digits.find_first_not_of('0'), whole);
+    digits.erase(0, first == whole ? first - (first > 0 ? 1 : 0) : first);
+    number = (negative ? "-" : "") + digits + rest.substr(exponent_at);
+    const std::optional<nlohmann::json> parsed = gumcert::json::parse_faultless(number, {.long_integers = true});
+    double value = 0.0;
+    // Numbers too large or too small for a double are refused by the reader of jobs as well.
+    const bool in_range = std::from_chars(number.data(), number.data() + number.size(), value).ec == std::errc();
+    return parsed && parsed->is_number() && in_range && std::isfinite(value) ? std::optional(number) : std::nullopt;
+}
+
+double value_of(const std::string& number) {
+    double value = 0.0;
+    std::from_chars(number.data(), number.data() + number.size(), value);
+    return value;
+}
+
+std::string json_text(const std::string& text) {
+    return nlohmann::json(reports::printable(text)).dump();
+}
+
+/// Members of a JSON object, numbers with their own digits.
+using Members = std::vector<std::pair<std::string, std::string>>;
+
+std::string object_on_one_line(const Members& members) {
+    std::string text = "{";
+    for (const auto& [key, value] : members) {
+        if (text.size() > 1) {
+            text += ", ";
+        }
+        text += json_text(key) + ": " + value;
+    }
+    return text + "}";
+}
+
+struct Input {
+    std::string name;
+    Members members;
+
+    [[nodiscard]] bool is_constant() const {
+        return std::any_of(members.begin(), members.end(), [](const auto& m) { return m.first == "constant"; });
+    }
+};
+
+class Importer {
+public:
+    explicit Importer(std::string file) : file_(std::move(file)) {}
+
+    /// Nothing where the statement of uncertainty cannot be used: remarked.
+    std::optional<Input> input_of(const ImportedQuantity& q);
+    std::vector<gum::Diagnostic> remarks;
+
+private:
+    void remark(const ImportedQuantity& q, const std::string& what, const std::string& rule, const std::string& action);
+    bool add_uncertainty(const ImportedQuantity& q, Members& members);
+    bool add_interval(const ImportedQuantity& q, Members& members);
+    std::string name_for(const ImportedQuantity& q);
+    bool add_expanded(const ImportedQuantity& q, const std::string& stated, Members& members);
+
+    std::string file_;
+    std::set<std::string, std::less<>> names_;
+    const ImportedQuantity* last_remarked_ = nullptr;
+    std::string first_remarked_;  // name of the first row that the last remark is about
+};
+
+/// One remark for all rows of a column that it holds for.
+void Importer::remark(const ImportedQuantity& q, const std::string& what, const std::string& rule,
+                      const std::string& action) {
+    const bool next_row = last_remarked_ != nullptr && q.row && last_remarked_->row &&
+                          *q.row == *last_remarked_->row + 1 && q.table == last_remarked_->table &&
+                          q.quantity == last_remarked_->quantity && q.result == last_remarked_->result;
+    const bool same = next_row && remarks.back().what == what && remarks.back().rule == rule;
+    last_remarked_ = &q;
+    if (same) {
+        remarks.back().where = file_ + ": " + first_remarked_ + " to " + q.name;
+        return;
+    }
+    first_remarked_ = q.name;
+    remarks.push_back({.code = "GC-DCC-0031",
+                       .where = file_ + ": " + q.name,
+                       .what = what,
+                       .rule = rule,
+                       .action = action,
+                       .severity = gum::Severity::warning});
+}
+
+std::string Importer::name_for(const ImportedQuantity& q) {
+    std::string name = gum::is_reserved_name(q.name) ? q.name + "_value" : q.name;
+    while (!names_.insert(name).second) {
+        name += "_";
+    }
+    return name;
+}
+
+/// Ends of an interval of probability p about the value: a standard uncertainty is stated beside it in the DCC, and the
+/// budget takes that one.
+bool Importer::add_interval(const ImportedQuantity& q, Members& members) {
+    const auto u = json_number(q.u);
+    if (!u || value_of(*u) <= 0.0) {
+        remark(q, "an interval without a standard uncertainty", "an input needs a statement of its uncertainty",
+               "add the input by hand");
+        return false;
+    }
+    if (value_of(json_number(q.low).value_or("0")) > value_of(json_number(q.high).value_or("0"))) {
+        remark(q, "an interval from " + q.low + " to " + q.high, "an interval begins before it ends",
+               "ask the laboratory; add the input by hand");
+        return false;
+    }
+    members.emplace_back("u", *u);
+    const double value = value_of(json_number(q.value).value_or("0"));
+    const double low = value - value_of(json_number(q.low).value_or("0"));
+    const double high = value_of(json_number(q.high).value_or("0")) - value;
+    constexpr double k_symmetric = 0.1;
+    if (std::abs(high - low) > k_symmetric * std::max(std::abs(high), std::abs(low))) {
+        remark(q, "the interval from " + q.low + " to " + q.high + " is not symmetric about " + q.value,
+               "the budget takes the standard uncertainty as that of a normal distribution",
+               "state another distribution where that matters");
+    }
+    return true;
+}
+
+bool Importer::add_uncertainty(const ImportedQuantity& q, Members& members) {
+    if (q.kind == "coverage_interval") {
+        return add_interval(q, members);
+    }
+    const auto stated = json_number(q.kind == "standard" ? q.u : q.U);
+    if (!stated || value_of(*stated) < 0.0) {
+        remark(q, "no number as uncertainty", "an input needs a statement of its uncertainty", "add the input by hand");
+        return false;
+    }
+    if (value_of(*stated) == 0.0) {
+        members.emplace_back("constant", "true");
+        remark(q, "an uncertainty of 0", "the budget holds it as a constant", "make sure that this is meant");
+        return true;
+    }
+    if (q.kind == "standard") {
+        members.emplace_back("u", *stated);
+        return true;
+    }
+    return add_expanded(q, *stated, members);
+}
+
+/// U with its k, else with p; never both, because a job takes one of them.
+bool Importer::add_expanded(const ImportedQuantity& q, const std::string& stated, Members& members) {
+    const auto k = json_number(q.k);
+    const auto p = json_number(q.p);
+    if (!k && !p) {
+        remark(q, "U without k and p", "an expanded uncertainty needs its coverage factor", "add the input by hand");
+        return false;
+    }
+    if (k && value_of(*k) <= 0.0) {
+        remark(q, "the coverage factor is " + *k, "a coverage factor is greater than 0",
+               "ask the laboratory; add the input by hand");
+        return false;
+    }
+    if (!k && (value_of(*p) <= 0.0 || value_of(*p) >= 1.0)) {
+        remark(q, "U without k, and the coverage probability is " + *p, "a probability is between 0 and 1",
+               "ask the laboratory; add the input by hand");
+        return false;
+    }
+    if (!k) {
+        remark(q, "U without k", "the budget takes the coverage factor of a normal distribution for p = " + *p,
+               "ask the laboratory for its k");
+    }
+    members.emplace_back("U", stated);
+    members.emplace_back(k ? "k" : "p", k ? *k : *p);
+    return true;
+}
+
+std::optional<Input> Importer::input_of(const ImportedQuantity& q) {
+    const auto value = json_number(q.value);
+    if (!value) {
+        remark(q, "the value is " + json_text(q.value), "a value is a finite number",
+               "nothing, if none is stated there");
+        return std::nullopt;
+    }
+    if (q.unit.empty()) {
+        remark(q,
+               q.d_si_unit.empty() ? "no unit" : "unit \"" + reports::printable(q.d_si_unit) + "\" is not known here",
+               "an input has a unit of the program", "add the input by hand, in a unit that is known");
+        return std::nullopt;
+    }
+    Input input;
+    input.members = {{"unit", json_text(q.unit)}, {"value", *value}};
+    if (!q.objection.empty()) {
+        remark(q, q.objection, "an input needs a statement of its uncertainty that holds",
+               "ask the laboratory; add the input by hand");
+        return std::nullopt;
+    }
+    if (q.kind == "none") {
+        input.members.emplace_back("constant", "true");
+    } else if (!add_uncertainty(q, input.members)) {
+        return std::nullopt;
+    }
+    input.name = name_for(q);
+    return input;
+}
+
+/// What stands in the same row of a table as a value: where it was measured, and how many degrees of freedom it has.
+class Rows {
+public:
+    explicit Rows(const ImportedCertificate& certificate) : certificate_(certificate) {
+        for (const ImportedQuantity& q : certificate.quantities) {
+            if (is_beside(q)) {
+                beside_[{q.table, *q.row}].push_back(&q);
+            } else if (is_degrees_of_freedom(q)) {
+                degrees_of_freedom_[{q.table, q.row.value_or(0), q.label}] = &q;
+            }
+        }
+    }
+
+    /// A number without uncertainty in a table: it says where the values of its row were measured.
+    [[nodiscard]] static bool is_beside(const ImportedQuantity& q) {
+        return q.role == "result" && q.table > 0 && q.row && q.kind == "none" && q.objection.empty() &&
+               !is_degrees_of_freedom(q);
+    }
+    /// Of a certificate that this program wrote: they carry the label of their result.
+    [[nodiscard]] static bool is_degrees_of_freedom(const ImportedQuantity& q) {
+        return q.ref_type == "gumcert_effectiveDegreesOfFreedom" && !q.label.empty();
+    }
+
+    /// "Angle 20 deg, Point 10_V"; "" for a value outside of a table.
+    [[nodiscard]] std::string place_of(const ImportedQuantity& q) const {
+        std::string text;
+        if (q.table == 0 || !q.row) {
+            return text;
+        }
+        const auto append = [&](const std::string& entry) { text += (text.empty() ? "" : ", ") + entry; };
+        for (const reports::ImportedWords& words : certificate_.words) {
+            if (words.table == q.table && *q.row < words.words.size()) {
+                append((words.quantity.empty() ? "" : words.quantity + " ") + words.words[*q.row]);
+            }
+        }
+        if (const auto found = beside_.find({q.table, *q.row}); found != beside_.end()) {
+            for (const ImportedQuantity* other : found->second) {
+                if (other->quantity != q.quantity) {  // the same column once more, in another form
+                    append((other->quantity.empty() ? other->name : other->quantity) + " " + with_unit(*other));
+                }
+            }
+        }
+        return text;
+    }
+
+    [[nodiscard]] std::optional<std::string> degrees_of_freedom(const ImportedQuantity& q) const {
+        const auto found = degrees_of_freedom_.find({q.table, q.row.value_or(0), q.label});
+        const auto nu = found == degrees_of_freedom_.end() ? std::nullopt : json_number(found->second->value);
+        return nu && value_of(*nu) > 0.0 ? nu : std::nullopt;
+    }
+
+private:
+    static std::string with_unit(const ImportedNumber& number) {
+        const std::string& unit = number.unit.empty() ? number.d_si_unit : number.unit;
+        return number.value + (unit == "1" ? "" : " " + unit);
+    }
+
+    const ImportedCertificate& certificate_;
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<const ImportedQuantity*>> beside_;
+    std::map<std::tuple<std::size_t, std::size_t, std::string>, const ImportedQuantity*> degrees_of_freedom_;
+};
+
+/// The results of a certificate of this program that stand there once more, beside their covariance.
+bool is_stated_twice(const ImportedQuantity& q) {
+    return q.ref_type == "gumcert_jointResults";
+}
+
+/// Distributions other than the normal one are not carried over by U and k alone.
+bool is_normal(const std::string& distribution) {
+    return distribution.empty() || distribution == "normal" || distribution == "gaussian";
+}
+
+void note_distribution(const ImportedQuantity& q, Members& members) {
+    std::string note;
+    if (!is_normal(q.distribution)) {
+        note = "distribution in the certificate: " + q.distribution;
+    }
+    if (q.kind == "expanded" && !q.p.empty() && !q.k.empty()) {
+        note += (note.empty() ? "" : "; ") + std::string("coverage probability ") + q.p;
+    }
+    if (q.kind == "coverage_interval") {
+        note += (note.empty() ? "" : "; ") + std::string("coverage interval ") + q.low + " to " + q.high +
+                (q.p.empty() ? "" : ", probability " + q.p);
+    }
+    for (const ImportedNumber& other : q.also) {
+        note += (note.empty() ? "" : "; ") + std::string("also ") + other.value + " " +
+                (other.unit.empty() ? other.d_si_unit : other.unit);
+    }
+    if (!note.empty()) {
+        members.emplace_back("note", json_text(note));
+    }
+}
+
+std::string source_of(const ImportedCertificate& c) {
+    return (c.state.empty() ? "" : c.state + " of ") + "certificate " + c.identifier +
+           (c.laboratory.empty() ? "" : ", " + c.laboratory) + ", SHA-256 " + c.sha256;
+}
+
+std::string description_of(const ImportedQuantity& q, const std::string& place) {
+    std::string text = q.result;
+    if (!q.quantity.empty()) {
+        text += (text.empty() ? "" : ": ") + q.quantity;
+    }
+    if (q.row) {
+        text += (text.empty() ? "" : ", ") + std::string("row ") + std::to_string(*q.row + 1);
+    }
+    return text + (place.empty() ? "" : " (" + place + ")");
+}
+
+gum::Diagnostic note_of(const char* code, const std::string& file, const std::string& what, const std::string& rule,
+                        const std::string& action) {
+    return {.code = code, .where = file, .what = what, .rule = rule, .action = action, .severity = gum::Severity::note};
+}
+
+/// What a person has to know of the job as a whole.
+void add_notes(const std::string& file, std::size_t inputs, std::size_t left_out,
+               const std::map<std::string, std::size_t>& distributions, std::vector<gum::Diagnostic>& remarks) {
+    for (const auto& [distribution, count] : distributions) {
+        remarks.push_back(note_of("GC-DCC-0033", file,
+                                  "distribution \"" + reports::printable(distribution) + "\" of " +
+                                      std::to_string(count) + (count == 1 ? " input" : " inputs"),
+                                  "the job takes U/k as the standard uncertainty of a normal distribution",
+                                  "state `distribution` or `nu` where that matters"));
+    }
+    if (left_out > 0) {
+        remarks.push_back(note_of(
+            "GC-DCC-0034", file,
+            std::to_string(left_out) +
+                (left_out == 1 ? " result without uncertainty is" : " results without uncertainty are") + " left out",
+            "inputs are the results that have one", "add them as constants where the model needs them"));
+    }
+    if (inputs > 1) {
+        remarks.push_back(note_of("GC-DCC-0032", file, std::to_string(inputs) + " inputs from one certificate",
+                                  "results of one calibration usually share errors; the job holds them as independent",
+                                  "state `correlations` or `covariance` where the certificate gives reason to"));
+    }
+}
+
+std::string job_text(const ImportedCertificate& c, const std::vector<Input>& inputs) {
+    std::string result = "y";
+    while (std::any_of(inputs.begin(), inputs.end(), [&](const Input& input) { return input.name == result; })) {
+        result += '_';
+    }
+    std::string text = "{\n \"schema\": \"gumcert/job/1\",\n \"kind\": \"budget\",\n";
+    text += " \"title\": " + json_text("Inputs from certificate " + c.identifier) + ",\n";
+    text += " \"notes\": " +
+            json_text("Imported from a digital certificate" + (c.item.empty() ? "" : " of: " + c.item) +
+                      (c.issued.empty() ? "" : ", issued " + c.issued) + ". The model is an example: write your own.") +
+            ",\n";
+    text += " \"model\": [" + json_text(result + " = " + inputs.front().name) + "],\n \"inputs\": {\n";
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        text += "  " + json_text(inputs[i].name) + ": " + object_on_one_line(inputs[i].members) +
+                (i + 1 < inputs.size() ? ",\n" : "\n");
+    }
+    return text + " },\n \"outputs\": {" + json_text(result) + ": {\"unit\": " + inputs.front().members.front().second +
+           "}}\n}\n";
+}
+
+}  // namespace
+
+ImportedJob import_certificate(std::string_view bytes, const std::string& file, const CertificateTrust& trust) {
+    const ImportedCertificate certificate = reports::read_dcc(bytes, file);
+    const std::vector<gum::Diagnostic> reservations = reservations_on(certificate, bytes, file, trust);
+    bool unreliable = false;
+    for (const gum::Diagnostic& reservation : reservations) {
+        if (reservation.code == "GC-DCC-0041") {
+            throw gum::InputError(reservation);
+        }
+        unreliable = unreliable || reservation.severity == gum::Severity::error;
+    }
+    Importer importer(file);
+    const bool any_uncertainty = std::any_of(
+        certificate.quantities.begin(), certificate.quantities.end(),
+        [](const ImportedQuantity& q) { return q.role == "result" && (q.kind != "none" || !q.objection.empty()); });
+    const Rows rows(certificate);
+    std::vector<Input> inputs;
+    std::map<std::string, std::size_t> distributions;
+    std::set<std::size_t> tables;  // that inputs come from
+    for (const ImportedQuantity& q : certificate.quantities) {
+        if (q.role != "result" || Rows::is_degrees_of_freedom(q) || is_stated_twice(q)) {
+            continue;
+        }
+        if (any_uncertainty && q.kind == "none" && q.objection.empty()) {
+            continue;
+        }
+        if (std::optional<Input> input = importer.input_of(q); input) {
+            const auto nu = q.kind == "expanded" ? rows.degrees_of_freedom(q) : std::nullopt;
+            if (nu && !input->is_constant()) {
+                input->members.emplace_back("nu", *nu);
+            } else if (!is_normal(q.distribution)) {
+                ++distributions[q.distribution];
+            }
+            input->members.emplace_back("description", json_text(description_of(q, rows.place_of(q))));
+            input->members.emplace_back("source", json_text(source_of(certificate)));
+            note_distribution(q, input->members);
+            inputs.push_back(std::move(*input));
+            tables.insert(q.table);
+        }
+    }
+    const auto left_out = static_cast<std::size_t>(
+        std::count_if(certificate.quantities.begin(), certificate.quantities.end(), [&](const ImportedQuantity& q) {
+            const bool in_description = Rows::is_beside(q) && tables.contains(q.table);
+            return any_uncertainty && q.role == "result" && q.kind == "none" && q.objection.empty() &&
+                   !Rows::is_degrees_of_freedom(q) && !in_description;
+        }));
+    if (inputs.empty()) {
+        std::vector<gum::Diagnostic> refusal = importer.remarks;
+        refusal.insert(refusal.begin(), gum::Diagnostic{.code = "GC-DCC-0030",
+                                                        .where = file,
+                                                        .what = "no result that can be an input of a budget",
+                                                        .rule = "results with a number and a known unit are imported",
+                                                        .action = "enter the inputs by hand"});
+        throw gum::InputError(std::move(refusal));
+    }
+    ImportedJob out{.job = job_text(certificate, inputs), .remarks = reservations, .negative = unreliable};
+    out.remarks.insert(out.remarks.end(), certificate.remarks.begin(), certificate.remarks.end());
+    out.remarks.insert(out.remarks.end(), importer.remarks.begin(), importer.remarks.end());
+    add_notes(file, inputs.size(), left_out, distributions, out.remarks);
+    return out;
+}
+
+}  // namespace gumcert::imports

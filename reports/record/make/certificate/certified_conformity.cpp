@@ -1,0 +1,274 @@
+#include "reports/record/make/certificate/certified_conformity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "certificate/statement_of_uncertainty.h"
+#include "gum/conformity/conformity.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/quantity/unit.h"
+#include "gum/rounding.h"
+
+namespace gumcert::reports {
+
+namespace {
+
+using certificate::AgreedSpecification;
+using certificate::CertifiedValue;
+using certificate::Verdict;
+using gum::ConformityDecision;
+using gum::Unit;
+
+constexpr double k_noise = 1e-12;  // of a capability that a unit was converted of
+
+/// A specification in the unit of a column.
+struct Agreed {
+    gum::DecisionRule rule = gum::DecisionRule::simple_acceptance;
+    gum::DecisionRuleParameters parameters;
+    gum::ToleranceLimits limits;
+    std::string problem;  ///< why it cannot be applied; "" where it can
+};
+
+std::optional<double> mapped(const std::optional<double>& from, const std::function<double(double)>& map) {
+    return from ? std::optional(map(*from)) : std::nullopt;
+}
+
+Agreed agreed(const AgreedSpecification& from, const std::string& unit) {
+    Agreed out;
+    const std::optional<gum::DecisionRule> rule = gum::decision_rule_from_id(from.rule.id);
+    if (!rule) {
+        out.problem = "the decision rule \"" + from.rule.id + "\" is not known";
+        return out;
+    }
+    out.rule = *rule;
+    const Unit stated = Unit::parse(from.unit);
+    const Unit column = Unit::parse(unit);
+    if (!(stated.dimension() == column.dimension()) ||
+        stated.is_celsius_temperature() != column.is_celsius_temperature()) {
+        out.problem = "the specification has the unit \"" + from.unit + "\", and the result \"" + unit + "\"";
+        return out;
+    }
+    const bool same = from.unit == unit;
+    const auto value = [&](double v) { return same ? v : column.from_si(stated.to_si(v)); };
+    const auto difference = [&](double v) { return same ? v : column.difference_from_si(stated.difference_to_si(v)); };
+    out.limits = {.lower = mapped(from.lower, value), .upper = mapped(from.upper, value)};
+    out.parameters.guard_factor = from.rule.guard_factor;
+    out.parameters.guard_band = mapped(from.rule.guard_band, difference);
+    out.parameters.probability = from.rule.probability;
+    out.parameters.test_uncertainty_ratio = from.rule.test_uncertainty_ratio;
+    out.parameters.largest_U = mapped(from.rule.largest_U, difference);
+    out.parameters.alternative = gum::decision_rule_from_id(from.rule.alternative);
+    out.parameters.population_reliability = from.rule.population_reliability;
+    out.parameters.population_deviation = mapped(from.rule.population_deviation, difference);
+    out.parameters.population_centre = mapped(from.rule.population_centre, value);
+    out.parameters.method = from.rule.method;
+    for (const std::string& sentence : gum::check_decision_rule(out.rule, out.parameters, out.limits)) {
+        out.problem += (out.problem.empty() ? "" : "; ") + sentence;
+    }
+    return out;
+}
+
+/// The numbers of a value that its decision rests on.
+struct DecisionNumbers {
+    gum::MeasuredValue unrounded, printed;
+    bool raised = false;  ///< U is the capability in place of a smaller one
+};
+
+/// U of a value: stated, or the larger distance of an end of its interval from it, so that neither end is nearer to a
+/// limit than a rule with U believes.
+std::optional<double> half_width(std::optional<double> U, double y, std::optional<double> low,
+                                 std::optional<double> high) {
+    if (U) {
+        return U;
+    }
+    return low && high ? std::optional(std::max(y - *low, *high - y)) : std::nullopt;
+}
+
+/// Whether a limit is a value that the quantity takes with a probability of its own, not by the chance of one trial.
+bool has_probability_at(const KnownDistribution& known, const gum::ToleranceLimits& limits) {
+    constexpr double k_no_chance = 1e-3;
+    const auto at = [&](const std::optional<double>& limit) {
+        return limit && known.below && known.function(*limit) - known.below(*limit) > k_no_chance;
+    };
+    return at(limits.lower) || at(limits.upper);
+}
+
+std::optional<DecisionNumbers> numbers_of(const CertifiedValue& from, const KnownDistribution& known,
+                                          const gum::ToleranceLimits& limits) {
+    constexpr double k_usual_factor = 2.0;
+    const std::optional<double> y = certificate::number_of(from.printed_value);
+    const bool by_interval = !from.U && from.interval && known.function;
+    if (!y || (!by_interval && (!from.U || !from.k))) {
+        return std::nullopt;
+    }
+    const std::optional<double> U =
+        by_interval ? half_width({}, from.value, from.interval->first, from.interval->second) : from.U;
+    const std::optional<double> U_printed = by_interval ? half_width({}, *y, certificate::number_of(from.printed_low),
+                                                                     certificate::number_of(from.printed_high))
+                                                        : certificate::number_of(from.printed_U);
+    // An interval has no k. Where the distribution is known, u only says how far a search for a limit has to go.
+    const double k = by_interval ? (from.u > 0.0 ? *U / from.u : k_usual_factor) : *from.k;
+    const std::optional<double> k_printed = by_interval ? std::optional(k) : certificate::number_of(from.printed_k);
+    if (!U || !U_printed || !k_printed || !(k > 0.0) || !(*k_printed > 0.0) || !(*U_printed > 0.0)) {
+        return std::nullopt;
+    }
+    DecisionNumbers out;
+    // Also where rounding alone has lifted U to the capability.
+    out.raised =
+        !by_interval && from.capability && *U < *from.capability && *U_printed >= *from.capability * (1.0 - k_noise);
+    out.unrounded.value = from.value;
+    out.unrounded.expanded_uncertainty = out.raised ? *from.capability : *U;
+    out.unrounded.standard_uncertainty = out.unrounded.expanded_uncertainty / k;
+    out.unrounded.degrees_of_freedom = from.nu_eff.value_or(std::numeric_limits<double>::infinity());
+    out.printed = out.unrounded;
+    out.printed.value = *y;
+    out.printed.expanded_uncertainty = *U_printed;
+    out.printed.standard_uncertainty = *U_printed / *k_printed;
+    if (known.function && *U > 0.0) {
+        // The same shape about the value, as wide as the stated U: k and p hold for it as they do for the evaluated U.
+        const auto place = [&](gum::MeasuredValue& numbers, bool as_it_is, double stated_U) {
+            const auto stretched = [&](const std::function<double(double)>& function) {
+                return [function, stretch = *U / stated_U, centre = from.value, value = numbers.value](double x) {
+                    return function(centre + (x - value) * stretch);
+                };
+            };
+            numbers.distribution = as_it_is ? known.function : stretched(known.function);
+            if (known.below) {
+                numbers.distribution_below = as_it_is ? known.below : stretched(known.below);
+            }
+        };
+        place(out.unrounded, !out.raised, out.unrounded.expanded_uncertainty);
+        // A limit that the quantity itself cannot pass stays where it is when y is rounded.
+        place(out.printed, !out.raised && has_probability_at(known, limits), *U_printed);
+    }
+    return out;
+}
+
+/// Never above the ratio, so that it does not seem to reach a least one that it misses.
+std::string printed_ratio(double ratio) {
+    return certificate::printed_at_most(ratio, certificate::decimals_of(gum::round_significant(ratio, 3)));
+}
+
+/// Guard band, acceptance limits and ratio are those of the printed value and U, so that they can be checked by hand
+/// with what stands beside them, and that the printed value is inside of them where the verdict says so.
+/// \param shown  the decision from the printed numbers
+void print(Verdict& verdict, const ConformityDecision& shown, int decimals) {
+    const auto limit = [&](const std::optional<double>& l) {
+        return l ? certificate::printed_limit(*l, decimals) : std::string();
+    };
+    verdict.printed.lower = limit(verdict.lower);
+    verdict.printed.upper = limit(verdict.upper);
+    // Acceptance limits follow from U: they end where value and limits end.
+    int finest = decimals;
+    for (const std::string& text : {verdict.printed.lower, verdict.printed.upper}) {
+        finest = text.empty() ? finest : std::max(finest, certificate::decimals_of(text));
+    }
+    const gum::ToleranceLimits& accepted = shown.acceptance;
+    verdict.printed.acceptance_lower = accepted.lower ? certificate::printed_at_least(*accepted.lower, finest) : "";
+    verdict.printed.acceptance_upper = accepted.upper ? certificate::printed_at_most(*accepted.upper, finest) : "";
+    const bool guarded = accepted.lower || accepted.upper;  // else no value is accepted, and there is no band
+    verdict.printed.guard_band = guarded ? certificate::printed_at_least(shown.guard_band, finest) : "";
+    verdict.printed.test_uncertainty_ratio =
+        shown.test_uncertainty_ratio ? printed_ratio(*shown.test_uncertainty_ratio) : "";
+    const auto percent = [](const std::optional<double>& p) {
+        return p ? certificate::printed_probability(*p) : std::string();
+    };
+    verdict.printed.conformance_probability = certificate::printed_probability(verdict.conformance_probability);
+    verdict.printed.specific_risk = certificate::printed_probability(verdict.specific_risk);
+    verdict.printed.largest_specific_risk = percent(verdict.largest_specific_risk);
+    verdict.printed.false_accept = percent(verdict.false_accept);
+    verdict.printed.false_reject = percent(verdict.false_reject);
+}
+
+/// What a finite number of trials leaves open of a probability that is counted. One trial stands for "none" and "all".
+std::string error_of_count(const KnownDistribution& known, const Verdict& verdict) {
+    if (known.trials == 0) {
+        return "";
+    }
+    const auto trials = static_cast<double>(known.trials);
+    const double p = std::clamp(verdict.conformance_probability, 1.0 / trials, 1.0 - 1.0 / trials);
+    return " The standard uncertainty of the conformance probability from their number is " +
+           gum::round_significant(100.0 * std::sqrt(p * (1.0 - p) / trials), 1) + " %.";
+}
+
+void fill(Verdict& verdict, const ConformityDecision& decision) {
+    verdict.rule = gum::decision_rule_id(decision.rule);
+    verdict.formula = decision.formula;
+    verdict.acceptance_lower = decision.acceptance.lower;
+    verdict.acceptance_upper = decision.acceptance.upper;
+    verdict.guard_band = decision.guard_band;
+    verdict.verdict = gum::verdict_name(decision.verdict);
+    verdict.conformance_probability = decision.conformance_probability;
+    verdict.specific_risk = decision.specific_risk;
+    verdict.largest_specific_risk = decision.largest_specific_risk;
+    verdict.false_accept = decision.false_accept;
+    verdict.false_reject = decision.false_reject;
+    verdict.test_uncertainty_ratio = decision.test_uncertainty_ratio;
+    verdict.note = decision.note;
+}
+
+Verdict& not_applicable(Verdict& verdict, const std::string& why) {
+    verdict.verdict = verdict.verdict_from_printed = "not_applicable";
+    verdict.note = why;
+    return verdict;
+}
+
+}  // namespace
+
+Verdict verdict_of(const AgreedSpecification& specification, const certificate::CertifiedColumn& column,
+                   const CertifiedValue& value, const KnownDistribution& known) {
+    Verdict verdict;
+    verdict.specification = specification.id;
+    verdict.rule = specification.rule.id;
+    const Agreed rule = agreed(specification, column.unit);
+    verdict.lower = rule.limits.lower;
+    verdict.upper = rule.limits.upper;
+    if (!rule.problem.empty()) {
+        return not_applicable(verdict, rule.problem);
+    }
+    verdict.formula = gum::decision_formula(rule.rule, rule.parameters, rule.limits);
+    if (value.external) {
+        return not_applicable(verdict,
+                              "another laboratory provided the result, and its conformity is not decided here");
+    }
+    const std::optional<DecisionNumbers> numbers = numbers_of(value, known, rule.limits);
+    if (!numbers) {
+        return not_applicable(verdict, !value.U && value.u == 0.0
+                                           ? "the value is defined, not measured: it has no uncertainty"
+                                           : "no expanded uncertainty is stated for the value");
+    }
+    ConformityDecision shown;
+    try {
+        shown = gum::decide_conformity(rule.rule, rule.parameters, rule.limits, numbers->unrounded);
+        fill(verdict, shown);
+        const ConformityDecision by_hand =
+            gum::decide_conformity(rule.rule, rule.parameters, rule.limits, numbers->printed);
+        verdict.verdict_from_printed = gum::verdict_name(by_hand.verdict);
+        if (by_hand.rule == shown.rule) {  // else rounding has moved a ratio past the one where an alternative begins
+            shown = by_hand;
+        }
+    } catch (const gum::DiagnosedError& error) {
+        const gum::Diagnostic& first = error.diagnostics().front();
+        return not_applicable(verdict, first.what + ": " + first.rule);
+    }
+    if (!known.note.empty() && (!known.function || numbers->unrounded.distribution)) {
+        verdict.note += (verdict.note.empty() ? "" : " ") + known.note + error_of_count(known, verdict);
+        if (numbers->raised && numbers->unrounded.distribution) {
+            verdict.note +=
+                " Its deviations from the value are widened in the ratio of the stated to the evaluated U, because the "
+                "capability of the laboratory is stated: k and the coverage probability hold for the stated U.";
+        }
+        if (!value.U) {
+            verdict.note +=
+                " U in the formula of the rule is the larger distance of an end of the coverage interval "
+                "from the value.";
+        }
+    }
+    print(verdict, shown, certificate::decimals_of(value.printed_value));
+    return verdict;
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "certificate/certified_results.h"
+#include "reports/record/make/certificate/certify.h"
+
+namespace gumcert::reports {
+
+/// One value of a table, as the scope sees it.
+struct ScopePlace {
+    const std::vector<certificate::CertifiedTable>& tables;  ///< all of the certificate
+    const certificate::CertifiedTable& table;
+    const certificate::CertifiedColumn& column;
+    std::size_t row = 0;
+    double coverage_probability = 0.95;  ///< of its expanded uncertainty
+};
+
+/// What the scope of accreditation says of one value.
+struct ScopeAnswer {
+    std::string entry;                 ///< id; "": outside
+    std::string outside_because;       ///< English; "" where it is inside
+    std::optional<double> capability;  ///< in the unit of the column, at the coverage probability of the result
+};
+
+/// Looks a value up: name, method, place, ranges, capability. Where several lines of the scope cover it, the one with
+/// the largest capability holds, so that U is below none of them.
+///
+/// A capability states about 95 %. Where a result has another coverage probability (by more than 0.01), the capability
+/// is carried over as normal, k_p of the result over k_p of the capability.
+[[nodiscard]] ScopeAnswer scope_of(const certificate::CertificateData& data, const ScopePlace& place,
+                                   const certificate::CapabilityInputs& inputs);
+
+}  // namespace gumcert::reports

@@ -1,0 +1,370 @@
+#include "reports/record/make/certificate/certify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "certificate/gates/gates.h"
+#include "certificate/result_names.h"
+#include "certificate/statement_of_uncertainty.h"
+#include "gum/budget/evaluation_choice.h"
+#include "gum/coverage.h"
+#include "gum/rounding.h"
+#include "reports/record/certified_tables.h"
+#include "reports/record/make/budget/budget_findings.h"
+#include "reports/record/make/certificate/certified_conformity.h"
+#include "reports/record/make/certificate/certified_scope.h"
+#include "reports/record/make/certificate/certified_traceability.h"
+#include "reports/record/make/certificate/environment_findings.h"
+#include "reports/record/make/circle_closure/circle_closure_findings.h"
+#include "reports/record/make/record_parts.h"
+#include "reports/record/make/reported_choice.h"
+#include "reports/record/make/rotary_table/rotary_findings.h"
+#include "reports/record/reported_result.h"
+#include "reports/record/stated_values.h"
+
+namespace gumcert::reports {
+
+namespace {
+
+using certificate::CertificateData;
+using certificate::CertifiedColumn;
+using certificate::CertifiedTable;
+using certificate::CertifiedValue;
+using certificate::Finding;
+using certificate::PrintRule;
+using certificate::Profile;
+using reports::EvaluationRecord;
+using reports::Result;
+
+constexpr double k_about_95_percent = 0.01;  // 95 % and 95.45 % are the same statement
+
+/// What is certified, in the place where the record has that number as well.
+void show(reports::Printed& text, const CertifiedValue& value) {
+    text.value = value.printed_value;
+    text.U = value.printed_U;
+}
+
+/// What is certified is what is reported; the law of propagation has the same texts where it is reported itself.
+void show(Result& result, const CertifiedValue& value) {
+    show(result.reported.printed, value);
+    result.reported.printed_low = value.printed_low;
+    result.reported.printed_high = value.printed_high;
+    if (result.reported.method == "law_of_propagation") {
+        show(result.printed, value);
+    }
+}
+
+/// Makes the tables of one record certified.
+class Certifier {
+public:
+    Certifier(EvaluationRecord& record, const certificate::CapabilityInputs& inputs)
+        : record_(record), inputs_(inputs) {
+        const certificate::Certificate& c = *record.certificate;
+        rule_ = certificate::print_rule(c.profile);
+        if (inputs.rounding == gum::RoundingMode::up) {
+            rule_.rounding = gum::RoundingMode::up;
+        }
+        scoped_ = c.data.accreditation.has_value() && c.data.status != "not_accredited";
+    }
+
+    /// Every value is printed once, and its texts are put into the place of the record that it comes from.
+    void certify_tables(std::vector<CertifiedTable>& tables) {
+        reports::StatedPlaces stated;  // in the order of the tables
+        if (record_.rotary) {
+            stated = reports::stated_values(*record_.rotary, reports::ErrorOrder::by_motion);
+        }
+        auto next = stated.begin();
+        for (CertifiedTable& table : tables) {
+            for (CertifiedColumn& column : table.columns) {
+                for (std::size_t row = 0; row < column.values.size(); ++row) {
+                    Result* const result = reports::result_of(record_, table, column.result, row);
+                    certify_value(tables, table, column, row, result);
+                    if (result != nullptr) {
+                        show(*result, column.values[row]);
+                    } else if (next != stated.end()) {
+                        show((next++)->stated.printed, column.values[row]);
+                    }
+                    if (result != nullptr && record_.rotary) {
+                        reports::print_set_up(*record_.rotary, *result);
+                    }
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
+
+private:
+    EvaluationRecord& record_;
+    const certificate::CapabilityInputs& inputs_;
+    PrintRule rule_;
+    bool scoped_ = false;
+    std::vector<Finding> findings_;
+
+    [[nodiscard]] const CertificateData& data() const { return record_.certificate->data; }
+
+    void certify_value(const std::vector<CertifiedTable>& tables, const CertifiedTable& table, CertifiedColumn& column,
+                       std::size_t row, const Result* result) {
+        CertifiedValue& value = column.values[row];
+        const double p = result != nullptr ? result->coverage_probability : record_.coverage_probability;
+        place_in_scope({.tables = tables, .table = table, .column = column, .row = row, .coverage_probability = p},
+                       value);
+        print(value);
+        note_coverage(column, p);
+        decide(column, value, result);
+    }
+
+    void place_in_scope(const ScopePlace& place, CertifiedValue& value) {
+        for (const certificate::ExternalResults& external : data().external_results) {
+            if (certificate::is_named(external.results, place.column.result)) {
+                value.external = true;
+                value.outside_because = "another laboratory provided it";
+                return;
+            }
+        }
+        if (!scoped_) {
+            return;
+        }
+        ScopeAnswer answer = scope_of(data(), place, inputs_);
+        value.scope_entry = std::move(answer.entry);
+        value.outside_because = std::move(answer.outside_because);
+        if (value.U || value.interval || value.u > 0.0) {  // by definition without uncertainty: no capability either
+            value.capability = answer.capability;
+        }
+    }
+
+    void leave_accreditation(CertifiedValue& value, const std::string& because) {
+        value.scope_entry.clear();
+        value.outside_because = because;
+    }
+
+    void print(CertifiedValue& value) {
+        if (value.k && value.U) {
+            value.printed_k = certificate::printed_coverage_factor(*value.k);
+        }
+        const bool has_degrees = value.U && value.coverage != "monte_carlo" && value.coverage != "none";
+        value.printed_nu_eff = has_degrees ? certificate::printed_degrees_of_freedom(value.nu_eff) : "";
+        if (value.capability) {
+            value.printed_capability = certificate::printed_capability(*value.capability);
+        }
+        if (value.U && (*value.U > 0.0 || value.capability)) {
+            print_with_uncertainty(value);
+        } else if (value.interval) {
+            print_interval(value);
+        }
+    }
+
+    void print_with_uncertainty(CertifiedValue& value) {
+        const std::string& policy = record_.certificate->profile.below_capability;
+        const certificate::StatedPair stated =
+            certificate::state_uncertainty(value.value, *value.U, value.capability, rule_, policy == "raise");
+        value.printed_value = stated.value;
+        value.printed_U = stated.U;
+        value.raised = stated.raised;
+        if (stated.below && policy == "outside") {
+            leave_accreditation(value, "its expanded uncertainty is smaller than the capability of the scope entry \"" +
+                                           value.scope_entry + "\"");
+        }
+        if (value.raised) {
+            value.interval.reset();  // what is certified is the value with the capability
+            value.printed_low.clear();
+            value.printed_high.clear();
+        } else if (value.interval) {
+            print_ends(value, certificate::decimals_of(value.printed_U));
+        }
+    }
+
+    void print_interval(CertifiedValue& value) {
+        const double half_width = 0.5 * (value.interval->second - value.interval->first);
+        if (!(half_width > 0.0)) {
+            return;
+        }
+        const gum::RoundedPair pair = gum::round_to_uncertainty(value.value, half_width, rule_.digits, rule_.rounding);
+        value.printed_value = pair.value;
+        value.printed_u = value.u > 0.0 ? gum::round_significant(value.u, 2) : "";
+        print_ends(value, certificate::decimals_of(pair.U));
+        if (value.capability && half_width < *value.capability) {
+            leave_accreditation(value, "its coverage interval is narrower than the capability of the scope entry \"" +
+                                           value.scope_entry + "\"");
+        }
+    }
+
+    static void print_ends(CertifiedValue& value, int decimals) {
+        value.printed_low = gum::round_to_quantum(value.interval->first, decimals);
+        value.printed_high = gum::round_to_quantum(value.interval->second, decimals);
+    }
+
+    void note_coverage(const CertifiedColumn& column, double p) {
+        if (!scoped_ || std::abs(p - 0.95) <= k_about_95_percent) {
+            return;
+        }
+        add({.id = "K03",
+             .clause = "ILAC-P14:09/2020",
+             .severity = certificate::FindingSeverity::critical,
+             .where = column.result,
+             .what = "the expanded uncertainty has a coverage probability of " + gum::percent(p) + " %",
+             .action = "State accredited results with a coverage probability of about 95 % (coverage_probability in "
+                       "the job)."});
+    }
+
+    /// Once a result, however many rows it has.
+    void add(Finding finding) {
+        const bool known = std::any_of(findings_.begin(), findings_.end(), [&](const Finding& f) {
+            return f.id == finding.id && f.where == finding.where;
+        });
+        if (!known) {
+            findings_.push_back(std::move(finding));
+        }
+    }
+
+    void decide(const CertifiedColumn& column, CertifiedValue& value, const Result* result) {
+        for (const certificate::AgreedSpecification& specification : data().specifications) {
+            if (!certificate::is_named(specification.results, column.result)) {
+                continue;
+            }
+            if (value.verdict) {
+                add({.id = "D09",
+                     .clause = "ISO/IEC 17025:2017, 7.8.6.2 b",
+                     .severity = certificate::FindingSeverity::major,
+                     .where = column.result,
+                     .what = "the specification \"" + specification.id + "\" names the result too, and only \"" +
+                             value.verdict->specification + "\" is decided",
+                     .action = "Name a result in one specification; decide the other on a certificate of its own."});
+                continue;
+            }
+            value.verdict = verdict_of(specification, column, value,
+                                       value.external ? KnownDistribution() : known_distribution(value, result));
+        }
+    }
+
+    [[nodiscard]] KnownDistribution known_distribution(const CertifiedValue& value, const Result* result) const;
+};
+
+/// \param result  of a budget or of the set-up; none for another quantity of a rotary table
+KnownDistribution Certifier::known_distribution(const CertifiedValue& value, const Result* result) const {
+    if (value.coverage == "monte_carlo") {
+        const auto found = result != nullptr ? inputs_.trials.find(result->name) : inputs_.trials.end();
+        if (found != inputs_.trials.end()) {
+            gum::TrialDistribution trials = gum::count_trials(found->second);
+            return {.function = std::move(trials.function),
+                    .below = std::move(trials.below),
+                    .note = "Probabilities are counted from " + std::to_string(trials.counted) + " Monte Carlo trials.",
+                    .trials = trials.counted};
+        }
+        return {.function = {},
+                .below = {},
+                .note =
+                    "Probabilities are those of a normal distribution with the stated U and k; the Monte Carlo "
+                    "trials were not kept."};
+    }
+    if (result != nullptr && result->coverage == "convolution") {
+        if (const auto found = inputs_.distributions.find(result->name); found != inputs_.distributions.end()) {
+            const auto below = inputs_.distributions_below.find(result->name);
+            return {.function = found->second,
+                    .below = below != inputs_.distributions_below.end() ? below->second : found->second,
+                    .note = "Probabilities are those of the convolution of all input distributions."};
+        }
+        return {.function = {},
+                .below = {},
+                .note =
+                    "Probabilities are those of a normal distribution with the stated U and k; the result itself "
+                    "is not normally distributed."};
+    }
+    return {};
+}
+
+/// Once a result, however many points it has.
+void add_s05(std::vector<Finding>& findings, const std::string& result, const std::string& what,
+             const std::string& action) {
+    const bool known =
+        std::any_of(findings.begin(), findings.end(), [&](const Finding& f) { return f.where == result; });
+    if (!known) {
+        findings.push_back({.id = "S05",
+                            .clause = "JCGM 101:2008, clause 8",
+                            .severity = certificate::FindingSeverity::critical,
+                            .where = result,
+                            .what = what,
+                            .action = action});
+    }
+}
+
+void add_against(std::vector<Finding>& findings, const std::string& result, const std::string& against) {
+    add_s05(findings, result,
+            "the law of propagation is reported because the job asks for it, although " + gum::reason_in_words(against),
+            "Leave out \"coverage\": \"law_of_propagation\" in the job: then the result of Monte Carlo is reported.");
+}
+
+/// Results that Monte Carlo does not confirm, although ±U of the law of propagation is certified.
+void note_validation(std::vector<Finding>& findings, const std::string& result,
+                     const std::optional<reports::MonteCarloSummary>& trials) {
+    if (trials && trials->validation && trials->validation->precise_enough && !trials->validation->validated) {
+        add_s05(findings, result, "Monte Carlo does not validate the stated expanded uncertainty",
+                "See the Monte Carlo interval in the record; improve the measurement, or agree on the interval as the "
+                "result.");
+    }
+}
+
+std::vector<Finding> validation_findings(const EvaluationRecord& record) {
+    std::vector<Finding> findings;
+    for (const Result& result : record.results) {
+        const std::string name = result.quantity.empty() ? result.name : result.quantity;
+        const reports::ReportedResult reported = reports::reported_result(result);
+        if (!reported.against.empty()) {
+            add_against(findings, name, reported.against);
+        }
+        if (reported.method == "law_of_propagation") {
+            note_validation(findings, name, result.monte_carlo);
+        }
+    }
+    if (!record.rotary) {
+        return findings;
+    }
+    for (const auto& place : reports::stated_values(*record.rotary)) {
+        const std::string name = reports::result_name(place.group, place.name);
+        if (!place.stated.reported) {
+            note_validation(findings, name, place.stated.monte_carlo);
+        } else if (!place.stated.reported->against.empty()) {
+            add_against(findings, name, place.stated.reported->against);
+        }
+    }
+    return findings;
+}
+
+}  // namespace
+
+void certify(EvaluationRecord& record, CertificateData data, Profile profile,
+             const certificate::CapabilityInputs& inputs) {
+    record.certificate.emplace();
+    record.certificate->data = std::move(data);
+    record.certificate->profile = std::move(profile);
+    for (Result& result : record.results) {
+        result.reported = reports::reported_result(result);
+    }
+    std::vector<CertifiedTable> tables = reports::certified_tables(record);
+    Certifier certifier(record, inputs);
+    certifier.certify_tables(tables);
+    record.certificate->tables = std::move(tables);
+    std::vector<Finding> audit = certifier.findings();
+    std::vector<Finding> validation = validation_findings(record);
+    if (record.certificate->data.status != "accredited") {
+        for (Finding& finding : validation) {
+            finding.severity = certificate::FindingSeverity::major;
+        }
+    }
+    audit.insert(audit.end(), validation.begin(), validation.end());
+    const std::vector<Finding> budget = budget_findings(record);
+    audit.insert(audit.end(), budget.begin(), budget.end());
+    const std::vector<Finding> adjustment = reports::rotary_findings(record);
+    audit.insert(audit.end(), adjustment.begin(), adjustment.end());
+    const std::vector<Finding> closure = reports::circle_closure_findings(record);
+    audit.insert(audit.end(), closure.begin(), closure.end());
+    const std::vector<Finding> environment = environment_findings(record);
+    audit.insert(audit.end(), environment.begin(), environment.end());
+    const std::vector<Finding> traceability = traceability_findings(record);
+    audit.insert(audit.end(), traceability.begin(), traceability.end());
+    certificate::pass_gates(*record.certificate, audit);
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,55 @@
+#include "reports/record/make/comparison/comparison_print.h"
+
+#include "gum/rounding.h"
+#include "reports/record/make/record_parts.h"
+#include "text/numbers.h"
+
+namespace gumcert::reports {
+
+namespace {
+
+constexpr int k_digits_without_u = 4;
+constexpr int k_decimals_of_score = 2;
+// Tails below what double precision holds come out as 0, which no probability of a test is.
+constexpr double k_least_probability = 1e-300;
+constexpr const char* k_below_least = "<1E-300";
+
+}  // namespace
+
+std::string printed_value(double value, const std::optional<double>& U) {
+    return U && *U > 0.0 ? gum::round_to_uncertainty(value, *U, reports::k_digits_of_u).value : text::shortest(value);
+}
+
+std::string printed_difference(double difference, const std::optional<double>& U, const std::optional<double>& scale) {
+    if (U && *U > 0.0) {
+        return printed_value(difference, U);
+    }
+    return scale && *scale > 0.0 ? printed_value(difference, scale)
+                                 : gum::round_significant(difference, k_digits_without_u);
+}
+
+std::string printed_uncertainty(const std::optional<double>& u) {
+    if (!u) {
+        return "";
+    }
+    // As beside its value: 0.000000001000 with 0.000000000044, not with 4.4E-11.
+    return *u > 0.0 ? gum::round_to_uncertainty(0.0, *u, reports::k_digits_of_u).U : "0";
+}
+
+std::string printed_as_stated(const std::optional<double>& number) {
+    return number ? text::shortest(*number) : "";
+}
+
+std::string printed_score(const std::optional<double>& score) {
+    return score ? gum::round_to_quantum(*score, k_decimals_of_score) : "";
+}
+
+std::string printed_probability(const std::optional<double>& probability) {
+    if (!probability) {
+        return "";
+    }
+    return *probability < k_least_probability ? k_below_least
+                                              : gum::round_significant(*probability, reports::k_digits_of_u);
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "reports/record/shown.h"
+
+namespace gumcert::reports {
+
+// Texts of the numbers of a comparison. Every one is rounded here, once, by gum/rounding.
+
+/// A value to the decimal place of two significant digits of U; all its digits where there is no U, or U is 0.
+[[nodiscard]] std::string printed_value(double value, const std::optional<double>& U);
+/// A difference that may have no U: then to two significant digits of `scale`, a standard deviation or another U; to
+/// four significant digits without one.
+[[nodiscard]] std::string printed_difference(double difference, const std::optional<double>& U,
+                                             const std::optional<double>& scale);
+/// Two significant digits at the decimal place that printed_value() gives a value with it; "" for nothing.
+[[nodiscard]] std::string printed_uncertainty(const std::optional<double>& u);
+/// A number that the job states: all its digits; "" for nothing.
+[[nodiscard]] std::string printed_as_stated(const std::optional<double>& number);
+/// Two decimals, as of a score or a coverage factor; "" for nothing.
+[[nodiscard]] std::string printed_score(const std::optional<double>& score);
+/// Two significant digits, not less than 0.0001 in plain decimals, "<1E-300" below that; "" for nothing.
+[[nodiscard]] std::string printed_probability(const std::optional<double>& probability);
+
+/// A number with the text that one of these functions makes of it.
+template <class Number>
+[[nodiscard]] reports::Shown<Number> shown(const Number& number,
+                                           std::string (*printed)(const std::optional<double>& number)) {
+    return {number, printed(number)};
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,333 @@
+#include "reports/record/make/comparison/method_remarks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+#include "gum/quantity/unit.h"
+#include "gum/rounding.h"
+#include "reports/record/make/comparison/comparison_print.h"
+#include "text/lists.h"
+
+namespace gumcert::reports {
+
+namespace {
+
+using reports::Comparison;
+using reports::ComparisonSummary;
+
+constexpr double k_significant = 0.025;  // of p_low and p_high
+constexpr double k_nearly_all = 0.95;    // of the points count as independent
+constexpr double k_negligible_reference = 1.0 / 3.0;
+constexpr double k_noise_of_positions = 5.0;  // spread of reference values over their u, for a slope to mean much
+constexpr double k_visible_slope = 0.1;       // of U of the slope
+constexpr double k_visible_beyond = 0.05;     // of a standard uncertainty, a point
+
+/// The sentences of one comparison.
+class Remarks {
+public:
+    Remarks(const gum::MethodComparison& comparison, const gum::MethodResult& result, const std::string& unit,
+            Comparison& record)
+        : comparison_(comparison), result_(result), record_(record) {
+        const std::string for_people = gum::unit_for_people(gum::unit_of_difference(unit));
+        unit_ = for_people.empty() ? "" : " " + for_people;
+    }
+
+    void add() {
+        number_of_points();
+        single_points();
+        unknown_correlation();
+        reference_uncertainty();
+        too_small_differences();
+        too_large_differences();
+        singular_covariance();
+        failing_differences();
+        test_of_uncertainty();
+        coverage_factors();
+        bias_lines();
+        audit();
+    }
+
+private:
+    using Holds = std::function<bool(const gum::Agreement&)>;
+
+    void say(const std::string& sentence) { record_.remarks.push_back(sentence); }
+
+    [[nodiscard]] const gum::MethodSummary& whole() const { return result_.summaries.back(); }
+    /// Its texts.
+    [[nodiscard]] const ComparisonSummary& printed_whole() const { return record_.summary.back(); }
+
+    [[nodiscard]] std::string count_of_points() const {
+        return text::count_of(static_cast<std::int64_t>(whole().agreement.points), "point");
+    }
+
+    /// "" where there is one row only.
+    [[nodiscard]] std::string direction_of(const gum::MethodSummary& row) const {
+        if (result_.summaries.size() == 1) {
+            return "";
+        }
+        return row.direction == "all" ? " of all directions together" : " of the direction " + row.direction;
+    }
+
+    /// One clause for every row that it holds for, one after the other; "" where it holds for none.
+    [[nodiscard]] std::string clauses(const Holds& holds,
+                                      const std::function<std::string(const ComparisonSummary&)>& number) const {
+        std::string text;
+        for (std::size_t i = 0; i < result_.summaries.size(); ++i) {
+            const gum::MethodSummary& row = result_.summaries[i];
+            if (holds(row.agreement)) {
+                text += (text.empty() ? "" : ", ") + number(record_.summary[i]) + direction_of(row);
+            }
+        }
+        return text;
+    }
+
+    void number_of_points() {
+        const gum::Agreement& row = whole().agreement;
+        if (row.points < 2) {
+            return;
+        }
+        const std::string points = count_of_points();
+        if (row.effective_points < k_nearly_all * static_cast<double>(row.points)) {
+            say("The " + points + " are not as many independent proofs: they share effects of their set-up, and by " +
+                "their covariance they tell as much as about " + printed_whole().effective_points.text +
+                " independent points. The band of the rms En, p_low and p_high take the covariance into account.");
+        } else {
+            say("The covariances say that the " + points + " are independent of each other, or nearly so. Effects of " +
+                "a common set-up that are not in the covariances would make them fewer.");
+        }
+    }
+
+    /// How large the largest of several |E_n| becomes by chance.
+    void single_points() {
+        std::string text;
+        for (std::size_t i = 0; i < result_.summaries.size(); ++i) {
+            const gum::Agreement& row = result_.summaries[i].agreement;
+            if (row.count_above_1 > 0 && row.points > 1) {
+                text += (text.empty() ? "" : "; ") + record_.summary[i].max_abs_En.text + " against a limit of " +
+                        printed_score(row.largest_en_by_chance) + " for " + std::to_string(row.points) + " points" +
+                        direction_of(result_.summaries[i]);
+            }
+        }
+        if (!text.empty()) {
+            say("The largest of several |En| is above 1 more often than that of one point, also where all "
+                "uncertainties are right. The limit that the largest of so many points exceeds in 1 of 100 comparisons "
+                "is the one to hold it against: " +
+                text + ".");
+        }
+    }
+
+    void unknown_correlation() {
+        if (!comparison_.correlation_unknown) {
+            return;
+        }
+        say("It is not known whether both methods share a standard, a sensor or another source of uncertainty. En is " +
+            std::string("stated for no correlation, and for the worst plausible one, where the whole of the smaller ") +
+            "uncertainty is common to both; the truth lies between them. p_low, p_high and the band of the rms En " +
+            "hold for no correlation.");
+        if (std::any_of(result_.summaries.begin(), result_.summaries.end(), [](const gum::MethodSummary& of) {
+                return of.worst && !std::isfinite(of.worst->largest_absolute_en);
+            })) {
+            say("Where both methods have the same expanded uncertainty, all of it could be common to both, and no "
+                "finite En bounds what that would do.");
+        }
+        const std::size_t above = whole().agreement.count_above_1;
+        const std::size_t above_for_worst = whole().worst ? whole().worst->count_above_1 : 0;
+        if (above_for_worst > above) {
+            const std::string rests = above == 0
+                                          ? "The agreement rests on the assumption that both methods share nothing: "
+                                          : "The number of points above 1 is that of methods that share nothing: ";
+            say(rests + "with the worst plausible correlation |En| would be above 1 at " +
+                std::to_string(above_for_worst) + " of " + count_of_points() + ".");
+        }
+    }
+
+    void reference_uncertainty() {
+        const auto ratio = [](const ComparisonSummary& row) { return row.ratio_reference.text; };
+        const std::string larger = clauses(
+            [](const gum::Agreement& row) {
+                return std::isfinite(row.ratio_reference) && !(row.ratio_reference < 1.0);
+            },
+            ratio);
+        if (!larger.empty()) {
+            say("The expanded uncertainty of the reference is not smaller than that of the method (rms ratio " +
+                larger +
+                "): |En| at or below 1 shows no contradiction, and cannot confirm the uncertainty of the "
+                "method.");
+        }
+        const std::string limited = clauses(
+            [](const gum::Agreement& row) {
+                return row.ratio_reference < 1.0 && row.ratio_reference > k_negligible_reference;
+            },
+            ratio);
+        if (!limited.empty()) {
+            say("The expanded uncertainty of the reference is more than a third of that of the method (rms ratio " +
+                limited + "): part of the agreement is the doing of the reference.");
+        }
+    }
+
+    void too_small_differences() {
+        const std::string rows = clauses([](const gum::Agreement& row) { return row.p_low < k_significant; },
+                                         [](const ComparisonSummary& row) { return row.p_low.text; });
+        if (!rows.empty()) {
+            say("The differences are smaller than their uncertainties let expect (p_low " + rows +
+                "): the uncertainties are too large, or the points share more than their covariance says. Such an "
+                "agreement says little about the method.");
+        }
+    }
+
+    void too_large_differences() {
+        const std::string rows = clauses([](const gum::Agreement& row) { return row.p_high < k_significant; },
+                                         [](const ComparisonSummary& row) { return row.p_high.text; });
+        if (!rows.empty()) {
+            say("The differences are larger than their uncertainties let expect (p_high " + rows +
+                "): an uncertainty is too small, or an effect is missing.");
+        }
+    }
+
+    void singular_covariance() {
+        const gum::Agreement& row = whole().agreement;
+        if (row.rank >= row.points) {
+            return;
+        }
+        say("The covariance of the differences has rank " + std::to_string(row.rank) + " for " + count_of_points() +
+            ": some differences follow from others. The joint numbers (vector En, p of the Mahalanobis distance) are "
+            "those of what is free to vary.");
+        if (row.beyond_covariance > k_visible_beyond * std::sqrt(static_cast<double>(row.points))) {
+            say("The differences vary in ways in which their covariance lets them not vary at all: the points share "
+                "less than the covariance says.");
+        }
+    }
+
+    /// What a deviation must be to be found, in place of the difference that would have been observed.
+    void failing_differences() {
+        const gum::Agreement& row = whole().agreement;
+        const ComparisonSummary& texts = printed_whole();
+        say("A deviation of " + texts.found_with_80_percent.text + unit_ +
+            " is found at every single point with a probability of 80 %, one of " + texts.found_with_95_percent.text +
+            unit_ + " with 95 %. D_fail is smaller: it bounds the difference that is observed, and a deviation as " +
+            "large as D_fail is found in about half of all comparisons.");
+        if (!record_.tolerance) {
+            return;
+        }
+        const std::string tolerance = record_.printed_tolerance + unit_;
+        if (row.found_with_95_percent <= *record_.tolerance) {
+            say("A deviation as large as the tolerance of " + tolerance +
+                " would have been found at every point with a probability of 95 % or more.");
+        } else if (row.found_with_80_percent <= *record_.tolerance) {
+            say("A deviation as large as the tolerance of " + tolerance +
+                " would have been found at every point with a probability of 80 % or more, but not with 95 %.");
+        } else {
+            say("A deviation as large as the tolerance of " + tolerance +
+                " would not have been found at every point with a probability of 80 %.");
+        }
+    }
+
+    /// Whether so many points could confirm the uncertainty at all.
+    void test_of_uncertainty() {
+        say("To confirm an uncertainty the differences must refute one that should be twice as large, and one that "
+            "should be half as large, each with an error of 5 %. Where all uncertainties are right these points do so "
+            "with a probability of " +
+            printed_whole().power_to_confirm.text + ".");
+    }
+
+    /// Coverage factors that E_n cannot take as stated.
+    void coverage_factors() {
+        const auto converted =
+            std::count_if(result_.scores.begin(), result_.scores.end(), [](const gum::MethodScore& score) {
+                return score.of_scores.has_value() || score.reference_of_scores.has_value();
+            });
+        if (converted > 0) {
+            say("At " + std::to_string(converted) + " of " + count_of_points() +
+                " a stated coverage factor is not that of about 95 %: En takes U = k u with the factor for " +
+                gum::round_significant(100.0 * result_.score_probability, 4) + " %" +
+                " and the stated degrees of freedom there.");
+        }
+    }
+
+    /// Whether the reference values of a row spread so little that a line against them shows their own noise.
+    [[nodiscard]] bool is_noise(const gum::MethodSummary& row) const {
+        double sum = 0.0;
+        double squares = 0.0;
+        double variance = 0.0;
+        const double first = comparison_.points[static_cast<std::size_t>(row.points.front())].reference_value;
+        for (const Eigen::Index i : row.points) {
+            const gum::ComparedPoint& point = comparison_.points[static_cast<std::size_t>(i)];
+            const double value = point.reference_value - first;  // large values would lose their digits
+            sum += value;
+            squares += value * value;
+            variance += point.reference_u * point.reference_u;
+        }
+        const auto count = static_cast<double>(row.points.size());
+        const double spread = std::max(0.0, squares / count - sum * sum / (count * count));
+        return spread < k_noise_of_positions * k_noise_of_positions * variance / count;
+    }
+
+    [[nodiscard]] bool is_bias_of_noise(const gum::MethodSummary& row) const {
+        return row.bias && !row.bias->against_position && is_noise(row);
+    }
+
+    void bias_lines() {
+        std::string noisy;
+        std::string turned;
+        for (const gum::MethodSummary& row : result_.summaries) {
+            if (!row.bias) {
+                continue;
+            }
+            const gum::MethodBias& bias = *row.bias;
+            const double of_noise = row.slope_of_noise;
+            if (std::abs(of_noise) > k_visible_slope * bias.U_slope) {
+                turned += (turned.empty() ? "" : ", ") + gum::round_significant(of_noise, 2) + direction_of(row);
+            }
+            const bool constant = std::abs(bias.line.constant) > bias.U_constant;
+            const bool slope =
+                std::abs(bias.line.slope) > bias.U_slope && std::abs(bias.line.slope - of_noise) > bias.U_slope;
+            if (constant || slope) {
+                say("The differences" + direction_of(row) + " have a systematic part: the " +
+                    (constant && slope ? "constant and the slope"
+                     : constant        ? "constant"
+                                       : "slope") +
+                    " of the bias line " + (constant && slope ? "are" : "is") +
+                    " larger than the expanded uncertainty.");
+            }
+            if (is_bias_of_noise(row)) {
+                noisy += (noisy.empty() ? "" : ", ") + (row.direction == "all" ? std::string() : row.direction);
+            }
+        }
+        if (!turned.empty()) {
+            say("Errors of the reference values stand in the reference value, and with the other sign in the "
+                "difference. Their uncertainty alone turns the bias line by about this slope: " +
+                turned + ". A slope is evidence of a scale error only as far as it differs from that.");
+        }
+        if (std::any_of(result_.summaries.begin(), result_.summaries.end(),
+                        [&](const gum::MethodSummary& row) { return is_bias_of_noise(row); })) {
+            say("The reference values" + (noisy.empty() || result_.summaries.size() == 1 ? "" : " (" + noisy + ")") +
+                " spread by less than five times their standard uncertainty: the slope of a bias line against them "
+                "contains their own uncertainty, and is no evidence of a scale error.");
+        }
+    }
+
+    void audit() {
+        if (whole().audited) {
+            say("With the findings of the audit on the uncertainties corrected, |En| is above 1 at " +
+                std::to_string(whole().audited->count_above_1) + " of " + count_of_points() + " instead of " +
+                std::to_string(whole().agreement.count_above_1) + ".");
+        }
+    }
+
+    const gum::MethodComparison& comparison_;
+    const gum::MethodResult& result_;
+    Comparison& record_;
+    std::string unit_;
+};
+
+}  // namespace
+
+void add_method_remarks(const gum::MethodComparison& comparison, const gum::MethodResult& result,
+                        const std::string& unit, Comparison& record) {
+    Remarks(comparison, result, unit, record).add();
+}
+
+}  // namespace gumcert::reports

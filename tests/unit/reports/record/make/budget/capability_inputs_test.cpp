@@ -1,0 +1,66 @@
+#include "reports/record/make/budget/capability_inputs.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/support/budget_campaign.h"
+#include "tests/support/sample_certificate.h"
+
+namespace gumcert::reports {
+namespace {
+
+jobs::BudgetJob certified_budget(const std::string& inputs, const std::string& model, const std::string& more = "") {
+    jobs::BudgetJob job =
+        jobs::test::read_budget("\"model\": [\"" + model + "\"], \"inputs\": {" + inputs + "}" + more);
+    job.certificate = test::sample_certificate_data();
+    return job;
+}
+
+TEST(CapabilityInputs, HoldTheValuesOfTheInputsInTheirUnits) {
+    const jobs::BudgetJob job = certified_budget(R"("x": {"value": 10, "unit": "mm", "u": 0.1},
+                                            "t": {"value": 23, "unit": "degC", "u": 0.1})",
+                                                 "y = x + 0*t*x/t", R"(, "points": [{"x": 20}, {"x": 30}])");
+    const certificate::CapabilityInputs inputs = capability_inputs(job, gum::evaluate_budget(job, 1));
+    EXPECT_EQ(inputs.values.at("x").unit, "mm");
+    ASSERT_EQ(inputs.values.at("x").values.size(), 2U);
+    EXPECT_NEAR(inputs.values.at("x").values[0], 20.0, 1e-12);
+    EXPECT_NEAR(inputs.values.at("x").values[1], 30.0, 1e-12);
+    EXPECT_NEAR(inputs.values.at("t").values[1], 23.0, 1e-12);
+    EXPECT_TRUE(inputs.distributions.empty());
+}
+
+// The trials that are drawn again are those of the evaluation: its interval has its ends at the same ranks.
+TEST(CapabilityInputs, HoldTheTrialsWhereMonteCarloIsReported) {
+    const jobs::BudgetJob job = certified_budget(
+        R"("a": {"value": 0, "unit": "mm", "u": 0.002}, "b": {"value": 0, "unit": "1", "u": 1})", "y = a*b",
+        R"(, "outputs": {"y": {"unit": "um"}}, "monte_carlo": {"trials": 30000, "seed": 5})");
+    const gum::BudgetResult result = gum::evaluate_budget(job, 1);
+    ASSERT_TRUE(result.points.at(0).outputs.at(0).by_monte_carlo);
+    const certificate::CapabilityInputs inputs = capability_inputs(job, result);
+    const gum::TrialDistribution trials = gum::count_trials(inputs.trials.at("y"));
+    EXPECT_EQ(trials.counted, 30000U);
+    const gum::CoverageInterval& interval = result.points[0].outputs[0].monte_carlo->symmetric;  // [m]
+    const gum::Unit um = gum::Unit::parse("um");
+    const double low = trials.function(um.from_si(interval.low) - 1e-9);
+    const double high = trials.function(um.from_si(interval.high) + 1e-9);
+    EXPECT_NEAR(high - low, 0.9545, 2.0 / 30000.0);
+    EXPECT_NEAR(low, 0.02275, 2.0 / 30000.0);
+}
+
+TEST(CapabilityInputs, HoldTheDistributionOfAConvolution) {
+    const jobs::BudgetJob job =
+        certified_budget(R"("x": {"value": 10, "unit": "mm", "half_width": 0.1, "distribution": "uniform"})", "y = x");
+    const certificate::CapabilityInputs inputs = capability_inputs(job, gum::evaluate_budget(job, 1));
+    ASSERT_EQ(inputs.distributions.size(), 1U);
+    const auto& P = inputs.distributions.at("y");  // x in millimetres, or in what the model gives
+    const gum::Unit unit = gum::evaluate_budget(job, 1).output_units.at(0);
+    const auto at = [&](double mm) { return P(unit.from_si(1e-3 * mm)); };
+    EXPECT_NEAR(at(10.0), 0.5, 1e-6);
+    EXPECT_NEAR(at(10.05), 0.75, 1e-6);
+    EXPECT_NEAR(at(9.89), 0.0, 1e-6);
+    EXPECT_NEAR(at(10.11), 1.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace gumcert::reports
