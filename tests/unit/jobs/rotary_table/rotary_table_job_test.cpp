@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -1110,24 +1109,6 @@ INSTANTIATE_TEST_SUITE_P(
                     Campaign{"b_axis_perfect_table", engine::RotaryAxis::b, 1536, 8, 8, 12, 16, 8, 72},
                     Campaign{"c_axis_single_target", engine::RotaryAxis::c, 1728, 6, 6, 24, 72, 12, 144}),
     [](const auto& row) { return row.param.name; });
-
-TEST(RotaryTableJob, ReadsTheLargestCampaignQuickly) {
-    const std::filesystem::path file = std::filesystem::path(GUMCERT_SHARED_DIR) / "data/rotary_table/a_axis/job.json";
-    if (!std::filesystem::exists(file)) {
-        GTEST_SKIP() << "the shared data are not here";
-    }
-    double best = 1e9;
-    for (int i = 0; i < 5; ++i) {
-        const auto start = std::chrono::steady_clock::now();
-        (void)read_rotary_table_job(file);
-        best =
-            std::min(best, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
-    }
-    RecordProperty("milliseconds", std::to_string(best));
-#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    EXPECT_LT(best, 20.0);
-#endif
-}
 
 // ---- the keys of simulation, plan and the fixture budget
 // --------------------------------------------------------------
