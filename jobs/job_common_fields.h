@@ -15,7 +15,8 @@ inline constexpr NumberRange k_coverage_probability{.low = 0.0,
                                                     .hint = "state a probability, not a percentage, such as 0.9545"};
 
 template <class Archive>
-void describe_head(Archive& a, std::string_view kind) {
+void describe_head(Archive& a, std::string_view kind, std::string_view sentence = {}) {
+    a.definition(kind, sentence);
     a.by_hand("$schema", R"({"$ref": "#/definitions/schema_of_editor"})", "a text",
               "Where an editor finds the JSON Schema of jobs; the program does not look at it.");
     a.constant("schema", "gumcert/job/1", "The form of the file.");

@@ -60,27 +60,39 @@ void FieldList::add(std::string_view key, bool needed, Rule rule, std::string_vi
 
 void FieldList::add_fields(std::string_view key, bool needed, Shape shape, JobFields fields,
                            std::string_view sentence) {
-    fields_.fields.push_back({key, needed, sentence, shape, nullptr,
-                              shape == Shape::list    ? "objects"
-                              : shape == Shape::named ? "an object of objects"
-                                                      : "an object",
-                              std::make_shared<const JobFields>(std::move(fields))});
+    fields_.fields.push_back(
+        {key, needed, sentence, shape, nullptr, "an object", std::make_shared<const JobFields>(std::move(fields))});
 }
 
-void FieldList::limit_list(std::size_t most) {
+void FieldList::add_named(std::string_view key, bool needed, JobFields fields, std::string_view sentence,
+                          ListSize size) {
+    add_fields(key, needed, Shape::named, std::move(fields), sentence);
+    fields_.fields.back().size = size;
+    fields_.fields.back().value = "an object of objects";
+}
+
+void FieldList::add_list(std::string_view key, JobFields fields, std::string_view sentence, ListSize size) {
+    add_fields(key, false, Shape::list, std::move(fields), sentence);
     JobFields::Field& field = fields_.fields.back();
-    field.schema = ordered_json::object();
-    if (most > 0) {
-        field.schema["maxItems"] = most;
-        field.value = "at most " + std::to_string(most) + " objects";
+    field.size = size;
+    field.value = size.most > 0 ? (size.least > 0 ? std::to_string(size.least) + " to " : "at most ") +
+                                      std::to_string(size.most) + " objects"
+                  : size.least > 0 ? "an array of objects, at least " + std::to_string(size.least)
+                                   : "objects";
+}
+
+void FieldList::or_value(Rule rule) {
+    JobFields::Field& field = fields_.fields.back();
+    field.schema = std::move(rule.schema);
+    field.value = std::move(rule.value) + "; or " + field.value;
+}
+
+void FieldList::all_need(std::span<const std::string_view> keys, std::string_view other) {
+    for (const std::string_view key : keys) {
+        if (key != other) {
+            needs(key, other);
+        }
     }
-}
-
-void FieldList::or_part(JobFields fields) {
-    JobFields::Field& field = fields_.fields.back();
-    field.shape = Shape::array_or_part;
-    field.value += "; or an object";
-    field.fields = std::make_shared<const JobFields>(std::move(fields));
 }
 
 FieldList::Rule FieldList::number(const NumberRange& range, bool whole) {
@@ -116,8 +128,32 @@ FieldList::Rule FieldList::array_of(Rule element, std::size_t least, std::size_t
     rule.schema["items"] = std::move(element.schema);
     const std::string count = least > 0 && least == most ? std::to_string(least) + " of them"
                               : most > 0                 ? std::to_string(least) + " to " + std::to_string(most)
+                              : least > 0                ? "at least " + std::to_string(least)
                                                          : "any number of them";
     rule.value = "an array, " + count + ": each " + element.value;
+    return rule;
+}
+
+FieldList::Rule FieldList::row_of(std::vector<Rule> elements) {
+    Rule rule{{{"type", "array"}, {"minItems", elements.size()}, {"maxItems", elements.size()}}, "an array"};
+    for (Rule& element : elements) {
+        rule.schema["items"].push_back(std::move(element.schema));
+        rule.value += (rule.schema["items"].size() == 1 ? ": " : "; ") + element.value;
+    }
+    return rule;
+}
+
+FieldList::Rule FieldList::by_name(Rule element) {
+    return {{{"type", "object"}, {"additionalProperties", std::move(element.schema)}},
+            "an object, under each name " + element.value};
+}
+
+FieldList::Rule FieldList::either(std::vector<Rule> rules) {
+    Rule rule;
+    for (Rule& one : rules) {
+        rule.schema["anyOf"].push_back(std::move(one.schema));
+        rule.value += (rule.value.empty() ? "" : "; or ") + one.value;
+    }
     return rule;
 }
 
@@ -141,6 +177,18 @@ FieldList::Rule FieldList::text(AnyText) {
 
 FieldList::Rule FieldList::text(FileName) {
     return {{{"$ref", "#/definitions/file_name"}}, "the name of a file"};
+}
+
+FieldList::Rule FieldList::text(FileObject) {
+    return {{{"$ref", "#/definitions/file_object"}}, "an object with the name of a `file`"};
+}
+
+FieldList::Rule FieldList::text(Label) {
+    return {{{"$ref", "#/definitions/label"}}, "one line of at most 256 bytes, or a number"};
+}
+
+FieldList::Rule FieldList::text(Null) {
+    return {{{"type", "null"}}, "`null`"};
 }
 
 FieldList::Rule FieldList::truth() {

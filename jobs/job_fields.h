@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -28,19 +29,23 @@ namespace gumcert::jobs {
 //   a.constant(key, word, sentence)        a key with one possible value, needed
 //   a.part(key, struct, sentence)          an object; `needed_part`; the struct may be optional. With a fourth argument, a
 //                                          function (archive, struct), the struct needs no description of its own
-//   a.list(key, vector, sentence)          an array of objects
-//   a.named(key, vector, sentence)         an object of objects, each under a name
-//   a.array(key, rule, least, most, sentence)             an array of numbers
-//   a.array_or_part(key, rule, least, most, struct, sentence)
+//   a.list(key, vector, sentence)          an array of objects; with a fourth argument, of how many
+//   a.named(key, vector, sentence)         an object of objects, each under a name; `needed_named`
+//   a.by_code(key, rule, sentence)         a value without member; `needed_by_code`
+//   a.part_or(key, rule, struct, sentence), a.list_or(key, rule, vector, sentence)    objects, or another value
 //   a.by_hand(key, schema, value, sentence)               what no rule states: its JSON Schema, and the same for people
-//   a.at_least_one_of({ keys }), a.exactly_one_of({ keys })
-// Lists, arrays and what is described by hand are read by code, which checks them element by element.
+//   a.definition(name, sentence)           an object that stands in several places: it is written out once
+//   a.at_least_one_of({ keys }), a.exactly_one_of({ keys }), a.at_most_one_of({ keys })
+//   a.needs(key, other), a.all_need(keys, other)          keys that stand beside another one only
+// Lists, and what has no member or stands in place of an object, are read by code, which checks them element by element and
+// decides among alternatives. What keys say of each other is for the schema and for people: code has a message for each case.
 
 // What is demanded of a value.
 /// A number in the unit in which a job states it, and that unit in SI.
 struct In {
     NumberRange range = {};
     double unit = 1.0;
+    std::optional<NumberRange> then = {};  ///< asked for next, with a message of its own: what can be computed with
 };
 /// A whole number; 1e6 is one.
 struct Whole {
@@ -56,9 +61,49 @@ struct Line {
 struct AnyText {};
 /// Relative to the job.
 struct FileName {};
+/// An object with the name of a file, k_file_object_keys.
+struct FileObject {};
+/// A name of one line; a number is taken as its shortest text.
+struct Label {};
+struct Null {};
 /// Each enumerator of E with its word: what a job may say, and what a record repeats.
 template <class E, std::size_t n>
 using Words = std::array<std::pair<std::string_view, E>, n>;
+
+// Values made of values, read by code.
+/// An array of values of one rule.
+template <class Rule>
+struct Several {
+    Rule each;
+    std::size_t least, most;  ///< `most` 0: any number
+    constexpr explicit Several(Rule rule, std::size_t at_least = 0, std::size_t at_most = 0)
+        : each(rule), least(at_least), most(at_most) {}
+};
+/// An array of values with a rule each.
+template <class... Rules>
+struct Row {
+    std::tuple<Rules...> each;
+    constexpr explicit Row(Rules... rules) : each(rules...) {}
+};
+/// An object of values of one rule, each under a name.
+template <class Rule>
+struct ByName {
+    Rule each;
+    constexpr explicit ByName(Rule rule) : each(rule) {}
+};
+/// A value that one of the rules allows.
+template <class... Rules>
+struct Either {
+    std::tuple<Rules...> rules;
+    constexpr explicit Either(Rules... all) : rules(all...) {}
+};
+/// Degrees of freedom.
+inline constexpr Either k_degrees_of_freedom{In{above_zero("")}, Words<bool, 1>{{{"inf", true}}}};
+
+/// How many objects a list has; `most` 0: any number.
+struct ListSize {
+    std::size_t least = 0, most = 0;
+};
 
 /// The word of an enumerator that the words have.
 template <class E, std::size_t n>
@@ -71,22 +116,38 @@ template <class E, std::size_t n>
     return {};
 }
 
+template <class E, std::size_t n>
+[[nodiscard]] std::vector<std::string_view> words_of(const Words<E, n>& words) {
+    std::vector<std::string_view> all;
+    for (const auto& [word, meaning] : words) {
+        all.push_back(word);
+    }
+    return all;
+}
+
 /// What a description says, as data.
 struct JobFields {
     struct Field {
-        enum class Shape { value, part, list, named, array_or_part };
+        enum class Shape { value, part, list, named };
         std::string_view key;
         bool needed = false;
         std::string_view sentence;
         Shape shape = Shape::value;
-        nlohmann::ordered_json schema;            ///< of a value, or of an array beside a part; without the sentence
+        nlohmann::ordered_json schema;            ///< of a value, or of what may stand in place of objects; else null
         std::string value;                        ///< what the value may be, for people
         std::shared_ptr<const JobFields> fields;  ///< of a part, or of each of many
+        ListSize size = {};
 
         [[nodiscard]] bool has_many() const { return shape == Shape::list || shape == Shape::named; }
     };
+    /// A key that stands beside another one only.
+    struct Need {
+        std::string_view key, other;
+    };
+    std::string_view definition, sentence;  ///< of an object that stands in several places, or of a kind of job
     std::vector<Field> fields;
-    std::vector<std::vector<std::string_view>> at_least_one_of, exactly_one_of;
+    std::vector<std::vector<std::string_view>> at_least_one_of, exactly_one_of, at_most_one_of;
+    std::vector<Need> needs;
 
     [[nodiscard]] std::vector<std::string_view> keys() const;
 };
@@ -120,30 +181,50 @@ public:
         add_fields(key, true, JobFields::Field::Shape::part, fields_of(v, description), sentence);
     }
     template <class Struct>
-    void list(std::string_view key, std::vector<Struct>&, std::string_view sentence, std::size_t most = 0) {
+    void list(std::string_view key, std::vector<Struct>&, std::string_view sentence, ListSize size = {}) {
         Struct one{};
-        add_fields(key, false, JobFields::Field::Shape::list, fields_of(one, OwnDescription()), sentence);
-        limit_list(most);
+        add_list(key, fields_of(one, OwnDescription()), sentence, size);
     }
     template <class Struct>
-    void named(std::string_view key, std::vector<Struct>&, std::string_view sentence) {
+    void named(std::string_view key, std::vector<Struct>&, std::string_view sentence, ListSize size = {}) {
         Struct one{};
-        add_fields(key, false, JobFields::Field::Shape::named, fields_of(one, OwnDescription()), sentence);
+        add_named(key, false, fields_of(one, OwnDescription()), sentence, size);
+    }
+    template <class Struct>
+    void needed_named(std::string_view key, std::vector<Struct>&, std::string_view sentence, ListSize size = {}) {
+        Struct one{};
+        add_named(key, true, fields_of(one, OwnDescription()), sentence, size);
     }
     template <class Rule>
-    void array(std::string_view key, const Rule& rule, std::size_t least, std::size_t most, std::string_view sentence) {
-        add(key, false, array_of(rule_of(0.0, rule), least, most), sentence);
+    void by_code(std::string_view key, const Rule& rule, std::string_view sentence) {
+        add(key, false, rule_of(0.0, rule), sentence);
+    }
+    template <class Rule>
+    void needed_by_code(std::string_view key, const Rule& rule, std::string_view sentence) {
+        add(key, true, rule_of(0.0, rule), sentence);
     }
     template <class Rule, class Struct>
-    void array_or_part(std::string_view key, const Rule& rule, std::size_t least, std::size_t most, Struct& v,
-                       std::string_view sentence) {
-        add(key, false, array_of(rule_of(0.0, rule), least, most), sentence);
-        or_part(fields_of(v, OwnDescription()));
+    void part_or(std::string_view key, const Rule& rule, Struct& v, std::string_view sentence) {
+        part(key, v, sentence);
+        or_value(rule_of(0.0, rule));
+    }
+    template <class Rule, class Struct>
+    void list_or(std::string_view key, const Rule& rule, std::vector<Struct>& v, std::string_view sentence,
+                 ListSize size = {}) {
+        list(key, v, sentence, size);
+        or_value(rule_of(0.0, rule));
     }
     void by_hand(std::string_view key, std::string_view schema, std::string value, std::string_view sentence);
     void needed_by_hand(std::string_view key, std::string_view schema, std::string value, std::string_view sentence);
+    void definition(std::string_view name, std::string_view sentence = {}) {
+        fields_.definition = name;
+        fields_.sentence = sentence;
+    }
     void at_least_one_of(std::initializer_list<std::string_view> keys) { fields_.at_least_one_of.emplace_back(keys); }
     void exactly_one_of(std::initializer_list<std::string_view> keys) { fields_.exactly_one_of.emplace_back(keys); }
+    void at_most_one_of(std::initializer_list<std::string_view> keys) { fields_.at_most_one_of.emplace_back(keys); }
+    void needs(std::string_view key, std::string_view other) { fields_.needs.push_back({key, other}); }
+    void all_need(std::span<const std::string_view> keys, std::string_view other);
 
     /// What a description says of a struct.
     template <class Struct, class Description>
@@ -169,20 +250,29 @@ private:
     void add(std::string_view key, bool needed, Rule rule, std::string_view sentence);
     void add_fields(std::string_view key, bool needed, JobFields::Field::Shape shape, JobFields fields,
                     std::string_view sentence);
-    void limit_list(std::size_t most);
-    void or_part(JobFields fields);
+    void add_list(std::string_view key, JobFields fields, std::string_view sentence, ListSize size);
+    void add_named(std::string_view key, bool needed, JobFields fields, std::string_view sentence, ListSize size);
+    void or_value(Rule rule);
 
     static Rule number(const NumberRange& range, bool whole);
     static Rule array_of(Rule element, std::size_t least, std::size_t most);
+    static Rule row_of(std::vector<Rule> elements);
+    static Rule by_name(Rule element);
+    static Rule either(std::vector<Rule> rules);
     static Rule words(std::vector<std::string_view> words);
     static Rule text(const Line& line);
     static Rule text(AnyText);
     static Rule text(FileName);
+    static Rule text(FileObject);
+    static Rule text(Label);
+    static Rule text(Null);
     static Rule truth();
 
     template <class Type>
     static Rule rule_of(const Type&, const In& rule) {
-        return numbers<Type>(number(rule.range, false));
+        NumberRange range = rule.range;
+        range.high = rule.then ? rule.then->high : range.high;
+        return numbers<Type>(number(range, false));
     }
     template <class Type>
     static Rule rule_of(const Type&, const Whole& rule) {
@@ -199,11 +289,23 @@ private:
     static Rule rule_of(const Type&, const Form& form) { return text(form); }
     template <class Type, class E, std::size_t n>
     static Rule rule_of(const Type&, const Words<E, n>& choices) {
-        std::vector<std::string_view> all;
-        for (const auto& [word, meaning] : choices) {
-            all.push_back(word);
-        }
-        return words(std::move(all));
+        return words(words_of(choices));
+    }
+    template <class Type, class Each>
+    static Rule rule_of(const Type&, const Several<Each>& rule) {
+        return array_of(rule_of(0.0, rule.each), rule.least, rule.most);
+    }
+    template <class Type, class... Each>
+    static Rule rule_of(const Type&, const Row<Each...>& rule) {
+        return row_of(std::apply([](const Each&... each) { return std::vector{rule_of(0.0, each)...}; }, rule.each));
+    }
+    template <class Type, class Each>
+    static Rule rule_of(const Type&, const ByName<Each>& rule) {
+        return by_name(rule_of(0.0, rule.each));
+    }
+    template <class Type, class... Each>
+    static Rule rule_of(const Type&, const Either<Each...>& rule) {
+        return either(std::apply([](const Each&... each) { return std::vector{rule_of(0.0, each)...}; }, rule.rules));
     }
     /// One number, or as many as the member holds.
     template <class Type>

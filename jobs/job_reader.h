@@ -78,17 +78,27 @@ public:
     }
     static void constant(std::string_view, std::string_view, std::string_view) {}
     template <class Struct>
-    static void list(std::string_view, std::vector<Struct>&, std::string_view, std::size_t = 0) {}
+    static void list(std::string_view, std::vector<Struct>&, std::string_view, ListSize = {}) {}
     template <class Struct>
-    static void named(std::string_view, std::vector<Struct>&, std::string_view) {}
+    static void named(std::string_view, std::vector<Struct>&, std::string_view, ListSize = {}) {}
+    template <class Struct>
+    static void needed_named(std::string_view, std::vector<Struct>&, std::string_view, ListSize = {}) {}
     template <class Rule>
-    static void array(std::string_view, const Rule&, std::size_t, std::size_t, std::string_view) {}
+    static void by_code(std::string_view, const Rule&, std::string_view) {}
+    template <class Rule>
+    static void needed_by_code(std::string_view, const Rule&, std::string_view) {}
     template <class Rule, class Struct>
-    static void array_or_part(std::string_view, const Rule&, std::size_t, std::size_t, Struct&, std::string_view) {}
-    static void by_hand(std::string_view, std::string_view, const std::string&, std::string_view) {}
-    static void needed_by_hand(std::string_view, std::string_view, const std::string&, std::string_view) {}
+    static void part_or(std::string_view, const Rule&, Struct&, std::string_view) {}
+    template <class Rule, class Struct>
+    static void list_or(std::string_view, const Rule&, std::vector<Struct>&, std::string_view, ListSize = {}) {}
+    static void by_hand(std::string_view, std::string_view, std::string_view, std::string_view) {}
+    static void needed_by_hand(std::string_view, std::string_view, std::string_view, std::string_view) {}
+    static void definition(std::string_view, std::string_view = {}) {}
     static void at_least_one_of(std::initializer_list<std::string_view>) {}
     static void exactly_one_of(std::initializer_list<std::string_view>) {}
+    static void at_most_one_of(std::initializer_list<std::string_view>) {}
+    static void needs(std::string_view, std::string_view) {}
+    static void all_need(std::span<const std::string_view>, std::string_view) {}
 
 private:
     const JsonObject& object_;
@@ -125,10 +135,11 @@ private:
             return read_numbers(key, v, rule.range, rule.unit);
         } else {
             const std::optional<double> number = object_.optional_number(key, rule.range);
-            if (number) {
-                v = *number * rule.unit;
+            if (!number || (rule.then && !object_.optional_number(key, *rule.then))) {
+                return false;
             }
-            return number.has_value();
+            v = *number * rule.unit;
+            return true;
         }
     }
     template <class Type>
@@ -158,6 +169,10 @@ private:
     template <class Type>
     bool read_value(std::string_view key, Type& v, const AnyText&) {
         return take(object_.optional_string(key), v);
+    }
+    template <class Type>
+    bool read_value(std::string_view key, Type& v, const Label&) {
+        return take(object_.optional_label(key), v);
     }
     bool read_value(std::string_view key, std::optional<std::string>& v, const FileName&) {
         return take(JobFiles::file_name(object_, key, false), v);

@@ -1,5 +1,6 @@
 #include "jobs/json_object.h"
 #include "text/lists.h"
+#include "text/numbers.h"
 #include "text/place.h"
 #include "text/visible_text.h"
 
@@ -90,6 +91,28 @@ JsonDocument parse_json_document(std::string_view bytes, const std::string& file
         throw gum::InputError(problems.refused());
     }
     return std::move(*document);
+}
+
+std::optional<std::string> label_of(const nlohmann::json& value, const std::string& where, ProblemList& problems) {
+    if (value.is_discarded()) {
+        return std::nullopt;
+    }
+    if (value.is_number()) {
+        return text::shortest_plain(value.get<double>());
+    }
+    if (!value.is_string()) {
+        problems.refuse(k_wrong_type, where, described(value), "must be a text or a number", "correct the value");
+        return std::nullopt;
+    }
+    const auto& text = value.get_ref<const std::string&>();
+    if (const auto objection = name_objection(text)) {
+        problems.refuse(k_text_not_allowed, where, text::in_quotes(text) + " " + *objection,
+                        "must be one line of at most 256 bytes, without spaces around it and without control or "
+                        "hidden characters",
+                        "correct the text");
+        return std::nullopt;
+    }
+    return text;
 }
 
 JsonObject::JsonObject(const JsonDocument& document, std::string pointer, std::span<const std::string_view> keys,
@@ -270,6 +293,11 @@ std::optional<std::string> JsonObject::optional_name(std::string_view key, std::
 std::optional<std::string> JsonObject::required_name(std::string_view key, std::size_t longest) const {
     require(key);
     return optional_name(key, longest);
+}
+
+std::optional<std::string> JsonObject::optional_label(std::string_view key) const {
+    const nlohmann::json* value = find(key);
+    return value == nullptr ? std::nullopt : label_of(*value, where(key), *problems_);
 }
 
 std::optional<JsonObject> JsonObject::optional_object(std::string_view key,

@@ -35,6 +35,14 @@ using gumcert::json::JsonDocument;
 /// \throws InputError with every problem
 [[nodiscard]] JsonDocument parse_json_document(std::string_view bytes, const std::string& file);
 
+/// An id, a round, the name of a point: a text of one line or a number, which is taken as its shortest text.
+/// \return nothing when it was refused, here or while the text was read
+[[nodiscard]] std::optional<std::string> label_of(const nlohmann::json& value, const std::string& where,
+                                                  ProblemList& problems);
+
+/// The keys of an object that stands for a table or a matrix.
+inline constexpr std::array<std::string_view, 1> k_file_object_keys{"file"};
+
 /// Typed reading of one object of a document. Every reader puts what is wrong into the list and returns nothing, so
 /// that all problems of a document are found in one go.
 ///
@@ -73,6 +81,8 @@ public:
     /// A name or title: one line, not empty, at most `longest` bytes, no control or hidden characters.
     [[nodiscard]] std::optional<std::string> required_name(std::string_view key, std::size_t longest = 256) const;
     [[nodiscard]] std::optional<std::string> optional_name(std::string_view key, std::size_t longest = 256) const;
+    /// The same of at most 256 bytes, or a number, which is taken as its shortest text.
+    [[nodiscard]] std::optional<std::string> optional_label(std::string_view key) const;
     [[nodiscard]] std::optional<JsonObject> required_object(std::string_view key,
                                                             std::span<const std::string_view> keys) const;
     [[nodiscard]] std::optional<JsonObject> optional_object(std::string_view key,

@@ -1,7 +1,6 @@
 #include "jobs/budget/budget_correlation.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <numeric>
@@ -10,6 +9,7 @@
 #include "gum/nearest_correlation.h"
 #include "gum/quantity/dense_factors.h"
 #include "gum/rounding.h"
+#include "jobs/budget/budget_statement_fields.h"
 #include "jobs/csv_table.h"
 #include "jobs/matrix_limits.h"
 #include "text/numbers.h"
@@ -21,8 +21,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 2> k_covariance_keys{"inputs", "matrix"};
-constexpr std::array<std::string_view, 1> k_matrix_file_keys{"file"};
 constexpr double k_same_variance = 1e-6;
 
 constexpr double k_largest_repair = 5e-4;     // of a correlation coefficient
@@ -515,10 +513,6 @@ private:
 
 }  // namespace
 
-std::span<const std::string_view> budget_covariance_keys() {
-    return k_covariance_keys;
-}
-
 std::optional<double> StatedCovariance::variance_of(std::string_view input) const {
     const auto found = std::find(inputs.begin(), inputs.end(), input);
     if (found == inputs.end()) {
@@ -530,7 +524,7 @@ std::optional<double> StatedCovariance::variance_of(std::string_view input) cons
 
 std::optional<StatedCovariance> read_covariance(const JsonObject& root, const JsonDocument& document, JobFiles& files,
                                                 ProblemList& problems) {
-    const std::optional<JsonObject> object = root.optional_object("covariance", k_covariance_keys);
+    const std::optional<JsonObject> object = root.optional_object("covariance", keys_of<CovarianceStatement>());
     if (!object) {
         return std::nullopt;
     }
@@ -566,7 +560,7 @@ std::optional<StatedCovariance> read_covariance(const JsonObject& root, const Js
     std::string where = object->where("matrix");
     ProblemList* list = &problems;
     if (value->is_object()) {
-        const auto source = object->optional_object("matrix", k_matrix_file_keys);
+        const auto source = object->optional_object("matrix", k_file_object_keys);
         const auto name = source ? JobFiles::file_name(*source, "file", true) : std::nullopt;
         const auto file = name ? files.open(*name) : std::nullopt;
         if (file) {

@@ -12,9 +12,6 @@
 
 namespace gumcert::jobs {
 
-/// The keys of the object `covariance` of a budget job.
-[[nodiscard]] std::span<const std::string_view> budget_covariance_keys();
-
 /// The covariance matrix of some inputs as the job states it, in products of their units.
 struct StatedCovariance {
     std::vector<std::string> inputs;

@@ -11,6 +11,7 @@
 #include "gum/expression/name.h"
 #include "gum/expression/syntax_tree.h"
 #include "gum/quantity/dense_factors.h"
+#include "jobs/budget/budget_statement_fields.h"
 #include "jobs/csv_table.h"
 #include "jobs/matrix_limits.h"
 #include "text/lists.h"
@@ -24,11 +25,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 6> k_fit_keys{"equation", "parameters", "units",
-                                                     "data",     "covariance", "scale_by_residuals"};
-constexpr std::array<std::string_view, 2> k_parameter_keys{"unit", "start"};
-constexpr std::array<std::string_view, 1> k_fit_file_keys{"file"};
-const std::array<JobKeys, 2> k_fit_objects{{{"/fits/*", k_fit_keys}, {"/fits/*/parameters/*", k_parameter_keys}}};
 constexpr std::size_t k_most_fit_points = 100'000;
 
 bool contains(const std::vector<std::string>& names, std::string_view name) {
@@ -79,7 +75,7 @@ private:
                                  "must be an object", "write {} for a parameter of unit 1 without a start value");
                 continue;
             }
-            const JsonObject parameter(document_, here, k_parameter_keys, problems_);
+            const JsonObject parameter(document_, here, keys_of<ParameterStatement>(), problems_);
             const auto unit = read_unit(parameter, "unit", problems_);
             const auto start = parameter.optional_number("start");
             const bool is_name = is_quantity_name(name, document_.where(here), problems_);
@@ -420,7 +416,7 @@ private:
         }
         Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
         if (value.is_object()) {
-            const auto source = object.optional_object(key, k_fit_file_keys);
+            const auto source = object.optional_object(key, k_file_object_keys);
             const auto name = source ? JobFiles::file_name(*source, "file", true) : std::nullopt;
             const auto file = name ? files_.open(*name) : std::nullopt;
             const auto read =
@@ -565,10 +561,6 @@ private:
 
 }  // namespace
 
-std::span<const JobKeys> budget_fit_keys() {
-    return k_fit_objects;
-}
-
 bool is_quantity_name(const std::string& name, const std::string& where, ProblemList& problems) {
     std::optional<std::string> objection;
     if (name.size() > 256) {
@@ -663,7 +655,7 @@ std::vector<gum::BudgetFit> read_fits(const JsonObject& root, const JsonDocument
                             "state equation, parameters and data");
             continue;
         }
-        const JsonObject object(document, here, k_fit_keys, problems);
+        const JsonObject object(document, here, keys_of<FitStatement>(), problems);
         fits.push_back(FitReader(object, here, document, files, problems).read(name, taken));
     }
     return fits;

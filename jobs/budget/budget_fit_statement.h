@@ -10,9 +10,6 @@
 
 namespace gumcert::jobs {
 
-/// The keys of a fit and of the objects in it.
-[[nodiscard]] std::span<const JobKeys> budget_fit_keys();
-
 /// Reads the key `fits`: equations, parameters, data and their uncertainties, coherent SI. Every equation is compiled
 /// once to check its names and units, and whether it needs start values.
 ///

@@ -9,6 +9,7 @@
 #include "gum/quantity/decimal_rounding.h"
 #include "gum/rounding.h"
 #include "jobs/budget/budget_fit_statement.h"
+#include "jobs/budget/budget_statement_fields.h"
 #include "jobs/certificate/certificate_archive.h"
 #include "jobs/csv_table.h"
 #include "text/lists.h"
@@ -22,10 +23,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t k_most_inputs = 10'000;
-constexpr std::size_t k_most_components = 1000;
 constexpr std::size_t k_most_points = 100'000;
-constexpr std::array<std::string_view, 1> k_file_keys{"file"};
 constexpr std::string_view k_point = "point";
 constexpr std::size_t k_most_named = 5;
 
@@ -128,16 +126,16 @@ void BudgetInputs::read_input(const std::string& name, const std::string& pointe
         symbols_are_whole_ = false;
         return;
     }
-    const JsonObject object(document_, pointer, budget_input_keys(), problems_);
+    const JsonObject object(document_, pointer, keys_of<InputStatement>(), problems_);
     const auto unit = read_unit(object, "unit", problems_);
     symbols_are_whole_ = symbols_are_whole_ && unit && is_name;
     Stated stated;
     stated.name = name;
     stated.unit = unit.value_or(gum::Unit());
-    stated.keys.emplace(document_, pointer, budget_input_keys(), problems_);
+    stated.keys.emplace(document_, pointer, keys_of<InputStatement>(), problems_);
     if (has_points) {
         stated.pending = std::make_unique<ProblemList>(problems_.file());
-        stated.base = evaluate(stated, StatementKeys(document_, pointer, budget_input_keys(), *stated.pending));
+        stated.base = evaluate(stated, StatementKeys(document_, pointer, keys_of<InputStatement>(), *stated.pending));
     } else {
         stated.base = evaluate(stated, *stated.keys);
     }
@@ -244,7 +242,7 @@ bool BudgetInputs::evaluate_components(const Stated& stated, const StatementKeys
             is_read = false;
             continue;
         }
-        const JsonObject object(document, pointer, budget_component_keys(), problems);
+        const JsonObject object(document, pointer, keys_of<ComponentStatement>(), problems);
         const auto name = object.required_name("name");
         if (name && !names.insert(*name).second) {
             object.refuse(k_name_of_two, "name", "a second component " + text::in_quotes(*name),
@@ -252,9 +250,9 @@ bool BudgetInputs::evaluate_components(const Stated& stated, const StatementKeys
             is_read = false;
         }
         const std::size_t before = out.input.components.size();
-        is_read =
-            add_component(stated, StatementKeys(document, pointer, budget_component_keys(), problems), true, out) &&
-            name && is_read;
+        is_read = add_component(stated, StatementKeys(document, pointer, keys_of<ComponentStatement>(), problems), true,
+                                out) &&
+                  name && is_read;
         if (out.input.components.size() > before) {
             gum::StatedQuantity& component = out.input.components.back();
             component.name = name.value_or("");
@@ -443,7 +441,7 @@ void BudgetInputs::read_points(const JsonObject& root, BudgetJob& job) {
     if (points->is_array()) {
         read_point_array(*points, root.pointer("points"), job);
     } else if (points->is_object()) {
-        const auto object = root.optional_object("points", k_file_keys);
+        const auto object = root.optional_object("points", k_file_object_keys);
         if (const auto name = object ? JobFiles::file_name(*object, "file", true) : std::nullopt) {
             read_point_file(*name, job);
         }
@@ -589,8 +587,8 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
                 overrides.emplace(*index, base.with("value", value.get<double>(), document_, at, problems_));
                 ++stated_[*index].overridden["value"];
             } else if (value.is_object()) {
-                const JsonObject object(document_, at, budget_override_keys(), problems_);
-                const StatementKeys own(document_, at, budget_override_keys(), problems_);
+                const JsonObject object(document_, at, keys_of<OverrideStatement>(), problems_);
+                const StatementKeys own(document_, at, keys_of<OverrideStatement>(), problems_);
                 overrides.emplace(*index, base.with(own));
                 for (const std::string_view own_key : own.present()) {
                     ++stated_[*index].overridden[own_key];

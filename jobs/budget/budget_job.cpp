@@ -325,19 +325,6 @@ private:
     bool model_is_whole_ = true;  ///< equations, unknowns and outputs could be read
 };
 
-const std::vector<JobKeys>& all_keys() {
-    static const std::vector<JobKeys> k_all = [] {
-        static const JobKeyTable k_described(budget_fields());
-        std::vector<JobKeys> all(k_described.objects().begin(), k_described.objects().end());
-        all.push_back({"/covariance", budget_covariance_keys()});
-        for (const std::span<const JobKeys> part : {budget_statement_keys(), budget_fit_keys()}) {
-            all.insert(all.end(), part.begin(), part.end());
-        }
-        return all;
-    }();
-    return k_all;
-}
-
 }  // namespace
 
 const JobFields& budget_fields() {
@@ -345,7 +332,8 @@ const JobFields& budget_fields() {
 }
 
 std::span<const JobKeys> budget_job_keys() {
-    return all_keys();
+    static const JobKeyTable k_keys(budget_fields());
+    return k_keys.objects();
 }
 
 BudgetJob read_budget_job(const FileSource& source, const std::string& job_file) {

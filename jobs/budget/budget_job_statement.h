@@ -5,15 +5,14 @@
 #include <vector>
 
 #include "jobs/budget/budget_job.h"
+#include "jobs/budget/budget_statement_fields.h"
 #include "jobs/job_common_fields.h"
 #include "jobs/job_fields.h"
 #include "jobs/monte_carlo_request.h"
 
 namespace gumcert::jobs {
 
-// What the file of a budget job says, and its description (jobs/job_fields.h). The statements of inputs, points and fits
-// are alternatives of each other, which their readers decide among: their definitions in the schema are kept by hand
-// (docs/adr/0044-jobs-described-once.md).
+// What the file of a budget job says, and its description (jobs/job_fields.h).
 
 /// An unknown of an implicit equation.
 struct UnknownStatement {
@@ -28,16 +27,13 @@ struct OutputStatement {
 
 struct BudgetStatement {
     BudgetJob job;
+    std::vector<InputStatement> inputs;
+    CovarianceStatement covariance;
+    std::vector<FitStatement> fits;
     std::vector<UnknownStatement> solve_for;
     std::vector<OutputStatement> outputs;
     MonteCarloStatement monte_carlo;
 };
-
-template <class Archive>
-void describe_unit(Archive& a) {
-    a.by_hand("unit", R"({"$ref": "#/definitions/name"})", "a unit",
-              "A unit (docs/budget_job.md), e.g. um, nm/K, degC; 1 when left out.");
-}
 
 template <class Archive>
 void describe(Archive& a, UnknownStatement& r) {
@@ -65,22 +61,26 @@ void describe(Archive& a, BudgetStatement& r) {
     a.part("monte_carlo", r.monte_carlo,
            "Monte Carlo beside the law of propagation; left out: only where the law of propagation does not hold.");
     describe_notes(a);
-    a.by_hand("model", R"({"$ref": "#/definitions/budget_model"})", "an array of equations, or one",
-              "Left out: the inputs and the parameters of fits are the results.");
-    a.by_hand("inputs", R"({"$ref": "#/definitions/budget_inputs"})", "an object of objects",
-              "What is known of each input quantity, under its name.");
-    a.by_hand("correlations", R"({"$ref": "#/definitions/budget_correlations"})", "an array of arrays",
+    a.by_code("model", Either{k_equation, Several{k_equation}},
+              "name = expression, or 0 = expression; left out: the inputs and the parameters of fits are the results.");
+    a.named("inputs", r.inputs, "What is known of each input quantity, under its name.", {.most = k_most_inputs});
+    a.by_code("correlations", Several{Row{AnyText{}, AnyText{}, In{between(-1.0, 1.0, "")}}},
               "Two names of inputs and their correlation coefficient.");
-    a.by_hand("covariance", R"({"$ref": "#/definitions/budget_covariance"})", "an object",
-              "Inputs and their covariance matrix.");
-    a.by_hand("simultaneous", R"({"$ref": "#/definitions/budget_simultaneous"})", "an array of arrays of names",
-              "Inputs that were observed together.");
+    a.part("covariance", r.covariance, "Inputs and their covariance matrix.");
+    a.by_code("simultaneous", Several{Several{AnyText{}, 2}, 0}, "Names of inputs that were observed together.");
     a.named("solve_for", r.solve_for, "Unknowns of implicit equations, by name.");
     a.named("outputs", r.outputs, "Results that are asked for, by name.");
-    a.by_hand("points", R"({"$ref": "#/definitions/budget_points"})", "an array of objects, or a file",
-              "A table of test points.");
-    a.by_hand("fits", R"({"$ref": "#/definitions/budget_fits"})", "an object of objects",
-              "Least-squares fits whose parameters are used like inputs.");
+    a.by_hand(
+        "points", R"({"anyOf": [
+        {"type": "array", "minItems": 1, "maxItems": 100000, "items": {
+            "type": "object", "properties": {"point": {"type": ["string", "number"]}},
+            "additionalProperties": {"anyOf": [{"type": "number"}, {"$ref": "#/definitions/budget_override"}]}}},
+        {"$ref": "#/definitions/file_object"}]})",
+        "1 to 100000 objects of numbers and of [budget_override](#budget_override); or an object with the name of "
+        "a `file`",
+        "A table of test points: under the names of inputs their values, or whatever differs; point is the name "
+        "of the point.");
+    a.named("fits", r.fits, "Least-squares fits whose parameters are used like inputs.");
     a.part("reporting", r.job, "How numbers are reported.", [](auto& in, BudgetJob& job) {
         constexpr Words<bool, 2> k_degrees{{{"exact", false}, {"truncated", true}}};
         constexpr Words<gum::RoundingMode, 2> k_rounding{

@@ -18,56 +18,8 @@ using gum::Distribution;
 using gum::DistributionKind;
 using nlohmann::json;
 
-// ---- keys -----------------------------------------------------------------------------------------------------------
-
-constexpr std::array<std::string_view, 26> k_statement_keys{"value",
-                                                            "u",
-                                                            "U",
-                                                            "k",
-                                                            "p",
-                                                            "nu",
-                                                            "reliability",
-                                                            "half_width",
-                                                            "distribution",
-                                                            "beta",
-                                                            "d",
-                                                            "limits",
-                                                            "resolution",
-                                                            "mpe",
-                                                            "observations",
-                                                            "pooled",
-                                                            "groups",
-                                                            "samples",
-                                                            "relative_u",
-                                                            "relative_U",
-                                                            "specification",
-                                                            "constant",
-                                                            "type",
-                                                            "source",
-                                                            "significance",
-                                                            "note"};
 constexpr std::array<std::string_view, 13> k_column_keys{
     "value", "u", "U", "k", "p", "nu", "reliability", "half_width", "beta", "d", "resolution", "mpe", "relative_u"};
-template <std::size_t n, std::size_t m>
-constexpr std::array<std::string_view, n + m> joined(const std::array<std::string_view, n>& a,
-                                                     const std::array<std::string_view, m>& b) {
-    std::array<std::string_view, n + m> both{};
-    std::copy(a.begin(), a.end(), both.begin());
-    std::copy(b.begin(), b.end(), both.begin() + n);
-    return both;
-}
-
-constexpr auto k_override_keys =
-    joined(k_statement_keys, std::array<std::string_view, 2>{"between_points", "components"});
-constexpr auto k_input_keys = joined(k_override_keys, std::array<std::string_view, 2>{"unit", "description"});
-constexpr auto k_component_keys = joined(k_statement_keys, std::array<std::string_view, 1>{"name"});
-
-const std::array<JobKeys, 6> k_statement_objects{{{"/inputs/*", k_input_keys},
-                                                  {"/inputs/*/components/*", k_component_keys},
-                                                  {"/inputs/*/pooled", StatementReader::k_pooled_keys},
-                                                  {"/inputs/*/groups", StatementReader::k_groups_keys},
-                                                  {"/inputs/*/distribution", StatementReader::k_distribution_keys},
-                                                  {"/inputs/*/specification", StatementReader::k_specification_keys}}};
 
 // ---- rows of the table of statements --------------------------------------------------------------------------------
 
@@ -450,16 +402,16 @@ bool StatementReader::set_bounded(double half_width) {
     if (keys_.has("distribution")) {
         const auto word = keys_.text("distribution");
         const auto known = std::find_if(k_bounded_words.begin(), k_bounded_words.end(),
-                                        [&](const DistributionWord& w) { return word && w.word == *word; });
+                                        [&](const auto& one) { return word && one.first == *word; });
         const bool is_plain = quantity_.statement == "resolution" || quantity_.statement == "mpe";
         if (!word) {
             return false;
         }
-        if (known == k_bounded_words.end() || (is_plain && known->kind != DistributionKind::uniform)) {
+        if (known == k_bounded_words.end() || (is_plain && known->second != DistributionKind::uniform)) {
             refuse_bounded_word(*word, is_plain);
             return false;
         }
-        kind = known->kind;
+        kind = known->second;
     }
     if (keys_.has("beta") != (kind == DistributionKind::trapezoidal) ||
         keys_.has("d") != (kind == DistributionKind::curvilinear_trapezoid)) {
@@ -539,10 +491,7 @@ void StatementReader::set_bounded(DistributionKind kind, double half_width, doub
 }
 
 void StatementReader::refuse_bounded_word(const std::string& word, bool is_plain) const {
-    std::vector<std::string_view> words;
-    for (const DistributionWord& known : k_bounded_words) {
-        words.push_back(known.word);
-    }
+    std::vector<std::string_view> words = words_of(k_bounded_words);
     if (is_plain) {
         words.resize(1);
     }
@@ -608,24 +557,8 @@ void StatementReader::refuse_interval(std::string_view key, double a, double b) 
                  "the lower limit must be less than the upper one", "correct the limits, lower one first");
 }
 
-std::span<const std::string_view> budget_input_keys() {
-    return k_input_keys;
-}
-
-std::span<const std::string_view> budget_component_keys() {
-    return k_component_keys;
-}
-
-std::span<const std::string_view> budget_override_keys() {
-    return k_override_keys;
-}
-
 std::span<const std::string_view> budget_column_keys() {
     return k_column_keys;
-}
-
-std::span<const JobKeys> budget_statement_keys() {
-    return k_statement_objects;
 }
 
 std::optional<EvaluatedStatement> evaluate_statement(const StatementKeys& keys, const StatementContext& context) {

@@ -12,14 +12,8 @@
 
 namespace gumcert::jobs {
 
-/// The keys of an input, of one of its components, and of an object that replaces some of them at a point of a table.
-[[nodiscard]] std::span<const std::string_view> budget_input_keys();
-[[nodiscard]] std::span<const std::string_view> budget_component_keys();
-[[nodiscard]] std::span<const std::string_view> budget_override_keys();
 /// The keys that a column `NAME.key` of a table of points may have: those with one number.
 [[nodiscard]] std::span<const std::string_view> budget_column_keys();
-/// The keys of the objects inside a statement: pooled, groups, samples, distribution, specification.
-[[nodiscard]] std::span<const JobKeys> budget_statement_keys();
 
 /// A specification of an instrument, in the unit of the input: its half-width is known once the reading is.
 struct StatedSpecification {

@@ -10,6 +10,7 @@
 
 #include "gum/coverage.h"
 #include "jobs/budget/budget_statement.h"
+#include "jobs/budget/budget_statement_fields.h"
 #include "text/numbers.h"
 
 namespace gumcert::jobs {
@@ -48,29 +49,6 @@ public:
     static constexpr double k_least_u = 1e-140;
     static constexpr double k_largest_u = 1e140;
     static constexpr std::size_t k_most_values = 1'000'000;
-
-    static constexpr std::array<std::string_view, 2> k_pooled_keys{"s", "nu"};
-    static constexpr std::array<std::string_view, 3> k_groups_keys{"means", "standard_deviations", "sizes"};
-    static constexpr std::array<std::string_view, 2> k_samples_keys{"file", "column"};
-    static constexpr std::array<std::string_view, 8> k_specification_keys{
-        "percent_of_reading", "percent_of_range", "range", "floor", "of", "distribution", "k", "p"};
-    static constexpr std::array<std::string_view, 16> k_distribution_keys{
-        "kind",  "mean", "sd",    "lower", "upper", "beta",  "d",      "location",
-        "scale", "nu",   "shape", "mu",    "sigma", "alpha", "counts", "value"};
-
-    /// A word for a distribution between two limits.
-    struct DistributionWord {
-        std::string_view word;
-        gum::DistributionKind kind;
-    };
-    static constexpr std::array<DistributionWord, 7> k_bounded_words{
-        {{"uniform", gum::DistributionKind::uniform},
-         {"rectangular", gum::DistributionKind::uniform},
-         {"triangular", gum::DistributionKind::triangular},
-         {"arcsine", gum::DistributionKind::arcsine},
-         {"u_shaped", gum::DistributionKind::arcsine},
-         {"trapezoidal", gum::DistributionKind::trapezoidal},
-         {"curvilinear_trapezoid", gum::DistributionKind::curvilinear_trapezoid}}};
 
     StatementReader(const StatementKeys& keys, const StatementContext& context)
         : keys_(keys),

@@ -46,31 +46,6 @@ SampleMoments sample_moments(const std::vector<double>& values) {
     return {values.front() + (mean_deviation + rest / n), s};
 }
 
-constexpr std::size_t k_least_samples = 100;
-
-/// The keys of one kind of distribution object.
-struct DistributionForm {
-    std::string_view kind;
-    std::array<std::string_view, 6> keys;  ///< required ones first
-    std::size_t required;
-};
-constexpr std::array<DistributionForm, 16> k_forms{{{"normal", {"mean", "sd"}, 2},
-                                                    {"uniform", {"lower", "upper"}, 2},
-                                                    {"rectangular", {"lower", "upper"}, 2},
-                                                    {"triangular", {"lower", "upper"}, 2},
-                                                    {"arcsine", {"lower", "upper"}, 2},
-                                                    {"u_shaped", {"lower", "upper"}, 2},
-                                                    {"trapezoidal", {"lower", "upper", "beta"}, 3},
-                                                    {"curvilinear_trapezoid", {"lower", "upper", "d"}, 3},
-                                                    {"student_t", {"location", "scale", "nu"}, 3},
-                                                    {"t", {"location", "scale", "nu"}, 3},
-                                                    {"gamma", {"shape", "scale", "location"}, 2},
-                                                    {"exponential", {"mean"}, 1},
-                                                    {"lognormal", {"mu", "sigma"}, 2},
-                                                    {"beta", {"alpha", "beta", "lower", "upper"}, 2},
-                                                    {"poisson_counts", {"counts"}, 1},
-                                                    {"constant", {"value"}, 1}}};
-
 }  // namespace
 
 // ---- Type A -----------------------------------------------------------------------------------------------------
@@ -80,10 +55,10 @@ bool StatementReader::read_observations() {
     std::optional<double> pooled_s;
     std::optional<double> nu;
     if (keys_.has("pooled")) {
-        const auto pooled = keys_.object("pooled", k_pooled_keys);
+        const auto pooled = keys_.object("pooled", keys_of<PooledStatement>());
         if (pooled) {
             pooled_s = pooled->required_number("s", above_zero(difference_text_));
-            const StatementKeys inner(keys_.document("pooled"), keys_.pointer("pooled"), k_pooled_keys,
+            const StatementKeys inner(keys_.document("pooled"), keys_.pointer("pooled"), keys_of<PooledStatement>(),
                                       keys_.problems("pooled"));
             nu = pooled->require("nu") ? inner.degrees_of_freedom("nu") : std::nullopt;
         }
@@ -206,14 +181,14 @@ bool StatementReader::read_lists_of(gum::GroupedReadings& groups) const {
 }
 
 bool StatementReader::read_summary_of(gum::GroupedReadings& groups) const {
-    const auto object = keys_.object("groups", k_groups_keys);
+    const auto object = keys_.object("groups", keys_of<GroupsStatement>());
     if (!object) {
         return false;
     }
-    const StatementKeys inner(keys_.document("groups"), keys_.pointer("groups"), k_groups_keys,
+    const StatementKeys inner(keys_.document("groups"), keys_.pointer("groups"), keys_of<GroupsStatement>(),
                               keys_.problems("groups"));
     bool has_all = true;
-    for (const std::string_view key : k_groups_keys) {
+    for (const std::string_view key : keys_of<GroupsStatement>()) {
         has_all = object->require(key) && has_all;
     }
     const auto means = inner.numbers("means");
@@ -308,7 +283,7 @@ std::optional<std::vector<double>> StatementReader::read_sample_file(const json&
                          "put the file beside the job and give its name");
             return std::nullopt;
         }
-    } else if (const auto object = keys_.object("samples", k_samples_keys)) {
+    } else if (const auto object = keys_.object("samples", keys_of<SamplesStatement>())) {
         name = JobFiles::file_name(*object, "file", true);
         const auto stated = object->optional_name("column");
         if (object->has("column") && !stated) {
@@ -350,7 +325,7 @@ bool StatementReader::read_distribution() {
     const json& object_value = *keys_.value("distribution");
     const auto kind = object_value.find("kind");
     std::vector<std::string_view> words;
-    for (const DistributionForm& form : k_forms) {
+    for (const DistributionForm& form : k_distribution_forms) {
         words.push_back(form.kind);
     }
     if (kind == object_value.end() || !kind->is_string()) {
@@ -362,9 +337,9 @@ bool StatementReader::read_distribution() {
         return false;
     }
     const auto& word = kind->get_ref<const std::string&>();
-    const auto form =
-        std::find_if(k_forms.begin(), k_forms.end(), [&](const DistributionForm& known) { return known.kind == word; });
-    if (form == k_forms.end()) {
+    const auto form = std::find_if(k_distribution_forms.begin(), k_distribution_forms.end(),
+                                   [&](const DistributionForm& known) { return known.kind == word; });
+    if (form == k_distribution_forms.end()) {
         const std::optional<std::string_view> nearest = nearest_word(word, words);
         problems.refuse(k_unknown_choice, document.where(child_pointer(pointer, "kind")), text::in_quotes(word),
                         "must be " + text::any_of(words),
@@ -381,9 +356,9 @@ bool StatementReader::read_distribution() {
     }
     quantity_.statement = "distribution";
     const auto bounded = std::find_if(k_bounded_words.begin(), k_bounded_words.end(),
-                                      [&](const DistributionWord& w) { return w.word == word; });
-    const bool is_read =
-        bounded != k_bounded_words.end() ? read_bounded_form(object, bounded->kind) : read_positive_form(object, word);
+                                      [&](const auto& known) { return known.first == word; });
+    const bool is_read = bounded != k_bounded_words.end() ? read_bounded_form(object, bounded->second)
+                                                          : read_positive_form(object, word);
     return is_read && problems.refusals() == problems_before;
 }
 
@@ -442,8 +417,8 @@ bool StatementReader::read_positive_form(const JsonObject& object, std::string_v
     if (kind == "student_t" || kind == "t") {
         const auto location = object.optional_number("location", any);
         const auto scale = object.optional_number("scale", width);
-        const StatementKeys inner(keys_.document("distribution"), keys_.pointer("distribution"), k_distribution_keys,
-                                  keys_.problems("distribution"));
+        const StatementKeys inner(keys_.document("distribution"), keys_.pointer("distribution"),
+                                  keys_of<DistributionStatement>(), keys_.problems("distribution"));
         const auto nu = inner.degrees_of_freedom("nu");
         set_value(location.value_or(0.0));
         // As for a Type A evaluation: the law of propagation takes the scale with ν, Monte Carlo the t itself, whose
@@ -509,7 +484,7 @@ bool StatementReader::read_positive_form(const JsonObject& object, std::string_v
 }
 
 bool StatementReader::read_specification() {
-    const auto object = keys_.object("specification", k_specification_keys);
+    const auto object = keys_.object("specification", keys_of<SpecificationStatement>());
     if (!object) {
         return false;
     }
@@ -541,18 +516,15 @@ bool StatementReader::read_specification() {
         }
         stated.coverage_factor = nu ? coverage_factor(*object, *nu) : std::nullopt;
     } else if (const auto word = object->optional_string("distribution")) {
-        constexpr std::array<std::string_view, 5> k_words{"uniform", "rectangular", "triangular", "arcsine",
-                                                          "u_shaped"};
-        if (std::find(k_words.begin(), k_words.end(), *word) == k_words.end()) {
+        const auto known = std::find_if(k_plain_bounded_words.begin(), k_plain_bounded_words.end(),
+                                        [&](const auto& one) { return one.first == *word; });
+        if (known == k_plain_bounded_words.end()) {
             object->refuse(
                 k_distribution_does_not_fit, "distribution", text::in_quotes(*word) + " beside \"specification\"",
-                "must be " + text::any_of(k_words),
+                "must be " + text::any_of(words_of(k_plain_bounded_words)),
                 *word == "normal" ? "state the \"k\" or the \"p\" of the specification" : "choose one of them");
         } else {
-            stated.kind =
-                std::find_if(k_bounded_words.begin(), k_bounded_words.end(), [&](const DistributionWord& known) {
-                    return known.word == *word;
-                })->kind;
+            stated.kind = known->second;
         }
     }
     if (nu && !stated.coverage_factor && problems.refusals() == problems_before && !limits_may_have(stated.kind, *nu)) {

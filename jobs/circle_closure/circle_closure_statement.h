@@ -60,29 +60,25 @@ void describe(Archive& a, RepeatabilityStatement& r) {
 // How an uncertainty may be stated is the business of StatementKeys; the keys are those of an input of a budget.
 template <class Archive>
 void describe(Archive& a, EffectStatement& r) {
-    constexpr std::string_view k_positive = R"({"type": "number", "exclusiveMinimum": 0})";
-    const std::string positive = "a number greater than 0";
+    constexpr In k_positive{above_zero("")};
     a.needed("name", r.name, Line{}, "Of the row of the budget.");
     a.needed("acts_on", r.pattern, k_closure_patterns, "What the effect moves.");
     a.by_hand("unit", R"({"type": "string", "minLength": 1})", "a unit",
               "Of the values below; left out: 1 for a scale, that of the job else.");
-    a.by_hand("value", R"({"type": "number"})", "a number",
-              "Of a scale or a turn, in ratio or for a full turn; else 0.");
-    a.by_hand("u", k_positive, positive, "Standard uncertainty.");
-    a.by_hand("U", k_positive, positive, "Expanded uncertainty, with k or p.");
-    a.by_hand("k", k_positive, positive, "Its coverage factor.");
-    a.by_hand("p", R"({"$ref": "#/definitions/probability"})", "a number greater than 0 and less than 1",
-              "Its coverage probability.");
-    a.by_hand("nu", R"({"anyOf": [{"type": "number", "exclusiveMinimum": 0}, {"const": "inf"}]})",
-              positive + ", or `inf`", "Degrees of freedom of the uncertainty.");
-    a.by_hand("reliability", R"({"type": "number", "exclusiveMinimum": 0, "maximum": 1})", positive + " and at most 1",
+    a.by_code("value", In{}, "Of a scale or a turn, in ratio or for a full turn; else 0.");
+    a.by_code("u", k_positive, "Standard uncertainty.");
+    a.by_code("U", k_positive, "Expanded uncertainty, with k or p.");
+    a.by_code("k", k_positive, "Its coverage factor.");
+    a.by_code("p", In{k_coverage_probability}, "Its coverage probability.");
+    a.by_code("nu", k_degrees_of_freedom, "Degrees of freedom of the uncertainty.");
+    a.by_code("reliability", In{{.low = 0.0, .high = 1.0, .low_open = true}},
               "Relative uncertainty of the uncertainty, in place of nu.");
-    a.by_hand("half_width", k_positive, positive, "Of the distribution.");
-    a.by_hand("resolution", k_positive, positive, "Full step of an indication.");
-    a.by_hand("distribution", R"({"type": "string"})", "a word", "Beside half_width.");
-    a.by_hand("type", R"({"enum": ["A", "B"]})", "`A` or `B`", "Of the evaluation.");
-    a.by_hand("source", R"({"type": "string"})", "a text", "Where it is from.");
-    a.by_hand("note", R"({"type": "string"})", "a text", "For people.");
+    a.by_code("half_width", k_positive, "Of the distribution.");
+    a.by_code("resolution", k_positive, "Full step of an indication.");
+    a.by_code("distribution", AnyText{}, "Beside half_width.");
+    a.by_code("type", Words<char, 2>{{{"A", 'A'}, {"B", 'B'}}}, "Of the evaluation.");
+    a.by_code("source", AnyText{}, "Where it is from.");
+    a.by_code("note", AnyText{}, "For people.");
     a.exactly_one_of({"u", "U", "half_width", "resolution"});
 }
 
@@ -111,7 +107,7 @@ void describe(Archive& a, CircleClosureStatement& r) {
     a("sense", measurement.sense, k_senses, "Of the reading, when the table turns on; positive when left out.");
     a("drift", measurement.removes_drift, k_drifts,
       "none when left out; linear: every series has a slope of its own, which is removed.");
-    a.list("effects", r.effects, "Influence quantities that the readings do not show.", k_most_effects);
+    a.list("effects", r.effects, "Influence quantities that the readings do not show.", {.most = k_most_effects});
     a.part("repeatability", r.repeatability, "Of one reading, from earlier work.");
     a.part("monte_carlo", r.monte_carlo, "Monte Carlo beside the law of propagation.");
 }

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "jobs/comparison/comparison_items.h"
-#include "jobs/comparison/comparison_keys.h"
-#include "jobs/monte_carlo_request.h"
+#include "jobs/comparison/comparison_statement.h"
+#include "jobs/job_reader.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
@@ -15,14 +15,6 @@ namespace {
 
 using nlohmann::json;
 using Method = gum::AssignedValueMethod;
-
-constexpr auto k_methods = [] {
-    std::array<std::pair<std::string_view, Method>, gum::k_assigned_value_words.size()> methods{};
-    for (std::size_t i = 0; i < methods.size(); ++i) {
-        methods[i] = {gum::k_assigned_value_words[i], static_cast<Method>(i)};
-    }
-    return methods;
-}();
 
 /// A key that belongs to one method only.
 struct KeyOfMethod {
@@ -59,7 +51,8 @@ void warn_of_unused_keys(const ComparisonReading& reading, const JsonObject& obj
     };
     for (const KeyOfMethod& entry : k_keys_of_methods) {
         if (object.has(entry.key) && entry.method != method) {
-            warn(entry.key, "the method " + text::in_quotes(k_methods[static_cast<std::size_t>(method)].first) +
+            warn(entry.key, "the method " +
+                                text::in_quotes(gum::k_assigned_value_words[static_cast<std::size_t>(method)]) +
                                 " has no use for it");
         }
     }
@@ -71,7 +64,7 @@ void warn_of_unused_keys(const ComparisonReading& reading, const JsonObject& obj
 }
 
 void read_given(const ComparisonReading& reading, const JsonObject& object, gum::AssignedValueRequest& request) {
-    request.value = object.required_number("value", compared_value()).value_or(0.0);
+    request.value = object.required_number("value", k_compared_value).value_or(0.0);
     request.uncertainty = read_uncertainty(reading, object);
     if (!states_uncertainty(object)) {
         reading.problems.warn(k_warn_exact_assigned_value, object.where(),
@@ -83,40 +76,24 @@ void read_given(const ComparisonReading& reading, const JsonObject& object, gum:
         read_sources(reading, object, request.uncertainty ? std::optional{request.uncertainty->u} : std::nullopt);
 }
 
-void read_median(const JsonObject& object, gum::AssignedValueRequest& request) {
-    constexpr std::array<std::pair<std::string_view, bool>, 2> k_uncertainties{{{"robust", false}, {"trials", true}}};
-    constexpr NumberRange k_trials{.low = 1000.0, .high = 1e7, .hint = "100000 trials are usual"};
-    request.median_by_trials = object.optional_choice("uncertainty", k_uncertainties).value_or(false);
-    request.trials = static_cast<std::size_t>(object.optional_integer("trials", k_trials).value_or(100'000));
-    request.seed =
-        static_cast<std::uint64_t>(object.optional_integer("seed", between(0.0, k_largest_seed, "")).value_or(1));
-}
-
 gum::AssignedValueRequest read_object(const ComparisonReading& reading, const JsonObject& object, Method method) {
-    constexpr std::array<std::pair<std::string_view, bool>, 2> k_constants{{{"published", false}, {"exact", true}}};
-    constexpr NumberRange k_alpha{.low = 0.0,
-                                  .high = 0.5,
-                                  .low_open = true,
-                                  .high_open = true,
-                                  .hint = "state the probability of failing a consistent set, 0.05 is usual"};
     // The search for the subset rests on a critical value that holds up to here (gum/comparison/reference_value.h).
     constexpr NumberRange k_alpha_of_subset{.low = 0.0, .high = 0.3, .low_open = true, .hint = k_alpha.hint};
     gum::AssignedValueRequest request;
     request.method = method;
     request.by_default = false;
     request.where = object.where();
-    request.traceability = object.optional_string("traceability").value_or("");
+    JobReader reader(object);
+    reader.read(request, {"traceability"});
     const bool searches_subset = method == Method::largest_consistent_subset;
     request.alpha = object.optional_number("alpha", searches_subset ? k_alpha_of_subset : k_alpha).value_or(0.05);
     // All keys are read, also those without use: a wrong one is refused wherever it stands.
-    request.participant = optional_label(object, "participant", reading.problems).value_or("");
-    request.exact_constants = object.optional_choice("constants", k_constants).value_or(false);
-    request.power = object.optional_number("power", between(0.0, 2.0, ""));
-    read_median(object, request);
+    reader.read(request, {"participant", "constants", "power"});
+    reader.read(request, {"uncertainty", "trials", "seed"});
     if (method == Method::given) {
         read_given(reading, object, request);
     } else {
-        (void)object.optional_number("value", compared_value());
+        (void)object.optional_number("value", k_compared_value);
         (void)read_uncertainty(reading, object);
         (void)read_sources(reading, object, std::nullopt);
     }
@@ -136,15 +113,15 @@ std::optional<gum::AssignedValueRequest> read_assigned_value(const ComparisonRea
         return std::nullopt;
     }
     if (value->is_object()) {
-        const auto assigned = object.optional_object("assigned_value", k_assigned_value_keys);
+        const auto assigned = object.optional_object("assigned_value", keys_of<gum::AssignedValueRequest>());
         if (!assigned->has("method") && !assigned->has("value")) {
             assigned->refuse(k_assigned_value_incomplete, "", "an assigned value without \"method\" or \"value\"",
                              "the assigned value is given, or follows from the results by a method",
                              "add \"method\": " + text::any_of(gum::k_assigned_value_words));
             return std::nullopt;
         }
-        const auto method =
-            assigned->has("method") ? assigned->optional_choice("method", k_methods) : std::optional{Method::given};
+        const auto method = assigned->has("method") ? assigned->optional_choice("method", k_assigned_value_methods)
+                                                    : std::optional{Method::given};
         return method ? std::optional{read_object(reading, *assigned, *method)} : std::nullopt;
     }
     if (!value->is_string()) {
@@ -153,7 +130,7 @@ std::optional<gum::AssignedValueRequest> read_assigned_value(const ComparisonRea
                                          : "choose " + text::any_of(gum::k_assigned_value_words));
         return std::nullopt;
     }
-    const auto method = object.optional_choice("assigned_value", k_methods);
+    const auto method = object.optional_choice("assigned_value", k_assigned_value_methods);
     if (!method) {
         return std::nullopt;
     }

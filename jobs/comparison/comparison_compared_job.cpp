@@ -1,11 +1,12 @@
 #include "jobs/comparison/comparison_compared_job.h"
 
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "jobs/circle_closure/circle_closure_job.h"
+#include "jobs/comparison/comparison_statement.h"
 #include "jobs/job_kind.h"
+#include "jobs/job_reader.h"
 #include "jobs/rotary_table/rotary_table_job.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
@@ -45,8 +46,7 @@ std::vector<double> read_job_of(const FileSource& source, const std::string& fil
 
 void read_compared_job(const ComparisonReading& reading, const JsonObject& object, const std::optional<gum::Unit>& unit,
                        SideReading& side) {
-    constexpr std::array<std::pair<std::string_view, bool>, 2> k_of{{{"table", false}, {"artefact", true}}};
-    side.side.of_artefact = object.optional_choice("of", k_of).value_or(false);
+    JobReader(object).read(side, {"of"});
     for (const std::string_view key : {"points", "covariance", "budget"}) {
         if (object.has(key)) {
             object.refuse(k_stated_beside_budget, key, text::in_quotes(key) + " beside a job",

@@ -5,8 +5,9 @@
 #include <set>
 #include <utility>
 
-#include "jobs/comparison/comparison_keys.h"
 #include "jobs/comparison/comparison_participants.h"
+#include "jobs/comparison/comparison_statement.h"
+#include "jobs/job_reader.h"
 #include "jobs/matrix_limits.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
@@ -349,14 +350,14 @@ void read_vectors(const ComparisonReading& reading, const JsonObject& root, cons
         return;
     }
     std::set<std::string> names;
-    for_each_object(reading, *array, "/vectors", k_vector_keys, {}, [&](const JsonObject& object) {
+    for_each_object(reading, *array, "/vectors", keys_of<gum::ComparisonVector>(), {}, [&](const JsonObject& object) {
         gum::ComparisonVector vector;
-        const auto name = object.required_name("name");
-        if (name && !names.insert(*name).second) {
-            object.refuse(k_repeated_id, "name", "the vector " + text::in_quotes(*name) + " occurs twice",
+        JobReader reader(object);
+        reader.read(vector);
+        if (reader.accepted("name") && !names.insert(vector.name).second) {
+            object.refuse(k_repeated_id, "name", "the vector " + text::in_quotes(vector.name) + " occurs twice",
                           "a vector has a name of its own", "correct the name");
         }
-        vector.name = name.value_or("");
         const json* items = object.required_array("items");
         if (items == nullptr) {
             return;

@@ -1,10 +1,10 @@
 #include "jobs/comparison/comparison_items.h"
 
-#include <array>
 #include <utility>
 
 #include "jobs/budget/budget_fit_statement.h"
-#include "jobs/comparison/comparison_keys.h"
+#include "jobs/comparison/comparison_statement.h"
+#include "jobs/job_reader.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 
@@ -29,42 +29,33 @@ std::optional<gum::SigmaPtRequest> read_sigma_object(const JsonObject& object) {
                       "\"repeatability\"");
         return std::nullopt;
     }
-    if (object.has("percent")) {
-        request.method = gum::SigmaPtMethod::percent_of_assigned;
-        const auto percent =
-            object.required_number("percent", {.low = 1e-12, .high = 1e6, .unit = "%", .hint = "state a percentage"});
-        request.value = percent.value_or(1.0);
-        return percent ? std::optional{request} : std::nullopt;
-    }
-    if (object.has("mass_fraction_per_unit")) {
-        request.method = gum::SigmaPtMethod::mass_fraction;
-        const auto fraction = object.required_number(
-            "mass_fraction_per_unit",
-            {.low = 1e-30, .high = 1.0, .hint = "state the mass fraction that 1 of the unit is: 1e-6 for mg/kg"});
-        request.mass_fraction_per_unit = fraction.value_or(1.0);
-        return fraction ? std::optional{request} : std::nullopt;
+    JobReader reader(object);
+    for (const auto& [key, method] : {std::pair("percent", gum::SigmaPtMethod::percent_of_assigned),
+                                      std::pair("mass_fraction_per_unit", gum::SigmaPtMethod::mass_fraction)}) {
+        if (object.has(key)) {
+            request.method = method;
+            reader.read(request, {key});
+            return reader.accepted(key) ? std::optional{request} : std::nullopt;
+        }
     }
     request.method = gum::SigmaPtMethod::precision;
-    const auto reproducibility = object.required_number(
-        "reproducibility", {.low = k_least_compared_u,
-                            .high = k_largest_compared,
-                            .hint = "state the standard deviation under conditions of reproducibility"});
-    const auto repeatability = object.required_number("repeatability", between(0.0, k_largest_compared, ""));
-    const auto replicates = object.optional_integer("replicates", between(1.0, 1e6, ""));
-    if (!reproducibility || !repeatability || (object.has("replicates") && !replicates)) {
+    for (const char* key : {"reproducibility", "repeatability"}) {
+        object.require(key);
+        reader.read(request, {key});
+    }
+    reader.read(request, {"replicates"});
+    if (!reader.accepted("reproducibility") || !reader.accepted("repeatability") ||
+        (object.has("replicates") && !reader.accepted("replicates"))) {
         return std::nullopt;
     }
-    if (*repeatability > *reproducibility) {
+    if (request.repeatability > request.reproducibility) {
         object.refuse(k_sigma_pt, "repeatability",
-                      "the repeatability " + text::shortest_plain(*repeatability) +
-                          " is larger than the reproducibility " + text::shortest_plain(*reproducibility),
+                      "the repeatability " + text::shortest_plain(request.repeatability) +
+                          " is larger than the reproducibility " + text::shortest_plain(request.reproducibility),
                       "reproducibility holds repeatability and what differs between laboratories",
                       "check which number is which");
         return std::nullopt;
     }
-    request.reproducibility = *reproducibility;
-    request.repeatability = *repeatability;
-    request.replicates = static_cast<std::size_t>(replicates.value_or(1));
     return request;
 }
 
@@ -74,18 +65,17 @@ std::optional<gum::SigmaPtRequest> read_sigma_pt(const JsonObject& object) {
         return std::nullopt;
     }
     if (value->is_string()) {
-        constexpr std::array<std::pair<std::string_view, gum::SigmaPtMethod>, 2> k_words{
-            {{"robust", gum::SigmaPtMethod::robust}, {"standard_deviation", gum::SigmaPtMethod::standard_deviation}}};
-        const auto method = object.optional_choice("sigma_pt", k_words);
+        const auto method = object.optional_choice("sigma_pt", k_sigma_pt_words);
         return method ? std::optional{gum::SigmaPtRequest{.method = *method}} : std::nullopt;
     }
     if (value->is_object()) {
-        const auto sigma = object.optional_object("sigma_pt", k_sigma_keys);
+        const auto sigma = object.optional_object("sigma_pt", keys_of<gum::SigmaPtRequest>());
         return read_sigma_object(*sigma);
     }
-    const auto number = read_positive(object, "sigma_pt", "state the standard deviation that results are scored with");
-    return number ? std::optional{gum::SigmaPtRequest{.method = gum::SigmaPtMethod::given, .value = *number}}
-                  : std::nullopt;
+    gum::SigmaPtRequest given;
+    JobReader reader(object);
+    reader("sigma_pt", given.value, k_given_sigma_pt, {});
+    return reader.accepted("sigma_pt") ? std::optional{given} : std::nullopt;
 }
 
 void read_replicates(const ComparisonReading& reading, const JsonObject& object, gum::ComparisonItem& item) {
@@ -117,23 +107,20 @@ void read_item_keys(const ComparisonReading& reading, const JsonObject& object, 
     if (const auto sigma = read_sigma_pt(object)) {
         item.sigma_pt = sigma;
     }
-    if (const auto delta = read_positive(object, "delta_E", "state the largest error that is allowed")) {
-        item.delta_E = delta;
-    }
-    if (const auto bandwidth = read_positive(object, "kernel_bandwidth", "state the width of the kernel")) {
-        item.kernel_bandwidth = bandwidth;
-    }
+    JobReader(object).read(item, {"delta_E", "kernel_bandwidth"});
     read_replicates(reading, object, item);
-    if (const auto reference = object.optional_object("reference_value", k_reference_value_keys)) {
-        const auto value = reference->required_number("value", compared_value());
+    if (const auto reference = object.optional_object("reference_value", keys_of<ReferenceValueStatement>())) {
+        ReferenceValueStatement stated;
+        JobReader reader(*reference);
+        reader.read(stated);
         const auto uncertainty = read_uncertainty(reading, *reference);
         if (!states_uncertainty(*reference)) {
             reference->refuse(k_assigned_value_incomplete, "", "a reference value without uncertainty",
                               "it is held against the consensus with the uncertainties of both",
                               "add \"u\", or \"U\" and \"k\"");
         }
-        if (value && uncertainty) {
-            item.reference_value = *value;
+        if (reader.accepted("value") && uncertainty) {
+            item.reference_value = stated.value;
             item.u_reference_value = uncertainty->u;
         }
     }
@@ -141,21 +128,24 @@ void read_item_keys(const ComparisonReading& reading, const JsonObject& object, 
 
 void read_items(const ComparisonReading& reading, const json& array, const gum::ComparisonItem& defaults,
                 LabelIndex& labels) {
-    for_each_object(reading, array, "/items", k_listed_item_keys, {}, [&](const JsonObject& object) {
-        gum::ComparisonItem item = defaults;
-        const auto id = required_label(object, "id", reading.problems);
-        item.name = object.optional_name("name", 1000).value_or(id.value_or(""));
-        read_item_keys(reading, object, item);
-        if (!id) {
+    for_each_object(reading, array, "/items", keys_of<ListedItem>(), {}, [&](const JsonObject& object) {
+        ListedItem stated{defaults};
+        JobReader reader(object);
+        reader.read(stated, {"id", "name"});
+        read_item_keys(reading, object, stated.item);
+        if (!reader.accepted("id")) {
             return;
         }
-        item.id = *id;
-        if (!labels.add(*id).second) {
-            object.refuse(k_repeated_id, "id", "the item " + text::in_quotes(*id) + " occurs twice",
+        const std::string& id = stated.item.id;
+        if (!reader.accepted("name")) {
+            stated.item.name = id;
+        }
+        if (!labels.add(id).second) {
+            object.refuse(k_repeated_id, "id", "the item " + text::in_quotes(id) + " occurs twice",
                           "an item is stated once", "correct the id, or remove one of the two");
             return;
         }
-        reading.job.items.push_back(std::move(item));
+        reading.job.items.push_back(std::move(stated.item));
     });
 }
 

@@ -1,27 +1,21 @@
 #include "jobs/comparison/comparison_job.h"
 
 #include <algorithm>
-#include <array>
 #include <string_view>
 #include <utility>
 
 #include "jobs/certificate/certificate_statement.h"
-#include "jobs/comparison/comparison_keys.h"
 #include "jobs/comparison/comparison_methods.h"
 #include "jobs/comparison/comparison_participants.h"
 #include "jobs/comparison/comparison_reading.h"
+#include "jobs/comparison/comparison_statement.h"
 #include "jobs/job_kind.h"
+#include "jobs/job_reader.h"
 #include "text/visible_text.h"
 
 namespace gumcert::jobs {
 
 namespace {
-
-constexpr NumberRange k_probability{.low = 0.0,
-                                    .high = 1.0,
-                                    .low_open = true,
-                                    .high_open = true,
-                                    .hint = "state a probability, not a percentage, such as 0.9545"};
 
 /// Reads one job; every step notes what it finds, and `result` throws or returns at the end.
 class Reader {
@@ -53,7 +47,7 @@ private:
                             "a job of kind \"comparison\" is expected here", "use the command for this kind of job");
             return;
         }
-        const std::optional<JsonObject> root = JsonObject::root(document, k_comparison_keys, problems);
+        const std::optional<JsonObject> root = JsonObject::root(document, keys_of<ComparisonStatement>(), problems);
         if (!root) {
             return;
         }
@@ -82,12 +76,10 @@ private:
     }
 
     void read_common(const ComparisonReading& reading, const JsonObject& root) {
-        if (root.has("title")) {
-            job_.title = root.optional_name("title", 1000).value_or("");
-        }
-        job_.coverage_probability = root.optional_number("coverage_probability", k_probability).value_or(0.9545);
+        JobReader reader(root);
+        reader.read(stated_, {"title", "coverage_probability"});
         read_unused_texts(root);
-        job_.organiser = root.optional_name("organiser", 1000).value_or("");
+        reader.read(stated_, {"organiser"});
         job_.independent_sources = read_texts(reading, root, "independent_sources");
         job_.different_sources = read_texts(reading, root, "different_sources");
     }
@@ -107,10 +99,8 @@ private:
                         has_methods ? "make two jobs of it" : "add the ones or the others");
             return Form::neither;
         }
-        const std::span<const std::string_view> others = has_methods
-                                                             ? std::span<const std::string_view>{k_laboratories_keys}
-                                                             : std::span<const std::string_view>{k_methods_keys};
-        for (const std::string_view key : others) {
+        for (const std::string_view key :
+             has_methods ? keys_of<LaboratoriesStatement>() : keys_of<MethodComparisonRequest>()) {
             if (root.has(key)) {
                 root.refuse(k_comparison_form, key, "the key " + text::in_quotes(key) + " belongs to the other form",
                             has_methods ? "it is a key of comparisons between laboratories, with \"participants\""
@@ -141,9 +131,9 @@ private:
     }
 
     static void read_laboratories(const ComparisonReading& reading, const JsonObject& root) {
-        constexpr std::array<std::pair<std::string_view, bool>, 2> k_names{
-            {{"confidential", false}, {"released", true}}};
-        reading.job.names_released = root.optional_choice("names", k_names).value_or(false);
+        LaboratoriesStatement stated;
+        JobReader(root).read(stated, {"names"});
+        reading.job.names_released = stated.names_released;
         ParticipantsReader participants(reading, root);
         participants.read();
         read_participant_correlations(reading, root, participants);
@@ -155,36 +145,19 @@ private:
 
     JobFiles files_;
     ComparisonBudgets budgets_;
-    ComparisonJob job_;
+    ComparisonStatement stated_;
+    ComparisonJob& job_ = stated_.job;
 };
 
 }  // namespace
 
+const JobFields& comparison_fields() {
+    return fields_of<ComparisonStatement>();
+}
+
 std::span<const JobKeys> comparison_job_keys() {
-    static const std::vector<JobKeys> k_all{{"", k_comparison_keys},
-                                            {"/participants/*", k_participant_result_keys},
-                                            {"/participants/*/audited", k_audited_uncertainty_keys},
-                                            {"/participants/*/sources/*", k_source_keys},
-                                            {"/results/*", k_result_keys},
-                                            {"/results/*/audited", k_audited_uncertainty_keys},
-                                            {"/results/*/sources/*", k_source_keys},
-                                            {"/items/*", k_listed_item_keys},
-                                            {"/items/*/assigned_value", k_assigned_value_keys},
-                                            {"/items/*/sigma_pt", k_sigma_keys},
-                                            {"/items/*/reference_value", k_reference_value_keys},
-                                            {"/assigned_value", k_assigned_value_keys},
-                                            {"/assigned_value/sources/*", k_source_keys},
-                                            {"/sigma_pt", k_sigma_keys},
-                                            {"/reference_value", k_reference_value_keys},
-                                            {"/vectors/*", k_vector_keys},
-                                            {"/lab", k_side_keys},
-                                            {"/lab/points/*", k_point_keys},
-                                            {"/lab/audited", k_audited_factor_keys},
-                                            {"/reference", k_side_keys},
-                                            {"/reference/points/*", k_point_keys},
-                                            {"/reference/audited", k_audited_factor_keys},
-                                            {"/position", k_position_keys}};
-    return k_all;
+    static const JobKeyTable k_keys(comparison_fields());
+    return k_keys.objects();
 }
 
 ComparisonJob read_comparison_job(const FileSource& source, const std::string& job_file) {

@@ -17,6 +17,7 @@
 #include "gum/quantity/unit.h"
 #include "jobs/budget/budget_job.h"
 #include "jobs/file_source.h"
+#include "jobs/job_fields.h"
 #include "jobs/job_kind.h"
 
 namespace gumcert::jobs {
@@ -110,7 +111,9 @@ struct ComparisonJob : gum::ComparisonScheme {
     std::vector<gum::Diagnostic> warnings;
 };
 
-/// The keys of a job of kind `comparison`, object by object. schemas/job-1.schema.json states the same ones.
+/// The keys of a comparison job, what they mean and what they allow.
+[[nodiscard]] const JobFields& comparison_fields();
+/// The same keys, object by object.
 [[nodiscard]] std::span<const JobKeys> comparison_job_keys();
 
 /// Reads a job of kind `comparison` with all its files and checks it completely.

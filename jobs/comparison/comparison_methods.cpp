@@ -1,15 +1,15 @@
 #include "jobs/comparison/comparison_methods.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "jobs/budget/budget_fit_statement.h"
 #include "jobs/comparison/comparison_covariance.h"
-#include "jobs/comparison/comparison_keys.h"
 #include "jobs/comparison/comparison_side.h"
+#include "jobs/comparison/comparison_statement.h"
+#include "jobs/job_reader.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 
@@ -39,8 +39,7 @@ public:
         SideReading laboratory = read_side(reading_, root_, "lab", "laboratory", unit_);
         SideReading reference = read_side(reading_, root_, "reference", "reference", unit_);
         read_correlation(laboratory, reference);
-        read_bias_line();
-        request_->tolerance = read_positive(root_, "tolerance", "state the largest difference that is allowed");
+        JobReader(root_).read(*request_, {"bias_line", "tolerance"});
         if (match(laboratory, reference)) {
             check_directions(laboratory);
             check_positions();
@@ -57,8 +56,8 @@ private:
             unit_ = read_unit(root_, "unit", reading_.problems);
         }
         request_->unit = unit_.value_or(gum::Unit{});
-        if (const auto position = root_.optional_object("position", k_position_keys)) {
-            request_->position_name = position->required_name("name").value_or("");
+        if (const auto position = root_.optional_object("position", keys_of<MethodComparisonRequest, PositionKeys>())) {
+            JobReader(*position).read(*request_, PositionKeys());
             if (position->has("unit")) {
                 request_->position_unit = read_unit(*position, "unit", reading_.problems);
             }
@@ -77,23 +76,13 @@ private:
             request_->r = root_.optional_number("correlation", k_correlation_coefficient).value_or(0.0);
             return;
         }
-        constexpr std::array<std::pair<std::string_view, MethodCorrelation>, 3> k_words{
-            {{"none", MethodCorrelation::none},
-             {"unknown", MethodCorrelation::unknown},
-             {"shared_sources", MethodCorrelation::shared_sources}}};
-        const auto word = root_.optional_choice("correlation", k_words);
+        const auto word = root_.optional_choice("correlation", k_method_correlations);
         request_->correlation = word.value_or(request_->correlation);
         if (word == MethodCorrelation::shared_sources && !have_budgets && laboratory.is_whole && reference.is_whole) {
             root_.refuse(k_no_shared_sources, "correlation", "\"shared_sources\" where not both sides have a budget",
                          "sources that are shared are found in two budgets",
                          "add the budgets, state r as a number, or write \"unknown\"");
         }
-    }
-
-    void read_bias_line() {
-        constexpr std::array<std::pair<std::string_view, bool>, 2> k_words{
-            {{"reference_value", false}, {"position", true}}};
-        request_->bias_against_position = root_.optional_choice("bias_line", k_words).value_or(false);
     }
 
     // ---- both sides together ----------------------------------------------------------------------------------------

@@ -5,7 +5,8 @@
 #include <utility>
 
 #include "jobs/comparison/comparison_items.h"
-#include "jobs/comparison/comparison_keys.h"
+#include "jobs/comparison/comparison_statement.h"
+#include "jobs/job_reader.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 
@@ -22,8 +23,6 @@ constexpr std::array<std::string_view, 14> k_optional_columns{
 constexpr std::size_t k_participant_columns = 3;  // the last ones
 /// What the record of a comparison holds (64 MB) with every score of every result.
 constexpr std::size_t k_most_results = 25'000;
-constexpr NumberRange k_observations{.low = 1.0, .high = 1e9};
-constexpr NumberRange k_deviation{.low = 0.0, .high = k_largest_compared};
 
 /// One number of a place in the table of results; a job has fewer than 2²¹ of each.
 std::uint64_t key_of(std::size_t participant, std::size_t item, std::size_t round) {
@@ -39,10 +38,6 @@ bool are_too_many(std::size_t results, const std::string& where, ProblemList& pr
                     "a comparison has at most " + std::to_string(k_most_results) + " results",
                     "split the data by items or rounds into several jobs");
     return true;
-}
-
-std::optional<std::string_view> view(const std::optional<std::string>& text) {
-    return text ? std::optional<std::string_view>{*text} : std::nullopt;
 }
 
 }  // namespace
@@ -118,7 +113,7 @@ void ParticipantsReader::read_participants() {
                          "list the participants in the job, or remove \"results\"");
             return;
         }
-        if (const auto file = root_.optional_object("participants", k_comparison_file_keys)) {
+        if (const auto file = root_.optional_object("participants", k_file_object_keys)) {
             read_table(*file, true);
         }
         return;
@@ -132,11 +127,10 @@ void ParticipantsReader::read_participants() {
     if (are_too_many(value->size(), root_.where("participants"), reading_.problems)) {
         return;
     }
+    using Keys = std::span<const std::string_view>;
     for_each_object(reading_, *value, "/participants",
-                    with_results ? std::span<const std::string_view>{k_participant_result_keys}
-                                 : std::span<const std::string_view>{k_participant_keys},
-                    with_results ? std::span<const std::string_view>{k_participant_result_keys_and_bare}
-                                 : std::span<const std::string_view>{},
+                    with_results ? keys_of<ParticipantStatement>() : keys_of<gum::ComparisonParticipant>(),
+                    with_results ? keys_and_bare_of<ParticipantStatement>() : Keys{},
                     [&](const JsonObject& object) { read_participant(object); });
 }
 
@@ -144,20 +138,18 @@ void ParticipantsReader::read_participant(const JsonObject& object) {
     const bool with_results = !root_.has("results");
     const Place place{object.where(), &reading_.problems};
     gum::ComparisonParticipant stated;
-    const auto id = required_label(object, "id", reading_.problems);
-    stated.name = object.optional_name("name", 1000).value_or("");
-    stated.group = optional_label(object, "group", reading_.problems).value_or("");
-    stated.cmc_U = object.optional_number("cmc_U", compared_uncertainty());
-    if (!id) {
+    JobReader reader(object);
+    reader.read(stated);
+    if (!reader.accepted("id")) {
         return;
     }
-    if (!with_results && participants_.find(*id)) {
-        object.refuse(k_repeated_id, "id", "the participant " + text::in_quotes(*id) + " occurs twice",
+    if (!with_results && participants_.find(stated.id)) {
+        object.refuse(k_repeated_id, "id", "the participant " + text::in_quotes(stated.id) + " occurs twice",
                       "a participant is listed once where the results stand on their own",
                       "correct the id, or remove one of the two");
         return;
     }
-    const auto participant = participant_of(*id, true, place);
+    const auto participant = participant_of(stated.id, true, place);
     if (participant) {
         describe(*participant, stated, place);
         if (with_results) {
@@ -176,7 +168,7 @@ void ParticipantsReader::read_results() {
         return;  // reported with the participants
     }
     if (value->is_object()) {
-        if (const auto file = root_.optional_object("results", k_comparison_file_keys)) {
+        if (const auto file = root_.optional_object("results", k_file_object_keys)) {
             read_table(*file, false);
         }
         return;
@@ -189,14 +181,19 @@ void ParticipantsReader::read_results() {
     if (are_too_many(value->size(), root_.where("results"), reading_.problems)) {
         return;
     }
-    for_each_object(reading_, *value, "/results", k_result_keys, k_result_keys_and_bare, [&](const JsonObject& object) {
-        const auto id = required_label(object, "participant", reading_.problems);
-        const auto participant =
-            id ? participant_of(*id, false, {object.where("participant"), &reading_.problems}) : std::nullopt;
-        if (participant) {
-            read_result(object, *participant);
-        }
-    });
+    for_each_object(reading_, *value, "/results", keys_of<ListedResult>(), keys_and_bare_of<ListedResult>(),
+                    [&](const JsonObject& object) {
+                        ListedResult stated;
+                        JobReader reader(object);
+                        reader.read(stated, {"participant"});
+                        const auto participant = reader.accepted("participant")
+                                                     ? participant_of(stated.participant, false,
+                                                                      {object.where("participant"), &reading_.problems})
+                                                     : std::nullopt;
+                        if (participant) {
+                            read_result(object, *participant);
+                        }
+                    });
 }
 
 // ---- whose, of which item, in which round ---------------------------------------------------------------------------
@@ -379,7 +376,7 @@ void ParticipantsReader::read_row(const CsvTable& table, std::size_t row, bool w
         gum::ComparisonParticipant stated;
         stated.name = std::string(text_of(table, row, c_name).value_or(""));
         stated.group = std::string(text_of(table, row, c_group).value_or(""));
-        stated.cmc_U = table.number_if_any(row, c_cmc, compared_uncertainty());
+        stated.cmc_U = table.number_if_any(row, c_cmc, k_compared_uncertainty);
         describe(*participant, stated, place_of(c_participant));
     }
     const auto item = item_of(text_of(table, row, c_item), place_of(c_item));
@@ -452,29 +449,38 @@ void ParticipantsReader::add_missing(const Address& address, std::string reason,
 // ---- results in the job ---------------------------------------------------------------------------------------------
 
 void ParticipantsReader::read_result(const JsonObject& object, std::size_t participant) {
-    ComparisonResult result;
+    ResultStatement stated;
+    ComparisonResult& result = stated.result;
     result.where = object.where();
-    const auto item_label = optional_label(object, "item", reading_.problems);
-    const auto round_label = optional_label(object, "round", reading_.problems);
-    const auto item = object.has("item") && !item_label
+    JobReader reader(object);
+    reader.read(stated, {"item", "round"});
+    const auto label = [&](std::string_view key, const std::string& text) {
+        return object.has(key) ? std::optional<std::string_view>{text} : std::nullopt;
+    };
+    const auto item = object.has("item") && !reader.accepted("item")
                           ? std::nullopt
-                          : item_of(view(item_label), {object.where("item"), &reading_.problems});
-    const auto round = object.has("round") && !round_label
+                          : item_of(label("item", stated.item), {object.where("item"), &reading_.problems});
+    const auto round = object.has("round") && !reader.accepted("round")
                            ? std::nullopt
-                           : round_of(view(round_label), {object.where("round"), &reading_.problems});
+                           : round_of(label("round", stated.round), {object.where("round"), &reading_.problems});
     result.participant = participant;
     result.item = item.value_or(0);
     result.round = round.value_or(0);
     result.uncertainty = read_uncertainty(reading_, object);
-    result.contributes = object.optional_boolean("contributes").value_or(true);
-    result.reason = object.optional_name("reason", 1000).value_or("");
+    reader.read(stated, {"contributes", "reason"});
     const json* value = object.find("value");
     const bool is_null = value != nullptr && value->is_null();
     const bool is_missing = !object.has("budget") && (!object.has("value") || is_null);
     if (!is_null) {
         result.value = read_value(reading_, object, "write null: a missing result").value_or(0.0);
     }
-    read_replicates(object, result);
+    reader.read(stated, {"s", "n"});
+    if (object.has("s") != object.has("n")) {
+        object.refuse(k_result_without_replicates, object.has("s") ? "s" : "n",
+                      object.has("s") ? "\"s\" without \"n\"" : "\"n\" without \"s\"",
+                      "the standard deviation of single observations is stated with their number",
+                      "state both, or none");
+    }
     read_audited(object, result);
     if (object.has("budget")) {
         if (item) {
@@ -505,30 +511,22 @@ void ParticipantsReader::read_result(const JsonObject& object, std::size_t parti
     problems_of_result_.push_back(&reading_.problems);
 }
 
-void ParticipantsReader::read_replicates(const JsonObject& object, ComparisonResult& result) {
-    result.standard_deviation = object.optional_number("s", k_deviation);
-    result.observations = static_cast<std::size_t>(object.optional_integer("n", k_observations).value_or(0));
-    if (object.has("s") != object.has("n")) {
-        object.refuse(k_result_without_replicates, object.has("s") ? "s" : "n",
-                      object.has("s") ? "\"s\" without \"n\"" : "\"n\" without \"s\"",
-                      "the standard deviation of single observations is stated with their number",
-                      "state both, or none");
-    }
-}
-
 void ParticipantsReader::read_audited(const JsonObject& object, ComparisonResult& result) {
-    const auto audited = object.optional_object("audited", k_audited_uncertainty_keys);
+    const auto audited = object.optional_object("audited", keys_of<gum::AuditedUncertainty>());
     if (!audited) {
         return;
     }
-    const auto finding = audited->required_name("finding", 1000);
+    gum::AuditedUncertainty stated;
+    JobReader reader(*audited);
+    reader.read(stated);
     const auto uncertainty = read_uncertainty(reading_, *audited);
     if (!states_uncertainty(*audited)) {
         audited->refuse(k_bare_uncertainty, "", "an audit finding without the corrected uncertainty",
                         "E_n is formed again with the corrected uncertainty", "add \"u\", or \"U\" and \"k\"");
     }
-    if (finding && uncertainty) {
-        result.audited = gum::AuditedUncertainty{*uncertainty, *finding};
+    if (reader.accepted("finding") && uncertainty) {
+        stated.uncertainty = *uncertainty;
+        result.audited = std::move(stated);
     }
 }
 

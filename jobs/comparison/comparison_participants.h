@@ -99,7 +99,6 @@ private:
     bool is_first(const Address& address, const Place& place);
 
     void read_budget(const JsonObject& object, ComparisonResult& result);
-    void read_replicates(const JsonObject& object, ComparisonResult& result);
     void read_audited(const JsonObject& object, ComparisonResult& result);
     void add_missing(const Address& address, std::string reason, bool has_uncertainty, const Place& place);
     void refuse_mixed_labels();

@@ -9,7 +9,8 @@
 #include "gum/coverage.h"
 #include "gum/quantity/dense_factors.h"
 #include "jobs/budget/budget_results.h"
-#include "jobs/comparison/comparison_keys.h"
+#include "jobs/comparison/comparison_statement.h"
+#include "jobs/job_reader.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 
@@ -18,9 +19,6 @@ namespace gumcert::jobs {
 namespace {
 
 using nlohmann::json;
-
-constexpr NumberRange k_coverage_factor{
-    .low = 0.0, .high = 1e6, .low_open = true, .hint = "state the coverage factor of the certificate, usually 2"};
 
 constexpr std::string_view k_infinite = "inf";
 constexpr double k_infinitely_many = std::numeric_limits<double>::infinity();
@@ -122,16 +120,6 @@ std::optional<gum::ResultUncertainty> evaluate(const StatedUncertainty& stated, 
 
 }  // namespace
 
-NumberRange compared_value() {
-    return between(-k_largest_compared, k_largest_compared, "");
-}
-
-NumberRange compared_uncertainty() {
-    return {.low = 0.0,
-            .low_open = true,
-            .hint = "state the uncertainty of the certificate, or none where the laboratory states none"};
-}
-
 // ---- budgets --------------------------------------------------------------------------------------------------------
 
 std::shared_ptr<const BudgetJob> ComparisonBudgets::read(const std::string& name) {
@@ -188,38 +176,6 @@ std::string LabelIndex::advice(std::string_view label, std::string otherwise) co
     return nearest ? "did you mean " + text::in_quotes(*nearest) + "?" : otherwise;
 }
 
-std::optional<std::string> label_of(const json& value, const std::string& where, ProblemList& problems) {
-    if (value.is_discarded()) {
-        return std::nullopt;
-    }
-    if (value.is_number()) {
-        return text::shortest_plain(value.get<double>());
-    }
-    if (!value.is_string()) {
-        problems.refuse(k_wrong_type, where, described(value), "must be a text or a number", "correct the value");
-        return std::nullopt;
-    }
-    const auto& text = value.get_ref<const std::string&>();
-    if (const auto objection = name_objection(text)) {
-        problems.refuse(k_text_not_allowed, where, text::in_quotes(text) + " " + *objection,
-                        "must be one line of at most 256 bytes, without spaces around it and without control or "
-                        "hidden characters",
-                        "correct the text");
-        return std::nullopt;
-    }
-    return text;
-}
-
-std::optional<std::string> optional_label(const JsonObject& object, std::string_view key, ProblemList& problems) {
-    const json* value = object.find(key);
-    return value == nullptr ? std::nullopt : label_of(*value, object.where(key), problems);
-}
-
-std::optional<std::string> required_label(const JsonObject& object, std::string_view key, ProblemList& problems) {
-    object.require(key);
-    return optional_label(object, key, problems);
-}
-
 std::optional<JsonObject> object_at(const ComparisonReading& reading, const std::string& pointer,
                                     std::span<const std::string_view> keys,
                                     std::span<const std::string_view> keys_and_bare) {
@@ -231,11 +187,10 @@ std::optional<JsonObject> object_at(const ComparisonReading& reading, const std:
         }
         return std::nullopt;
     }
-    static constexpr std::string_view k_bare = k_bare_keys.front();
-    if (keys_and_bare.empty() || !value.contains(k_bare)) {
+    if (keys_and_bare.empty() || !value.contains(k_bare_key)) {
         return JsonObject(reading.document, pointer, keys, reading.problems);
     }
-    reading.problems.refuse(k_bare_uncertainty, reading.document.where(child_pointer(pointer, k_bare)),
+    reading.problems.refuse(k_bare_uncertainty, reading.document.where(child_pointer(pointer, k_bare_key)),
                             "\"uncertainty\" does not say which uncertainty it is",
                             "a standard uncertainty is \"u\", an expanded one is \"U\" with its coverage factor \"k\"",
                             "write \"u\", or \"U\" and \"k\"");
@@ -258,8 +213,8 @@ std::optional<gum::ResultUncertainty> read_uncertainty(const ComparisonReading& 
     stated.has_U = object.has("U");
     stated.has_k = object.has("k");
     stated.has_nu = object.has("nu");
-    stated.u = object.optional_number("u", compared_uncertainty());
-    stated.U = object.optional_number("U", compared_uncertainty());
+    stated.u = object.optional_number("u", k_compared_uncertainty);
+    stated.U = object.optional_number("U", k_compared_uncertainty);
     stated.k = object.optional_number("k", k_coverage_factor);
     if (const json* nu = object.find("nu"); nu != nullptr && nu->is_string() && *nu == k_infinite) {
         stated.nu = k_infinitely_many;
@@ -301,8 +256,8 @@ std::optional<gum::ResultUncertainty> read_uncertainty(const CsvTable& table, st
     stated.has_U = is_stated(table, row, columns.U);
     stated.has_k = is_stated(table, row, columns.k);
     stated.has_nu = is_stated(table, row, columns.nu);
-    stated.u = table.number_if_any(row, columns.u, compared_uncertainty());
-    stated.U = table.number_if_any(row, columns.U, compared_uncertainty());
+    stated.u = table.number_if_any(row, columns.u, k_compared_uncertainty);
+    stated.U = table.number_if_any(row, columns.U, k_compared_uncertainty);
     stated.k = table.number_if_any(row, columns.k, k_coverage_factor);
     stated.nu = stated.has_nu && table.cell(row, columns.nu).text == k_infinite
                     ? std::optional{k_infinitely_many}
@@ -332,7 +287,7 @@ void refuse_censored(std::string_view text, const std::string& where, std::strin
 std::optional<double> read_value(const ComparisonReading& reading, const JsonObject& object, std::string_view if_none) {
     const json* value = object.find("value");
     if (value == nullptr || !value->is_string()) {
-        return object.optional_number("value", compared_value());
+        return object.optional_number("value", k_compared_value);
     }
     const auto& text = value->get_ref<const std::string&>();
     if (is_censored(text)) {
@@ -357,13 +312,7 @@ std::optional<double> read_value(const CsvTable& table, std::size_t row, std::si
                         "must be a number with a decimal point", "state the value, or " + std::string(if_none));
         return std::nullopt;
     }
-    return table.number(row, column, compared_value());
-}
-
-std::optional<double> read_positive(const JsonObject& object, std::string_view key, std::string_view hint) {
-    const auto number = object.optional_number(key, {.low = 0.0, .low_open = true, .hint = hint});
-    return number ? object.optional_number(key, {.low = k_least_compared_u, .high = k_largest_compared, .hint = hint})
-                  : std::nullopt;
+    return table.number(row, column, k_compared_value);
 }
 
 // ---- sources --------------------------------------------------------------------------------------------------------
@@ -376,20 +325,25 @@ std::vector<gum::UncertaintySource> read_sources(const ComparisonReading& readin
         return sources;
     }
     double sum = 0.0;
-    for_each_object(reading, *array, object.pointer("sources"), k_source_keys, {}, [&](const JsonObject& entry) {
-        const auto name = entry.required_name("source");
-        const auto part = entry.required_number("u", compared_value());
-        if (!name || !part) {
-            return;
-        }
-        if (std::any_of(sources.begin(), sources.end(), [&](const auto& other) { return other.source == *name; })) {
-            entry.refuse(k_repeated_source, "source", "the source " + text::in_quotes(*name) + " occurs twice",
-                         "a result states one part for each source", "add the parts up, with their signs");
-            return;
-        }
-        sum = std::hypot(sum, *part);
-        sources.push_back({.source = *name, .input = {}, .contribution = *part});
-    });
+    for_each_object(reading, *array, object.pointer("sources"), keys_of<gum::UncertaintySource>(), {},
+                    [&](const JsonObject& entry) {
+                        gum::UncertaintySource part;
+                        JobReader reader(entry);
+                        reader.read(part);
+                        if (!reader.accepted("source") || !reader.accepted("u")) {
+                            return;
+                        }
+                        if (std::any_of(sources.begin(), sources.end(),
+                                        [&](const auto& other) { return other.source == part.source; })) {
+                            entry.refuse(k_repeated_source, "source",
+                                         "the source " + text::in_quotes(part.source) + " occurs twice",
+                                         "a result states one part for each source",
+                                         "add the parts up, with their signs");
+                            return;
+                        }
+                        sum = std::hypot(sum, part.contribution);
+                        sources.push_back(std::move(part));
+                    });
     if (u && sum > *u * (1.0 + k_same_number)) {
         object.refuse(
             k_parts_exceed_uncertainty, "sources",
@@ -443,7 +397,7 @@ std::optional<Eigen::MatrixXd> read_rows(const ComparisonReading& reading, const
             continue;
         }
         for (std::size_t j = 0; j < columns; ++j) {
-            const NumberRange range = compared_value();
+            const NumberRange& range = k_compared_value;
             if (!row[j].is_number() || !range.contains(row[j].get<double>())) {
                 is_read = false;
                 if (!row[j].is_discarded()) {

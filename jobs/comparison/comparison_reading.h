@@ -17,6 +17,7 @@
 #include "jobs/comparison/comparison_codes.h"
 #include "jobs/comparison/comparison_job.h"
 #include "jobs/csv_table.h"
+#include "jobs/job_fields.h"
 #include "jobs/job_files.h"
 #include "jobs/json_object.h"
 #include "jobs/matrix_limits.h"
@@ -30,8 +31,11 @@ namespace gumcert::jobs {
 inline constexpr double k_largest_compared = 1e60;
 inline constexpr double k_least_compared_u = 1e-60;
 
-[[nodiscard]] NumberRange compared_value();
-[[nodiscard]] NumberRange compared_uncertainty();
+inline constexpr NumberRange k_compared_value = between(-k_largest_compared, k_largest_compared, "");
+inline constexpr NumberRange k_compared_uncertainty{
+    .low = 0.0,
+    .low_open = true,
+    .hint = "state the uncertainty of the certificate, or none where the laboratory states none"};
 inline constexpr NumberRange k_correlation_coefficient{
     .low = -1.0, .high = 1.0, .hint = "state a correlation coefficient, not a covariance"};
 
@@ -88,21 +92,27 @@ private:
     std::unordered_map<std::string, std::size_t, Hash, std::equal_to<>> positions_;
 };
 
-/// An id, a round, the name of a point: a text of one line or a number, which is taken as its shortest text.
-[[nodiscard]] std::optional<std::string> label_of(const nlohmann::json& value, const std::string& where,
-                                                  ProblemList& problems);
-[[nodiscard]] std::optional<std::string> optional_label(const JsonObject& object, std::string_view key,
-                                                        ProblemList& problems);
-[[nodiscard]] std::optional<std::string> required_label(const JsonObject& object, std::string_view key,
-                                                        ProblemList& problems);
+/// What people write who do not say whether a number is u or U.
+inline constexpr std::string_view k_bare_key = "uncertainty";
 
 /// An object with some keys.
 /// \return nothing when the value is no object
-/// \param keys_and_bare  the keys and "uncertainty", which then has a message of its own: a number that does not say
-///     whether it is u or U; empty: it is an unknown key as any other
+/// \param keys_and_bare  keys_and_bare_of(): "uncertainty" then has a message of its own, because it does not say whether
+///     it is u or U; empty: it is an unknown key as any other
 [[nodiscard]] std::optional<JsonObject> object_at(const ComparisonReading& reading, const std::string& pointer,
                                                   std::span<const std::string_view> keys,
                                                   std::span<const std::string_view> keys_and_bare = {});
+
+/// The keys of a struct, and "uncertainty".
+template <class Struct>
+[[nodiscard]] std::span<const std::string_view> keys_and_bare_of() {
+    static const std::vector<std::string_view> k_keys = [] {
+        std::vector<std::string_view> keys(keys_of<Struct>().begin(), keys_of<Struct>().end());
+        keys.push_back(k_bare_key);
+        return keys;
+    }();
+    return k_keys;
+}
 
 /// Calls `use` with every element of an array; those that are no objects are refused.
 template <typename Use>
@@ -151,10 +161,6 @@ bool check_uncertainty_columns(const CsvTable& table, const UncertaintyColumns& 
                                                std::string_view if_none);
 [[nodiscard]] std::optional<double> read_value(const CsvTable& table, std::size_t row, std::size_t column,
                                                std::string_view if_none, ProblemList& problems);
-
-/// A number above 0 that can be squared and divided by.
-[[nodiscard]] std::optional<double> read_positive(const JsonObject& object, std::string_view key,
-                                                  std::string_view hint);
 
 /// The key `sources`, signed parts of an uncertainty.
 /// \param u  of the whole; nothing: not known here

@@ -4,7 +4,8 @@
 #include <utility>
 
 #include "jobs/comparison/comparison_compared_job.h"
-#include "jobs/comparison/comparison_keys.h"
+#include "jobs/comparison/comparison_statement.h"
+#include "jobs/job_reader.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 
@@ -14,7 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t k_most_side_points = 2000;  // their covariance is dense
 constexpr std::string_view k_if_no_value = "remove the point from both sides";
 
 constexpr std::array<std::string_view, 1> k_required_side_columns{"point"};
@@ -22,11 +22,6 @@ constexpr std::array<std::string_view, 9> k_optional_side_columns{"direction", "
                                                                   "nu",        "u_common", "uncertainty"};
 enum Column : std::size_t { c_point, c_direction, c_position, c_value, c_u, c_U, c_k, c_nu, c_common, c_bare };
 constexpr UncertaintyColumns k_uncertainty_columns{.u = c_u, .U = c_U, .k = c_k, .nu = c_nu, .bare = c_bare};
-
-constexpr NumberRange k_common_part{.low = 0.0, .high = k_largest_compared};
-// Uncertainties times the factor are squared and divided by.
-constexpr NumberRange k_audited_factor{
-    .low = 1e-6, .high = 1e6, .hint = "state what every uncertainty is multiplied by, such as 0.577"};
 
 bool are_too_many_points(std::size_t points, const std::string& where, ProblemList& problems) {
     if (points <= k_most_side_points) {
@@ -56,7 +51,7 @@ public:
             root_.refuse(k_wrong_type, key, described(*value), "must be the name of a CSV file or an object",
                          "write {\"points\": \"" + key + ".csv\"}");
         } else {
-            read_object(*root_.optional_object(key, k_side_keys));
+            read_object(*root_.optional_object(key, keys_of<SideReading>()));
         }
         side_.is_whole = side_.is_whole && reading_.problems.refusals() == refused;
         return std::move(side_);
@@ -64,12 +59,8 @@ public:
 
 private:
     void read_object(const JsonObject& object) {
-        side_.side.name = object.optional_name("name", 1000).value_or(side_.side.name);
-        side_.side.cmc_U = object.optional_number("cmc_U", compared_uncertainty());
-        if (const auto audited = object.optional_object("audited", k_audited_factor_keys)) {
-            side_.side.audited_factor = audited->required_number("factor", k_audited_factor).value_or(1.0);
-            side_.side.audit_finding = audited->required_name("finding", 1000).value_or("");
-        }
+        JobReader reader(object);
+        reader.read(side_, {"name", "cmc_U", "audited"});
         if (object.has("job")) {
             side_.has_job = true;
             side_.has_points = true;
@@ -84,7 +75,7 @@ private:
         if (object.has("budget")) {
             read_budget(object);
         }
-        side_.covariance_name = JobFiles::file_name(object, "covariance", false);
+        reader.read(side_, {"covariance"});
         if (object.has("covariance") && object.has("budget")) {
             object.refuse(k_stated_beside_budget, "covariance", "a covariance beside a budget",
                           "the covariance of the points is that of the budget", "remove one of the two");
@@ -134,18 +125,16 @@ private:
                           "list the points with their values");
         }
         if (!are_too_many_points(points->size(), object.where("points"), reading_.problems)) {
-            for_each_object(reading_, *points, object.pointer("points"), k_point_keys, k_point_keys_and_bare,
-                            [&](const JsonObject& point) { read_point(point); });
+            for_each_object(reading_, *points, object.pointer("points"), keys_of<SidePoint>(),
+                            keys_and_bare_of<SidePoint>(), [&](const JsonObject& point) { read_point(point); });
         }
     }
 
     void read_point(const JsonObject& object) {
         SidePoint read;
         read.where = object.where();
-        const auto name = required_label(object, "point", reading_.problems);
-        read.point.name = name.value_or("");
-        read.point.direction = optional_label(object, "direction", reading_.problems).value_or("");
-        read.point.position = object.optional_number("position", compared_value());
+        JobReader reader(object);
+        reader.read(read, {"point", "direction", "position"});
         if (side_.has_budget) {
             for (const std::string_view key : {"value", "u", "U", "k", "nu", "u_common"}) {
                 if (object.has(key)) {
@@ -157,10 +146,10 @@ private:
             object.require("value");
             read.value = read_value(reading_, object, k_if_no_value).value_or(0.0);
             read.uncertainty = read_uncertainty(reading_, object);
-            read.u_common = object.optional_number("u_common", k_common_part);
+            reader.read(read, {"u_common"});
             check_point(read, states_uncertainty(object), reading_.problems);
         }
-        if (name) {
+        if (reader.accepted("point")) {
             side_.points.push_back(std::move(read));
         }
     }
@@ -248,12 +237,12 @@ private:
         if (is_stated(table, row, c_direction)) {
             read.point.direction = std::string(table.name(row, c_direction).value_or(""));
         }
-        read.point.position = table.number_if_any(row, c_position, compared_value());
+        read.point.position = table.number_if_any(row, c_position, k_compared_value);
         if (!side_.has_budget) {
             read.value = read_value(table, row, c_value, k_if_no_value, problems).value_or(0.0);
             read.uncertainty =
                 read_uncertainty(table, row, k_uncertainty_columns, reading_.job.coverage_probability, problems);
-            read.u_common = table.number_if_any(row, c_common, k_common_part);
+            read.u_common = table.number_if_any(row, c_common, k_deviation);
             const bool states_uncertainty =
                 is_stated(table, row, c_u) || is_stated(table, row, c_U) || is_stated(table, row, c_k);
             check_point(read, states_uncertainty, problems);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,6 +8,8 @@
 #include "jobs/comparison/comparison_reading.h"
 
 namespace gumcert::jobs {
+
+inline constexpr std::size_t k_most_side_points = 2000;  // their covariance is dense
 
 /// A point in a message.
 [[nodiscard]] inline std::string description(const MethodPoint& point) {

@@ -175,9 +175,7 @@ void describe(Archive& a, ReferenceStatement& r) {
     a.needed("readings", r.readings, FileName{}, "Its readings.");
     a.needed("description", r.description, FileName{}, "A JSON file that describes the dial indicator.");
     a("budget", r.budget, FileName{}, "A job of kind budget with the reference value as its one output.");
-    a.by_hand("correlation",
-              R"({"anyOf": [{"type": "number", "minimum": -1, "maximum": 1}, {"enum": ["unknown", "none"]}]})",
-              "a number, at least -1 and at most 1; `unknown` or `none`",
+    a.by_code("correlation", Either{In{between(-1.0, 1.0, "")}, Words<bool, 2>{{{"unknown", true}, {"none", false}}}},
               "Of our value and the reference value at the same point.");
     a.part("published", r.published, "Figures of a publication, printed beside those of the job.");
     a.part("audited", r.audited, "A correction of the uncertainty of the reference after an audit.");
@@ -223,7 +221,7 @@ void describe(Archive& a, SimulationStatement& r) {
                in.needed("u_tilt_arcsec", table.u_tilt, k_small_angular, "Each of the other two rotations.");
            });
     a.part("outliers", r.outliers, "Distances with a planted error.");
-    a.array("angle_counts", k_angle_count, 0, 0, "Studies over full turns of these many angles.");
+    a.by_code("angle_counts", Several{k_angle_count}, "Studies over full turns of these many angles.");
 }
 
 template <class Archive>
@@ -281,8 +279,8 @@ template <class Archive>
 void describe(Archive& a, PlanStatement& r) {
     constexpr Words<bool, 2> k_senses{{{"one", false}, {"both", true}}};
     constexpr Words<bool, 2> k_dead_paths{{{"station", false}, {"reflector", true}}};
-    a.array_or_part("angles_deg", In{k_angle}, 1, static_cast<std::size_t>(k_most_planned_angles), r.steps,
-                    "An array of angles, or first, step and count.");
+    a.part_or("angles_deg", Several{In{k_angle}, 1, static_cast<std::size_t>(k_most_planned_angles)}, r.steps,
+              "An array of angles, or first, step and count.");
     a("senses", r.request.both_senses, k_senses, "Senses of approach; one when left out.");
     a("dead_paths", r.request.dead_path_per_reflector, k_dead_paths,
       "One of each station (when left out), or one of each station and reflector.");

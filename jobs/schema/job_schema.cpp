@@ -1,11 +1,14 @@
 #include "jobs/schema/job_schema.h"
 
-#include <array>
+#include <algorithm>
 #include <stdexcept>
+#include <vector>
 
 #include "jobs/budget/budget_job_statement.h"
 #include "jobs/circle_closure/circle_closure_statement.h"
+#include "jobs/comparison/comparison_job.h"
 #include "jobs/rotary_table/rotary_table_statement.h"
+#include "json/readable_json.h"
 
 namespace gumcert::jobs {
 
@@ -22,65 +25,44 @@ ordered_json alternatives_of(const std::vector<std::string_view>& keys) {
     return all;
 }
 
+/// Written out, or a reference to where it is.
+ordered_json schema_of_object(const JobFields& fields) {
+    return fields.definition.empty() ? schema_of(fields)
+                                     : ordered_json{{"$ref", "#/definitions/" + std::string(fields.definition)}};
+}
+
+ordered_json schema_of_objects(const Field& field) {
+    ordered_json object = schema_of_object(*field.fields);
+    if (!field.has_many()) {
+        return object;
+    }
+    const bool is_list = field.shape == Field::Shape::list;
+    ordered_json many{{"type", is_list ? "array" : "object"}};
+    if (field.size.least > 0) {
+        many[is_list ? "minItems" : "minProperties"] = field.size.least;
+    }
+    if (field.size.most > 0) {
+        many[is_list ? "maxItems" : "maxProperties"] = field.size.most;
+    }
+    many[is_list ? "items" : "additionalProperties"] = std::move(object);
+    return many;
+}
+
 ordered_json schema_of_field(const Field& field) {
     ordered_json schema = ordered_json::object();
     if (!field.sentence.empty()) {
         schema["description"] = field.sentence;
     }
-    switch (field.shape) {
-        case Field::Shape::value:
-            schema.update(field.schema);
-            break;
-        case Field::Shape::part:
-            schema.update(schema_of(*field.fields));
-            break;
-        case Field::Shape::list:
-            schema["type"] = "array";
-            schema.update(field.schema);
-            schema["items"] = schema_of(*field.fields);
-            break;
-        case Field::Shape::named:
-            schema["type"] = "object";
-            schema["additionalProperties"] = schema_of(*field.fields);
-            break;
-        case Field::Shape::array_or_part:
-            schema.update(field.schema);
-            schema.update(schema_of(*field.fields));
-            schema["type"] = {"array", "object"};
-            break;
+    if (!field.fields) {
+        schema.update(field.schema);
+    } else if (field.schema.is_null()) {
+        schema.update(schema_of_objects(field));
+    } else {
+        const bool are_several = field.schema.contains("anyOf");
+        schema["anyOf"] = are_several ? field.schema.at("anyOf") : ordered_json::array({field.schema});
+        schema["anyOf"].push_back(schema_of_objects(field));
     }
     return schema;
-}
-
-/// As people write it: what fits stands on one line.
-void lay_out(const ordered_json& value, std::size_t indent, std::size_t column, std::string& out) {
-    constexpr std::size_t k_line = 120;
-    const auto in_one_line = [](const auto& self, const ordered_json& v) -> std::string {
-        if (!v.is_structured() || v.empty()) {
-            return v.dump();
-        }
-        std::string text = v.is_object() ? "{ " : "[";
-        for (const auto& [key, element] : v.items()) {
-            text += (text.size() > 2 || (v.is_array() && text.size() > 1) ? ", " : "") +
-                    (v.is_object() ? ordered_json(key).dump() + ": " : std::string()) + self(self, element);
-        }
-        return text + (v.is_object() ? " }" : "]");
-    };
-    const std::string line = in_one_line(in_one_line, value);
-    if (!value.is_structured() || value.empty() || column + line.size() < k_line) {
-        out += line;
-        return;
-    }
-    out += value.is_object() ? "{" : "[";
-    const char* separator = "\n";
-    for (const auto& [key, element] : value.items()) {
-        const std::string start =
-            std::string(indent + 2, ' ') + (value.is_object() ? ordered_json(key).dump() + ": " : std::string());
-        out += separator + start;
-        lay_out(element, indent + 2, start.size(), out);
-        separator = ",\n";
-    }
-    out += "\n" + std::string(indent, ' ') + (value.is_object() ? "}" : "]");
 }
 
 /// Where the next definition begins, or the last one ends.
@@ -94,40 +76,96 @@ std::size_t end_of_definition(const std::string& schema, std::size_t from) {
     throw std::invalid_argument("the definitions do not end");
 }
 
-void add_tables(const std::string& heading, const JobFields& fields, std::string& page) {
-    page += "\n## " + heading + "\n\n| key | value | meaning |\n|---|---|---|\n";
-    for (const Field& field : fields.fields) {
-        page += "| `" + std::string(field.key) + "`" + (field.needed ? " (required)" : "") + " | " + field.value +
-                " | " + std::string(field.sentence) + " |\n";
+/// "`a`, `b` and `c`"
+std::string keys_in_words(const std::vector<std::string_view>& keys) {
+    std::string words;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        words += (i == 0 ? "`" : i + 1 == keys.size() ? " and `" : ", `") + std::string(keys[i]) + "`";
     }
+    return words;
+}
+
+void add_rules(const JobFields& fields, std::string& page) {
+    std::string rules;
     for (const auto& [keys, count] :
-         {std::pair(&fields.at_least_one_of, "At least one"), std::pair(&fields.exactly_one_of, "Exactly one")}) {
+         {std::pair(&fields.at_least_one_of, "At least one"), std::pair(&fields.exactly_one_of, "Exactly one"),
+          std::pair(&fields.at_most_one_of, "At most one")}) {
         for (const std::vector<std::string_view>& group : *keys) {
-            page += std::string("\n") + count + " of";
-            for (std::size_t i = 0; i < group.size(); ++i) {
-                page += (i == 0 ? " `" : i + 1 == group.size() ? " and `" : ", `") + std::string(group[i]) + "`";
-            }
-            page += " is stated.\n";
+            rules += std::string(" ") + count + " of " + keys_in_words(group) + " is stated.";
         }
     }
+    for (std::size_t i = 0; i < fields.needs.size();) {
+        const std::string_view other = fields.needs[i].other;
+        std::vector<std::string_view> keys;
+        for (; i < fields.needs.size() && fields.needs[i].other == other; ++i) {
+            keys.push_back(fields.needs[i].key);
+        }
+        rules += " " + keys_in_words(keys) + (keys.size() == 1 ? " needs `" : " need `") + std::string(other) + "`.";
+    }
+    if (!rules.empty()) {
+        page += "\n" + rules.substr(1) + "\n";
+    }
+}
+
+void add_tables(const std::string& heading, const JobFields& fields, std::string& page) {
+    page += "\n## " + heading + "\n\n";
+    if (!fields.sentence.empty()) {
+        page += std::string(fields.sentence) + "\n\n";
+    }
+    page += "| key | value | meaning |\n|---|---|---|\n";
+    const auto has_table_of_its_own = [](const Field& field) {
+        return field.fields && !field.fields->definition.empty();
+    };
     for (const Field& field : fields.fields) {
-        if (field.fields) {
+        page += "| `" + std::string(field.key) + "`" + (field.needed ? " (required)" : "") + " | " + field.value;
+        if (has_table_of_its_own(field)) {
+            const std::string name(field.fields->definition);
+            page += ": [" + name + "](#" + name + ")";
+        }
+        page += " | " + std::string(field.sentence) + " |\n";
+    }
+    add_rules(fields, page);
+    for (const Field& field : fields.fields) {
+        if (field.fields && !has_table_of_its_own(field)) {
             add_tables(heading + "/" + std::string(field.key) + (field.has_many() ? "/*" : ""), *field.fields, page);
         }
     }
 }
 
-}  // namespace
-
-std::span<const DescribedObject> described_objects() {
-    static const std::array<DescribedObject, 3> k_objects{{{"budget", budget_fields()},
-                                                           {"rotary_table", rotary_table_fields()},
-                                                           {"circle_closure", circle_closure_fields()}}};
-    return k_objects;
+/// The definitions that an object refers to, each once.
+void add_definitions(const JobFields& fields, std::vector<const JobFields*>& all) {
+    for (const Field& field : fields.fields) {
+        if (!field.fields) {
+            continue;
+        }
+        const auto is_it = [&](const JobFields* known) { return known->definition == field.fields->definition; };
+        if (!field.fields->definition.empty() && std::none_of(all.begin(), all.end(), is_it)) {
+            all.push_back(field.fields.get());
+        }
+        add_definitions(*field.fields, all);
+    }
 }
 
+/// The objects with a definition of the schema, and a heading of docs/job_keys.md, of their own.
+std::vector<const JobFields*> described_objects() {
+    std::vector<const JobFields*> all;
+    // The points of a budget are described by hand.
+    for (const JobFields* kind : {&budget_fields(), &fields_of<OverrideStatement>(), &rotary_table_fields(),
+                                  &circle_closure_fields(), &comparison_fields()}) {
+        all.push_back(kind);
+        add_definitions(*kind, all);
+    }
+    return all;
+}
+
+}  // namespace
+
 ordered_json schema_of(const JobFields& fields) {
-    ordered_json schema{{"type", "object"}};
+    ordered_json schema = ordered_json::object();
+    if (!fields.sentence.empty()) {
+        schema["description"] = fields.sentence;
+    }
+    schema["type"] = "object";
     ordered_json properties = ordered_json::object();
     ordered_json needed = ordered_json::array();
     for (const Field& field : fields.fields) {
@@ -145,6 +183,16 @@ ordered_json schema_of(const JobFields& fields) {
     for (const std::vector<std::string_view>& keys : fields.exactly_one_of) {
         schema["oneOf"] = alternatives_of(keys);
     }
+    for (const std::vector<std::string_view>& keys : fields.at_most_one_of) {
+        for (auto key = keys.begin(); key != keys.end(); ++key) {
+            for (auto other = key + 1; other != keys.end(); ++other) {
+                schema["not"]["anyOf"].push_back({{"required", {*key, *other}}});
+            }
+        }
+    }
+    for (const JobFields::Need& need : fields.needs) {
+        schema["dependencies"][std::string(need.key)].push_back(need.other);
+    }
     schema["additionalProperties"] = false;
     schema["properties"] = std::move(properties);
     return schema;
@@ -152,15 +200,14 @@ ordered_json schema_of(const JobFields& fields) {
 
 std::string with_described_definitions(const std::string& schema) {
     std::string written = schema;
-    for (const DescribedObject& object : described_objects()) {
-        const std::string start = "    \"" + std::string(object.definition) + "\": ";
+    for (const JobFields* object : described_objects()) {
+        const std::string start = "    \"" + std::string(object->definition) + "\": ";
         const std::size_t begin = written.find("\n" + start);
         if (begin == std::string::npos) {
-            throw std::invalid_argument("the schema has no definition " + std::string(object.definition));
+            throw std::invalid_argument("the schema has no definition " + std::string(object->definition));
         }
         const std::size_t end = end_of_definition(written, begin + 1);
-        std::string definition = "\n" + start;
-        lay_out(schema_of(object.fields), 4, start.size(), definition);
+        std::string definition = "\n" + start + json::readable_json(schema_of(*object), 4, start.size());
         if (written[end - 1] == ',') {
             definition += ',';
         }
@@ -174,16 +221,13 @@ std::string page_of_job_keys() {
         "# The keys of jobs\n\n"
         "What the reader of a job allows under each key, object by object; `*` stands for each of many. This page and "
         "the\n"
-        "definitions of the same objects in `schemas/job-1.schema.json` are written from the description that reads "
-        "the job\n"
-        "([ADR 0044](adr/0044-jobs-described-once.md)). What holds between keys, and what files contain, is explained "
-        "in\n"
-        "[budget_job.md](budget_job.md), which has the keys of inputs, points and fits as well,\n"
-        "[rotary_table_job.md](rotary_table_job.md) and [circle_closure_job.md](circle_closure_job.md). The keys of "
-        "comparisons\n"
-        "are in [comparison_job.md](comparison_job.md).\n";
-    for (const DescribedObject& object : described_objects()) {
-        add_tables(std::string(object.definition), object.fields, page);
+        "definitions of the same objects in `schemas/job-1.schema.json` are written from the description of the job\n"
+        "([ADR 0044](adr/0044-jobs-described-once.md)). What else holds between keys, and what files contain, is "
+        "explained in\n"
+        "[budget_job.md](budget_job.md), [rotary_table_job.md](rotary_table_job.md),\n"
+        "[circle_closure_job.md](circle_closure_job.md) and [comparison_job.md](comparison_job.md).\n";
+    for (const JobFields* object : described_objects()) {
+        add_tables(std::string(object->definition), *object, page);
     }
     return page;
 }

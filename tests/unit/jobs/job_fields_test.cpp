@@ -19,7 +19,8 @@ using testing::ElementsAre;
 TEST(JobFields, AreTheKeysInTheOrderOfTheDescription) {
     EXPECT_THAT(keys_of<Sample>(),
                 ElementsAre("kind", "length_um", "count", "shape", "name", "file", "point_mm", "turns", "inner",
-                            "outer", "entries", "by_name", "angles", "either", "special"));
+                            "outer", "entries", "by_name", "angles", "either", "shared", "all_shared", "pair", "rows",
+                            "numbers", "computed", "label", "special"));
     EXPECT_THAT(keys_of<test::SampleEntry>(), ElementsAre("name"));
 }
 
@@ -29,7 +30,8 @@ TEST(JobFields, GiveAnObjectForEachPart) {
     for (const JobKeys& object : table.objects()) {
         pointers.emplace_back(object.pointer);
     }
-    EXPECT_THAT(pointers, ElementsAre("", "/inner", "/outer", "/entries/*", "/by_name/*", "/either"));
+    EXPECT_THAT(pointers,
+                ElementsAre("", "/inner", "/outer", "/entries/*", "/by_name/*", "/either", "/shared", "/all_shared/*"));
     EXPECT_THAT(table.objects()[1].keys, ElementsAre("u", "v"));
 }
 
@@ -56,6 +58,12 @@ TEST(JobFields, SayWhatAValueMayBe) {
     EXPECT_EQ(value("by_name"), "an object of objects");
     EXPECT_EQ(value("angles"), "an array, 1 to 4: each a number");
     EXPECT_EQ(value("either"), "an array, 1 to 4: each a number; or an object");
+    EXPECT_EQ(value("shared"), "a number; or `round` or `square`; or an object");
+    EXPECT_EQ(value("all_shared"), "an object with the name of a `file`; or an array of objects, at least 1");
+    EXPECT_EQ(value("pair"), "an array: one line of at most 256 bytes, or a number; `null`");
+    EXPECT_EQ(value("rows"), "an array, any number of them: each an array, at least 2: each a number");
+    EXPECT_EQ(value("numbers"), "an object, under each name a number greater than 0; or `inf`");
+    EXPECT_EQ(value("computed"), "a number greater than 0 and at most 1000");
     EXPECT_EQ(value("special"), "anything");
 }
 
@@ -63,6 +71,7 @@ TEST(JobFields, HaveOneTableOfWordsForReadingAndRepeating) {
     EXPECT_EQ(word_of(test::k_sample_shapes, test::SampleShape::square), "square");
     constexpr Words<int, 1> k_one{{{"one", 1}}};
     EXPECT_EQ(word_of(k_one, 2), "");
+    EXPECT_THAT(words_of(test::k_sample_shapes), ElementsAre("round", "square"));
 }
 
 }  // namespace

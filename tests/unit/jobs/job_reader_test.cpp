@@ -41,7 +41,7 @@ struct ReadSample {
 TEST(JobReader, ReadsEveryMemberInSi) {
     ReadSample read(
         R"({"kind": "sample", "length_um": 2.5, "count": 1e1, "shape": "square", "name": "n", "file": "a/b.csv",
-                        "point_mm": [1, 2, 3], "turns": true, "inner": {"u": 1}, "outer": {"a": 7}})");
+                        "point_mm": [1, 2, 3], "turns": true, "inner": {"u": 1}, "outer": {"a": 7}, "label": 1.50, "computed": 3})");
     read.reader.read(read.sample);
     EXPECT_THAT(read.refused(), ElementsAre());
     EXPECT_EQ(read.sample.length, 2.5 * 1e-6);
@@ -55,6 +55,8 @@ TEST(JobReader, ReadsEveryMemberInSi) {
     EXPECT_EQ(read.sample.inner->u, 1.0);
     EXPECT_FALSE(read.sample.inner->v);
     EXPECT_EQ(read.sample.a, 7.0);
+    EXPECT_EQ(read.sample.label, "1.5");
+    EXPECT_EQ(read.sample.computed, 3.0);
     EXPECT_TRUE(read.reader.accepted("length_um"));
     EXPECT_EQ(read.reader.number("length_um"), 2.5);
     EXPECT_FALSE(read.reader.accepted("angles"));
@@ -80,6 +82,22 @@ TEST(JobReader, LeavesWhatIsAbsentOrRefusedAsItWas) {
     EXPECT_EQ(read.sample.shape, SampleShape::round);
     EXPECT_EQ(read.sample.name, "unnamed");
     EXPECT_EQ(read.reader.number("length_um"), std::nullopt);
+}
+
+TEST(JobReader, AsksForWhatCanBeComputedWithNext) {
+    ReadSample read(R"({"kind": "sample", "computed": -1, "label": " "})");
+    read.reader.read(read.sample, {"computed", "label"});
+    ReadSample too_large(R"({"kind": "sample", "computed": 1e4, "label": [1]})");
+    too_large.reader.read(too_large.sample, {"computed", "label"});
+    EXPECT_THAT(read.refused(), ElementsAre("job.json#/computed " + std::string(k_number_out_of_range.code),
+                                            "job.json#/label " + std::string(k_text_not_allowed.code)));
+    EXPECT_EQ(read.problems.refused().front().rule, "must be greater than 0");
+    EXPECT_THAT(too_large.refused(), ElementsAre("job.json#/computed " + std::string(k_number_out_of_range.code),
+                                                 "job.json#/label " + std::string(k_wrong_type.code)));
+    EXPECT_EQ(too_large.problems.refused().front().rule, "must be at least 0.001 and at most 1000");
+    EXPECT_FALSE(too_large.reader.accepted("computed"));
+    EXPECT_EQ(too_large.sample.computed, 0.0);
+    EXPECT_EQ(too_large.sample.label, "");
 }
 
 TEST(JobReader, ReadsTheKeysThatAreAskedFor) {
