@@ -6,7 +6,7 @@
 namespace gumcert::reports {
 
 // Every struct of a comparison is described once, by a function `describe(archive, value)` as in
-// certificate/certificate_fields.h; the reader and the writer of a record walk it. What an archive has in addition:
+// certificate/certificate_fields.h; reader, writer and schema of a record walk it. What an archive has in addition:
 //   a.added(key, member, R)   a key that a later release added: written always, may be missing where it is read
 //   a.summary(key, member)    an object keyed by direction
 //   a(key, Shown member, R)   the number, and its text in the object `printed`

@@ -20,10 +20,6 @@ namespace gumcert::reports {
 
 namespace {
 
-/// The parameters of ISO 230-2 that a record may hold.
-constexpr std::array<const char*, 12> k_positioning_names = {"M",      "E", "E_up",   "E_down", "R",    "R_up",
-                                                             "R_down", "B", "B_mean", "A",      "A_up", "A_down"};
-
 /// What must hold in a Monte Carlo evaluation of one quantity.
 void check_monte_carlo(const MonteCarloSummary& m, const std::string& at, const RecordBreach& report) {
     for (const auto& [name, ends] : {std::pair("symmetric", m.symmetric), std::pair("shortest", m.shortest)}) {

@@ -13,9 +13,9 @@ namespace gumcert::reports {
 
 using certificate::NumberRule;
 
-// Each struct of the record is described once, by a function `describe(archive, value)`; the writer and the reader both
-// walk that description. So the two cannot disagree on a key. Those of a certificate are in
-// certificate/certificate_fields.h, those of a comparison in reports/record/comparison_fields.h.
+// Each struct of the record is described once, by a function `describe(archive, value)`; the writer, the reader and the
+// JSON Schema (reports/record/schema) walk that description. So they cannot disagree on a key. Those of a certificate are
+// in certificate/certificate_fields.h, those of a comparison in reports/record/comparison_fields.h.
 
 template <class Archive, certificate::Described<Printed> Struct>
 void describe(Archive& a, Struct& r) {
@@ -270,8 +270,8 @@ void describe(Archive& a, Struct& r) {
         b("y", r.y);
         b("fitted", r.fitted);
         b("residual", r.residual);
-        b.added("u_x", r.u_x);
-        b.added("u_y", r.u_y);
+        b.added("u_x", r.u_x, NumberRule::not_negative);
+        b.added("u_y", r.u_y, NumberRule::not_negative);
         b.added("regressors", r.regressors);
     });
     a.group("printed", [&](auto& b) {
@@ -866,7 +866,7 @@ void describe(Archive& a, Struct& r) {
 
 template <class Archive, certificate::Described<MachineFrame> Struct>
 void describe(Archive& a, Struct& r) {
-    a("by", r.by);
+    a("by", r.by, {"probing", "stations"});
     a("source", r.source);
     a("nominal_point_mm", r.nominal_point_mm);
     a("points", r.points);

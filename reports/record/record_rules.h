@@ -11,6 +11,9 @@ namespace gumcert::reports {
 // What the writer, the reader and the checks of a record share.
 
 inline constexpr std::array<const char*, 3> k_severities = {"note", "warning", "error"};
+/// The parameters of ISO 230-2 that a record may hold.
+inline constexpr std::array<const char*, 12> k_positioning_names = {
+    "M", "E", "E_up", "E_down", "R", "R_up", "R_down", "B", "B_mean", "A", "A_up", "A_down"};
 inline constexpr const char* k_digest_key = "digest";
 inline constexpr const char* k_digest_algorithm = "SHA-256";
 inline constexpr std::size_t k_max_record_bytes = 128UL * 1024UL * 1024UL;  ///< size of a record as text

@@ -1,4 +1,4 @@
-// Brings schemas/job-1.schema.json and docs/job_keys.md after the descriptions of jobs: write_schemas [ROOT]
+// Brings the files of schemas/ and docs/job_keys.md after the descriptions of jobs and records: write_schemas [ROOT]
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +8,7 @@
 #include <string>
 
 #include "jobs/schema/job_schema.h"
+#include "reports/record/schema/record_schema.h"
 
 namespace {
 
@@ -34,6 +35,7 @@ int main(int argc, char** argv) {
         const std::filesystem::path schema = root / "schemas/job-1.schema.json";
         write(schema, gumcert::jobs::with_described_definitions(content(schema)));
         write(root / "docs/job_keys.md", gumcert::jobs::page_of_job_keys());
+        write(root / "schemas/record-1.schema.json", gumcert::reports::record_schema_text());
     } catch (const std::exception& error) {
         std::cerr << "write_schemas: " << error.what() << "\n";
         return 1;

@@ -3,13 +3,11 @@
 #include <nlohmann/json.hpp>
 
 #include <functional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "reports/record/evaluation_record.h"
-#include "tests/support/certificate_keys.h"
 #include "tests/support/json_schema.h"
 #include "tests/support/sample_budget_record.h"
 #include "tests/support/sample_certificate.h"
@@ -208,53 +206,8 @@ TEST(CertificateInRecord, WriterRefusesWhatWouldBeLost) {
 class CertificateRecordSchema : public testing::Test {
 protected:
     [[nodiscard]] bool accepts(const json& record) const { return schema_.accepts(record); }
-    /// A node with its reference followed; among alternatives the one that is not null.
-    [[nodiscard]] const json& resolved(const json& node) const {
-        if (node.contains("oneOf")) {
-            return resolved(node.at("oneOf").at(1));
-        }
-        return schema_.followed(node);
-    }
-    [[nodiscard]] const json& schema_of(std::string_view pointer) const {
-        const json* node = &schema_.document().at("definitions").at("certificate_of_record");
-        for (std::string_view rest = pointer; !rest.empty();) {
-            rest.remove_prefix(1);
-            const std::size_t end = std::min(rest.find('/'), rest.size());
-            const std::string key{rest.substr(0, end)};
-            node = &resolved(key != "*" ? node->at("properties").at(key) : node->at("items"));
-            rest.remove_prefix(end);
-        }
-        return *node;
-    }
     const test::JsonSchema schema_{"record-1.schema.json"};
 };
-
-TEST_F(CertificateRecordSchema, HasTheKeysOfTheDescription) {
-    for (const auto& [pointer, keys] : test::described_objects<Certificate>()) {
-        const json& schema = schema_of(pointer);
-        std::set<std::string> expected, required, found;
-        for (const test::DescribedKey& key : keys) {
-            expected.insert(key.name);
-            if (!key.added) {
-                required.insert(key.name);
-            }
-            ASSERT_TRUE(schema.at("properties").contains(key.name)) << pointer << "/" << key.name;
-            const json* property = &schema.at("properties").at(key.name);
-            for (int i = 0; i < key.lists; ++i) {
-                property = &property->at("items");
-            }
-            if (!key.words.empty()) {
-                EXPECT_EQ(property->at("enum"), key.words) << pointer << "/" << key.name;
-            }
-        }
-        for (const auto& [key, value] : schema.at("properties").items()) {
-            found.insert(key);
-        }
-        EXPECT_EQ(found, expected) << pointer;
-        EXPECT_EQ(schema.at("required").get<std::set<std::string>>(), required) << pointer;
-        EXPECT_EQ(schema.at("additionalProperties"), false) << pointer;
-    }
-}
 
 TEST_F(CertificateRecordSchema, AcceptsCertificates) {
     EXPECT_TRUE(accepts(parsed(sample_certificate_record())));

@@ -1,19 +1,70 @@
+#include "reports/record/schema/record_schema.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
 #include "reports/record/evaluation_record.h"
+#include "reports/record/schema/schema_definitions.h"
+#include "tests/support/file_content.h"
+#include "tests/support/fuzz_corpus.h"
 #include "tests/support/json_schema.h"
+#include "tests/support/record_refusal.h"
 #include "tests/support/sample_budget_record.h"
 #include "tests/support/sample_comparison_record.h"
 #include "tests/support/sample_evidence.h"
-
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-
-#include <functional>
-#include <string>
 
 namespace gumcert::reports {
 namespace {
 
 using nlohmann::json;
+using nlohmann::ordered_json;
+
+// What users and editors see is frozen: a change of a description is a change of this file.
+TEST(DescribedRecord, IsTheSchema) {
+    EXPECT_TRUE(record_schema_text() ==
+                test::file_content(std::filesystem::path(GUMCERT_SOURCE_DIR) / "schemas/record-1.schema.json"))
+        << "build the target write_schemas, run it in the tree, and look at the difference";
+}
+
+TEST(DescribedRecord, HasNoDefinitionThatNothingRefersTo) {
+    const ordered_json schema = record_schema();
+    std::set<std::string> defined;
+    for (const auto& [name, definition] : schema.at("definitions").items()) {
+        defined.insert(name);
+        EXPECT_NE(schema.dump().find("\"#/definitions/" + name + '"'), std::string::npos) << name;
+    }
+    std::apply([&](const auto&... row) { EXPECT_EQ(defined, (std::set<std::string>{std::string(row.name)...})); },
+               k_definitions);
+}
+
+TEST(AddToSchema, SaysMoreOfOneValue) {
+    ordered_json schema = ordered_json::parse(R"j({
+        "properties": {"whole": {"type": "array", "items": {"type": "number", "minimum": 1}}},
+        "definitions": {"part": {"properties": {"u": {"type": "number"}, "other": {"$ref": "#/definitions/part"}}}}})j");
+    add_to_schema(schema, "part/u", {{"minimum", 0}, {"description", "of it"}});
+    add_to_schema(schema, "part/other", {{"description", "a reference"}});
+    add_to_schema(schema, "/whole/*", {{"minimum", 3}});
+    EXPECT_EQ(schema.dump(), ordered_json::parse(R"j({
+        "properties": {"whole": {"type": "array", "items": {"type": "number", "minimum": 3}}},
+        "definitions": {"part": {"properties": {
+            "u": {"description": "of it", "type": "number", "minimum": 0},
+            "other": {"description": "a reference", "$ref": "#/definitions/part"}}}}})j")
+                                 .dump());
+    for (const char* place : {"whole", "part/U", "part/u/*", "part/u/x", "/whole/*/u", "/part"}) {
+        EXPECT_THROW(add_to_schema(schema, place, {{"minimum", 5}}), std::invalid_argument) << place;
+    }
+    EXPECT_THROW(add_to_schema(schema, "part/u", {{"minimum", 0}}), std::invalid_argument) << "it says so already";
+    EXPECT_THROW(add_to_schema(schema, "part/other", {{"minimum", 0}}), std::invalid_argument) << "nobody would look";
+}
 
 class RecordSchema : public ::testing::Test {
 protected:
@@ -176,6 +227,71 @@ TEST_F(RecordSchema, RefusesWhatTheReaderRefuses) {
         EXPECT_FALSE(accepts(broken)) << "break " << i;
         EXPECT_THROW(static_cast<void>(record_from_json(broken.dump(), "x")), gum::InputError) << "break " << i;
     }
+}
+
+/// Calls judge(place, record) for records that differ from a sound one in one value, once for each kind of place: a key is
+/// missing, a key is unknown, a value is of another type, a number is negative or no whole one above 1, a text is another.
+void spoil(json& record, const std::string& pointer, std::set<std::string>& seen, const std::string& pattern,
+           const std::function<void(const std::string&, const json&)>& judge) {
+    const json::json_pointer at(pointer);
+    const json sound = record.at(at);
+    const auto replace = [&](const char* what, const json& value) {
+        record.at(at) = value;
+        judge(pattern + what, record);
+        record.at(at) = sound;
+    };
+    if (seen.insert(pattern).second) {
+        replace(" of another type", sound.is_object() || sound.is_null() ? json(true) : json::object());
+        if (sound.is_number()) {
+            replace(" negative", -1);
+            replace(" as 1.5", 1.5);
+        } else if (sound.is_string()) {
+            replace(" another text", "unheard of");
+        } else if (sound.is_object()) {
+            json more = sound;
+            more["unheard_of"] = 1;
+            replace(" with an unknown key", more);
+        }
+    }
+    if (!sound.is_structured()) {
+        return;
+    }
+    for (const auto& [key, value] : sound.items()) {
+        const bool any_key = sound.is_array() || pattern == "/results" || pattern == "/comparison/summary";
+        const std::string child = pattern + "/" + (any_key ? "*" : key);
+        if (sound.is_object() && seen.insert(child + " missing").second) {
+            json less = sound;
+            less.erase(key);
+            replace((child.substr(pattern.size()) + " missing").c_str(), less);
+        }
+        spoil(record, pointer + "/" + key, seen, child, judge);
+    }
+}
+
+TEST_F(RecordSchema, AgreesWithTheReader) {
+    std::set<std::string> seen;
+    std::size_t refused = 0;
+    for (const std::string& text : test::fuzz_corpus("record")) {
+        json record = json::parse(text);
+        record.erase("digest");  // it would refuse every change
+        ASSERT_TRUE(accepts(record)) << messages_;
+        spoil(record, "", seen, "", [&](const std::string& place, const json& spoilt) {
+            const std::string by_reader = test::record_refusal(spoilt.dump());
+            if (!accepts(spoilt)) {
+                ++refused;
+                EXPECT_NE(by_reader, "accepted") << place << ": " << messages_;
+                return;
+            }
+            // What several values must be together is no matter of a schema.
+            const bool of_several =
+                place.starts_with("/rotary/budget_sources") || place.starts_with("/rotary/budget/*/shares") ||
+                place.starts_with("/rotary/iso230_2/") || place.find("/order ") != std::string::npos;
+            for (const char* code : {"GC-RECORD-0013", "GC-RECORD-0014", "GC-RECORD-0015", "GC-RECORD-0016"}) {
+                EXPECT_TRUE(of_several || by_reader.find(code) == std::string::npos) << place << ": " << by_reader;
+            }
+        });
+    }
+    EXPECT_GT(refused, 3000U);
 }
 
 }  // namespace
