@@ -1,0 +1,188 @@
+#include "audit/audit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "audit/correction_effect.h"
+#include "audit/severity.h"
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::audit {
+namespace {
+
+/// Largest change of ln U, for the order of findings and the choice among points.
+double size_of(const Effect& effect) {
+    return std::max(std::abs(std::log(effect.alone.U / effect.claimed.U)),
+                    std::abs(std::log(effect.audited.U / effect.last.U)));
+}
+
+/// Claims as they are stated; where a number is not stated, what the rows give.
+BudgetOutcome claimed_outcome(const AuditedBudget& budget, const BudgetOutcome& evaluated) {
+    BudgetOutcome outcome = evaluated;
+    const Claims& claims = budget.claims;
+    const auto take = [](const std::optional<StatedNumber>& claim, double& number) {
+        if (claim) {
+            number = claim->value;
+        }
+    };
+    take(claims.u_c, outcome.u_c);
+    take(claims.nu_eff, outcome.nu_eff);
+    take(claims.k, outcome.k);
+    take(claims.U, outcome.U);
+    if (claims.value) {
+        outcome.value = claims.value->value;
+        outcome.printed_value = claims.value->text.empty() ? outcome.printed_value : claims.value->text;
+    }
+    if (claims.U && !claims.U->text.empty()) {
+        outcome.printed_U = claims.U->text;
+    }
+    if (!claims.verdict.empty()) {
+        outcome.verdict = claims.verdict;
+    }
+    if (claims.en) {
+        outcome.en = claims.en->value;
+    }
+    return outcome;
+}
+
+/// Effects of the corrections of all findings on one budget, put to the findings where they are the largest so far.
+void put_effects(const AuditedBudget& budget, std::size_t position, std::vector<AuditFinding>& findings,
+                 AuditedResult& result) {
+    std::vector<const Correction*> corrections;
+    std::vector<std::size_t> of_finding;
+    for (std::size_t i = 0; i < findings.size(); ++i) {
+        if (const Correction* correction = correction_of(findings[i], position)) {
+            corrections.push_back(correction);
+            of_finding.push_back(i);
+        }
+    }
+    std::vector<Effect> effects = effects_of(budget, corrections);
+    for (std::size_t i = 0; i < effects.size(); ++i) {
+        effects[i].budget = position;
+        result.audited = effects[i].audited;
+        std::optional<Effect>& held = findings[of_finding[i]].effect;
+        const auto rank = [](const Effect& effect) { return std::pair(severity_of(effect), size_of(effect)); };
+        if (!held || rank(effects[i]) > rank(*held)) {
+            held = std::move(effects[i]);
+        }
+    }
+    result.sampled_shares = corrections.size() > k_exact_shares;
+}
+
+/// What errors hide: rules that found nothing look at the budgets as they are with all corrections.
+void look_again(const AuditSubject& subject, std::span<const Rule> rules, std::vector<AuditFinding>& findings,
+                std::vector<SeverityPolicy>& policies) {
+    AuditSubject corrected = subject;
+    bool any = false;
+    for (std::size_t i = 0; i < corrected.budgets.size(); ++i) {
+        for (const AuditFinding& finding : findings) {
+            if (const Correction* correction = correction_of(finding, i)) {
+                (*correction)(corrected.budgets[i]);
+                any = true;
+            }
+        }
+    }
+    if (!any) {
+        return;
+    }
+    for (const Rule& rule : rules) {
+        const bool found = std::any_of(findings.begin(), findings.end(),
+                                       [&rule](const AuditFinding& finding) { return finding.rule == rule.id; });
+        if (!rule.looks_again || found || !why_not_applicable(rule, subject).empty()) {
+            continue;
+        }
+        FindingCollector collector(rule);
+        rule.examine(corrected, collector);
+        for (AuditFinding& finding : collector.take()) {
+            finding.what += "; it is seen when the other findings are corrected";
+            findings.push_back(std::move(finding));
+            policies.push_back(rule.policy);
+        }
+    }
+}
+
+}  // namespace
+
+bool AuditReport::has_critical() const {
+    return std::any_of(findings.begin(), findings.end(),
+                       [](const AuditFinding& finding) { return finding.severity == FindingSeverity::critical; });
+}
+
+AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
+    AuditReport report;
+    std::vector<SeverityPolicy> policies;
+    std::vector<const Rule*> concluding;
+    for (const Rule& rule : rules) {
+        FindingCollector collector(rule);
+        if (rule.examine_gates != nullptr) {
+            rule.examine_gates(subject, collector);
+        }
+        std::string because = why_not_applicable(rule, subject);
+        if (!because.empty()) {
+            report.not_checked.push_back({.rule = std::string(rule.id), .because = std::move(because)});
+        } else {
+            if (rule.examine != nullptr) {
+                rule.examine(subject, collector);
+            }
+            if (rule.conclude != nullptr) {
+                concluding.push_back(&rule);
+            }
+        }
+        for (AuditFinding& finding : collector.take()) {
+            report.findings.push_back(std::move(finding));
+            policies.push_back(rule.policy);
+        }
+    }
+    look_again(subject, rules, report.findings, policies);
+    for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
+        const AuditedBudget& budget = subject.budgets[i];
+        AuditedResult result{.name = budget.name, .unit = budget.unit, .budget = i};
+        try {
+            AuditedBudget of_rows = budget;
+            of_rows.u_c_over_rows = of_rows.U_over_k_u_c = 1.0;
+            result.recomputed = evaluate(of_rows);
+            const BudgetOutcome evaluated = evaluate(budget);
+            result.claimed = claimed_outcome(budget, evaluated);
+            result.audited = evaluated;
+            result.allowed = outcome_intervals(budget);
+        } catch (const gum::DiagnosedError& error) {
+            subject.not_read.push_back(gum::message(error.diagnostics().front()));
+            continue;
+        }
+        put_effects(budget, i, report.findings, result);
+        report.results.push_back(std::move(result));
+    }
+    for (std::size_t i = 0; i < report.findings.size(); ++i) {
+        AuditFinding& finding = report.findings[i];
+        if (policies[i] == SeverityPolicy::by_effect && finding.effect) {
+            finding.severity = std::min(severity_of(*finding.effect), finding.at_most);
+        }
+        if (finding.contribution_missing && !finding.budgets.empty()) {
+            finding.missing_term = missing_term(subject.budgets[finding.budgets.front()]);
+        }
+    }
+    std::vector<AuditFinding> conclusions;
+    for (const Rule* rule : concluding) {
+        FindingCollector collector(*rule);
+        rule->conclude(subject, report.findings, collector);
+        std::vector<AuditFinding> found = collector.take();
+        conclusions.insert(conclusions.end(), std::make_move_iterator(found.begin()),
+                           std::make_move_iterator(found.end()));
+    }
+    report.findings.insert(report.findings.end(), std::make_move_iterator(conclusions.begin()),
+                           std::make_move_iterator(conclusions.end()));
+    std::stable_sort(report.findings.begin(), report.findings.end(), [](const AuditFinding& a, const AuditFinding& b) {
+        const auto key = [](const AuditFinding& finding) {
+            return std::tuple(-static_cast<int>(finding.severity), finding.effect ? -size_of(*finding.effect) : 0.0);
+        };
+        return key(a) < key(b);
+    });
+    report.subject = std::move(subject);
+    return report;
+}
+
+}  // namespace gumcert::audit

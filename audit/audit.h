@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "audit/budget_outcome.h"
+#include "audit/finding.h"
+#include "audit/rule.h"
+#include "audit/subject.h"
+
+namespace gumcert::audit {
+
+/// A rule that was not applied, and why: silence is no finding.
+struct RuleNotChecked {
+    std::string rule;
+    std::string because;
+};
+
+/// One result before and after the audit.
+struct AuditedResult {
+    std::string name, unit;
+    std::size_t budget = 0;         ///< its position in AuditSubject::budgets
+    BudgetOutcome claimed = {};     ///< what is stated, and what follows from the rows where nothing is stated
+    BudgetOutcome recomputed = {};  ///< from the rows, with the rule of coverage that is claimed
+    BudgetOutcome audited = {};     ///< all corrections applied
+    OutcomeIntervals allowed = {};  ///< what the printed digits of the rows allow
+    bool sampled_shares = false;    ///< more corrections than are divided exactly
+};
+
+struct AuditReport {
+    AuditSubject subject;
+    std::vector<AuditedResult> results;  ///< one a budget that has an outcome, in their order
+    std::vector<AuditFinding> findings;  ///< the gravest first, then by effect, then by rule
+    std::vector<RuleNotChecked> not_checked;
+
+    [[nodiscard]] bool has_critical() const;
+};
+
+/// Applies all rules to a subject, and evaluates what each correction does to every result that it touches.
+/// \param rules  audit/rules/registry.h holds them all
+[[nodiscard]] AuditReport audit(AuditSubject subject, std::span<const Rule> rules);
+
+}  // namespace gumcert::audit

@@ -1,0 +1,182 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "audit/stated_number.h"
+#include "gum/conformity/decision_rule.h"
+#include "gum/conformity/tolerance_limits.h"
+#include "gum/rounding.h"
+
+namespace gumcert::audit {
+
+/// What a table calls the distribution of a row.
+enum class Shape { not_stated, normal, student_t, rectangular, triangular, arcsine, trapezoidal, other };
+
+/// What the uncertainty of a row was made from, as far as table or job say.
+enum class Origin {
+    not_stated,
+    readings,       ///< Type A: scatter of repeated readings
+    certificate,    ///< U and k of a calibration certificate
+    specification,  ///< a maximum permissible error or an accuracy class
+    resolution,     ///< the step of a display or scale
+    limits,         ///< a half-width
+};
+
+/// Which contributor a row stands for: the words of the checklists of methods.
+enum class Contributor {
+    other,
+    reference,             ///< the measurement standard, by its certificate
+    reference_drift,       ///< its change since the calibration
+    reference_resolution,  ///< its display
+    item_resolution,       ///< display or scale of the device under test
+    repeatability,
+    reproducibility,
+    temperature,
+    expansion,  ///< thermal expansion
+    alignment,  ///< Abbe, cosine, mounting, datum
+    refractive_index,
+    dead_path,
+    target_form,  ///< form of reflectors, spheres, anvils
+    fit,          ///< parameters of a fit, residuals, interpolation
+    environment,  ///< other conditions: humidity, pressure, buoyancy, homogeneity of a bath
+    item,         ///< another contribution of the device under test: stability, hysteresis, zero
+};
+
+/// What a relative uncertainty is a part of.
+enum class RelativeTo { not_stated, reading, full_scale };
+
+/// One row of an uncertainty budget as somebody states it. Numbers of a row are in its own unit.
+struct AuditedRow {
+    std::string quantity, unit, source, comment;
+    std::string place;  ///< "row 3" or "Budget!A5", for findings
+    std::optional<StatedNumber> estimate;
+    std::optional<StatedNumber> stated;   ///< what was divided: half-width, MPE, U of a certificate
+    std::optional<StatedNumber> divisor;  ///< k, √3 …
+    std::optional<StatedNumber> u;        ///< standard uncertainty
+    std::optional<StatedNumber> sensitivity;
+    std::optional<StatedNumber> contribution;  ///< |c| u, in the unit of the result
+    std::optional<StatedNumber> nu;            ///< infinite where the table says so; none where it says nothing
+    Shape shape = Shape::not_stated;
+    std::string shape_text;  ///< as the table has it
+    Origin origin = Origin::not_stated;
+    Contributor contributor = Contributor::other;
+    /// The number that the origin gives, read of the comment or the job, in the unit of the row: half-width, MPE, step,
+    /// or U of the certificate.
+    std::optional<double> origin_value;
+    std::optional<double> certificate_k, certificate_probability;
+    std::optional<bool> type_a;
+    std::vector<double> readings;          ///< of a Type A row, where they are known
+    std::optional<std::size_t> n;          ///< readings that the comment names
+    std::optional<double> pooled_s;        ///< pooled standard deviation that is used in place of that of the readings
+    std::vector<double> group_deviations;  ///< standard deviations of several series, where they are known
+    std::vector<std::size_t> group_sizes;
+    bool in_sum = true;  ///< false: the table has the row, and its sum leaves it out
+
+    // What is evaluated: the numbers of the table, or what follows from them where one is missing.
+    double used_u = 0.0;            ///< ≥ 0
+    double used_sensitivity = 1.0;  ///< [unit of the result / unit of the row]
+    double used_nu = std::numeric_limits<double>::infinity();
+    double u_half_step = 0.0, sensitivity_half_step = 0.0;  ///< what the printed digits of both leave open
+
+    // What only some rows say. Texts are read by audit/row_facts.h; a reader of columns or jobs may know them itself.
+    std::optional<double> relative_uncertainty;  ///< "0.5 % of full scale": 0.005
+    RelativeTo relative_to = RelativeTo::not_stated;
+    std::optional<double> full_scale;  ///< in the unit of the row
+    /// Points that the certificate was made at, in the unit of the estimate; one point: both are equal.
+    std::optional<double> certificate_low, certificate_high;
+    std::optional<double> lower_limit, upper_limit;  ///< deviations from the estimate where they differ: −0.1 and 0.3
+    std::optional<double> reliability;               ///< relative standard uncertainty of u itself: 0.25
+    bool cyclic = false;                         ///< the quantity swings: a temperature that is controlled in cycles
+    std::optional<double> unapplied_correction;  ///< known from a certificate, and not applied to the estimate
+    std::optional<std::size_t> averaged;         ///< readings that the estimate is the mean of
+    std::optional<double> certificate_U;  ///< of a certificate that is named where a specification is used, in its unit
+    std::string sensitivity_unit;         ///< as the table has it
+    /// A specification that grows with the length, "0.4 + 1.2E-6 L": its two numbers as they stand there.
+    std::optional<double> limit_constant, limit_per_length;
+};
+
+/// Correlation coefficient of two rows.
+struct RowCorrelation {
+    std::size_t first = 0, second = 0;  ///< positions of the rows
+    double r = 0.0;
+};
+
+/// How a budget comes from u_c to U.
+struct CoverageRule {
+    enum class Kind {
+        fixed,        ///< k as stated, whatever ν_eff
+        student_t,    ///< k = t_p(ν_eff)
+        convolution,  ///< k from the distribution of the sum of the rows
+    };
+    Kind kind = Kind::student_t;
+    double k = 2.0;               ///< of `fixed`
+    double probability = 0.9545;  ///< p of the others
+    /// ν_eff is cut to the next lower whole number before k is taken (JCGM 100:2008, G.4.1)
+    bool truncate = false;
+};
+
+/// The value that a result is compared with, in the unit of the result.
+struct ComparedReference {
+    double value = 0.0, expanded_uncertainty = 0.0;
+    double correlation = 0.0;
+    std::string name;
+};
+
+/// What a budget says of the Monte Carlo trials that its uncertainty comes from.
+struct StatedMonteCarlo {
+    std::optional<double> trials;
+    std::optional<bool> converged;          ///< of an adaptive procedure
+    std::optional<double> numerical_error;  ///< standard uncertainty of U from the number of trials, unit of the result
+    bool repeatable = true;                 ///< seed, generator and version are on record
+    std::optional<double> low, high;        ///< ends of the coverage interval, unit of the result
+};
+
+/// What a budget says of its own result.
+struct Claims {
+    std::optional<StatedNumber> value, u_c, nu_eff, k, U;
+    std::optional<double> coverage_probability;
+    std::string coverage_sentence;  ///< what is written beside U: "k = 2, 95 %"
+    std::string verdict;            ///< "pass", "fail" …; "" where none is stated
+    std::optional<StatedNumber> en;
+};
+
+/// An uncertainty budget of one result, by whomever it was made: what the rules of the audit look at, and what their
+/// corrections change.
+struct AuditedBudget {
+    std::string name;  ///< of the result
+    std::string unit;
+    std::string place;  ///< of the table
+    std::string equation;
+    std::string method;  ///< id of the method's checklist; "" where none is known
+    std::vector<AuditedRow> rows;
+    std::vector<RowCorrelation> correlations;
+    CoverageRule coverage;
+    /// What correlations that are not listed add to the variance, as the evaluation of the job has it: it stays as it is.
+    double correlation_variance = 0.0;
+    /// What the claimed numbers have beyond the rows: u_c of the claim over that of the rows, and U of the claim over k u_c.
+    /// 1 where rows and claims agree within their rounding; a finding of its own (K01) where they do not. They stay while
+    /// other findings are corrected.
+    double u_c_over_rows = 1.0, U_over_k_u_c = 1.0;
+    /// Evaluated by this program from its measurement model: sensitivities, sum and k come from there and need no second
+    /// look; what was stated of the inputs does.
+    bool evaluated_here = false;
+    std::optional<double> value;
+    /// Calibration and measurement capability at this point: U is never stated below it (ILAC-P14:09/2020, 5.4).
+    std::optional<double> capability;
+    bool floor_applied = true;  ///< U is raised to the capability where it is smaller
+    gum::ToleranceLimits limits;
+    std::optional<gum::DecisionRule> rule;
+    gum::DecisionRuleParameters rule_parameters;
+    std::optional<ComparedReference> reference;
+    int digits = 2;  ///< significant digits of a printed U
+    gum::RoundingMode rounding = gum::RoundingMode::half_even;
+    Claims claims;
+    std::optional<StatedMonteCarlo> monte_carlo;
+    std::optional<double> physical_minimum;  ///< no value of the quantity lies below: 0 of a form error
+};
+
+}  // namespace gumcert::audit

@@ -1,0 +1,213 @@
+#include "audit/budget_outcome.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "gum/comparison/scores.h"
+#include "gum/conformity/conformity.h"
+#include "gum/coverage.h"
+#include "gum/monte_carlo/convolution.h"
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::audit {
+namespace {
+
+double contribution(const AuditedRow& row) {
+    return row.in_sum ? std::abs(row.used_sensitivity) * row.used_u : 0.0;
+}
+
+/// Σ (c u)² + 2 Σ c_i c_j u_i u_j r_ij.
+double combined_variance(const AuditedBudget& budget) {
+    double variance = 0.0;
+    for (const AuditedRow& row : budget.rows) {
+        const double part = contribution(row);
+        variance += part * part;
+    }
+    for (const RowCorrelation& pair : budget.correlations) {
+        const AuditedRow &a = budget.rows[pair.first], &b = budget.rows[pair.second];
+        if (a.in_sum && b.in_sum) {
+            variance += 2.0 * pair.r * a.used_sensitivity * a.used_u * b.used_sensitivity * b.used_u;
+        }
+    }
+    return variance;
+}
+
+double effective_degrees_of_freedom(const AuditedBudget& budget, double u_c) {
+    double denominator = 0.0;
+    for (const AuditedRow& row : budget.rows) {
+        const double part = contribution(row) / u_c;
+        if (std::isfinite(row.used_nu) && row.used_nu > 0.0) {
+            denominator += part * part * part * part / row.used_nu;
+        }
+    }
+    return denominator > 0.0 ? 1.0 / denominator : std::numeric_limits<double>::infinity();
+}
+
+double truncated(double nu) {
+    // 6.9999999999999 comes of the arithmetic and is 7.
+    return std::isfinite(nu) ? std::max(1.0, std::floor(nu * (1.0 + 1e-12))) : nu;
+}
+
+double student_factor(const CoverageRule& rule, double nu) {
+    return gum::coverage_factor(rule.probability, rule.truncate ? truncated(nu) : nu);
+}
+
+/// The distribution that a row has in the sum of all, about 0.
+gum::Distribution distribution_of(const AuditedRow& row) {
+    gum::Distribution distribution;
+    distribution.scale = row.used_u;
+    distribution.kind = gum::DistributionKind::normal;
+    switch (row.shape) {
+        case Shape::rectangular:
+            distribution.kind = gum::DistributionKind::uniform;
+            distribution.scale = row.used_u * std::sqrt(3.0);
+            break;
+        case Shape::triangular:
+            distribution.kind = gum::DistributionKind::triangular;
+            distribution.scale = row.used_u * std::sqrt(6.0);
+            break;
+        case Shape::arcsine:
+            distribution.kind = gum::DistributionKind::arcsine;
+            distribution.scale = row.used_u * std::sqrt(2.0);
+            break;
+        default:
+            if (std::isfinite(row.used_nu)) {
+                distribution = gum::Distribution::student_t(0.0, row.used_u, row.used_nu);
+            }
+    }
+    return distribution;
+}
+
+double coverage_factor_of(const AuditedBudget& budget, double u_c, double nu) {
+    if (budget.coverage.kind == CoverageRule::Kind::fixed) {
+        return budget.coverage.k;
+    }
+    if (budget.coverage.kind == CoverageRule::Kind::convolution && budget.correlations.empty()) {
+        std::vector<gum::ConvolutionTerm> terms;
+        for (const AuditedRow& row : budget.rows) {
+            if (contribution(row) > 0.0) {
+                terms.push_back({.sensitivity = row.used_sensitivity, .distribution = distribution_of(row)});
+            }
+        }
+        return gum::convolution_half_width(terms, budget.coverage.probability) / u_c;
+    }
+    return student_factor(budget.coverage, nu);
+}
+
+bool has_limits(const gum::ToleranceLimits& limits) {
+    return limits.lower.has_value() || limits.upper.has_value();
+}
+
+std::string verdict_of(const AuditedBudget& budget, const BudgetOutcome& outcome) {
+    if (!budget.rule || !has_limits(budget.limits) || !outcome.value || !(outcome.U > 0.0)) {
+        return "";
+    }
+    const gum::MeasuredValue y{.value = *outcome.value,
+                               .standard_uncertainty = outcome.u_c,
+                               .expanded_uncertainty = outcome.U,
+                               .degrees_of_freedom = outcome.nu_eff};
+    return gum::verdict_name(gum::decide_conformity(*budget.rule, budget.rule_parameters, budget.limits, y).verdict);
+}
+
+}  // namespace
+
+BudgetOutcome evaluate(const AuditedBudget& budget) {
+    BudgetOutcome outcome;
+    outcome.value = budget.value;
+    const double variance = combined_variance(budget) + budget.correlation_variance;
+    if (!(variance > 0.0) || !std::isfinite(variance)) {
+        throw gum::NoResultError({.code = "GC-AUDIT-0001",
+                                  .where = budget.name.empty() ? budget.place : budget.name,
+                                  .what = "the rows of the budget give no combined standard uncertainty above 0",
+                                  .rule = "a budget is audited where its rows add up to u_c > 0",
+                                  .action = "state u and sensitivity of the rows; check the correlations"});
+    }
+    const double u_of_rows = std::sqrt(variance);
+    outcome.u_c = u_of_rows * budget.u_c_over_rows;
+    outcome.nu_eff = effective_degrees_of_freedom(budget, u_of_rows);
+    outcome.k = coverage_factor_of(budget, u_of_rows, outcome.nu_eff);
+    outcome.U = outcome.k * outcome.u_c * budget.U_over_k_u_c;
+    if (budget.floor_applied && budget.capability && *budget.capability > outcome.U) {
+        outcome.U = *budget.capability;
+        outcome.at_capability = true;
+    }
+    const gum::RoundedPair printed =
+        gum::round_to_uncertainty(outcome.value.value_or(0.0), outcome.U, budget.digits, budget.rounding);
+    outcome.printed_value = outcome.value ? printed.value : "";
+    outcome.printed_U = printed.U;
+    outcome.verdict = verdict_of(budget, outcome);
+    if (outcome.value && budget.reference) {
+        const double U_difference = gum::uncertainty_of_difference(outcome.U, budget.reference->expanded_uncertainty,
+                                                                   budget.reference->correlation);
+        if (U_difference > 0.0) {
+            outcome.en = gum::settled_score(*outcome.value, budget.reference->value, U_difference);
+        }
+    }
+    return outcome;
+}
+
+OutcomeIntervals outcome_intervals(const AuditedBudget& budget) {
+    // What a part of the sum may be at least and at most.
+    const auto part = [](const AuditedRow& row) {
+        if (!row.in_sum) {
+            return Interval{0.0, 0.0};
+        }
+        const double c = std::abs(row.used_sensitivity);
+        Interval range{std::max(0.0, c - row.sensitivity_half_step) * std::max(0.0, row.used_u - row.u_half_step),
+                       (c + row.sensitivity_half_step) * (row.used_u + row.u_half_step)};
+        // The table may have added up its column of contributions, which it rounded by itself.
+        if (row.contribution) {
+            const Interval printed{std::max(0.0, std::abs(row.contribution->value) - row.contribution->half_step),
+                                   std::abs(row.contribution->value) + row.contribution->half_step};
+            range = {std::min(range.low, printed.low), std::max(range.high, printed.high)};
+        }
+        return range;
+    };
+    double low = budget.correlation_variance, high = budget.correlation_variance;
+    for (const AuditedRow& row : budget.rows) {
+        const Interval range = part(row);
+        low += range.low * range.low;
+        high += range.high * range.high;
+    }
+    for (const RowCorrelation& pair : budget.correlations) {
+        const AuditedRow &a = budget.rows[pair.first], &b = budget.rows[pair.second];
+        const Interval x = part(a), y = part(b);
+        const double sign = a.used_sensitivity * b.used_sensitivity < 0.0 ? -2.0 : 2.0;
+        const double one = sign * pair.r * x.low * y.low, other = sign * pair.r * x.high * y.high;
+        low += std::min(one, other);
+        high += std::max(one, other);
+    }
+    OutcomeIntervals intervals;
+    intervals.u_c = {std::sqrt(std::max(0.0, low)), std::sqrt(std::max(0.0, high))};
+
+    double least = 0.0, most = 0.0;
+    for (const AuditedRow& row : budget.rows) {
+        if (std::isfinite(row.used_nu) && row.used_nu > 0.0) {
+            const Interval range = part(row);
+            least += std::pow(range.low, 4) / row.used_nu;
+            most += std::pow(range.high, 4) / row.used_nu;
+        }
+    }
+    const double infinite = std::numeric_limits<double>::infinity();
+    intervals.nu_eff = {most > 0.0 ? std::pow(intervals.u_c.low, 4) / most : infinite,
+                        least > 0.0 ? std::pow(intervals.u_c.high, 4) / least : infinite};
+    if (budget.coverage.kind == CoverageRule::Kind::fixed) {
+        intervals.k = {budget.coverage.k, budget.coverage.k};
+    } else if (budget.coverage.kind == CoverageRule::Kind::convolution) {
+        const BudgetOutcome outcome = evaluate(budget);
+        intervals.k = {outcome.k, outcome.k};
+    } else {
+        const double fewest = std::max(0.5, intervals.nu_eff.low);
+        intervals.k = {student_factor(budget.coverage, std::max(fewest, intervals.nu_eff.high)),
+                       student_factor(budget.coverage, fewest)};
+    }
+    intervals.U = {intervals.k.low * intervals.u_c.low, intervals.k.high * intervals.u_c.high};
+    if (budget.floor_applied && budget.capability) {
+        intervals.U = {std::max(intervals.U.low, *budget.capability), std::max(intervals.U.high, *budget.capability)};
+    }
+    return intervals;
+}
+
+}  // namespace gumcert::audit

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "audit/audited_budget.h"
+#include "audit/stated_number.h"
+
+namespace gumcert::audit {
+
+/// Everything that follows from the rows of a budget: nothing is scaled, all is evaluated again.
+struct BudgetOutcome {
+    std::optional<double> value;
+    double u_c = 0.0;
+    double nu_eff = 0.0;  ///< infinite where every row has infinite degrees of freedom
+    double k = 0.0;
+    double U = 0.0;              ///< k u_c, raised to the capability where the budget does so
+    bool at_capability = false;  ///< U is the capability, because k u_c is smaller
+    std::string printed_value, printed_U;
+    std::string verdict;       ///< "" without limits, rule or value
+    std::optional<double> en;  ///< none without value or reference
+};
+
+/// Evaluates a budget.
+///
+/// u_c² = Σ (c_i u_i)² + 2 Σ c_i c_j u_i u_j r_ij                               (JCGM 100:2008, eqs. 10 and 16)
+/// ν_eff by Welch–Satterthwaite (eq. G.2b), k by the rule of coverage of the budget, U = max(k u_c, capability);
+/// verdict by gum/conformity, E_n by gum/comparison, printed digits by gum/rounding.
+/// \throws NoResultError  GC-AUDIT-0001 where rows and correlations give no positive u_c
+[[nodiscard]] BudgetOutcome evaluate(const AuditedBudget& budget);
+
+/// What the printed digits of the rows allow of u_c, ν_eff and U: the claimed numbers are reproducible where they lie
+/// within.
+struct OutcomeIntervals {
+    Interval u_c, nu_eff, k, U;
+};
+/// Interval arithmetic over |c| u of all rows; ν_eff and k follow from their worst cases, so that no budget is accused
+/// of its rounding. Correlated rows: every sign of the products is bounded.
+[[nodiscard]] OutcomeIntervals outcome_intervals(const AuditedBudget& budget);
+
+}  // namespace gumcert::audit

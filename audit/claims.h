@@ -1,0 +1,31 @@
+#pragma once
+
+#include "audit/audited_budget.h"
+#include "audit/stated_number.h"
+
+namespace gumcert::audit {
+
+/// What a claimed number may have been before it was printed: its rounding, and for a whole number "120" the half unit of
+/// its last digit that is not 0. A number without text is known to all digits, but for a relative 1e-6 of arithmetic.
+[[nodiscard]] Interval printed_interval(const StatedNumber& number);
+
+/// The claimed u_c and U against the rows.
+struct ClaimCheck {
+    Interval u_c, U;  ///< what the rows allow of the claims
+    bool u_c_outside = false, U_outside = false;
+    bool linear_sum = false;  ///< u_c is Σ |c| u of the rows, not the root of the sum of squares
+    CoverageRule coverage;  ///< the rule of coverage that gives the claimed k and U; that of the budget where none does
+};
+
+/// Holds claims against what the printed digits of the rows allow (outcome_intervals()). U follows from the claimed u_c
+/// where there is one, and by any rule of coverage that the claims leave open: the stated k, or t_p(ν_eff) with p
+/// as stated, ν_eff as it is or cut. U may be rounded up. Nothing is outside where a budget gives no outcome.
+[[nodiscard]] ClaimCheck check_claims(const AuditedBudget& budget);
+
+/// For readers, after rows, claims and coverage are filled: takes over the rule of coverage that the claims show, and
+/// sets what they have beyond the rows, so that the budget evaluates to what it claims: u_c_over_rows where the
+/// claimed u_c lies outside of what the rows allow, U_over_k_u_c where the claimed U is not k u_c. Both are 1 where
+/// rows and claims agree within their rounding, and where the budget gives no outcome.
+void note_unexplained(AuditedBudget& budget);
+
+}  // namespace gumcert::audit

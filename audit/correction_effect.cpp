@@ -1,0 +1,192 @@
+#include "audit/correction_effect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::audit {
+namespace {
+
+/// A set of corrections as a list of yes and no.
+using Chosen = std::vector<bool>;
+
+/// Outcomes of sets of corrections, each evaluated once.
+class Outcomes {
+public:
+    Outcomes(const AuditedBudget& budget, const std::vector<const Correction*>& corrections)
+        : budget_(budget), corrections_(corrections) {}
+
+    /// A set whose correction leaves nothing to evaluate changes nothing: the outcome of the budget itself.
+    const BudgetOutcome& of(const Chosen& chosen) {
+        const auto found = known_.find(chosen);
+        if (found != known_.end()) {
+            return found->second;
+        }
+        AuditedBudget corrected = budget_;
+        for (std::size_t i = 0; i < corrections_.size(); ++i) {
+            if (chosen[i]) {
+                (*corrections_[i])(corrected);
+            }
+        }
+        BudgetOutcome outcome;
+        try {
+            outcome = evaluate(corrected);
+        } catch (const gum::DiagnosedError&) {
+            outcome = evaluate(budget_);
+        }
+        return known_.emplace(chosen, std::move(outcome)).first->second;
+    }
+
+private:
+    const AuditedBudget& budget_;
+    const std::vector<const Correction*>& corrections_;
+    std::map<Chosen, BudgetOutcome> known_;
+};
+
+/// The mean over all sets without i of the change that i makes: weights s!(n − s − 1)!/n! of sets of s corrections.
+std::vector<double> exact_shares(Outcomes& outcomes, std::size_t n) {
+    std::vector<double> weights(n);
+    for (std::size_t s = 0; s < n; ++s) {
+        // 1/(n C(n − 1, s))
+        double combinations = 1.0;
+        for (std::size_t i = 1; i <= s; ++i) {
+            combinations = combinations * static_cast<double>(n - i) / static_cast<double>(i);
+        }
+        weights[s] = 1.0 / (static_cast<double>(n) * combinations);
+    }
+    std::vector<double> shares(n, 0.0);
+    for (std::uint32_t set = 0; set < (1U << n); ++set) {
+        Chosen chosen(n);
+        std::size_t size = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            chosen[i] = ((set >> i) & 1U) != 0U;
+            size += chosen[i] ? 1U : 0U;
+        }
+        const double before = std::log(outcomes.of(chosen).U);
+        for (std::size_t i = 0; i < n; ++i) {
+            if (!chosen[i]) {
+                chosen[i] = true;
+                shares[i] += weights[size] * (std::log(outcomes.of(chosen).U) - before);
+                chosen[i] = false;
+            }
+        }
+    }
+    return shares;
+}
+
+/// The same over random orders. The generator is written out, so that every build has the same orders.
+std::vector<double> sampled_shares(Outcomes& outcomes, std::size_t n) {
+    std::uint64_t state = 1;
+    const auto next = [&state](std::size_t below) {  // SplitMix64
+        state += 0x9E3779B97F4A7C15ULL;
+        std::uint64_t z = state;
+        z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+        z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
+        return static_cast<std::size_t>((z ^ (z >> 31U)) % below);
+    };
+    std::vector<double> shares(n, 0.0);
+    std::vector<std::size_t> order(n);
+    std::iota(order.begin(), order.end(), 0U);
+    for (std::size_t round = 0; round < k_sampled_orders; ++round) {
+        for (std::size_t i = n - 1; i > 0; --i) {
+            std::swap(order[i], order[next(i + 1)]);
+        }
+        Chosen chosen(n, false);
+        double before = std::log(outcomes.of(chosen).U);
+        for (const std::size_t i : order) {
+            chosen[i] = true;
+            const double after = std::log(outcomes.of(chosen).U);
+            shares[i] += (after - before) / static_cast<double>(k_sampled_orders);
+            before = after;
+        }
+    }
+    return shares;
+}
+
+bool is_seen(const BudgetOutcome& before, const BudgetOutcome& after) {
+    return before.printed_U != after.printed_U;
+}
+bool changes_decision(const BudgetOutcome& before, const BudgetOutcome& after) {
+    const bool en = before.en && after.en && (std::abs(*before.en) > 1.0) != (std::abs(*after.en) > 1.0);
+    return en || before.verdict != after.verdict;
+}
+
+}  // namespace
+
+std::vector<Effect> effects_of(const AuditedBudget& budget, const std::vector<const Correction*>& corrections) {
+    const std::size_t n = corrections.size();
+    Outcomes outcomes(budget, corrections);
+    try {
+        static_cast<void>(outcomes.of(Chosen(n, false)));
+    } catch (const gum::DiagnosedError&) {
+        return {};
+    }
+    if (n == 0) {
+        return {};
+    }
+    const BudgetOutcome claimed = outcomes.of(Chosen(n, false)), audited = outcomes.of(Chosen(n, true));
+    const std::vector<double> shares = n <= k_exact_shares ? exact_shares(outcomes, n) : sampled_shares(outcomes, n);
+    const double log_total = std::accumulate(shares.begin(), shares.end(), 0.0);
+    const double total = audited.U / claimed.U - 1.0;
+    std::vector<Effect> effects(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        Chosen only(n, false), all_others(n, true);
+        only[i] = true;
+        all_others[i] = false;
+        effects[i].claimed = claimed;
+        effects[i].audited = audited;
+        effects[i].alone = outcomes.of(only);
+        effects[i].last = outcomes.of(all_others);
+        // ln U is divided, and the parts are stated in the relative change of U, of which they are the same parts.
+        effects[i].share = std::abs(log_total) > 1e-12 ? total * shares[i] / log_total : shares[i];
+    }
+    return effects;
+}
+
+std::optional<MissingTerm> missing_term(const AuditedBudget& budget) {
+    BudgetOutcome without;
+    try {
+        without = evaluate(budget);
+    } catch (const gum::DiagnosedError&) {
+        return std::nullopt;
+    }
+    const auto with = [&budget](double u) {
+        AuditedBudget more = budget;
+        AuditedRow row;
+        row.used_u = u;
+        more.rows.push_back(row);
+        return evaluate(more);
+    };
+    /// The smallest u for which something has changed; nothing where even the largest changes nothing.
+    const auto smallest = [&](const auto& changed) -> std::optional<double> {
+        constexpr double k_largest = 100.0;  // in parts of u_c
+        double low = 0.0, high = k_largest * without.u_c;
+        if (!changed(without, with(high))) {
+            return std::nullopt;
+        }
+        // What changes first is looked for from below, in steps of a factor 2.
+        for (double u = 1e-4 * without.u_c; u < high; u *= 2.0) {
+            if (changed(without, with(u))) {
+                high = u;
+                break;
+            }
+            low = u;
+        }
+        while (high - low > 1e-6 * high) {
+            const double middle = 0.5 * (low + high);
+            (changed(without, with(middle)) ? high : low) = middle;
+        }
+        return high;
+    };
+    MissingTerm term;
+    term.u_for_digit = smallest(is_seen).value_or(0.0);
+    term.u_for_verdict = smallest(changes_decision);
+    return term;
+}
+
+}  // namespace gumcert::audit

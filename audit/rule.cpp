@@ -1,0 +1,122 @@
+#include "audit/rule.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "text/lists.h"
+
+namespace gumcert::audit {
+namespace {
+
+bool has(const AuditSubject& subject, Need need) {
+    const auto any = [&subject](const auto& holds) {
+        return std::any_of(subject.budgets.begin(), subject.budgets.end(), holds);
+    };
+    switch (need) {
+        case Need::rows:
+            return any([](const AuditedBudget& budget) { return !budget.rows.empty(); });
+        case Need::claims:
+            return any([](const AuditedBudget& budget) { return budget.claims.u_c || budget.claims.U; });
+        case Need::readings:
+            return any([](const AuditedBudget& budget) {
+                return std::any_of(budget.rows.begin(), budget.rows.end(),
+                                   [](const AuditedRow& row) { return !row.readings.empty() || row.n; });
+            });
+        case Need::certificate:
+            return subject.certificate.has_value();
+        case Need::capability:
+            return any([](const AuditedBudget& budget) { return budget.capability.has_value(); });
+        case Need::limits:
+            return any([](const AuditedBudget& budget) { return budget.limits.lower || budget.limits.upper; });
+        case Need::comparison:
+            return subject.comparison.has_value() ||
+                   any([](const AuditedBudget& budget) { return budget.reference.has_value(); });
+        case Need::model:
+            return any([](const AuditedBudget& budget) { return !budget.equation.empty(); });
+        case Need::workbook:
+            return subject.workbook != nullptr;
+        case Need::recomputed:
+            return subject.disagreements.has_value();
+    }
+    return false;
+}
+
+std::string_view missing(Need need) {
+    switch (need) {
+        case Need::rows:
+            return "no rows of an uncertainty budget were found";
+        case Need::claims:
+            return "no u_c and no U are claimed";
+        case Need::readings:
+            return "no readings are stated";
+        case Need::certificate:
+            return "no certificate data are stated";
+        case Need::capability:
+            return "no capability (CMC) is stated";
+        case Need::limits:
+            return "no limits of a specification are stated";
+        case Need::comparison:
+            return "no reference value or comparison is stated";
+        case Need::model:
+            return "no equation of the measurement is stated";
+        case Need::workbook:
+            return "the file has no formulas";
+        case Need::recomputed:
+            return "the file is no record whose job can be evaluated again";
+    }
+    return "";
+}
+
+}  // namespace
+
+void FindingCollector::add(AuditFinding finding, FindingSeverity severity) {
+    finding.rule = rule_.id;
+    finding.severity = severity;
+    if (finding.correction.empty()) {
+        finding.correction = rule_.correction;
+    }
+    if (finding.question.empty()) {
+        finding.question = rule_.question;
+    }
+    const auto same = std::find_if(findings_.begin(), findings_.end(), [&finding](const AuditFinding& other) {
+        return (!finding.kind.empty() && other.kind == finding.kind) ||
+               (other.where == finding.where && other.what == finding.what);
+    });
+    const bool elsewhere =
+        same != findings_.end() && !finding.budgets.empty() &&
+        std::find(same->budgets.begin(), same->budgets.end(), finding.budgets.front()) == same->budgets.end();
+    if (same == findings_.end() || (!elsewhere && !finding.budgets.empty())) {
+        findings_.push_back(std::move(finding));
+        return;
+    }
+    for (const std::size_t budget : finding.budgets) {
+        same->budgets.push_back(budget);
+        if (finding.correct) {
+            same->correct_others[budget] = finding.correct;
+        }
+    }
+    if (finding.where != same->where) {
+        same->other_places.push_back(finding.where);
+    }
+}
+
+std::vector<AuditFinding> FindingCollector::take() {
+    constexpr std::size_t k_most_places = 12;
+    for (AuditFinding& finding : findings_) {
+        if (!finding.other_places.empty()) {
+            finding.evidence.push_back("the same at " + text::listed(finding.other_places, k_most_places));
+        }
+    }
+    return std::exchange(findings_, {});
+}
+
+std::string why_not_applicable(const Rule& rule, const AuditSubject& subject) {
+    for (const Need need : rule.needs) {
+        if (!has(subject, need)) {
+            return std::string(missing(need));
+        }
+    }
+    return "";
+}
+
+}  // namespace gumcert::audit

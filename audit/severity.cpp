@@ -1,0 +1,31 @@
+#include "audit/severity.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gumcert::audit {
+namespace {
+
+FindingSeverity severity_of_step(const BudgetOutcome& before, const BudgetOutcome& after) {
+    const bool en_turns = before.en && after.en && (std::abs(*before.en) > 1.0) != (std::abs(*after.en) > 1.0);
+    if (before.verdict != after.verdict || en_turns || after.U >= before.U * (1.0 + k_understated)) {
+        return FindingSeverity::critical;
+    }
+    return before.printed_U != after.printed_U || before.printed_value != after.printed_value ? FindingSeverity::major
+                                                                                              : FindingSeverity::minor;
+}
+
+}  // namespace
+
+FindingSeverity severity_of(const Effect& effect) {
+    return std::max(severity_of_step(effect.claimed, effect.alone), severity_of_step(effect.last, effect.audited));
+}
+
+std::string direction_in_words(const BudgetOutcome& claimed, const BudgetOutcome& corrected) {
+    if (claimed.printed_U == corrected.printed_U) {
+        return "U unchanged";
+    }
+    return corrected.U > claimed.U ? "U understated" : "U overstated";
+}
+
+}  // namespace gumcert::audit

@@ -1,0 +1,333 @@
+#include "audit/stated_number.h"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "text/utf8.h"
+
+namespace gumcert::audit {
+namespace {
+
+constexpr char32_t k_minus_sign = 0x2212, k_times = 0x00D7, k_middle_dot = 0x00B7, k_dot_operator = 0x22C5,
+                   k_plus_minus = 0x00B1, k_infinity = 0x221E, k_root = 0x221A, k_no_break_space = 0x00A0,
+                   k_thin_space = 0x2009, k_narrow_no_break_space = 0x202F, k_right_quote = 0x2019;
+
+/// Characters of a text in a form that a small reader can walk over: signs of typesetting as the ASCII that they mean.
+std::u32string characters(std::string_view text) {
+    std::u32string all;
+    for (std::size_t offset = 0; offset < text.size();) {
+        const text::Character next = text::decode_utf8(text, offset);
+        if (next.bytes == 0) {
+            return {};
+        }
+        offset += next.bytes;
+        switch (next.code) {
+            case k_minus_sign:
+                all += U'-';
+                break;
+            case k_no_break_space:
+            case k_thin_space:
+            case k_narrow_no_break_space:
+            case U'\t':
+                all += U' ';
+                break;
+            case k_right_quote:
+                all += U'\'';
+                break;
+            case k_dot_operator:
+            case k_middle_dot:
+                all += k_times;
+                break;
+            default:
+                all += next.code;
+        }
+    }
+    return all;
+}
+
+bool is_digit(char32_t code) {
+    return code >= U'0' && code <= U'9';
+}
+
+/// Walks over the characters of a text.
+class Walk {
+public:
+    explicit Walk(std::u32string text) : text_(std::move(text)) {}
+
+    [[nodiscard]] bool at_end() const { return at_ == text_.size(); }
+    [[nodiscard]] char32_t peek(std::size_t ahead = 0) const {
+        return at_ + ahead < text_.size() ? text_[at_ + ahead] : U'\0';
+    }
+    char32_t take() { return text_[at_++]; }
+    void skip_spaces() {
+        while (peek() == U' ') {
+            ++at_;
+        }
+    }
+    bool take_if(char32_t code) {
+        if (at_end() || peek() != code) {
+            return false;
+        }
+        ++at_;
+        return true;
+    }
+    /// Takes an ASCII word whatever its case.
+    bool take_word(std::string_view word) {
+        for (std::size_t i = 0; i < word.size(); ++i) {
+            const char32_t code = peek(i);
+            const char32_t lower = code >= U'A' && code <= U'Z' ? code + 32 : code;
+            if (lower != static_cast<unsigned char>(word[i])) {
+                return false;
+            }
+        }
+        at_ += word.size();
+        return true;
+    }
+    [[nodiscard]] std::size_t position() const { return at_; }
+    void go_to(std::size_t position) { at_ = position; }
+    [[nodiscard]] std::string rest() {
+        skip_spaces();
+        std::string all;
+        for (std::size_t i = at_; i < text_.size(); ++i) {
+            all += text::encode_utf8(text_[i]);
+        }
+        while (!all.empty() && all.back() == ' ') {
+            all.pop_back();
+        }
+        return all;
+    }
+
+private:
+    std::u32string text_;
+    std::size_t at_ = 0;
+};
+
+struct Digits {
+    std::string plain;  ///< digits with '.', as std::from_chars reads them
+    int decimals = 0;
+    bool whole = true;
+};
+
+/// The digits of a number. A single separator is the decimal sign, unless three digits follow a comma of which there is
+/// more than one; where both occur, the last one is it.
+std::optional<Digits> take_digits(Walk& walk) {
+    std::u32string raw;
+    while (true) {
+        const char32_t code = walk.peek();
+        const bool group = (code == U' ' || code == U'\'') && !raw.empty() && is_digit(raw.back()) &&
+                           is_digit(walk.peek(1)) && is_digit(walk.peek(2)) && is_digit(walk.peek(3)) &&
+                           !is_digit(walk.peek(4));
+        const bool separator = (code == U'.' || code == U',') && (is_digit(walk.peek(1)) || !raw.empty());
+        if (!is_digit(code) && !separator && !group) {
+            break;
+        }
+        if (separator && !is_digit(walk.peek(1)) && code == U',') {
+            break;  // "0.36, k = 2": a comma of the sentence
+        }
+        walk.take();
+        if (!group) {
+            raw += code;
+        }
+    }
+    const std::size_t last_point = raw.rfind(U'.'), last_comma = raw.rfind(U',');
+    const auto count = [&raw](char32_t code) {
+        std::size_t n = 0;
+        for (const char32_t c : raw) {
+            n += c == code ? 1U : 0U;
+        }
+        return n;
+    };
+    char32_t decimal = U'\0';
+    if (last_point != std::u32string::npos && last_comma != std::u32string::npos) {
+        decimal = last_point > last_comma ? U'.' : U',';
+    } else if (last_point != std::u32string::npos && count(U'.') == 1) {
+        decimal = U'.';
+    } else if (last_comma != std::u32string::npos && count(U',') == 1) {
+        decimal = U',';
+    }
+    if (decimal != U'\0' && count(decimal) > 1) {
+        return std::nullopt;
+    }
+    // What is not the decimal sign sets thousands apart: "631.74.2" is a slip of the keyboard, and no number.
+    const std::size_t end_of_whole = decimal == U'\0' ? raw.size() : raw.find(decimal);
+    std::size_t digits_before = 0;
+    bool grouped = false;
+    for (std::size_t i = 0; i <= end_of_whole; ++i) {
+        if (i < end_of_whole && is_digit(raw[i])) {
+            ++digits_before;
+            continue;
+        }
+        if (grouped && digits_before != 3) {
+            return std::nullopt;
+        }
+        grouped = i < end_of_whole;
+        digits_before = 0;
+    }
+    if (end_of_whole < raw.size() && raw.find_first_of(U".,", end_of_whole + 1) != std::u32string::npos) {
+        return std::nullopt;
+    }
+    Digits digits;
+    bool any = false;
+    for (const char32_t code : raw) {
+        if (is_digit(code)) {
+            digits.plain += static_cast<char>(code);
+            digits.decimals += digits.whole ? 0 : 1;
+            any = true;
+        } else if (code == decimal) {
+            digits.plain += '.';
+            digits.whole = false;
+        }
+    }
+    if (!any) {
+        return std::nullopt;
+    }
+    return digits;
+}
+
+std::optional<int> take_exponent(Walk& walk) {
+    const std::size_t start = walk.position();
+    const char32_t first = walk.peek();
+    const bool letter = first == U'e' || first == U'E';
+    if (letter) {
+        walk.take();
+    } else {
+        walk.skip_spaces();
+        const bool times = walk.take_if(k_times) || walk.take_if(U'*') || walk.take_word("x");
+        walk.skip_spaces();
+        if (!times || !walk.take_word("10")) {
+            walk.go_to(start);
+            return std::nullopt;
+        }
+        walk.take_if(U'^');
+        walk.take_if(U'(');
+    }
+    int sign = 1;
+    if (walk.take_if(U'-')) {
+        sign = -1;
+    } else {
+        walk.take_if(U'+');
+    }
+    int exponent = 0, count = 0;
+    while (is_digit(walk.peek()) && count < 4) {
+        exponent = exponent * 10 + static_cast<int>(walk.take() - U'0');
+        ++count;
+    }
+    if (count == 0) {
+        walk.go_to(start);
+        return std::nullopt;
+    }
+    walk.take_if(U')');
+    return sign * exponent;
+}
+
+/// "√3", "sqrt(3)", "sqrt 3".
+std::optional<double> take_root(Walk& walk) {
+    const std::size_t start = walk.position();
+    const bool sign = walk.take_if(k_root);
+    if (!sign && !walk.take_word("sqrt")) {
+        return std::nullopt;
+    }
+    walk.skip_spaces();
+    const bool open = walk.take_if(U'(');
+    const std::optional<Digits> digits = take_digits(walk);
+    if (!digits) {
+        walk.go_to(start);
+        return std::nullopt;
+    }
+    if (open && !walk.take_if(U')')) {
+        walk.go_to(start);
+        return std::nullopt;
+    }
+    double value = 0.0;
+    std::from_chars(digits->plain.data(), digits->plain.data() + digits->plain.size(), value);
+    return std::sqrt(value);
+}
+
+std::optional<StatedNumber> take_number(Walk& walk) {
+    walk.skip_spaces();
+    double sign = 1.0;
+    if (walk.take_if(k_plus_minus)) {
+        walk.skip_spaces();
+    } else if (walk.peek() == U'+' && walk.peek(1) == U'/' && walk.peek(2) == U'-') {
+        walk.go_to(walk.position() + 3);
+        walk.skip_spaces();
+    }
+    if (walk.take_if(U'-')) {
+        sign = -1.0;
+        walk.skip_spaces();
+    } else {
+        walk.take_if(U'+');
+    }
+    StatedNumber number;
+    if (walk.take_if(k_infinity) || walk.take_word("infinity") || walk.take_word("infinite") ||
+        walk.take_word("unendlich") || walk.take_word("inf")) {
+        number.value = sign * std::numeric_limits<double>::infinity();
+        return number;
+    }
+    if (const std::optional<double> root = take_root(walk)) {
+        number.value = sign * *root;
+        return number;
+    }
+    const std::optional<Digits> digits = take_digits(walk);
+    if (!digits) {
+        return std::nullopt;
+    }
+    const std::optional<int> exponent = take_exponent(walk);
+    const std::string all = digits->plain + "e" + std::to_string(exponent.value_or(0));
+    const auto [end, error] = std::from_chars(all.data(), all.data() + all.size(), number.value);
+    if (error != std::errc{} || end != all.data() + all.size()) {
+        return std::nullopt;
+    }
+    number.half_step = digits->whole && !exponent ? 0.0 : 0.5 * std::pow(10.0, exponent.value_or(0) - digits->decimals);
+    const std::size_t before = walk.position();
+    walk.skip_spaces();
+    if (walk.take_if(U'%')) {
+        number.value /= 100.0;
+        number.half_step /= 100.0;
+    } else if (const std::optional<double> root = take_root(walk)) {
+        number.value *= *root;
+        number.half_step = 0.0;
+    } else {
+        walk.go_to(before);
+    }
+    number.value *= sign;
+    return number;
+}
+
+}  // namespace
+
+StatedNumber exact_number(double value, std::string place) {
+    StatedNumber number;
+    number.value = value;
+    number.place = std::move(place);
+    return number;
+}
+
+std::optional<LeadingNumber> read_leading_number(std::string_view text, std::string place) {
+    constexpr std::size_t k_longest = 400;
+    if (text.size() > k_longest) {
+        return std::nullopt;
+    }
+    Walk walk(characters(text));
+    std::optional<StatedNumber> number = take_number(walk);
+    if (!number) {
+        return std::nullopt;
+    }
+    number->text = std::string(text);
+    number->place = std::move(place);
+    return LeadingNumber{.number = std::move(*number), .rest = walk.rest()};
+}
+
+std::optional<StatedNumber> read_number(std::string_view text, std::string place) {
+    std::optional<LeadingNumber> leading = read_leading_number(text, std::move(place));
+    if (!leading || !leading->rest.empty()) {
+        return std::nullopt;
+    }
+    return std::move(leading->number);
+}
+
+}  // namespace gumcert::audit

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace gumcert::audit {
+
+/// The numbers that a printed number may stand for.
+struct Interval {
+    double low = 0.0, high = 0.0;
+
+    [[nodiscard]] bool contains(double value) const { return low <= value && value <= high; }
+    [[nodiscard]] bool meets(const Interval& other) const { return low <= other.high && other.low <= high; }
+};
+
+/// A number of somebody else's table: as it is printed, and what its digits leave open.
+///
+/// "0.29" may be the rounding of any number from 0.285 to 0.295. An audit that recomputes a table of rounded numbers
+/// must not take the rounding for an error.
+struct StatedNumber {
+    double value = 0.0;
+    double half_step = 0.0;  ///< half a unit of the last printed digit; 0: the number is exact
+    std::string text;        ///< as it stands there
+    std::string place;       ///< "row 3, u" or "Budget!D5"
+
+    [[nodiscard]] Interval interval() const { return {value - half_step, value + half_step}; }
+};
+
+/// A number that is known to all of its digits.
+[[nodiscard]] StatedNumber exact_number(double value, std::string place);
+
+/// Reads a printed number: decimal point or comma, groups of digits by space or apostrophe, "±0.5", "1.2E-3",
+/// "1.2·10^-3", "1.2 × 10-3", "5 %" (0.05), "∞", "inf", "√3", "sqrt(6)", "2√3", U+2212 as minus sign.
+///
+/// Whole numbers are exact: as divisors, sensitivities and degrees of freedom they are meant so.
+/// \return nothing where the text is no number; text behind the number (a unit) makes it none
+[[nodiscard]] std::optional<StatedNumber> read_number(std::string_view text, std::string place);
+
+/// A number at the beginning of a text, and what follows it: "0.36 µm, k = 2" gives 0.36 and "µm, k = 2".
+struct LeadingNumber {
+    StatedNumber number;
+    std::string rest;  ///< without spaces at its ends
+};
+[[nodiscard]] std::optional<LeadingNumber> read_leading_number(std::string_view text, std::string place);
+
+}  // namespace gumcert::audit

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "audit/audited_budget.h"
+#include "certificate/certified_results.h"
+
+namespace gumcert::audit {
+
+/// One item of a comparison, as far as the audit looks at it. All numbers in one unit.
+struct AuditedScore {
+    std::string name;  ///< of the point or laboratory
+    double value = 0.0, u = 0.0, U = 0.0;
+    double reference_value = 0.0, reference_u = 0.0, reference_U = 0.0;
+    std::optional<double> k, reference_k;
+    std::optional<double> en, zeta, z;
+    std::optional<double> sigma_pt;
+    bool correlation_known = false;  ///< stated, also as 0 with a reason
+};
+
+struct AuditedComparison {
+    std::vector<AuditedScore> scores;
+    std::optional<double> p_low, p_high;      ///< of the sum of squared scores given their covariance
+    std::vector<std::string> shared_sources;  ///< standards that both sides name
+    bool assigned_value_contains_participant = false, instability_in_reference = false;
+    std::string action_record;  ///< what was done where |E_n| > 1; "" nothing is on record
+};
+
+struct AuditedWorkbook;
+
+/// What an audit is made of: one file, or several that belong together.
+struct AuditSubject {
+    enum class Kind { job, record, table, workbook, certificate };
+    Kind kind = Kind::table;
+    std::string name;                                     ///< of the file
+    std::vector<AuditedBudget> budgets;                   ///< one a result and point
+    std::optional<certificate::Certificate> certificate;  ///< data, certified tables and findings of the gates
+    std::optional<AuditedComparison> comparison;
+    std::shared_ptr<const AuditedWorkbook> workbook;  ///< audit/audited_workbook.h; none where no formulas are known
+    /// Of a record that was evaluated again: where it says something else than its own job gives, as sentences.
+    std::optional<std::vector<std::string>> disagreements;
+    std::vector<std::string> not_read;  ///< what could not be understood, in sentences
+};
+
+}  // namespace gumcert::audit

@@ -1,0 +1,86 @@
+#include "audit/audit.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/support/audited_budgets.h"
+
+namespace gumcert::audit {
+namespace {
+
+using test::budget_of;
+using test::row;
+using test::subject_of;
+
+/// Finds the first row of every budget too small by a half.
+void first_row_is_half(const AuditSubject& subject, FindingCollector& findings) {
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        AuditFinding finding;
+        finding.where = "row 1";
+        finding.what = "half of it";
+        finding.budgets = {b};
+        finding.correct = [](AuditedBudget& budget) { budget.rows[0].used_u *= 2.0; };
+        findings.add(std::move(finding));
+    }
+}
+void one_is_missing(const AuditSubject&, FindingCollector& findings) {
+    AuditFinding finding;
+    finding.what = "something is missing";
+    finding.budgets = {0};
+    finding.contribution_missing = true;
+    findings.add(std::move(finding));
+}
+
+const Rule k_half{
+    .id = "Z01", .title = "Half", .clause = {.text = "none"}, .needs = {Need::rows}, .examine = first_row_is_half};
+const Rule k_missing{.id = "Z02",
+                     .title = "Missing",
+                     .clause = {.text = "none"},
+                     .policy = SeverityPolicy::fixed,
+                     .severity = FindingSeverity::minor,
+                     .examine = one_is_missing};
+
+TEST(Audit, EvaluatesFindingsWhereTheyMatterMost) {
+    const AuditedBudget small = budget_of({row("a", 0.01), row("b", 1.0)});
+    const AuditedBudget large = budget_of({row("a", 1.0), row("b", 0.01)});
+    const AuditReport report = audit(subject_of({small, large}), std::vector<Rule>{k_half, k_missing});
+    ASSERT_EQ(report.results.size(), 2U);
+    ASSERT_EQ(report.findings.size(), 2U);
+    // One finding of both budgets, graded where it is the largest.
+    const AuditFinding& half = report.findings[0];
+    EXPECT_EQ(half.rule, "Z01");
+    EXPECT_EQ(half.budgets.size(), 2U);
+    ASSERT_TRUE(half.effect);
+    EXPECT_EQ(half.effect->budget, 1U);
+    EXPECT_EQ(half.severity, FindingSeverity::critical);
+    EXPECT_TRUE(report.has_critical());
+    EXPECT_NEAR(report.results[1].audited.U, 2.0 * report.results[1].claimed.U, 1e-3);
+    EXPECT_EQ(report.findings[1].severity, FindingSeverity::minor);
+    ASSERT_TRUE(report.findings[1].missing_term);
+    EXPECT_GT(report.findings[1].missing_term->u_for_digit, 0.0);
+}
+
+TEST(Audit, TakesClaimsAsTheyAreStated) {
+    AuditedBudget budget = budget_of({row("a", 0.5)});
+    budget.claims.U = test::printed("1.3");
+    budget.claims.k = test::printed("2.6");
+    const AuditReport report = audit(subject_of(budget), {});
+    EXPECT_EQ(report.results[0].claimed.printed_U, "1.3");
+    EXPECT_EQ(report.results[0].claimed.k, 2.6);
+    EXPECT_EQ(report.results[0].recomputed.printed_U, "1.0");
+}
+
+TEST(Audit, SaysWhatItCouldNotDo) {
+    const Rule needs_limits{
+        .id = "Z03", .title = "", .clause = {.text = ""}, .needs = {Need::limits}, .examine = one_is_missing};
+    const AuditReport report = audit(subject_of(budget_of({row("a", 0.0)})), std::vector<Rule>{needs_limits});
+    ASSERT_EQ(report.not_checked.size(), 1U);
+    EXPECT_EQ(report.not_checked[0].because, "no limits of a specification are stated");
+    EXPECT_TRUE(report.results.empty());
+    ASSERT_EQ(report.subject.not_read.size(), 1U);
+    EXPECT_NE(report.subject.not_read[0].find("u_c"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gumcert::audit

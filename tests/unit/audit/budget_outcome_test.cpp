@@ -1,0 +1,131 @@
+#include "audit/budget_outcome.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "gum/quantity/diagnostic.h"
+#include "tests/support/audited_budgets.h"
+
+namespace gumcert::audit {
+namespace {
+
+using test::budget_of;
+using test::k_infinite;
+using test::row;
+
+/// JCGM 100:2008, H.1, table H.1: end gauge, in nm.
+AuditedBudget end_gauge() {
+    AuditedBudget budget = budget_of({row("l_s", 25.0, 1.0, 18.0), row("d", 9.7, 1.0, 25.6),
+                                      row("delta alpha", 2.9, 1.0, 50.0), row("delta theta", 16.6, 1.0, 2.0)});
+    budget.unit = "nm";
+    budget.coverage = {.kind = CoverageRule::Kind::student_t, .k = 2.0, .probability = 0.99, .truncate = true};
+    return budget;
+}
+
+TEST(BudgetOutcome, IsThatOfTheEndGauge) {
+    const BudgetOutcome outcome = evaluate(end_gauge());
+    EXPECT_NEAR(outcome.u_c, 32.0, 0.5);     // printed 32 nm
+    EXPECT_NEAR(outcome.nu_eff, 16.7, 0.1);  // 16.7 from unrounded contributions; the printed ones give 16.76
+    EXPECT_NEAR(outcome.k, 2.92, 0.005);     // t_99(16)
+    EXPECT_NEAR(outcome.U, 93.0, 0.5);
+    EXPECT_EQ(outcome.printed_U, "93");
+}
+
+/// EA-4/02, example S2: weight of 10 kg, in mg.
+AuditedBudget weight() {
+    return budget_of({row("m_S", 45.0 / 2.0), row("drift", 15.0 / std::numbers::sqrt3),
+                      row("difference", 25.0 / std::numbers::sqrt3), row("eccentricity", 10.0 / std::numbers::sqrt3),
+                      row("buoyancy", 10.0 / std::numbers::sqrt3)});
+}
+
+TEST(BudgetOutcome, IsThatOfTheWeight) {
+    AuditedBudget budget = weight();
+    budget.coverage.kind = CoverageRule::Kind::fixed;
+    budget.value = 25.0;
+    const BudgetOutcome outcome = evaluate(budget);
+    EXPECT_NEAR(outcome.u_c, 29.3, 0.05);
+    EXPECT_EQ(outcome.printed_U, "59");
+    EXPECT_EQ(outcome.printed_value, "25");
+    EXPECT_TRUE(std::isinf(outcome.nu_eff));
+}
+
+TEST(BudgetOutcome, AddsCorrelationsAndLeavesRowsOut) {
+    AuditedBudget budget = budget_of({row("a", 3.0), row("b", 4.0, -1.0), row("c", 100.0)});
+    budget.rows[2].in_sum = false;
+    EXPECT_DOUBLE_EQ(evaluate(budget).u_c, 5.0);
+    budget.correlations = {{.first = 0, .second = 1, .r = 1.0}};
+    EXPECT_DOUBLE_EQ(evaluate(budget).u_c, 1.0);
+    budget.correlations = {{.first = 0, .second = 1, .r = -1.0}};
+    EXPECT_DOUBLE_EQ(evaluate(budget).u_c, 7.0);
+}
+
+TEST(BudgetOutcome, NeverStatesLessThanTheCapability) {
+    AuditedBudget budget = weight();
+    budget.capability = 70.0;
+    EXPECT_EQ(evaluate(budget).U, 70.0);
+    EXPECT_TRUE(evaluate(budget).at_capability);
+    budget.floor_applied = false;
+    EXPECT_LT(evaluate(budget).U, 60.0);
+}
+
+TEST(BudgetOutcome, DecidesAndScores) {
+    AuditedBudget budget = weight();
+    budget.coverage.kind = CoverageRule::Kind::fixed;
+    budget.value = 25.0;
+    budget.limits.upper = 80.0;
+    budget.limits.lower = -80.0;
+    budget.rule = gum::DecisionRule::guard_band_u;
+    EXPECT_EQ(evaluate(budget).verdict, "fail");  // 80 - 58.5 is less than 25
+    budget.value = 20.0;
+    EXPECT_EQ(evaluate(budget).verdict, "pass");
+    budget.reference =
+        ComparedReference{.value = 90.0, .expanded_uncertainty = 40.0, .correlation = 0.0, .name = "lab"};
+    EXPECT_NEAR(*evaluate(budget).en, -70.0 / std::hypot(evaluate(budget).U, 40.0), 1e-12);
+}
+
+TEST(BudgetOutcome, TakesKFromTheConvolution) {
+    AuditedBudget budget = budget_of({row("limit", 1.0)});
+    budget.rows[0].shape = Shape::rectangular;
+    budget.coverage.kind = CoverageRule::Kind::convolution;
+    EXPECT_NEAR(evaluate(budget).k, 0.9545 * std::numbers::sqrt3, 1e-6);
+}
+
+TEST(BudgetOutcome, NeedsSomethingToAdd) {
+    EXPECT_THROW(static_cast<void>(evaluate(budget_of({row("a", 0.0)}))), gum::NoResultError);
+    AuditedBudget impossible = budget_of({row("a", 1.0), row("b", 1.0)});
+    impossible.correlations = {{.first = 0, .second = 1, .r = -1.0}};
+    EXPECT_THROW(static_cast<void>(evaluate(impossible)), gum::NoResultError);
+}
+
+TEST(OutcomeIntervals, HoldWhatAnyRoundingAllows) {
+    // Rows 0.3 and 0.4 with one digit: the true numbers are anywhere within half a digit.
+    AuditedBudget budget = budget_of({row("a", 0.3, 1.0, 4.0), row("b", 0.4)});
+    for (AuditedRow& one : budget.rows) {
+        one.u_half_step = 0.05;
+    }
+    const OutcomeIntervals allowed = outcome_intervals(budget);
+    EXPECT_NEAR(allowed.u_c.low, std::hypot(0.25, 0.35), 1e-12);
+    EXPECT_NEAR(allowed.u_c.high, std::hypot(0.35, 0.45), 1e-12);
+    for (const double a : {0.2501, 0.31, 0.3499}) {
+        for (const double b : {0.3501, 0.42, 0.4499}) {
+            const BudgetOutcome exact = evaluate(budget_of({row("a", a, 1.0, 4.0), row("b", b)}));
+            EXPECT_TRUE(allowed.u_c.contains(exact.u_c));
+            EXPECT_TRUE(allowed.nu_eff.contains(exact.nu_eff));
+            EXPECT_TRUE(allowed.k.contains(exact.k));
+            EXPECT_TRUE(allowed.U.contains(exact.U));
+        }
+    }
+    EXPECT_EQ(outcome_intervals(budget_of({row("a", 1.0)})).nu_eff.high, k_infinite);
+}
+
+TEST(OutcomeIntervals, BelieveThePrintedContribution) {
+    AuditedBudget budget = budget_of({row("a", 0.3)});
+    budget.rows[0].contribution = test::printed("0.4");
+    EXPECT_DOUBLE_EQ(outcome_intervals(budget).u_c.low, 0.3);
+    EXPECT_DOUBLE_EQ(outcome_intervals(budget).u_c.high, 0.45);
+}
+
+}  // namespace
+}  // namespace gumcert::audit

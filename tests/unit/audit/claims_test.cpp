@@ -1,0 +1,116 @@
+#include "audit/claims.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "audit/budget_outcome.h"
+#include "gum/coverage.h"
+#include "tests/support/audited_budgets.h"
+
+namespace gumcert::audit {
+namespace {
+
+using test::budget_of;
+using test::printed;
+using test::row;
+
+/// u_c = 0.5 µm from rows with three digits.
+AuditedBudget claimed_budget() {
+    AuditedBudget budget = budget_of({row("a", 0.300), row("b", 0.400)});
+    for (AuditedRow& one : budget.rows) {
+        one.u_half_step = 0.0005;
+    }
+    budget.coverage.kind = CoverageRule::Kind::fixed;
+    budget.claims.u_c = printed("0.50");
+    budget.claims.k = printed("2");
+    budget.claims.U = printed("1.0");
+    return budget;
+}
+
+TEST(PrintedInterval, TakesWholeNumbersForRounded) {
+    EXPECT_NEAR(printed_interval(printed("0.29")).low, 0.285, 1e-6);
+    EXPECT_NEAR(printed_interval(printed("12")).high, 12.5, 1e-4);
+    EXPECT_NEAR(printed_interval(printed("120")).high, 125.0, 1e-3);
+    EXPECT_NEAR(printed_interval(printed("100")).high, 105.0, 1e-3);
+    EXPECT_NEAR(printed_interval(exact_number(12.0, "")).high, 12.0, 1e-4);
+}
+
+TEST(Claims, AreLeftAloneWhereRoundingExplainsThem) {
+    AuditedBudget budget = claimed_budget();
+    note_unexplained(budget);
+    EXPECT_EQ(budget.u_c_over_rows, 1.0);
+    EXPECT_EQ(budget.U_over_k_u_c, 1.0);
+    budget.claims.U = printed("1.1");  // rounded up from 1.0000…? no: 1.1 stands for more than 1.0
+    EXPECT_FALSE(check_claims(budget).U_outside);
+    budget.claims.U = printed("1.2");
+    EXPECT_TRUE(check_claims(budget).U_outside);
+}
+
+TEST(Claims, BeyondTheRowsAreEvaluatedAsClaimed) {
+    AuditedBudget budget = claimed_budget();
+    budget.claims.u_c = printed("0.62");
+    budget.claims.U = printed("1.24");
+    note_unexplained(budget);
+    EXPECT_NEAR(evaluate(budget).u_c, 0.62, 1e-12);
+    EXPECT_NEAR(evaluate(budget).U, 1.24, 1e-12);
+    EXPECT_EQ(budget.U_over_k_u_c, 1.0);
+    EXPECT_TRUE(check_claims(budget).u_c_outside);
+
+    budget.claims.U = printed("1.50");
+    note_unexplained(budget);
+    EXPECT_NEAR(evaluate(budget).U, 1.50, 1e-12);
+    EXPECT_NEAR(budget.U_over_k_u_c, 1.50 / 1.24, 1e-12);
+
+    // Less than the rows give.
+    budget.claims.u_c = printed("0.31");
+    budget.claims.U = printed("0.62");
+    note_unexplained(budget);
+    EXPECT_NEAR(evaluate(budget).U, 0.62, 1e-12);
+}
+
+TEST(Claims, ShowWhichCoverageWasUsed) {
+    AuditedBudget budget = budget_of({row("a", 0.300, 1.0, 4.0), row("b", 0.100)});
+    budget.coverage = {.kind = CoverageRule::Kind::student_t, .k = 2.0, .probability = 0.9545, .truncate = false};
+    const double u_c = evaluate(budget).u_c, nu = evaluate(budget).nu_eff;
+    budget.claims.k = printed("2");
+    budget.claims.U = exact_number(2.0 * u_c, "");
+    note_unexplained(budget);
+    EXPECT_EQ(budget.coverage.kind, CoverageRule::Kind::fixed);
+    EXPECT_EQ(budget.U_over_k_u_c, 1.0);
+
+    budget.claims.k.reset();
+    budget.claims.U = exact_number(gum::coverage_factor(0.95, std::floor(nu)) * u_c, "");
+    note_unexplained(budget);
+    EXPECT_EQ(budget.coverage.kind, CoverageRule::Kind::student_t);
+    EXPECT_TRUE(budget.coverage.truncate);
+    EXPECT_EQ(budget.coverage.probability, 0.95);
+    EXPECT_NEAR(evaluate(budget).U, budget.claims.U->value, 1e-12);
+}
+
+TEST(Claims, KnowALinearSum) {
+    AuditedBudget budget = claimed_budget();
+    budget.claims.u_c = printed("0.70");
+    budget.claims.U = printed("1.40");
+    EXPECT_TRUE(check_claims(budget).linear_sum);
+    budget.claims.u_c = printed("0.75");
+    EXPECT_FALSE(check_claims(budget).linear_sum);
+}
+
+TEST(Claims, AtTheCapabilityAreNotU) {
+    AuditedBudget budget = claimed_budget();
+    budget.capability = 1.5;
+    budget.claims.U = printed("1.5");
+    EXPECT_FALSE(check_claims(budget).U_outside);
+}
+
+TEST(Claims, AreNotHeldAgainstRowsWithoutAnOutcome) {
+    AuditedBudget budget = budget_of({row("a", 0.0)});
+    budget.claims.u_c = printed("0.5");
+    note_unexplained(budget);
+    EXPECT_FALSE(check_claims(budget).u_c_outside);
+    EXPECT_EQ(budget.u_c_over_rows, 1.0);
+}
+
+}  // namespace
+}  // namespace gumcert::audit

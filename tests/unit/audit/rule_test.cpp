@@ -1,0 +1,50 @@
+#include "audit/rule.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/audited_budgets.h"
+
+namespace gumcert::audit {
+namespace {
+
+TEST(FindingCollector, FillsInWhatTheRuleSays) {
+    const Rule rule{.id = "Z01",
+                    .title = "",
+                    .clause = {.text = ""},
+                    .severity = FindingSeverity::minor,
+                    .correction = "Do it.",
+                    .question = "Why?"};
+    FindingCollector collector(rule);
+    AuditFinding one;
+    one.where = "row 1";
+    one.what = "wrong";
+    one.budgets = {0};
+    collector.add(one);
+    one.budgets = {3};
+    collector.add(one);  // the same at another point
+    one.what = "otherwise wrong";
+    one.question = "Really?";
+    collector.add(one);
+    const std::vector<AuditFinding> findings = collector.take();
+    ASSERT_EQ(findings.size(), 2U);
+    EXPECT_EQ(findings[0].rule, "Z01");
+    EXPECT_EQ(findings[0].severity, FindingSeverity::minor);
+    EXPECT_EQ(findings[0].correction, "Do it.");
+    EXPECT_EQ(findings[0].question, "Why?");
+    EXPECT_EQ(findings[0].budgets, (std::vector<std::size_t>{0, 3}));
+    EXPECT_EQ(findings[1].question, "Really?");
+    EXPECT_TRUE(collector.take().empty());
+}
+
+TEST(Rule, AppliesWhereItsNeedsAreMet) {
+    const Rule needs{.id = "Z01", .title = "", .clause = {.text = ""}, .needs = {Need::rows, Need::model}};
+    AuditedBudget budget = test::budget_of({});
+    EXPECT_EQ(why_not_applicable(needs, test::subject_of(budget)), "no rows of an uncertainty budget were found");
+    budget.rows.push_back(test::row("a", 1.0));
+    EXPECT_EQ(why_not_applicable(needs, test::subject_of(budget)), "no equation of the measurement is stated");
+    budget.equation = "y = a";
+    EXPECT_EQ(why_not_applicable(needs, test::subject_of(budget)), "");
+}
+
+}  // namespace
+}  // namespace gumcert::audit

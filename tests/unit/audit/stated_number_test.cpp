@@ -1,0 +1,85 @@
+#include "audit/stated_number.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace gumcert::audit {
+namespace {
+
+struct Printed {
+    std::string text;
+    double value, half_step;
+};
+class PrintedNumbers : public testing::TestWithParam<Printed> {};
+
+TEST_P(PrintedNumbers, AreReadWithWhatTheirDigitsLeaveOpen) {
+    const std::optional<StatedNumber> number = read_number(GetParam().text, "row 3");
+    ASSERT_TRUE(number) << GetParam().text;
+    EXPECT_DOUBLE_EQ(number->value, GetParam().value);
+    EXPECT_NEAR(number->half_step, GetParam().half_step, 1e-12 * GetParam().half_step);
+    EXPECT_EQ(number->text, GetParam().text);
+    EXPECT_EQ(number->place, "row 3");
+}
+
+INSTANTIATE_TEST_SUITE_P(EnglishAndGerman, PrintedNumbers,
+                         testing::Values(Printed{"0.29", 0.29, 0.005}, Printed{"0,29", 0.29, 0.005},
+                                         Printed{"0.290", 0.290, 0.0005}, Printed{"-1.5", -1.5, 0.05},
+                                         Printed{"\u2212"
+                                                 "1,5",
+                                                 -1.5, 0.05},
+                                         Printed{"\u00B10.5", 0.5, 0.05}, Printed{"+/- 0,5", 0.5, 0.05},
+                                         Printed{"12", 12.0, 0.0}, Printed{"1.2E-3", 1.2e-3, 0.05e-3},
+                                         Printed{"1,2\u00B710^-3", 1.2e-3, 0.05e-3},
+                                         Printed{"1.2 \u00D7 10-3", 1.2e-3, 0.05e-3}, Printed{"5 %", 0.05, 0.0},
+                                         Printed{"0,5%", 0.005, 0.0005}, Printed{"10 000.25", 10000.25, 0.005},
+                                         Printed{"10'000.25", 10000.25, 0.005}, Printed{"1.234,5", 1234.5, 0.05},
+                                         Printed{"1,234.5", 1234.5, 0.05}, Printed{"1.234.567", 1234567.0, 0.0},
+                                         Printed{"\u221A"
+                                                 "3",
+                                                 std::sqrt(3.0), 0.0},
+                                         Printed{"sqrt(6)", std::sqrt(6.0), 0.0},
+                                         Printed{"2\u221A"
+                                                 "3",
+                                                 2.0 * std::sqrt(3.0), 0.0},
+                                         Printed{"2E2", 200.0, 50.0}));
+
+TEST(StatedNumber, KnowsInfinity) {
+    for (const char* text : {"\u221E", "inf", "Infinity", "unendlich"}) {
+        const std::optional<StatedNumber> number = read_number(text, "");
+        ASSERT_TRUE(number) << text;
+        EXPECT_TRUE(std::isinf(number->value)) << text;
+    }
+}
+
+TEST(StatedNumber, IsNothingWhereTextIsNoNumber) {
+    for (const char* text :
+         {"", "rect.", "0.36 \u00B5m", "631.74.2", "k = 2", "1.2.3", "1.234.56", "12.34,5", "--3", "sqrt(", "1e"}) {
+        EXPECT_FALSE(read_number(text, "")) << text;
+    }
+}
+
+TEST(StatedNumber, LeavesWhatFollowsANumber) {
+    const std::optional<LeadingNumber> leading = read_leading_number("0.36 \u00B5m, k = 2", "");
+    ASSERT_TRUE(leading);
+    EXPECT_DOUBLE_EQ(leading->number.value, 0.36);
+    EXPECT_EQ(leading->rest, "\u00B5m, k = 2");
+    EXPECT_FALSE(read_leading_number("about 0.36", ""));
+    EXPECT_FALSE(read_leading_number(std::string(401, '1'), ""));
+}
+
+TEST(StatedNumber, IsAnInterval) {
+    const Interval interval = read_number("0.29", "")->interval();
+    EXPECT_TRUE(interval.contains(0.2851));
+    EXPECT_TRUE(interval.contains(0.2949));
+    EXPECT_FALSE(interval.contains(0.2849));
+    EXPECT_TRUE(interval.meets({0.294, 0.4}));
+    EXPECT_FALSE(interval.meets({0.296, 0.4}));
+    EXPECT_EQ(exact_number(0.29, "x").half_step, 0.0);
+    EXPECT_EQ(exact_number(0.29, "x").place, "x");
+}
+
+}  // namespace
+}  // namespace gumcert::audit
