@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "audit/audited_budget.h"
+
+namespace gumcert::audit {
+
+/// A contribution that a budget of a method has to name, with a number or with the reason why it is left out.
+struct RequiredContributor {
+    std::string_view name;                ///< for people: "thermal expansion of the gauge block"
+    std::vector<Contributor> by;          ///< a row of one of these is it
+    std::vector<std::string_view> words;  ///< or a row with one of these words (audit/word_line.h)
+};
+
+struct MethodChecklist {
+    std::string_view method;                    ///< id, AuditedBudget::method
+    std::string_view title;                     ///< for people
+    std::vector<std::string_view> words;        ///< by which the name of a budget tells its method
+    std::vector<RequiredContributor> required;  ///< beside the six of every method
+};
+
+/// The checklists of all methods that have one.
+[[nodiscard]] std::span<const MethodChecklist> method_checklists();
+/// What the budgets of every method name at least: repeatability, resolution, reproducibility, uncertainty and stability
+/// of the reference standard, environment. (A2LA R205, clause to be verified)
+[[nodiscard]] std::span<const RequiredContributor> minimum_contributors();
+
+/// The checklist of a method; nullptr where there is none.
+[[nodiscard]] const MethodChecklist* checklist_of(std::string_view method);
+/// Id of the method that a title names, in English or German: "Calibration of micrometers"; "" where it names none.
+[[nodiscard]] std::string method_in_title(std::string_view title);
+
+/// Whether a row stands for a required contributor, whatever number it has.
+[[nodiscard]] bool stands_for(const AuditedRow& row, const RequiredContributor& required);
+
+}  // namespace gumcert::audit

@@ -1,0 +1,929 @@
+#include "audit/row_meaning.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <initializer_list>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "audit/word_line.h"
+#include "certificate/text_words.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/quantity/unit.h"
+#include "text/utf8.h"
+
+namespace gumcert::audit {
+namespace {
+
+bool names_reference(const WordLine& words) {
+    return words.has_word("standard", {"deviation", "uncert", "unsicherheit", "error"}) ||
+           words.has_word("normal", {"distribut", "verteil"}) ||
+           words.has_any({"reference",       "referenz",    "standards ", "master",
+                          "normals ",        "normale ",    "ref ",       "bezugsnormal",
+                          "gebrauchsnormal", "gauge block", "gage block", "endmass",
+                          "parallelendmass", "calibrator",  "kalibrator", "comparator",
+                          "komparator",      "laser",       "cmm ",       "kmg "});
+}
+bool names_item(const WordLine& words) {
+    return words.has_any({"dut ", "uut ", "iut ", "item", "prufling", "pruefling", "kalibriergegenstand",
+                          "device under", "unit under", "instrument under", "customer", "kunden"});
+}
+
+/// What a row is made of, whatever device it belongs to; `other` where the words name no kind of effect.
+Contributor kind_of_effect(const WordLine& words, std::string_view raw) {
+    if (words.has_any({"dead path", "deadpath", "totstrecke", "totweg"})) {
+        return Contributor::dead_path;
+    }
+    if (words.has_any({"refractive", "brechung", "brechzahl", "edlen", "ciddor"}) ||
+        (words.has_any({"wavelength", "wellenlange"}) && !words.has_any({"vacuum", "vakuum", "laser"}))) {
+        return Contributor::refractive_index;
+    }
+    if (words.has_any({"resolut", "auflos", "aufloes", "ziffernschritt", "readab", "ablesbar", "skalenteil",
+                       "skalenwert", "teilungswert", "least count", "scale interval", "scale division", "digitis",
+                       "digitiz", "quantis", "quantiz"})) {
+        return names_reference(words) ? Contributor::reference_resolution : Contributor::item_resolution;
+    }
+    if (words.has_any({"bath ",        "bad ",       "badhomogen", "furnace",          "ofen",     "chamber",
+                       "kammer",       "homogen",    "inhomogen",  "humidity",         "feuchte",  "luftfeucht",
+                       "air pressure", "luftdruck",  "barometric", "ambient pressure", "buoyancy", "auftrieb",
+                       "air density",  "luftdichte", "vibration",  "environment",      "umgebung"})) {
+        return words.has("temperatur") && !words.has_any({"bath ", "bad ", "furnace", "ofen", "homogen"})
+                   ? Contributor::temperature
+                   : Contributor::environment;
+    }
+    if (words.has_any({"drift", "stability", "instability", "stabilitat", "instabilitat", "langzeit", "long term",
+                       "ageing", "aging", "alterung", "since last", "since the last", "seit letzter",
+                       "seit der letzten"})) {
+        return names_item(words) ? Contributor::item : Contributor::reference_drift;
+    }
+    if (words.has_any({"reproducib", "reproduzier", "vergleichprazision", "vergleichsprazision", "intermediate prec",
+                       "operator", "bediener", "day to day", "between days", "zwischen den tagen", "seating"})) {
+        return Contributor::reproducibility;
+    }
+    if (words.has_any({"repeatab", "repetib", "wiederhol", "standard deviation", "standardabweich", "std dev", "stdev",
+                       "scatter", "streuung", "random", "zufallig", "repeated readings", "repeated meas", "readings",
+                       "mean of", "mittel aus", "mittelwert von", "type a"})) {
+        return Contributor::repeatability;
+    }
+    if (words.has_any({"fit ", "fitting", "residual", "regression", "interpol", "polynom", "ausgleich", "restabweich",
+                       "linearis", "linearity of the cur"})) {
+        return Contributor::fit;
+    }
+    if (words.has_any({"expansion", "*ausdehnung", "cte ", "alpha "}) || raw.find("α") != std::string_view::npos) {
+        return Contributor::expansion;
+    }
+    if (words.has_any({"temperatur", "*temperatur", "temp ", "theta ", "thermal", "thermisch"}) ||
+        raw.find("θ") != std::string_view::npos || raw.find("ϑ") != std::string_view::npos) {
+        return Contributor::temperature;
+    }
+    if (words.has_any({"abbe",         "cosine",      "kosinus",   "cosinus",       "alignment",   "misalign",
+                       "ausricht",     "mounting",    "aufspann",  "einspann",      "clamping",    "parallelism",
+                       "parallelitat", "tilt",        "neigung",   "verkipp",       "eccentric",   "exzentri",
+                       "off centre",   "off center",  "centring",  "centering",     "zentrier",    "datum",
+                       "positioning",  "positionier", "placement", "perpendicular", "rechtwinklig"})) {
+        return Contributor::alignment;
+    }
+    if (words.has_any({"form ", "formabweich", "form error", "roundness", "rundheit", "sphericity", "flatness",
+                       "ebenheit", "reflector", "reflektor", "sphere", "kugel", "anvil", "messflache"})) {
+        return Contributor::target_form;
+    }
+    return Contributor::other;
+}
+
+Contributor device_of(const WordLine& words) {
+    if (names_item(words) || words.has_any({"hysteres", "umkehrspanne", "zero point", "nullpunkt", "backlash"})) {
+        return Contributor::item;
+    }
+    if (names_reference(words) ||
+        words.has_any({"certificate", "cert ", "kalibrierschein", "zertifikat", "calibration of", "kalibrierung de"})) {
+        return Contributor::reference;
+    }
+    return Contributor::other;
+}
+
+/// One word, number or sign of a comment.
+struct Piece {
+    enum class Kind { word, number, sign };
+    Kind kind = Kind::sign;
+    std::string word;  ///< small letters without accents
+    std::string raw;   ///< a word or sign as it stands
+    double value = 0.0;
+    std::string unit;  ///< of a number: what stands behind it, if it may be a unit
+    bool percent = false, plus_minus = false;
+
+    [[nodiscard]] bool is_sign(std::string_view sign) const { return kind == Kind::sign && raw == sign; }
+    [[nodiscard]] bool begins(std::string_view beginning) const {
+        return kind == Kind::word && word.starts_with(beginning);
+    }
+};
+using Pieces = std::vector<Piece>;
+
+constexpr std::array<std::string_view, 14> k_signs{"±", "−", "×", "·", "√", "∞", "≤",
+                                                   "≥", "–", "—", "„", "“", "”", "\u00A0"};
+
+/// Bytes of a sign of more than one byte at the beginning of a text; 0 where there is none.
+std::size_t sign_bytes(std::string_view text) {
+    for (const std::string_view sign : k_signs) {
+        if (text.starts_with(sign)) {
+            return sign.size();
+        }
+    }
+    return 0;
+}
+bool is_plain_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+bool belongs_to_word(std::string_view text) {
+    const char c = text.front();
+    if (static_cast<unsigned char>(c) < 0x80U) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || is_plain_digit(c) || c == '_';
+    }
+    return sign_bytes(text) == 0;
+}
+/// Where a number may begin: a digit, or a sign in front of one.
+bool may_begin_number(std::string_view text) {
+    for (const std::string_view sign : {"±", "+/-", "−", "-", "√", "∞", "+"}) {
+        if (text.starts_with(sign)) {
+            text.remove_prefix(sign.size());
+            break;
+        }
+    }
+    while (text.starts_with(' ')) {
+        text.remove_prefix(1);
+    }
+    return !text.empty() && (is_plain_digit(text.front()) || text.starts_with("√"));
+}
+
+/// What stands directly behind a number, up to a space or the punctuation of a sentence: perhaps its unit.
+std::string unit_behind(std::string_view rest) {
+    std::size_t end = 0;
+    while (end < rest.size() && std::string_view(" ,;:()[]=\t\n").find(rest[end]) == std::string_view::npos) {
+        ++end;
+    }
+    std::string unit(rest.substr(0, end));
+    while (unit.ends_with('.')) {
+        unit.pop_back();
+    }
+    return unit;
+}
+
+/// The number at the beginning of a text, and how many bytes it takes; nothing where there is none.
+std::optional<std::pair<Piece, std::size_t>> number_piece(std::string_view text) {
+    const std::optional<LeadingNumber> read = read_leading_number(text, "");
+    if (!read || !std::isfinite(read->number.value)) {
+        return std::nullopt;
+    }
+    // The rest has one character for each of the text, and no spaces at its ends.
+    std::size_t end = text.size();
+    while (end > 0 && (text[end - 1] == ' ' || text[end - 1] == '\t')) {
+        --end;
+    }
+    for (std::size_t left = text::character_count(read->rest); left > 0 && end > 0; --left) {
+        do {
+            --end;
+        } while (end > 0 && text::is_continuation(text[end]));
+    }
+    if (end == 0) {
+        return std::nullopt;
+    }
+    Piece piece;
+    piece.kind = Piece::Kind::number;
+    piece.value = read->number.value;
+    const std::string_view taken = text.substr(0, end);
+    piece.percent = taken.find('%') != std::string_view::npos;
+    piece.plus_minus = taken.find("±") != std::string_view::npos || taken.find("+/-") != std::string_view::npos;
+    piece.unit = unit_behind(text.substr(end));
+    return std::pair(std::move(piece), end);
+}
+
+Pieces pieces_of(std::string_view all) {
+    Pieces pieces;
+    std::string_view text = cut(all, k_longest_text);
+    if (!text::is_utf8(text)) {
+        return pieces;
+    }
+    bool after_word = false;
+    while (!text.empty()) {
+        if (!after_word && may_begin_number(text)) {
+            if (std::optional<std::pair<Piece, std::size_t>> number = number_piece(text)) {
+                pieces.push_back(std::move(number->first));
+                text.remove_prefix(number->second);
+                continue;
+            }
+            // "12.3.4" is no number, and none of its parts is.
+            std::size_t end = 1;
+            while (end < text.size() && (is_plain_digit(text[end]) || text[end] == '.' || text[end] == ',')) {
+                ++end;
+            }
+            while (end < text.size() && text::is_continuation(text[end])) {
+                ++end;
+            }
+            text.remove_prefix(end);
+            continue;
+        }
+        std::size_t end = 0;
+        while (end < text.size() && belongs_to_word(text.substr(end))) {
+            ++end;
+            while (end < text.size() && text::is_continuation(text[end])) {
+                ++end;
+            }
+        }
+        after_word = end > 0;
+        if (end > 0) {
+            Piece piece;
+            piece.kind = Piece::Kind::word;
+            piece.raw = text.substr(0, end);
+            for (const char32_t letter : certificate::letters_of(piece.raw)) {
+                piece.word += text::encode_utf8(letter);
+            }
+            pieces.push_back(std::move(piece));
+        } else {
+            end = std::max<std::size_t>(1, sign_bytes(text));
+            if (text.front() != ' ' && text.front() != '\t') {
+                Piece piece;
+                piece.raw = text.substr(0, end);
+                pieces.push_back(std::move(piece));
+            }
+        }
+        text.remove_prefix(end);
+    }
+    return pieces;
+}
+
+std::optional<gum::Unit> unit_of(const std::string& text) {
+    try {
+        return gum::Unit::parse(text);
+    } catch (const gum::InputError&) {
+        return std::nullopt;
+    }
+}
+
+/// A number of a comment in the unit of the row.
+struct NumberOfRow {
+    double value = 0.0;
+    bool has_unit = false;  ///< stated behind it, and of the kind of the row
+};
+
+/// Nothing where the number is of another kind, or not greater than 0.
+std::optional<NumberOfRow> in_unit_of_row(const Piece& piece, const AuditedRow& row) {
+    const double size = std::abs(piece.value);
+    if (!(size > 0.0)) {
+        return std::nullopt;
+    }
+    if (piece.percent) {
+        const bool of_percent = row.unit.find('%') != std::string::npos;
+        return of_percent ? std::optional(NumberOfRow{100.0 * size, true}) : std::nullopt;
+    }
+    // Words that are units as well, and in a sentence are none.
+    constexpr std::array<std::string_view, 5> k_words{"in", "a", "at", "as", "am"};
+    if (piece.unit.empty() || std::find(k_words.begin(), k_words.end(), piece.unit) != k_words.end()) {
+        return NumberOfRow{size, piece.unit == row.unit && !row.unit.empty()};
+    }
+    if (piece.unit == row.unit) {
+        return NumberOfRow{size, true};
+    }
+    const std::optional<gum::Unit> unit = unit_of(piece.unit);
+    if (!unit) {
+        return NumberOfRow{size, false};
+    }
+    const std::optional<gum::Unit> own = unit_of(row.unit);
+    if (!own || !(own->dimension() == unit->dimension())) {
+        return std::nullopt;
+    }
+    return NumberOfRow{own->difference_from_si(unit->difference_to_si(size)), true};
+}
+
+/// Words and signs that may stand between a keyword and its number.
+bool is_filler(const Piece& piece) {
+    if (piece.kind == Piece::Kind::sign) {
+        return piece.raw == "=" || piece.raw == ":" || piece.raw == "±" || piece.raw == "(" || piece.raw == "≤" ||
+               piece.raw == "<" || piece.raw == "-" || piece.raw == "~" || piece.raw == ">" || piece.raw == "\u00A0";
+    }
+    constexpr std::array<std::string_view, 11> k_words{"of",   "is",   "von", "ist",     "about", "ca",
+                                                       "etwa", "step", "the", "betragt", "d"};
+    return std::find(k_words.begin(), k_words.end(), piece.word) != k_words.end();
+}
+bool ends_sentence(const Piece& piece) {
+    return piece.is_sign(";") || piece.is_sign("\n");
+}
+
+/// The number that belongs to a keyword: directly behind it, directly in front of it, or behind it with a unit of the
+/// row's kind in the same part of the sentence.
+/// \param unit_needed  a number without unit may be that of a document or a class
+std::optional<double> number_of_keyword(const Pieces& pieces, std::size_t keyword, const AuditedRow& row,
+                                        bool unit_needed) {
+    const auto usable = [&](const Piece& piece, bool with_unit) -> std::optional<double> {
+        const std::optional<NumberOfRow> number = in_unit_of_row(piece, row);
+        return number && (number->has_unit || !with_unit) ? std::optional(number->value) : std::nullopt;
+    };
+    std::size_t next = keyword + 1;
+    while (next < pieces.size() && is_filler(pieces[next])) {
+        ++next;
+    }
+    if (next < pieces.size() && pieces[next].kind == Piece::Kind::number) {
+        if (const std::optional<double> value = usable(pieces[next], unit_needed)) {
+            return value;
+        }
+    }
+    // In front: a number whose unit is the piece before the keyword, or a bare number.
+    for (std::size_t back = 1; back <= 3 && back <= keyword; ++back) {
+        const Piece& piece = pieces[keyword - back];
+        if (piece.kind == Piece::Kind::number) {
+            if (const std::optional<double> value = usable(piece, unit_needed || back > 1)) {
+                return value;
+            }
+            break;
+        }
+        if (ends_sentence(piece) || piece.is_sign(",")) {
+            break;
+        }
+    }
+    for (std::size_t i = next; i < pieces.size() && !ends_sentence(pieces[i]); ++i) {
+        if (pieces[i].kind == Piece::Kind::number) {
+            if (const std::optional<double> value = usable(pieces[i], true)) {
+                return value;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+struct Keyword {
+    std::string_view beginning;    ///< of a word
+    std::string_view second = {};  ///< beginning of the next word, where one word is not enough
+    bool strong = true;            ///< says the origin without a number as well
+    bool unit_needed = false;
+};
+
+constexpr std::array<Keyword, 23> k_of_specification{{
+    {.beginning = "mpe"},
+    {.beginning = "fehlergrenz"},
+    {.beginning = "grenzabweich"},
+    {.beginning = "maximum", .second = "perm"},
+    {.beginning = "permissible"},
+    {.beginning = "zulassig", .strong = false},
+    {.beginning = "limit", .second = "of"},
+    {.beginning = "limits", .second = "of"},
+    {.beginning = "accuracy", .second = "class", .unit_needed = true},
+    {.beginning = "genauigkeitsklass", .unit_needed = true},
+    {.beginning = "spec"},
+    {.beginning = "spezifikation"},
+    {.beginning = "datasheet"},
+    {.beginning = "data", .second = "sheet"},
+    {.beginning = "datenblatt"},
+    {.beginning = "herstellerangab"},
+    {.beginning = "accuracy", .strong = false},
+    {.beginning = "genauigkeit", .strong = false},
+    {.beginning = "toleran", .strong = false, .unit_needed = true},
+    {.beginning = "manufacturer", .strong = false, .unit_needed = true},
+    {.beginning = "class", .strong = false, .unit_needed = true},
+    {.beginning = "klass", .strong = false, .unit_needed = true},
+    {.beginning = "grade", .strong = false, .unit_needed = true},
+}};
+constexpr std::array<Keyword, 13> k_of_resolution{{
+    {.beginning = "resolut"},
+    {.beginning = "auflos"},
+    {.beginning = "aufloes"},
+    {.beginning = "ziffernschritt"},
+    {.beginning = "readab"},
+    {.beginning = "ablesbar"},
+    {.beginning = "skalenteil"},
+    {.beginning = "skalenwert"},
+    {.beginning = "teilungswert"},
+    {.beginning = "least", .second = "count"},
+    {.beginning = "scale", .second = "interval"},
+    {.beginning = "scale", .second = "division"},
+    {.beginning = "digit", .strong = false, .unit_needed = true},
+}};
+constexpr std::array<Keyword, 8> k_of_limits{{
+    {.beginning = "half", .second = "width"},
+    {.beginning = "halfwidth"},
+    {.beginning = "semi", .second = "range"},
+    {.beginning = "halbweit"},
+    {.beginning = "halbbreit"},
+    {.beginning = "halbe", .second = "weite"},
+    {.beginning = "halbe", .second = "breite"},
+    {.beginning = "within", .strong = false},
+}};
+constexpr std::array<Keyword, 7> k_of_certificate{{
+    {.beginning = "certificate", .unit_needed = true},
+    {.beginning = "cert", .unit_needed = true},
+    {.beginning = "kalibrierschein", .unit_needed = true},
+    {.beginning = "kalibrierzertifikat", .unit_needed = true},
+    {.beginning = "zertifikat", .unit_needed = true},
+    {.beginning = "calibration", .second = "report", .unit_needed = true},
+    {.beginning = "prufschein", .unit_needed = true},
+}};
+constexpr std::array<Keyword, 9> k_of_readings{{
+    {.beginning = "repeatab"},
+    {.beginning = "repetib"},
+    {.beginning = "wiederhol"},
+    {.beginning = "standard", .second = "deviation"},
+    {.beginning = "standardabweich"},
+    {.beginning = "stdev"},
+    {.beginning = "scatter"},
+    {.beginning = "streuung"},
+    {.beginning = "readings"},
+}};
+
+struct Found {
+    std::optional<double> value;
+    bool said = false;  ///< a strong keyword, with or without its number
+};
+
+Found find_keyword(const Pieces& pieces, std::span<const Keyword> keywords, const AuditedRow& row) {
+    Found found;
+    for (const Keyword& keyword : keywords) {
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            if (!pieces[i].begins(keyword.beginning)) {
+                continue;
+            }
+            std::size_t last = i;
+            if (!keyword.second.empty()) {
+                last = i + 1;
+                if (last < pieces.size() && pieces[last].is_sign("-")) {
+                    ++last;
+                }
+                if (last >= pieces.size() || !pieces[last].begins(keyword.second)) {
+                    continue;
+                }
+            }
+            found.said = found.said || keyword.strong;
+            found.value = number_of_keyword(pieces, last, row, keyword.unit_needed);
+            if (found.value) {
+                return found;
+            }
+        }
+    }
+    return found;
+}
+
+/// "U = 0.36 µm", "U95: 0.36", "U(k=2) = 0.36", "expanded uncertainty 0.36 µm".
+std::optional<double> expanded_uncertainty(const Pieces& pieces, const AuditedRow& row) {
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const Piece& piece = pieces[i];
+        if (piece.kind != Piece::Kind::word) {
+            continue;
+        }
+        const bool symbol = piece.raw == "U" || piece.raw == "U95" || piece.raw.starts_with("U_") ||
+                            piece.raw == "Ucal" || piece.raw == "Ucert";
+        const bool words = piece.word == "expanded" || piece.begins("erweitert");
+        if (!symbol && !words) {
+            continue;
+        }
+        // Behind the next '=' or ':' that is not that of k, or the first number with a unit.
+        bool of_k = false;
+        for (std::size_t j = i + 1; j < pieces.size() && !ends_sentence(pieces[j]); ++j) {
+            if (pieces[j].kind == Piece::Kind::word) {
+                of_k = pieces[j].raw == "k" || pieces[j].raw == "p" || pieces[j].word == "factor";
+            } else if (pieces[j].kind == Piece::Kind::number) {
+                const std::optional<NumberOfRow> number = in_unit_of_row(pieces[j], row);
+                const bool assigned =
+                    j > 0 && (pieces[j - 1].is_sign("=") || pieces[j - 1].is_sign(":") || pieces[j - 1].is_sign("±"));
+                if (!of_k && number && (number->has_unit || assigned || words)) {
+                    return number->value;
+                }
+                of_k = false;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+/// "k = 2", "k: 2", "coverage factor 2", "Erweiterungsfaktor 2".
+std::optional<double> coverage_factor(const Pieces& pieces) {
+    for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
+        const bool symbol = pieces[i].kind == Piece::Kind::word && pieces[i].raw == "k";
+        const bool words = pieces[i].word == "factor" || pieces[i].begins("erweiterungsfaktor");
+        if (!symbol && !words) {
+            continue;
+        }
+        std::size_t next = i + 1;
+        while (next < pieces.size() && is_filler(pieces[next])) {
+            ++next;
+        }
+        constexpr double k_largest = 20.0;
+        if (next < pieces.size() && pieces[next].kind == Piece::Kind::number && !pieces[next].percent &&
+            pieces[next].value > 0.0 && pieces[next].value < k_largest) {
+            return pieces[next].value;
+        }
+    }
+    return std::nullopt;
+}
+std::optional<double> coverage_probability(const Pieces& pieces) {
+    for (const Piece& piece : pieces) {
+        if (piece.kind == Piece::Kind::number && piece.percent && piece.value >= 0.5 && piece.value < 1.0) {
+            return piece.value;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<std::size_t> count_of(const Piece& piece) {
+    constexpr double k_most = 1e6;
+    if (piece.kind != Piece::Kind::number || piece.percent || piece.value < 1.0 || piece.value > k_most ||
+        piece.value != std::floor(piece.value)) {
+        return std::nullopt;
+    }
+    return static_cast<std::size_t>(piece.value);
+}
+
+/// "n = 5", "mean of 10", "s of 6 days", "10 readings".
+std::optional<std::size_t> count_of_readings(const Pieces& pieces) {
+    // What is called n is it, whatever else is counted beside it.
+    for (std::size_t i = 0; i + 2 < pieces.size(); ++i) {
+        const Piece& piece = pieces[i];
+        if (piece.kind == Piece::Kind::word && (piece.raw == "n" || piece.raw == "N") &&
+            (pieces[i + 1].is_sign("=") || pieces[i + 1].is_sign(":"))) {
+            if (const std::optional<std::size_t> count = count_of(pieces[i + 2])) {
+                return count;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const Piece& piece = pieces[i];
+        const auto follows = [&](std::size_t ahead, std::initializer_list<std::string_view> beginnings) {
+            return i + ahead < pieces.size() && std::any_of(beginnings.begin(), beginnings.end(), [&](auto beginning) {
+                       return pieces[i + ahead].begins(beginning);
+                   });
+        };
+        const bool mean = piece.begins("mean") || piece.begins("average") || piece.begins("mittel") || piece.raw == "s";
+        if (mean && follows(1, {"of", "aus", "von", "over", "uber"}) && i + 2 < pieces.size()) {
+            if (const std::optional<std::size_t> count = count_of(pieces[i + 2])) {
+                return count;
+            }
+        }
+        if (piece.kind == Piece::Kind::number &&
+            follows(1, {"reading", "measurement", "repetition", "repeat", "messung", "ablesung", "wiederholung",
+                        "einzelmess", "observation"})) {
+            if (const std::optional<std::size_t> count = count_of(piece)) {
+                return count;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+/// "ν = 9", "dof 9", "9 degrees of freedom", "Freiheitsgrade: 9".
+std::optional<double> degrees_of_freedom(const Pieces& pieces) {
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const Piece& piece = pieces[i];
+        if (piece.kind != Piece::Kind::word) {
+            continue;
+        }
+        const bool behind = piece.begins("freiheitsgrad") || piece.begins("degrees") || piece.word == "dof";
+        const bool symbol = piece.raw == "ν" || piece.raw == "nu" || piece.raw == "df" || piece.word == "dof" ||
+                            piece.begins("freiheitsgrad") || piece.word == "freedom";
+        std::size_t next = i + 1;
+        while (symbol && next < pieces.size() && is_filler(pieces[next])) {
+            ++next;
+        }
+        for (const auto& [wanted, at] : {std::pair(symbol, next), std::pair(behind && i > 0, i - 1)}) {
+            if (wanted && at < pieces.size() && pieces[at].kind == Piece::Kind::number && !pieces[at].percent &&
+                pieces[at].value > 0.0) {
+                return pieces[at].value;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+/// "pooled s = 0.12 µm".
+std::optional<double> pooled_deviation(const Pieces& pieces, const AuditedRow& row) {
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (!pieces[i].begins("pool") && !pieces[i].begins("gepool")) {
+            continue;
+        }
+        for (std::size_t j = i + 1; j < pieces.size() && !ends_sentence(pieces[j]); ++j) {
+            if (pieces[j].kind == Piece::Kind::number) {
+                const std::optional<NumberOfRow> number = in_unit_of_row(pieces[j], row);
+                const bool of_s = j >= 2 && pieces[j - 1].is_sign("=") && pieces[j - 2].raw == "s";
+                if (number && (number->has_unit || of_s)) {
+                    return number->value;
+                }
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+/// "±1 K", or "±0.5" without a unit.
+std::optional<double> plus_minus(const Pieces& pieces, const AuditedRow& row) {
+    for (const Piece& piece : pieces) {
+        if (piece.kind == Piece::Kind::number && piece.plus_minus) {
+            if (const std::optional<NumberOfRow> number = in_unit_of_row(piece, row)) {
+                return number->value;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+/// What one text says of the origin; `not_stated` where it says nothing.
+struct Reading {
+    Origin origin = Origin::not_stated;
+    std::optional<double> value;
+};
+
+Reading origin_in(const Pieces& pieces, const AuditedRow& row) {
+    if (const std::optional<double> U = expanded_uncertainty(pieces, row)) {
+        return {Origin::certificate, U};
+    }
+    const std::array<std::pair<Origin, Found>, 5> candidates{{
+        {Origin::specification, find_keyword(pieces, k_of_specification, row)},
+        {Origin::resolution, find_keyword(pieces, k_of_resolution, row)},
+        {Origin::readings,
+         {.value = {}, .said = find_keyword(pieces, k_of_readings, row).said || count_of_readings(pieces).has_value()}},
+        {Origin::certificate, find_keyword(pieces, k_of_certificate, row)},
+        {Origin::limits, find_keyword(pieces, k_of_limits, row)},
+    }};
+    for (const auto& [origin, found] : candidates) {
+        if (found.value) {
+            return {origin, found.value};
+        }
+    }
+    for (const auto& [origin, found] : candidates) {
+        if (found.said) {
+            return {origin, origin == Origin::specification || origin == Origin::limits ? plus_minus(pieces, row)
+                                                                                        : std::nullopt};
+        }
+    }
+    if (const std::optional<double> half_width = plus_minus(pieces, row)) {
+        return {Origin::limits, half_width};
+    }
+    return {};
+}
+
+/// The number of an origin that is known already.
+std::optional<double> value_in(const Pieces& pieces, Origin origin, const AuditedRow& row) {
+    const auto either = [](std::optional<double> first, std::optional<double> second) {
+        return first ? first : second;
+    };
+    switch (origin) {
+        case Origin::certificate:
+            return either(expanded_uncertainty(pieces, row), find_keyword(pieces, k_of_certificate, row).value);
+        case Origin::specification:
+            return either(find_keyword(pieces, k_of_specification, row).value, plus_minus(pieces, row));
+        case Origin::resolution:
+            return find_keyword(pieces, k_of_resolution, row).value;
+        case Origin::limits:
+            return either(find_keyword(pieces, k_of_limits, row).value, plus_minus(pieces, row));
+        case Origin::readings:
+        case Origin::not_stated:
+            break;
+    }
+    return std::nullopt;
+}
+
+/// The only number with a unit of the row's kind; nothing where there are several.
+std::optional<double> only_number(const Pieces& pieces, const AuditedRow& row) {
+    std::optional<double> only;
+    for (const Piece& piece : pieces) {
+        if (piece.kind != Piece::Kind::number) {
+            continue;
+        }
+        const std::optional<NumberOfRow> number = in_unit_of_row(piece, row);
+        if (number && number->has_unit) {
+            if (only) {
+                return std::nullopt;
+            }
+            only = number->value;
+        }
+    }
+    return only;
+}
+
+/// Distributions that a sentence names; "normal" alone is a measurement standard in German.
+Shape shape_in_sentence(const WordLine& words) {
+    if (words.has_any({"rect ", "rectang", "rechteck", "*gleichverteil", "uniform distribut", "uniformly"})) {
+        return Shape::rectangular;
+    }
+    if (words.has_any({"triang", "dreieck"})) {
+        return Shape::triangular;
+    }
+    if (words.has_any({"arcsin", "arkussin", "arcussin", "u shaped", "u distribut", "u formig", "u verteil"})) {
+        return Shape::arcsine;
+    }
+    if (words.has_any({"trapez"})) {
+        return Shape::trapezoidal;
+    }
+    if (words.has_any({"student", "t distribut", "t verteil"})) {
+        return Shape::student_t;
+    }
+    if (words.has_any({"normal distribut", "normalverteil", "normally distribut", "gauss"})) {
+        return Shape::normal;
+    }
+    return Shape::not_stated;
+}
+
+std::string trimmed(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    return first == std::string_view::npos
+               ? std::string()
+               : std::string(text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1));
+}
+
+/// Divisor of a half-width of a shape.
+std::optional<double> divisor_of(Shape shape) {
+    switch (shape) {
+        case Shape::rectangular:
+            return std::numbers::sqrt3;
+        case Shape::triangular:
+            return std::sqrt(6.0);
+        case Shape::arcsine:
+            return std::numbers::sqrt2;
+        default:
+            return std::nullopt;
+    }
+}
+
+StatedNumber quotient(const StatedNumber& a, const StatedNumber& b) {
+    StatedNumber result;
+    result.value = a.value / b.value;
+    result.half_step = std::abs(a.half_step / b.value) + std::abs(result.value / b.value) * b.half_step;
+    return result;
+}
+StatedNumber product(const StatedNumber& a, const StatedNumber& b) {
+    StatedNumber result;
+    result.value = a.value * b.value;
+    result.half_step = std::abs(a.value) * b.half_step + std::abs(b.value) * a.half_step + a.half_step * b.half_step;
+    return result;
+}
+/// Whether two numbers are the same within what their digits leave open.
+bool agree(const StatedNumber& a, const StatedNumber& b) {
+    constexpr double k_rounding = 1e-6;  // of exact numbers that somebody computed
+    const double open = a.half_step + b.half_step + k_rounding * std::max(std::abs(a.value), std::abs(b.value));
+    return std::abs(std::abs(a.value) - std::abs(b.value)) <= open;
+}
+
+bool is_usable(const std::optional<StatedNumber>& number) {
+    return number && std::isfinite(number->value);
+}
+bool is_divisor(const std::optional<StatedNumber>& number) {
+    return is_usable(number) && number->value > 0.0;
+}
+
+}  // namespace
+
+Contributor contributor_of(std::string_view quantity, std::string_view comment, std::string_view source) {
+    const WordLine words_of_quantity(quantity);
+    if (const Contributor kind = kind_of_effect(words_of_quantity, quantity); kind != Contributor::other) {
+        return kind;
+    }
+    const Contributor device = device_of(words_of_quantity);
+    // A comment on a standard names many things; what it begins with is what the row is.
+    const WordLine beginning(comment.substr(0, comment.find_first_of(",;:(")));
+    if (device != Contributor::other) {
+        const Contributor kind = kind_of_effect(beginning, comment.substr(0, 0));
+        if (kind == Contributor::reference_drift || kind == Contributor::item_resolution ||
+            kind == Contributor::reference_resolution || kind == Contributor::repeatability) {
+            if (kind == Contributor::item_resolution && device == Contributor::reference) {
+                return Contributor::reference_resolution;
+            }
+            return kind == Contributor::reference_drift && device == Contributor::item ? Contributor::item : kind;
+        }
+        return device;
+    }
+    for (const std::string_view text : {comment, source}) {
+        const WordLine words(text);
+        for (const Contributor found : {kind_of_effect(words, text), device_of(words)}) {
+            if (found != Contributor::other) {
+                return found;
+            }
+        }
+    }
+    return Contributor::other;
+}
+
+Shape shape_of(std::string_view text) {
+    const std::string raw = trimmed(cut(text, k_longest_text));
+    const WordLine words(raw);
+    const bool empty = certificate::words_of(raw).empty();
+    if (empty) {
+        return Shape::not_stated;
+    }
+    if (const Shape shape = shape_in_sentence(words); shape != Shape::not_stated) {
+        return shape;
+    }
+    if (words.has_any({"rec ", "uniform", "gleich", "square", "recht"})) {
+        return Shape::rectangular;
+    }
+    if (raw == "t" || words.has_any({"t faktor", "t factor"})) {
+        return Shape::student_t;
+    }
+    if (words.has_any({"normal", "norm ", "gaus", "n "})) {
+        return Shape::normal;
+    }
+    if (words.has_any({"tri ", "dreieck"})) {
+        return Shape::triangular;
+    }
+    if (words.has_any({"u form", "ushape", "cyclic", "sinus"})) {
+        return Shape::arcsine;
+    }
+    return Shape::other;
+}
+
+void read_comment(AuditedRow& row) {
+    const std::array<Pieces, 3> texts{pieces_of(row.comment), pieces_of(row.quantity), pieces_of(row.source)};
+    if (row.type_a == true && row.origin == Origin::not_stated) {
+        row.origin = Origin::readings;
+    }
+    if (row.origin == Origin::not_stated) {
+        for (const Pieces& pieces : texts) {
+            const Reading reading = origin_in(pieces, row);
+            if (reading.origin != Origin::not_stated) {
+                row.origin = reading.origin;
+                row.origin_value = row.origin_value ? row.origin_value : reading.value;
+                break;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < texts.size() && !row.origin_value; ++i) {
+        row.origin_value = value_in(texts[i], row.origin, row);
+    }
+    const bool one_number = row.origin == Origin::resolution || row.origin == Origin::specification;
+    if (!row.origin_value && one_number) {
+        row.origin_value = only_number(texts.front(), row);
+    }
+    if (row.origin == Origin::certificate) {
+        for (const Pieces& pieces : texts) {
+            row.certificate_k = row.certificate_k ? row.certificate_k : coverage_factor(pieces);
+            row.certificate_probability =
+                row.certificate_probability ? row.certificate_probability : coverage_probability(pieces);
+        }
+    }
+    if (row.origin == Origin::readings) {
+        for (const Pieces& pieces : texts) {
+            row.n = row.n ? row.n : count_of_readings(pieces);
+            row.pooled_s = row.pooled_s ? row.pooled_s : pooled_deviation(pieces, row);
+        }
+    }
+    if (!row.nu) {
+        if (const std::optional<double> nu = degrees_of_freedom(texts.front())) {
+            row.nu = exact_number(*nu, row.place);
+        }
+    }
+    if (!row.type_a && row.origin != Origin::not_stated) {
+        row.type_a = row.origin == Origin::readings;
+    }
+    if (row.shape == Shape::not_stated) {
+        row.shape = shape_in_sentence(WordLine(row.comment));
+    }
+    if (row.contributor == Contributor::other) {
+        row.contributor = contributor_of(row.quantity, row.comment, row.source);
+    }
+    // Readings whose words say nothing else scatter as the instrument and the item do.
+    if (row.contributor == Contributor::other && row.type_a == true) {
+        row.contributor = Contributor::repeatability;
+    }
+}
+
+void complete_row(AuditedRow& row) {
+    const bool has_divisor = is_divisor(row.divisor);
+    const std::optional<StatedNumber> c = is_usable(row.sensitivity) ? row.sensitivity : std::nullopt;
+    const StatedNumber factor = c.value_or(exact_number(1.0, ""));
+    // A column of uncertainties in which the divisor is still to come.
+    if (is_usable(row.u) && !row.stated && has_divisor && is_usable(row.contribution)) {
+        const bool divided = agree(product(factor, *row.u), *row.contribution);
+        const bool undivided = agree(product(factor, quotient(*row.u, *row.divisor)), *row.contribution);
+        if (undivided && !divided) {
+            row.stated = std::exchange(row.u, std::nullopt);
+        }
+    }
+    std::optional<StatedNumber> u;
+    if (is_usable(row.u)) {
+        u = row.u;
+    } else if (is_usable(row.stated) && has_divisor) {
+        u = quotient(*row.stated, *row.divisor);
+    } else if (is_usable(row.contribution) && factor.value != 0.0) {
+        u = quotient(*row.contribution, factor);
+    } else if (is_usable(row.stated)) {
+        const std::optional<double> implied =
+            row.origin == Origin::certificate && row.certificate_k ? row.certificate_k : divisor_of(row.shape);
+        u = quotient(*row.stated, exact_number(implied.value_or(1.0), ""));
+    }
+    // A quotient beyond all numbers is none.
+    if (u && (!std::isfinite(u->value) || !std::isfinite(u->half_step))) {
+        u.reset();
+    }
+    StatedNumber sensitivity = factor;
+    if (!c && u && u->value != 0.0 && is_usable(row.contribution) && !agree(*u, *row.contribution)) {
+        const StatedNumber implied = quotient(*row.contribution, *u);
+        sensitivity = std::isfinite(implied.value) && std::isfinite(implied.half_step) ? implied : factor;
+    }
+    row.used_u = u ? std::abs(u->value) : 0.0;
+    row.u_half_step = u ? std::abs(u->half_step) : 0.0;
+    row.used_sensitivity = sensitivity.value;
+    row.sensitivity_half_step = sensitivity.half_step;
+    const bool finite = row.nu && std::isfinite(row.nu->value) && row.nu->value > 0.0;
+    row.used_nu = finite ? row.nu->value : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace gumcert::audit

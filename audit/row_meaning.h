@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string_view>
+
+#include "audit/audited_budget.h"
+
+namespace gumcert::audit {
+
+// What the words of an uncertainty budget mean, in English and German. A row keeps what its reader has set already:
+// words fill in what no column says.
+
+/// The contributor that a row stands for. Words of the quantity count more than those of the comment, and these more
+/// than those of the source; `other` where none is known.
+[[nodiscard]] Contributor contributor_of(std::string_view quantity, std::string_view comment, std::string_view source);
+
+/// What a column of distributions says: "rect.", "Rechteck", "N (k = 2)", "U-shaped", "t". `not_stated` of an empty text
+/// or a dash, `other` of words that name no distribution known here.
+[[nodiscard]] Shape shape_of(std::string_view text);
+
+/// Reads origin and numbers of a row out of its comment, and where that says nothing out of quantity and source:
+/// "MPE 0.4 µm", "resolution 0.1", "U = 0.36 µm, k = 2", "±1 K", "mean of 10".
+///
+/// Sets origin, origin_value, certificate_k, certificate_probability, n, pooled_s, nu, type_a, shape and contributor, each
+/// only where it is not set. A number with a unit is converted into the unit of the row; one of another dimension
+/// belongs to something else and is not taken. A percentage is taken in a row of percent only: its base is not known.
+/// Texts are read up to 400 bytes.
+void read_comment(AuditedRow& row);
+
+/// Fills in what is evaluated (used_u, used_sensitivity, used_nu and the half steps) from the columns that are there.
+///
+/// Whether a column of uncertainties was divided already is decided by the contribution: |c| u or |c| u/divisor, which
+/// one agrees within the printed digits. Where it was not, its number is what was divided, and moves to `stated`.
+/// Without a contribution u counts as divided, and a row with `stated` alone is divided by its divisor, by that of its
+/// certificate, or by that of its shape. Degrees of freedom that no column states are infinite.
+void complete_row(AuditedRow& row);
+
+}  // namespace gumcert::audit
