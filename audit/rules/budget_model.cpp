@@ -1,0 +1,200 @@
+#include "audit/rules/budget_model.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "gum/expression/name.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/quantity/unit.h"
+
+namespace gumcert::audit {
+namespace {
+
+std::string trimmed(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t\r");
+    if (first == std::string_view::npos) {
+        return "";
+    }
+    return std::string(text.substr(first, text.find_last_not_of(" \t\r") - first + 1));
+}
+
+std::vector<gum::EquationText> equations_of(const AuditedBudget& budget) {
+    std::vector<gum::EquationText> equations;
+    std::string_view rest = budget.equation;
+    while (!rest.empty()) {
+        const std::size_t end = std::min(rest.find_first_of("\n;"), rest.size());
+        std::string one = trimmed(rest.substr(0, end));
+        if (!one.empty()) {
+            equations.push_back({.text = std::move(one), .where = budget.place});
+        }
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    return equations;
+}
+
+/// The row that stands for a quantity: by its whole name, else by the first word of it.
+std::optional<std::size_t> row_of(const AuditedBudget& budget, const std::string& name) {
+    const auto find = [&](const auto& name_of) -> std::optional<std::size_t> {
+        std::optional<std::size_t> found;
+        for (std::size_t i = 0; i < budget.rows.size(); ++i) {
+            if (gum::canonical_name(name_of(budget.rows[i].quantity)) == name) {
+                if (found) {
+                    return std::nullopt;  // two rows for one name: neither is taken
+                }
+                found = i;
+            }
+        }
+        return found;
+    };
+    const std::optional<std::size_t> whole = find([](const std::string& quantity) { return trimmed(quantity); });
+    return whole ? whole : find([](const std::string& quantity) {
+        const std::string text = trimmed(quantity);
+        return text.substr(0, text.find_first_of(" (,:"));
+    });
+}
+
+/// The unit of a row; nothing for a text that is none. "-" stands for one.
+std::optional<gum::Unit> unit_of(const std::string& text) {
+    if (text.empty() || text == "-" || text == "1") {
+        return gum::Unit();
+    }
+    try {
+        return gum::Unit::parse(text);
+    } catch (const gum::DiagnosedError&) {
+        return std::nullopt;
+    }
+}
+
+}  // namespace
+
+std::optional<BudgetModel> BudgetModel::of(const AuditedBudget& budget) {
+    const std::vector<gum::EquationText> equations = equations_of(budget);
+    if (equations.empty()) {
+        return std::nullopt;
+    }
+    BudgetModel model;
+    std::set<std::string> defined, used;
+    try {
+        for (const gum::EquationText& equation : equations) {
+            const gum::EquationNames names = gum::equation_names(equation);
+            if (names.defines.empty()) {
+                return std::nullopt;  // implicit: rows do not say where to begin
+            }
+            defined.insert(names.defines);
+            used.insert(names.uses.begin(), names.uses.end());
+        }
+    } catch (const gum::DiagnosedError&) {
+        return std::nullopt;
+    }
+    std::vector<gum::InputSymbol> inputs;
+    bool units_known = true, any_unit = !budget.unit.empty() && budget.unit != "1", estimates_known = true;
+    for (const std::string& name : used) {
+        if (defined.contains(name)) {
+            continue;
+        }
+        const std::optional<std::size_t> row = row_of(budget, name);
+        if (!row) {
+            model.without_row_.push_back(name);
+            continue;
+        }
+        const AuditedRow& is = budget.rows[*row];
+        const std::optional<gum::Unit> unit = unit_of(is.unit);
+        units_known = units_known && unit;
+        any_unit = any_unit || !is.unit.empty();
+        estimates_known = estimates_known && is.estimate && std::isfinite(is.estimate->value);
+        model.quantities_.push_back(name);
+        model.rows_.push_back(*row);
+        model.units_.push_back(unit.value_or(gum::Unit()));
+        inputs.push_back({.name = name, .unit = model.units_.back(), .constant = std::nullopt});
+    }
+    if (model.rows_.empty()) {
+        return std::nullopt;
+    }
+    const std::optional<gum::Unit> result_unit = unit_of(budget.unit);
+    if (!model.without_row_.empty() || !estimates_known || (any_unit && (!units_known || !result_unit))) {
+        return model;
+    }
+    try {
+        gum::EquationSystem system = gum::EquationSystem::compile(equations, inputs);
+        std::optional<std::size_t> output;
+        for (std::size_t i = 0; i < system.output_count(); ++i) {
+            if (system.output_count() == 1 || system.output_name(i) == gum::canonical_name(budget.name)) {
+                output = i;
+            }
+        }
+        if (!output || !(system.output_unit(*output).dimension() == result_unit->dimension())) {
+            return model;
+        }
+        model.output_ = *output;
+        model.result_unit_ = *result_unit;
+        model.system_ = std::move(system);
+    } catch (const gum::DiagnosedError&) {
+        // Units that do not balance: the numbers of the table cannot be told.
+        return model;
+    }
+    return model;
+}
+
+std::vector<double> BudgetModel::estimates(const AuditedBudget& budget) const {
+    std::vector<double> x(rows_.size(), std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (rows_[i] < budget.rows.size() && budget.rows[rows_[i]].estimate) {
+            x[i] = budget.rows[rows_[i]].estimate->value;
+        }
+    }
+    return x;
+}
+
+std::optional<std::vector<double>> BudgetModel::derivatives(const std::vector<double>& x) const {
+    const auto n = static_cast<Eigen::Index>(units_.size());
+    Eigen::VectorXd at(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        at(i) = units_[static_cast<std::size_t>(i)].to_si(x[static_cast<std::size_t>(i)]);
+    }
+    if (!system_ || !at.allFinite()) {
+        return std::nullopt;
+    }
+    try {
+        const Eigen::MatrixXd jacobian = system_->jacobian(at);
+        std::vector<double> c(units_.size());
+        for (std::size_t i = 0; i < c.size(); ++i) {
+            const double si = jacobian(static_cast<Eigen::Index>(output_), static_cast<Eigen::Index>(i));
+            c[i] = result_unit_.difference_from_si(units_[i].difference_to_si(si));
+        }
+        return c;
+    } catch (const gum::DiagnosedError&) {
+        return std::nullopt;
+    }
+}
+
+std::optional<std::vector<double>> BudgetModel::second_derivatives(const std::vector<double>& x) const {
+    const auto n = static_cast<Eigen::Index>(units_.size());
+    Eigen::VectorXd at(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        at(i) = units_[static_cast<std::size_t>(i)].to_si(x[static_cast<std::size_t>(i)]);
+    }
+    if (!system_ || !at.allFinite()) {
+        return std::nullopt;
+    }
+    try {
+        const Eigen::MatrixXd hessian = system_->hessians(at)[output_];
+        std::vector<double> all(units_.size() * units_.size());
+        for (std::size_t i = 0; i < units_.size(); ++i) {
+            for (std::size_t j = 0; j < units_.size(); ++j) {
+                const double si = hessian(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+                all[i * units_.size() + j] =
+                    result_unit_.difference_from_si(units_[i].difference_to_si(units_[j].difference_to_si(si)));
+            }
+        }
+        return all;
+    } catch (const gum::DiagnosedError&) {
+        return std::nullopt;
+    }
+}
+
+}  // namespace gumcert::audit

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "audit/audited_budget.h"
+#include "gum/expression/equation_system.h"
+
+namespace gumcert::audit {
+
+/// The equation of a budget together with the rows that stand for its quantities, in the units of the table.
+class BudgetModel {
+public:
+    /// Equations stand on lines of their own, or between semicolons. A row stands for a quantity where its name, or the
+    /// first word of its name, is that of the quantity.
+    /// \return nothing where the equation cannot be read, or no row stands for any of its quantities
+    [[nodiscard]] static std::optional<BudgetModel> of(const AuditedBudget& budget);
+
+    /// Quantities of the equation, those without a row, and the position of the row of each of the others.
+    [[nodiscard]] const std::vector<std::string>& without_row() const { return without_row_; }
+    [[nodiscard]] const std::vector<std::string>& quantities() const { return quantities_; }
+    [[nodiscard]] const std::vector<std::size_t>& rows() const { return rows_; }
+    /// Whether numbers can be computed: every quantity has a row with an estimate, and units balance, or none is stated.
+    [[nodiscard]] bool can_be_evaluated() const { return system_.has_value(); }
+
+    /// The estimates of the rows, in their units; NaN for one that a budget does not have.
+    [[nodiscard]] std::vector<double> estimates(const AuditedBudget& budget) const;
+    /// ∂y/∂x_i at x, [unit of the result / unit of the row i].
+    /// \return nothing where the equation has no finite derivative there
+    [[nodiscard]] std::optional<std::vector<double>> derivatives(const std::vector<double>& x) const;
+    /// ∂²y/∂x_i∂x_j at x, row by row, n².
+    [[nodiscard]] std::optional<std::vector<double>> second_derivatives(const std::vector<double>& x) const;
+
+private:
+    std::vector<std::string> quantities_, without_row_;
+    std::vector<std::size_t> rows_;
+    std::vector<gum::Unit> units_;
+    gum::Unit result_unit_;
+    std::size_t output_ = 0;
+    std::optional<gum::EquationSystem> system_;
+};
+
+}  // namespace gumcert::audit

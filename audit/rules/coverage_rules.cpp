@@ -1,0 +1,639 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "audit/claims.h"
+#include "audit/row_facts.h"
+#include "audit/rules/registry.h"
+#include "audit/rules/row_edits.h"
+#include "gum/coverage.h"
+#include "gum/quantity/diagnostic.h"
+#include "text/numbers.h"
+
+namespace gumcert::audit {
+namespace {
+
+constexpr double k_usual_probability = 0.9545;
+
+/// Walks over budgets with an outcome.
+template <typename Look>
+void for_each_outcome(const AuditSubject& subject, const Look& look) {
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        try {
+            look(b, subject.budgets[b], evaluate(subject.budgets[b]));
+        } catch (const gum::DiagnosedError&) {
+            continue;  // said where results are listed
+        }
+    }
+}
+
+/// The same over budgets that somebody else evaluated: our own k and U need no second look.
+template <typename Look>
+void for_each_foreign_outcome(const AuditSubject& subject, const Look& look) {
+    for_each_outcome(subject, [&look](std::size_t b, const AuditedBudget& budget, const BudgetOutcome& outcome) {
+        if (!budget.evaluated_here) {
+            look(b, budget, outcome);
+        }
+    });
+}
+
+std::string range_in_words(const Interval& interval, const std::string& unit) {
+    return in_words(interval.low) + " to " + in_words(interval.high, unit);
+}
+
+std::string claimed_in_words(const StatedNumber& number, const std::string& unit) {
+    return number.text.empty() ? in_words(number.value, unit) : number.text + (unit.empty() ? "" : " " + unit);
+}
+
+const Correction k_trust_rows = [](AuditedBudget& budget) { budget.u_c_over_rows = budget.U_over_k_u_c = 1.0; };
+
+/// K01
+void not_reproducible(const AuditSubject& subject, FindingCollector& findings) {
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        const AuditedBudget& budget = subject.budgets[b];
+        if (budget.evaluated_here) {
+            continue;
+        }
+        const ClaimCheck check = check_claims(budget);
+        if (check.u_c_outside && !check.linear_sum) {  // K09
+            AuditFinding finding = finding_of(subject, b,
+                                              "the claimed u_c = " + claimed_in_words(*budget.claims.u_c, budget.unit) +
+                                                  " does not follow from the rows, whatever their rounding");
+            finding.evidence = {"the rows allow " + range_in_words(check.u_c, budget.unit)};
+            finding.expected = range_in_words(check.u_c, budget.unit);
+            finding.actual = claimed_in_words(*budget.claims.u_c, budget.unit);
+            finding.kind = "u_c";
+            finding.correct = [](AuditedBudget& corrected) { corrected.u_c_over_rows = 1.0; };
+            findings.add(std::move(finding));
+        }
+        if (check.U_outside) {
+            AuditFinding finding = finding_of(subject, b,
+                                              "the claimed U = " + claimed_in_words(*budget.claims.U, budget.unit) +
+                                                  " is not k u_c, whatever the rounding of its rows");
+            finding.evidence = {"k u_c allows " + range_in_words(check.U, budget.unit)};
+            if (budget.claims.k) {
+                finding.evidence.push_back("claimed k = " + claimed_in_words(*budget.claims.k, ""));
+            }
+            if (budget.claims.u_c) {
+                finding.evidence.push_back("claimed u_c = " + claimed_in_words(*budget.claims.u_c, budget.unit));
+            }
+            finding.expected = range_in_words(check.U, budget.unit);
+            finding.actual = claimed_in_words(*budget.claims.U, budget.unit);
+            finding.kind = "U";
+            finding.correct = [](AuditedBudget& corrected) { corrected.U_over_k_u_c = 1.0; };
+            findings.add(std::move(finding));
+        }
+    }
+}
+
+/// K09
+void linear_sum(const AuditSubject& subject, FindingCollector& findings) {
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        const AuditedBudget& budget = subject.budgets[b];
+        const ClaimCheck check = check_claims(budget);
+        if (!check.linear_sum || budget.evaluated_here) {
+            continue;
+        }
+        AuditFinding finding =
+            finding_of(subject, b,
+                       "u_c = " + claimed_in_words(*budget.claims.u_c, budget.unit) +
+                           " is the plain sum of the contributions, not the root of the sum of squares");
+        finding.evidence = {"the root of the sum of squares is " + range_in_words(check.u_c, budget.unit)};
+        finding.expected = range_in_words(check.u_c, budget.unit);
+        finding.actual = claimed_in_words(*budget.claims.u_c, budget.unit);
+        finding.correct = k_trust_rows;
+        findings.add(std::move(finding));
+    }
+}
+
+/// The probability that belongs to a fixed k: as claimed, or that of the normal distribution for 1.96, 2, 2.58 and 3.
+double probability_of(const AuditedBudget& budget) {
+    if (budget.claims.coverage_probability) {
+        return *budget.claims.coverage_probability;
+    }
+    const double k = budget.coverage.k;
+    if (is_about(k, 1.96, 0.003)) {
+        return 0.95;
+    }
+    if (is_about(k, 2.576, 0.005)) {
+        return 0.99;
+    }
+    return is_about(k, 3.0, 0.003) ? 0.9973 : k_usual_probability;
+}
+
+/// Whether a fixed k is taken although ν_eff is small: K02.
+bool has_fixed_k_of_few(const AuditedBudget& budget, const BudgetOutcome& outcome) {
+    constexpr double k_enough = 20.0, k_least = 0.5;
+    return budget.coverage.kind == CoverageRule::Kind::fixed && outcome.nu_eff < k_enough &&
+           outcome.nu_eff >= k_least &&
+           gum::coverage_factor(probability_of(budget), outcome.nu_eff) > 1.01 * budget.coverage.k;
+}
+
+/// K02
+void fixed_k_of_few(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_foreign_outcome(subject, [&](std::size_t b, const AuditedBudget& budget, const BudgetOutcome& outcome) {
+        if (!has_fixed_k_of_few(budget, outcome)) {
+            return;
+        }
+        const double p = probability_of(budget), k = gum::coverage_factor(p, outcome.nu_eff);
+        AuditFinding finding = finding_of(
+            subject, b,
+            "k = " + in_words(budget.coverage.k) + " is fixed although ν_eff is only " + in_words(outcome.nu_eff));
+        finding.evidence = {"p = " + text::significant(100.0 * p, 4) + " %", "t_p(ν_eff) = " + in_words(k),
+                            "u_c = " + in_words(outcome.u_c, budget.unit)};
+        finding.expected = "k = " + in_words(k);
+        finding.actual = "k = " + in_words(budget.coverage.k);
+        finding.correct = [p](AuditedBudget& corrected) {
+            corrected.coverage.kind = CoverageRule::Kind::student_t;
+            corrected.coverage.probability = p;
+        };
+        findings.add(std::move(finding));
+    });
+}
+
+/// K11: the GUM allows both ways; a laboratory uses one.
+void truncation(const AuditSubject& subject, FindingCollector& findings) {
+    const bool some_truncate =
+        std::any_of(subject.budgets.begin(), subject.budgets.end(), [](const AuditedBudget& budget) {
+            return budget.coverage.kind == CoverageRule::Kind::student_t && budget.coverage.truncate;
+        });
+    const bool foreign = subject.kind == AuditSubject::Kind::table || subject.kind == AuditSubject::Kind::workbook;
+    for_each_foreign_outcome(subject, [&](std::size_t b, const AuditedBudget& budget, const BudgetOutcome& outcome) {
+        const bool few = has_fixed_k_of_few(budget, outcome);
+        const bool student = budget.coverage.kind == CoverageRule::Kind::student_t;
+        if (!(student || few) || budget.coverage.truncate || !std::isfinite(outcome.nu_eff) || outcome.nu_eff < 1.0) {
+            return;
+        }
+        AuditedBudget as_it_is = budget, cut = budget;
+        for (AuditedBudget* one : {&as_it_is, &cut}) {
+            one->coverage.kind = CoverageRule::Kind::student_t;
+            one->coverage.probability = few ? probability_of(budget) : budget.coverage.probability;
+        }
+        cut.coverage.truncate = true;
+        const BudgetOutcome whole = evaluate(as_it_is), lower = evaluate(cut);
+        if (whole.printed_U == lower.printed_U && !some_truncate) {
+            return;
+        }
+        if (is_about(whole.k, lower.k, 1e-9)) {
+            return;
+        }
+        AuditFinding finding =
+            finding_of(subject, b,
+                       "ν_eff = " + in_words(outcome.nu_eff) +
+                           (some_truncate ? " is used as it is; other budgets cut it to the next lower whole number"
+                                          : " is used as it is; cut to the next lower whole number, U would be printed "
+                                            "otherwise"));
+        finding.evidence = {"k = " + in_words(whole.k) + ", cut " + in_words(lower.k),
+                            "U = " + whole.printed_U + ", cut " + lower.printed_U};
+        if (foreign || some_truncate) {
+            finding.correct = [](AuditedBudget& corrected) {
+                if (corrected.coverage.kind == CoverageRule::Kind::student_t) {
+                    corrected.coverage.truncate = true;
+                }
+            };
+        }
+        findings.add(std::move(finding));
+    });
+}
+
+/// A number behind "k =" in a sentence, and a percentage.
+struct CoverageWords {
+    std::optional<StatedNumber> k;
+    std::optional<double> p;
+};
+CoverageWords coverage_words(const AuditedBudget& budget) {
+    CoverageWords words;
+    const std::string sentence = in_small_letters(budget.claims.coverage_sentence);
+    for (std::size_t at = sentence.find('k'); at != std::string::npos && !words.k; at = sentence.find('k', at + 1)) {
+        const std::size_t equals = sentence.find_first_not_of(' ', at + 1);
+        const bool alone = at == 0 || sentence[at - 1] == ' ' || sentence[at - 1] == '(' || sentence[at - 1] == ',';
+        if (alone && equals != std::string::npos && sentence[equals] == '=') {
+            if (const std::optional<LeadingNumber> number = read_leading_number(sentence.substr(equals + 1), "")) {
+                words.k = number->number;
+            }
+        }
+    }
+    const std::size_t percent = sentence.find('%');
+    if (percent != std::string::npos) {
+        const std::size_t end = sentence.find_last_of("0123456789", percent);
+        if (end != std::string::npos) {
+            const std::size_t before = sentence.find_last_not_of("0123456789.,", end);
+            const std::size_t from = before == std::string::npos ? 0 : before + 1;
+            if (const std::optional<StatedNumber> p = read_number(sentence.substr(from, end + 1 - from), "")) {
+                words.p = p->value / 100.0;
+            }
+        }
+    }
+    if (!words.k) {
+        words.k = budget.claims.k;
+    }
+    if (!words.p) {
+        words.p = budget.claims.coverage_probability;
+    }
+    return words;
+}
+
+/// The outcome with the rule of coverage that the claimed U shows, and what the digits of the rows leave open of it.
+struct ShownCoverage {
+    BudgetOutcome outcome;
+    OutcomeIntervals allowed;
+};
+ShownCoverage shown_coverage(const AuditedBudget& budget) {
+    AuditedBudget shown = budget;
+    shown.coverage = check_claims(budget).coverage;
+    return {.outcome = evaluate(shown), .allowed = outcome_intervals(shown)};
+}
+
+/// Whether the stated k is the used one, rounded to a whole number by more than 5 %: "2" for 2.40. K13.
+bool loses_digits(const StatedNumber& stated, double k) {
+    constexpr double k_seen = 0.05;
+    return stated.value == std::round(k) && !is_about(stated.value, k, k_seen);
+}
+
+/// K03
+void k_and_sentence(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_foreign_outcome(subject, [&](std::size_t b, const AuditedBudget& budget, const BudgetOutcome&) {
+        const CoverageWords words = coverage_words(budget);
+        const ShownCoverage shown = shown_coverage(budget);
+        const BudgetOutcome& outcome = shown.outcome;
+        const double k = outcome.k;
+        const Interval stated = words.k ? words.k->interval() : Interval{k, k};
+        const std::string sentence =
+            budget.claims.coverage_sentence.empty() ? "" : ": \"" + budget.claims.coverage_sentence + "\"";
+        if (words.k && !loses_digits(*words.k, k) && !outcome.at_capability &&
+            !stated.meets({0.99 * shown.allowed.k.low, 1.01 * shown.allowed.k.high})) {
+            AuditFinding finding = finding_of(
+                subject, b,
+                "k = " + in_words(words.k->value) + " is stated, and k = " + in_words(k) + " was used" + sentence);
+            finding.evidence = {"U = " + in_words(outcome.U, budget.unit),
+                                "u_c = " + in_words(outcome.u_c, budget.unit)};
+            finding.kind = "k";
+            finding.expected = "k = " + in_words(k);
+            finding.actual = "k = " + in_words(words.k->value);
+            findings.add(std::move(finding));
+        }
+        if (!words.p || !(*words.p > 0.5) || !(*words.p < 1.0)) {
+            return;
+        }
+        // "About 95 %" is said of k = 2; an interval may be a little wider than p asks for.
+        const double least = gum::standard_normal_quantile(0.5 + 0.5 * *words.p);
+        const double fewest = std::floor(shown.allowed.nu_eff.low);
+        const double most =
+            fewest >= 1.0 ? std::max(least, gum::coverage_factor(*words.p, fewest)) : std::max(least, k);
+        const bool narrow_shape = budget.coverage.kind == CoverageRule::Kind::convolution || k < 1.75;
+        if ((k < 0.99 * least && !narrow_shape) || k > 1.06 * most) {
+            AuditFinding finding =
+                finding_of(subject, b,
+                           "k = " + in_words(k) + " and p = " + text::significant(100.0 * *words.p, 4) +
+                               " % do not belong together" + sentence);
+            finding.evidence = {"normal distribution: k = " + in_words(least), "ν_eff = " + in_words(outcome.nu_eff)};
+            finding.kind = "p";
+            finding.expected = "k = " + in_words(least) + (most > least ? " to " + in_words(most) : std::string());
+            finding.actual = "k = " + in_words(k);
+            findings.add(std::move(finding));
+        }
+    });
+}
+
+/// K13
+void k_loses_digits(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_foreign_outcome(subject, [&](std::size_t b, const AuditedBudget& budget, const BudgetOutcome&) {
+        const CoverageWords words = coverage_words(budget);
+        const BudgetOutcome outcome = shown_coverage(budget).outcome;
+        const double k = outcome.k;
+        if (!words.k || outcome.at_capability || !loses_digits(*words.k, k)) {
+            return;
+        }
+        AuditFinding finding = finding_of(subject, b,
+                                          "k = " + in_words(k) + " is printed as " + in_words(words.k->value) +
+                                              ": who divides U by it gets another u_c");
+        finding.evidence = {"U = " + in_words(outcome.U, budget.unit), "u_c = " + in_words(outcome.u_c, budget.unit)};
+        finding.expected = "k = " + text::fixed(k, 2);
+        finding.actual = "k = " + in_words(words.k->value);
+        findings.add(std::move(finding));
+    });
+}
+
+/// The half-width of a bounded row; nothing for one that has no bounds.
+std::optional<double> semi_range(const AuditedRow& row) {
+    switch (row.shape) {
+        case Shape::rectangular:
+            return row.used_u * std::numbers::sqrt3;
+        case Shape::triangular:
+            return row.used_u * std::sqrt(6.0);
+        case Shape::arcsine:
+            return row.used_u * std::numbers::sqrt2;
+        default:
+            return std::nullopt;
+    }
+}
+
+const Correction k_by_convolution = [](AuditedBudget& budget) {
+    if (budget.coverage.kind == CoverageRule::Kind::fixed) {
+        budget.coverage.probability = probability_of(budget);
+    }
+    budget.coverage.kind = CoverageRule::Kind::convolution;
+};
+
+/// K04
+void rectangular_dominance(const AuditSubject& subject, FindingCollector& findings) {
+    constexpr double k_rest = 0.3, k_moved = 0.02;
+    for_each_foreign_outcome(subject, [&](std::size_t b, const AuditedBudget& budget, const BudgetOutcome& outcome) {
+        const auto part = [](const AuditedRow& row) {
+            return row.in_sum ? std::abs(row.used_sensitivity) * row.used_u : 0.0;
+        };
+        const auto dominant =
+            std::max_element(budget.rows.begin(), budget.rows.end(),
+                             [&part](const AuditedRow& a, const AuditedRow& c) { return part(a) < part(c); });
+        if (dominant == budget.rows.end() || dominant->shape != Shape::rectangular || !budget.correlations.empty() ||
+            budget.coverage.kind == CoverageRule::Kind::convolution || budget.u_c_over_rows != 1.0) {
+            return;
+        }
+        const double largest = part(*dominant);
+        const double rest = std::sqrt(std::max(0.0, outcome.u_c * outcome.u_c - largest * largest));
+        if (rest > k_rest * largest) {
+            return;
+        }
+        AuditedBudget exact = budget;
+        k_by_convolution(exact);
+        const double k = evaluate(exact).k;
+        if (!(k < (1.0 - k_moved) * outcome.k)) {
+            return;
+        }
+        AuditFinding finding =
+            finding_of(subject, b,
+                       "a rectangular contribution is nearly all of u_c, and k = " + in_words(outcome.k) +
+                           " is that of a normal distribution");
+        finding.evidence = {"rest / dominant = " + in_words(rest / largest), "exact k = " + in_words(k),
+                            "p = " + text::significant(100.0 * exact.coverage.probability, 4) + " %"};
+        finding.expected = "k = " + in_words(k);
+        finding.actual = "k = " + in_words(outcome.k);
+        finding.correct = k_by_convolution;
+        findings.add(std::move(finding));
+    });
+}
+
+/// K05
+void wider_than_possible(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_foreign_outcome(subject, [&](std::size_t b, const AuditedBudget& budget, const BudgetOutcome& outcome) {
+        double sum = 0.0;
+        for (const AuditedRow& row : budget.rows) {
+            if (!row.in_sum || row.used_u == 0.0) {
+                continue;
+            }
+            const std::optional<double> half = semi_range(row);
+            if (!half) {
+                return;
+            }
+            sum += std::abs(row.used_sensitivity) * *half;
+        }
+        constexpr double k_digits = 0.01;
+        if (outcome.at_capability || !budget.correlations.empty() || !(sum > 0.0) ||
+            outcome.U <= (1.0 + k_digits) * sum) {
+            return;
+        }
+        AuditFinding finding =
+            finding_of(subject, b,
+                       "U = " + in_words(outcome.U, budget.unit) + " is more than all limits of the rows together, " +
+                           in_words(sum, budget.unit));
+        finding.evidence = {"k = " + in_words(outcome.k), "sum of the half-widths = " + in_words(sum, budget.unit)};
+        finding.expected = "U ≤ " + in_words(sum, budget.unit);
+        finding.actual = in_words(outcome.U, budget.unit);
+        finding.correct = k_by_convolution;
+        findings.add(std::move(finding));
+    });
+}
+
+/// K06
+void one_term(const AuditSubject& subject, FindingCollector& findings) {
+    constexpr double k_share = 0.95;
+    for_each_outcome(subject, [&](std::size_t b, const AuditedBudget& budget, const BudgetOutcome& outcome) {
+        for (std::size_t r = 0; r < budget.rows.size() && budget.rows.size() > 1; ++r) {
+            const AuditedRow& row = budget.rows[r];
+            // Of what the rows add up to: a claim beyond them has no shares.
+            const double part =
+                row.in_sum ? row.used_sensitivity * row.used_u * budget.u_c_over_rows / outcome.u_c : 0.0;
+            if (part * part <= k_share || !budget.correlations.empty()) {
+                continue;
+            }
+            AuditFinding finding =
+                finding_at({.budget = b, .row = r, .of = budget, .is = row}, "",
+                           "this row is " + text::significant(100.0 * part * part, 3) + " % of the variance");
+            finding.evidence = {"|c| u = " + in_words(std::abs(row.used_sensitivity) * row.used_u, budget.unit),
+                                "u_c = " + in_words(outcome.u_c, budget.unit)};
+            findings.add(std::move(finding));
+        }
+    });
+}
+
+/// K07
+void asymmetric_interval(const AuditSubject& subject, FindingCollector& findings) {
+    constexpr double k_unequal = 0.1;
+    for_each_outcome(subject, [&](std::size_t b, const AuditedBudget& budget, const BudgetOutcome& outcome) {
+        if (!budget.monte_carlo || !budget.monte_carlo->low || !budget.monte_carlo->high || !budget.value) {
+            return;
+        }
+        const double below = *budget.value - *budget.monte_carlo->low,
+                     above = *budget.monte_carlo->high - *budget.value;
+        if (std::abs(above - below) <= k_unequal * std::abs(above + below)) {
+            return;
+        }
+        AuditFinding finding =
+            finding_of(subject, b, "the coverage interval is not symmetric about the value, and U is printed as ±");
+        finding.evidence = {"below the value " + in_words(below, budget.unit),
+                            "above it " + in_words(above, budget.unit), "threshold: 10 % of the width"};
+        finding.expected = "the ends " + in_words(*budget.monte_carlo->low) + " and " +
+                           in_words(*budget.monte_carlo->high, budget.unit);
+        finding.actual = "± " + in_words(outcome.U, budget.unit);
+        findings.add(std::move(finding));
+    });
+}
+
+/// K08
+void below_physical_limit(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_outcome(subject, [&](std::size_t b, const AuditedBudget& budget, const BudgetOutcome& outcome) {
+        std::optional<double> least = budget.physical_minimum;
+        const std::string name = in_small_letters(budget.name);
+        for (const char* form :
+             {"flatness", "roundness", "straightness", "cylindricity", "form error", "roughness", "concentration",
+              "ebenheit", "rundheit", "geradheit", "formabweichung", "rauheit", "konzentration"}) {
+            if (!least && name.find(form) != std::string::npos) {
+                least = 0.0;
+            }
+        }
+        if (!least || !budget.value || *budget.value - outcome.U >= *least) {
+            return;
+        }
+        AuditFinding finding = finding_of(
+            subject, b,
+            "the interval reaches below " + in_words(*least, budget.unit) + ", where the quantity has no values");
+        finding.evidence = {"value = " + in_words(*budget.value, budget.unit),
+                            "U = " + in_words(outcome.U, budget.unit)};
+        findings.add(std::move(finding));
+    });
+}
+
+/// K12
+void larger_than_tolerance(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_outcome(subject, [&](std::size_t b, const AuditedBudget& budget, const BudgetOutcome& outcome) {
+        if (!budget.limits.two_sided()) {
+            return;
+        }
+        const double half = 0.5 * (*budget.limits.upper - *budget.limits.lower);
+        if (!(half > 0.0) || outcome.U <= half) {
+            return;
+        }
+        AuditFinding finding =
+            finding_of(subject, b,
+                       "U = " + in_words(outcome.U, budget.unit) + " is larger than the tolerance that it serves, ± " +
+                           in_words(half, budget.unit));
+        finding.evidence = {"U / tolerance = " + in_words(outcome.U / half)};
+        findings.add(std::move(finding));
+    });
+}
+
+}  // namespace
+
+std::vector<Rule> coverage_rules() {
+    using enum SeverityPolicy;
+    using enum FindingSeverity;
+    return {
+        {.id = "K01",
+         .title = "u_c or U does not follow from the rows",
+         .clause = {.text = "ISO/IEC 17025:2017, 7.11.6", .verified = false},
+         .severity = critical,
+         .needs = {Need::rows, Need::claims},
+         .detection =
+             "the claimed u_c or U lies outside of what the printed digits of all rows allow; U may be rounded up, "
+             "and k may be any that the claims leave open",
+         .correction = "Compute u_c and U again from the rows, or complete the rows.",
+         .question =
+             "The rows give another number than the sheet claims. Which row is missing, or which number is old?",
+         .examine = not_reproducible},
+        {.id = "K02",
+         .title = "Fixed coverage factor with few degrees of freedom",
+         .clause = {.text = "JCGM 100:2008, G.4.1", .verified = true},
+         .severity = major,
+         .needs = {Need::rows},
+         .detection = "k as for infinite ν, ν_eff below 20, and t_p(ν_eff) more than 1 % larger",
+         .correction = "Take k = t_p(ν_eff).",
+         .question =
+             "The interval covers less than it says. May the scatter be pooled over more readings, or is k taken "
+             "from ν_eff?",
+         .examine = fixed_k_of_few,
+         .looks_again = true},
+        {.id = "K03",
+         .title = "Coverage factor, probability and sentence do not agree",
+         .clause = {.text = "ILAC-P14:09/2020, 5.2", .verified = false},
+         .policy = fixed,
+         .severity = major,
+         .needs = {Need::rows, Need::claims},
+         .detection = "the stated k is not the one that was used, by more than 1 %; or k and p do not belong together",
+         .correction = "State the k that was used, and the probability that belongs to it.",
+         .question = "Which coverage factor was used, and which probability is meant?",
+         .examine = k_and_sentence},
+        {.id = "K04",
+         .title = "Normal coverage factor where a rectangular contribution dominates",
+         .clause = {.text = "EA-4/02 M:2022, annex on rectangular contributions", .verified = false},
+         .severity = minor,
+         .needs = {Need::rows},
+         .detection =
+             "all other contributions together are at most 0.3 of a rectangular one, and k is more than 2 % above "
+             "that of the convolution",
+         .correction = "Take k from the distribution of the sum: 1.65 where the rectangular contribution is all.",
+         .question = "The interval is wider than p asks for. Is k = 2 stated by a rule of the accreditation body?",
+         .examine = rectangular_dominance},
+        {.id = "K05",
+         .title = "Interval wider than the limits allow",
+         .clause = {.text = "JCGM 100:2008, 6.3 and G.5", .verified = false},
+         .severity = major,
+         .needs = {Need::rows},
+         .detection = "every row is bounded, and U is more than 1 % above the sum of all half-widths",
+         .correction = "Take k from the distribution of the sum.",
+         .question = "The value cannot lie as far away as U says. Is a contribution without limits missing?",
+         .examine = wider_than_possible},
+        {.id = "K06",
+         .title = "One contribution is nearly everything",
+         .clause = {.text = "ISO/IEC 17025:2017, 7.6.1", .verified = false},
+         .policy = fixed,
+         .severity = information,
+         .needs = {Need::rows},
+         .detection = "a row with more than 95 % of u_c²",
+         .correction = "Spend the effort on this row.",
+         .question = "How well is this one number known?",
+         .examine = one_term},
+        {.id = "K07",
+         .title = "Asymmetric interval printed as ±U",
+         .clause = {.text = "ILAC-P14:09/2020, 5.2", .verified = false},
+         .policy = fixed,
+         .severity = major,
+         .needs = {Need::rows},
+         .detection =
+             "the ends of a Monte Carlo interval differ in their distance from the value by more than 10 % of its "
+             "width",
+         .correction = "State both ends of the interval.",
+         .question = "Would the user of the certificate be misled by a symmetric interval?",
+         .examine = asymmetric_interval},
+        {.id = "K08",
+         .title = "Interval beyond a physical limit",
+         .clause = {.text = "JCGM 101:2008", .verified = false},
+         .policy = fixed,
+         .severity = minor,
+         .needs = {Need::rows},
+         .detection =
+             "value − U below 0 of a form error, a roughness or a concentration, or below a stated least value",
+         .correction = "State an interval that ends at the limit.",
+         .question = "What should the reader make of the part of the interval where the quantity cannot be?",
+         .examine = below_physical_limit},
+        {.id = "K09",
+         .title = "Contributions added linearly",
+         .clause = {.text = "JCGM 100:2008, 5.1.2", .verified = true},
+         .severity = minor,
+         .needs = {Need::rows, Need::claims},
+         .detection = "the claimed u_c is the plain sum of the contributions, beyond their rounding",
+         .correction = "Take the root of the sum of squares, or state the correlations.",
+         .question = "Are all contributions fully correlated, or is the sum meant as a bound?",
+         .examine = linear_sum},
+        {.id = "K11",
+         .title = "Effective degrees of freedom cut or not",
+         .clause = {.text = "JCGM 100:2008, G.4.1", .verified = true},
+         .policy = fixed,
+         .severity = information,
+         .needs = {Need::rows},
+         .detection =
+             "k from ν_eff as it is, where the next lower whole number prints another U, or where other budgets of "
+             "the same file cut it",
+         .correction = "Treat ν_eff in one way; the GUM allows both.",
+         .question = "Does the laboratory interpolate the t-factor or cut ν_eff, and where is that written?",
+         .examine = truncation},
+        {.id = "K12",
+         .title = "U larger than the tolerance it serves",
+         .clause = {.text = "ISO/IEC 17025:2017, 7.8.6", .verified = false},
+         .policy = fixed,
+         .severity = major,
+         .needs = {Need::rows, Need::limits},
+         .detection = "U above half the distance of two limits",
+         .correction = "Use a better method, or make no statement of conformity.",
+         .question = "No value can be shown to lie within these limits. What is the statement for?",
+         .examine = larger_than_tolerance},
+        {.id = "K13",
+         .title = "Printed coverage factor loses digits",
+         .clause = {.text = "JCGM 100:2008, 7.2.3", .verified = false},
+         .policy = fixed,
+         .severity = major,
+         .needs = {Need::rows, Need::claims},
+         .detection = "k is printed as a whole number that differs from the used one by more than 5 %",
+         .correction = "Print k with two decimals.",
+         .question =
+             "A user who divides U by the printed k gets a wrong standard uncertainty. Is the format of the cell to "
+             "blame?",
+         .examine = k_loses_digits},
+    };
+}
+
+}  // namespace gumcert::audit

@@ -1,0 +1,645 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "audit/rules/registry.h"
+#include "audit/rules/row_edits.h"
+#include "text/numbers.h"
+
+namespace gumcert::audit {
+namespace {
+
+constexpr double k_root_3 = std::numbers::sqrt3;
+constexpr Clause k_type_b_limits{.text = "JCGM 100:2008, 4.3.7", .verified = true};
+constexpr Clause k_certificate{.text = "JCGM 100:2008, 4.3.3", .verified = true};
+
+/// What u divided by the number that it was made from may mean.
+struct NamedRatio {
+    double ratio;
+    std::string_view name;
+};
+/// The name of a ratio within 1 % and the digits of u; nullptr for a ratio that none has.
+template <std::size_t N>
+const NamedRatio* named(const std::array<NamedRatio, N>& ratios, const AuditedRow& row, double base) {
+    for (const NamedRatio& one : ratios) {
+        if (!u_differs(row, one.ratio * base)) {
+            return &one;
+        }
+    }
+    return nullptr;
+}
+
+/// What the printed digits of the number that a row starts from leave open, where it is `value`.
+double left_open(const AuditedRow& row, double value) {
+    return row.stated && is_about(row.stated->value, value, 1e-9) ? row.stated->half_step : 0.0;
+}
+
+/// The number that u was made from, by the words of the row or else by its column; 0 where neither says one.
+double number_divided(const AuditedRow& row) {
+    return row.origin_value.value_or(row.stated ? std::abs(row.stated->value) : 0.0);
+}
+
+/// Whether the columns of a table divide as they should and give u: a number of its words that says otherwise is not the
+/// one that was divided ("accuracy over 1 year").
+bool columns_divide_by(const AuditedRow& row, double divisor) {
+    return row.stated && row.divisor &&
+           std::abs(row.divisor->value - divisor) <= row.divisor->half_step + 0.01 * divisor &&
+           !u_differs(row, std::abs(row.stated->value) / divisor, 0.01, row.stated->half_step / divisor);
+}
+
+/// "u = 0.4 µm", and what it comes from.
+std::vector<std::string> evidence_of(const AuditedRow& row, std::string_view base_name, double base) {
+    return {"u = " + in_words(row.used_u, row.unit), std::string(base_name) + " = " + in_words(base, row.unit)};
+}
+
+/// A finding about u that should be another number.
+void add_other_u(const RowAt& at, FindingCollector& findings, std::string what, std::vector<std::string> evidence,
+                 double expected) {
+    AuditFinding finding = finding_at(at, "u", std::move(what));
+    finding.evidence = std::move(evidence);
+    finding.expected = in_words(expected, at.is.unit);
+    finding.actual = in_words(at.is.used_u, at.is.unit);
+    finding.correct = set_u(at.row, expected);
+    findings.add(std::move(finding));
+}
+
+/// U08
+void wrong_divisor(const AuditSubject& subject, FindingCollector& findings) {
+    static const std::array<NamedRatio, 7> k_ratios = {{
+        {1.0, "not divided at all"},
+        {0.5, "divided by 2"},
+        {1.0 / 3.0, "divided by 3: the root was not taken"},
+        {1.0 / std::numbers::sqrt2, "divided by √2, as an arcsine distribution"},
+        {1.0 / std::sqrt(6.0), "divided by √6, as a triangular distribution"},
+        {1.0 / std::sqrt(12.0), "divided by √12, as if it were the full width"},
+        {1.0 / std::sqrt(k_root_3), "divided by the fourth root of 3: the root was taken twice"},
+    }};
+    const bool has_formulas = subject.workbook != nullptr;
+    for_each_row(subject, [&findings, has_formulas](const RowAt& at) {
+        const AuditedRow& row = at.is;
+        const bool is_limit = row.origin == Origin::limits || row.origin == Origin::specification;
+        const bool may_be =
+            is_limit || (row.origin == Origin::not_stated && row.stated && row.shape != Shape::not_stated);
+        if (!may_be || row.type_a.value_or(false) || row.cyclic || row.lower_limit || !(row.used_u > 0.0)) {
+            return;
+        }
+        const double half_width = number_divided(row);
+        double divisor = k_root_3;
+        switch (row.shape) {
+            case Shape::rectangular:
+                break;
+            case Shape::triangular:
+                divisor = std::sqrt(6.0);
+                break;
+            case Shape::arcsine:
+                divisor = std::numbers::sqrt2;
+                break;
+            case Shape::not_stated:
+                break;
+            default:
+                return;  // another shape has no divisor of its own
+        }
+        if (!(half_width > 0.0)) {
+            return;
+        }
+        const double expected = half_width / divisor;
+        if (!u_differs(row, expected, 0.01, left_open(row, half_width) / divisor)) {
+            return;
+        }
+        const bool consistent =
+            row.divisor && row.stated && is_about(row.used_u, std::abs(row.stated->value) / row.divisor->value, 0.003);
+        if (consistent && !is_about(row.divisor->value, std::sqrt(12.0), 0.003)) {
+            return;  // W02: the table shows the divisor that it used
+        }
+        if (has_formulas && row.divisor && is_about(half_width / row.used_u, std::pow(3.0, 0.25), 2e-3)) {
+            return;  // W01: the formula shows it
+        }
+        const bool unity = is_about(row.used_u, half_width), half = is_about(row.used_u, 0.5 * half_width);
+        if (row.origin == Origin::specification && (unity || half)) {
+            return;  // U10 and U24
+        }
+        // A table may state the full width, unless it says that the number is a half-width.
+        const bool full_width = !u_differs(row, half_width / std::sqrt(12.0));
+        if (full_width && !mentions(row, {"\u00B1", "+/-", "half-width", "half width", "halbweite", "halbbreite"})) {
+            return;
+        }
+        const NamedRatio* ratio = named(k_ratios, row, half_width);
+        const bool right_divisor =
+            row.divisor && std::abs(row.divisor->value - divisor) <= row.divisor->half_step + 0.01 * divisor;
+        if (columns_divide_by(row, divisor) || (right_divisor && ratio == nullptr)) {
+            return;
+        }
+        if (row.shape == Shape::not_stated && (!unity || row.origin != Origin::limits)) {
+            return;  // any other divisor may belong to a distribution that nobody states
+        }
+        const std::string shape = row.shape == Shape::triangular ? "triangular"
+                                  : row.shape == Shape::arcsine  ? "arcsine"
+                                                                 : "rectangular";
+        add_other_u(
+            at, findings,
+            "the half-width " + in_words(half_width, row.unit) + " of a " + shape + " distribution is " +
+                (ratio != nullptr ? std::string(ratio->name) : "divided by " + in_words(half_width / row.used_u)),
+            evidence_of(row, "a", half_width), expected);
+    });
+}
+
+/// U09: d/√12, and √2 d/√12 for a difference of two readings.
+void wrong_resolution(const AuditSubject& subject, FindingCollector& findings) {
+    static const std::array<NamedRatio, 4> k_ratios = {{
+        {1.0, "the whole step stands as a standard uncertainty"},
+        {1.0 / k_root_3, "the whole step is divided by √3, where half of it is the limit"},
+        {0.5, "half of the step stands as a standard uncertainty"},
+        {0.5 / std::sqrt(12.0), "half of the step is divided by √12, which belongs to the whole step"},
+    }};
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const AuditedRow& row = at.is;
+        if (row.origin != Origin::resolution || !row.origin_value || !(*row.origin_value > 0.0) ||
+            row.shape == Shape::triangular || row.shape == Shape::arcsine || row.type_a.value_or(false)) {
+            return;
+        }
+        const double step = *row.origin_value;
+        const std::string said = row.quantity + row.comment + row.source;
+        const bool in_column_only = row.stated && is_about(row.stated->value, step, 1e-9) &&
+                                    said.find_first_of("0123456789") == std::string::npos;
+        const NamedRatio* ratio = named(k_ratios, row, step);
+        // A column of half-widths may hold half of the step already.
+        if (ratio == nullptr || !u_differs(row, step / std::sqrt(12.0)) || !u_differs(row, step / std::sqrt(6.0)) ||
+            (in_column_only && ratio->ratio > 0.5)) {
+            return;
+        }
+        add_other_u(at, findings, "resolution " + in_words(step, row.unit) + ": " + std::string(ratio->name),
+                    evidence_of(row, "step", step), step / std::sqrt(12.0));
+    });
+}
+
+/// U10: a maximum permissible error bounds an instrument that conforms; its standard uncertainty is MPE/√3.
+void maximum_permissible_error_as_u(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        if (at.is.origin != Origin::specification || !at.is.origin_value ||
+            !is_about(at.is.used_u, *at.is.origin_value)) {
+            return;
+        }
+        add_other_u(at, findings,
+                    "the maximum permissible error " + in_words(*at.is.origin_value, at.is.unit) +
+                        " stands as the standard uncertainty; an instrument that conforms lies within ± that limit",
+                    evidence_of(at.is, "MPE", *at.is.origin_value), *at.is.origin_value / k_root_3);
+    });
+}
+
+/// U24
+void half_of_permissible_error(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const AuditedRow& row = at.is;
+        if (row.origin != Origin::specification || !row.origin_value || !(*row.origin_value > 0.0) ||
+            row.certificate_k || row.certificate_probability || row.shape == Shape::triangular ||
+            row.shape == Shape::arcsine || u_differs(row, 0.5 * *row.origin_value)) {
+            return;
+        }
+        add_other_u(at, findings,
+                    "the maximum permissible error " + in_words(*row.origin_value, row.unit) +
+                        " is divided by 2, as if it were an expanded uncertainty with k = 2",
+                    evidence_of(row, "MPE", *row.origin_value), *row.origin_value / k_root_3);
+    });
+}
+
+/// U11
+void specification_beside_certificate(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const AuditedRow& row = at.is;
+        if (row.origin != Origin::specification || !row.certificate_U || !(*row.certificate_U > 0.0)) {
+            return;
+        }
+        const double k = row.certificate_k.value_or(2.0), u = *row.certificate_U / k;
+        if (!u_differs(row, u)) {
+            return;
+        }
+        AuditFinding finding = finding_at(at, "u",
+                                          "the specification is used although a certificate with U = " +
+                                              in_words(*row.certificate_U, row.unit) + " is named");
+        finding.evidence = {"u = " + in_words(row.used_u, row.unit), "U = " + in_words(*row.certificate_U, row.unit),
+                            row.certificate_k ? "k = " + in_words(k) : "k = 2 taken, because none is stated"};
+        finding.expected = in_words(u, row.unit) + ", with the corrections of the certificate applied";
+        finding.actual = in_words(row.used_u, row.unit);
+        finding.correct = set_u(at.row, u);
+        if (u < row.used_u) {
+            finding.at_most = FindingSeverity::minor;
+        }
+        findings.add(std::move(finding));
+    });
+}
+
+/// U12
+void specification_without_evidence(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        if (at.is.origin != Origin::specification ||
+            mentions(at.is, {"conform", "verif", "certificate", "cert.", "kalibrierschein", "geprüft", "eich",
+                             "zertifikat", "inspect", "checked", "tested"})) {
+            return;
+        }
+        AuditFinding finding = finding_at(
+            at, "", "a specification is used, and nothing says that the instrument was found to conform to it");
+        finding.evidence = {"u = " + in_words(at.is.used_u, at.is.unit)};
+        if (at.is.origin_value) {
+            finding.evidence.push_back("limit = " + in_words(*at.is.origin_value, at.is.unit));
+        }
+        findings.add(std::move(finding));
+    });
+}
+
+/// U13
+void certificate_by_wrong_k(const AuditSubject& subject, FindingCollector& findings) {
+    static const std::array<NamedRatio, 5> k_ratios = {{
+        {1.0, "U stands as a standard uncertainty"},
+        {1.0 / k_root_3, "U is divided by √3, as if it were the limit of a rectangular distribution"},
+        {0.5, "U is divided by 2"},
+        {1.0 / 1.96, "U is divided by 1.96"},
+        {1.0 / 3.0, "U is divided by 3"},
+    }};
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const AuditedRow& row = at.is;
+        if (row.origin != Origin::certificate || !row.origin_value || !row.certificate_k ||
+            !(*row.origin_value > 0.0) || !(*row.certificate_k > 0.0)) {
+            return;
+        }
+        const double U = *row.origin_value, k = *row.certificate_k;
+        if (!u_differs(row, U / k, 0.01, left_open(row, U) / k)) {
+            return;
+        }
+        if (columns_divide_by(row, k)) {
+            return;
+        }
+        const NamedRatio* ratio = named(k_ratios, row, U);
+        add_other_u(at, findings,
+                    (ratio != nullptr ? std::string(ratio->name)
+                                      : "U is divided by " + in_words(U / std::max(row.used_u, 1e-300))) +
+                        "; the certificate states k = " + in_words(k),
+                    {"u = " + in_words(row.used_u, row.unit), "U = " + in_words(U, row.unit), "k = " + in_words(k)},
+                    U / k);
+    });
+}
+
+/// U14
+void certificate_without_k(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const AuditedRow& row = at.is;
+        if (row.origin != Origin::certificate || row.certificate_k || row.certificate_probability || row.divisor) {
+            return;
+        }
+        const bool halved = row.origin_value && is_about(row.used_u, 0.5 * *row.origin_value);
+        AuditFinding finding = finding_at(at, "",
+                                          halved ? "neither k nor p of the certificate is on record; k = 2 is assumed"
+                                                 : "neither k nor p of the certificate is on record");
+        finding.evidence = {"u = " + in_words(row.used_u, row.unit)};
+        if (row.origin_value) {
+            finding.evidence.push_back("U = " + in_words(*row.origin_value, row.unit));
+        }
+        findings.add(std::move(finding));
+    });
+}
+
+/// U15
+void wrong_base(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const AuditedRow& row = at.is;
+        const double number = row.stated ? std::abs(row.stated->value) : row.origin_value.value_or(0.0);
+        if (!row.relative_uncertainty || !row.full_scale || !row.estimate || !(number > 0.0)) {
+            return;
+        }
+        const double reading = std::abs(row.estimate->value), full = std::abs(*row.full_scale);
+        const bool of_full = row.relative_to == RelativeTo::full_scale;
+        const double right = of_full ? full : reading, wrong = of_full ? reading : full;
+        const double r = *row.relative_uncertainty;
+        constexpr double k_same = 0.02;  // both bases agree near the end of the range
+        if (row.relative_to == RelativeTo::not_stated || !(right > 0.0) || is_about(right, wrong, k_same) ||
+            std::abs(number - r * wrong) > left_open(row, number) + 0.01 * r * wrong) {
+            return;
+        }
+        AuditFinding finding = finding_at(at, "stated",
+                                          std::string("a part of the ") + (of_full ? "full scale" : "reading") +
+                                              " is taken of the " + (of_full ? "reading" : "full scale"));
+        finding.evidence = {text::significant(100.0 * r, 4) + " %", "reading = " + in_words(reading, row.unit),
+                            "full scale = " + in_words(full, row.unit)};
+        finding.expected = in_words(r * right, row.unit);
+        finding.actual = in_words(number, row.unit);
+        finding.correct = scale_u(at.row, right / wrong);
+        findings.add(std::move(finding));
+    });
+}
+
+/// U16
+void another_point(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const AuditedRow& row = at.is;
+        if (!row.certificate_low || !row.certificate_high || !row.estimate) {
+            return;
+        }
+        const double x = row.estimate->value, low = *row.certificate_low, high = *row.certificate_high;
+        const double near = row.estimate->half_step + 1e-3 * std::max(std::abs(low), std::abs(high));
+        const bool interpolated = std::any_of(at.of.rows.begin(), at.of.rows.end(), [](const AuditedRow& other) {
+            return other.contributor == Contributor::fit && other.in_sum && other.used_u > 0.0;
+        });
+        if (interpolated || (x >= low - near && x <= high + near)) {
+            return;
+        }
+        AuditFinding finding =
+            finding_at(at, "",
+                       low == high ? "the certificate holds at " + in_words(low, row.unit) + ", and is used at " +
+                                         in_words(x, row.unit) + " without a term of interpolation"
+                                   : "the certificate holds from " + in_words(low, row.unit) + " to " +
+                                         in_words(high, row.unit) + ", and is used at " + in_words(x, row.unit));
+        finding.evidence = {"u = " + in_words(row.used_u, row.unit)};
+        finding.contribution_missing = true;
+        findings.add(std::move(finding));
+    });
+}
+
+/// U17
+void asymmetric_limits(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const AuditedRow& row = at.is;
+        if (!row.lower_limit || !row.upper_limit) {
+            return;
+        }
+        const double below = -*row.lower_limit, above = *row.upper_limit;
+        const double expected = (below + above) / std::sqrt(12.0);
+        if (!(below > 0.0) || !(above > 0.0) || is_about(below, above, 0.02) || !u_differs(row, expected)) {
+            return;
+        }
+        add_other_u(
+            at, findings, "the limits are not symmetric about the estimate, and u is not their distance divided by √12",
+            {"u = " + in_words(row.used_u, row.unit),
+             "limits -" + in_words(below, row.unit) + " and +" + in_words(above, row.unit) + " from the estimate",
+             "middle of the limits " + in_words(0.5 * (above - below), row.unit) + " beside the estimate"},
+            expected);
+    });
+}
+
+/// U18
+void impossible_entries(const AuditSubject& subject, FindingCollector& findings) {
+    struct Entry {
+        const std::optional<StatedNumber>* number;
+        const char* column;
+        bool may_be_negative, may_be_infinite, may_be_zero;
+    };
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const Entry entries[] = {{&at.is.u, "u", false, false, true},
+                                 {&at.is.divisor, "divisor", false, false, false},
+                                 {&at.is.sensitivity, "sensitivity coefficient", true, false, true},
+                                 {&at.is.nu, "ν", false, true, false}};
+        for (const Entry& entry : entries) {
+            if (!*entry.number) {
+                continue;
+            }
+            const double value = (*entry.number)->value;
+            const bool negative = !entry.may_be_negative && value < 0.0;
+            const bool zero = !entry.may_be_zero && value == 0.0;
+            const bool not_finite = std::isnan(value) || (std::isinf(value) && !entry.may_be_infinite);
+            if (!negative && !zero && !not_finite) {
+                continue;
+            }
+            AuditFinding finding =
+                finding_at(at, entry.column,
+                           negative ? std::string("a negative number, which it cannot be")
+                                    : (zero ? std::string("0, which it cannot be") : std::string("no number")));
+            finding.evidence = {std::string(entry.column) + " = " +
+                                (not_finite ? std::string("not finite") : in_words(value))};
+            if (negative && entry.number == &at.is.u) {
+                finding.correct = set_u(at.row, -value);
+            }
+            findings.add(std::move(finding));
+        }
+    });
+}
+
+/// U19
+void reliability_without_nu(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const AuditedRow& row = at.is;
+        if (!row.reliability || !(*row.reliability > 0.0) || std::isfinite(row.used_nu)) {
+            return;
+        }
+        const double nu = 0.5 / (*row.reliability * *row.reliability);
+        AuditFinding finding =
+            finding_at(at, "ν",
+                       "u is said to be reliable to about " + text::significant(100.0 * *row.reliability, 3) +
+                           " %, and counts as exactly known");
+        finding.evidence = {"Δu/u = " + in_words(*row.reliability), "u = " + in_words(row.used_u, row.unit)};
+        finding.expected = "ν = " + in_words(nu);
+        finding.actual = "ν infinite";
+        finding.correct = set_degrees_of_freedom(at.row, nu);
+        findings.add(std::move(finding));
+    });
+}
+
+/// U20
+void cyclic_quantity(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const AuditedRow& row = at.is;
+        const double amplitude = number_divided(row);
+        if (!row.cyclic || row.type_a.value_or(false) || row.origin == Origin::certificate || !(amplitude > 0.0) ||
+            row.used_u + row.u_half_step >= 0.99 * amplitude / std::numbers::sqrt2) {
+            return;
+        }
+        add_other_u(at, findings,
+                    "the quantity swings between its limits " + in_words(amplitude, row.unit) +
+                        " on either side; most of the time it is near them",
+                    evidence_of(row, "a", amplitude), amplitude / std::numbers::sqrt2);
+    });
+}
+
+/// U23
+void value_as_its_own_uncertainty(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const AuditedRow& row = at.is;
+        const bool other_origin = row.origin == Origin::resolution || row.origin == Origin::specification ||
+                                  row.origin == Origin::certificate;
+        if (!row.estimate || row.estimate->value == 0.0 || other_origin || row.type_a.value_or(false) ||
+            row.contributor == Contributor::item_resolution || row.contributor == Contributor::reference_resolution) {
+            return;
+        }
+        const double x = std::abs(row.estimate->value);
+        const bool copied = row.stated ? row.stated->value == x
+                                       : is_about(row.used_u, x, 1e-4) || is_about(row.used_u, x / k_root_3, 1e-4);
+        // A column of values that says what it limits holds no estimates.
+        if (!copied || (row.origin_value && is_about(*row.origin_value, x, 1e-9))) {
+            return;
+        }
+        AuditFinding finding = finding_at(at, "u", "the value of the quantity stands as its own uncertainty");
+        finding.evidence = {"estimate = " + in_words(row.estimate->value, row.unit),
+                            "u = " + in_words(row.used_u, row.unit)};
+        findings.add(std::move(finding));
+    });
+}
+
+std::vector<Rule> type_b_rules() {
+    using enum SeverityPolicy;
+    using enum FindingSeverity;
+    return {
+        {.id = "U08",
+         .title = "Divisor does not belong to the distribution",
+         .clause = k_type_b_limits,
+         .needs = {Need::rows},
+         .detection = "a half-width a and a stated shape, and u other than a/√3 (rectangular), a/√6 (triangular), a/√2 "
+                      "(arcsine); the ratio u/a says what was done",
+         .correction = "Divide the half-width by the root that belongs to its distribution, once.",
+         .question =
+             "The number and its distribution give another standard uncertainty than the table has. Which of the "
+             "two is meant, the divisor or the distribution?",
+         .examine = wrong_divisor},
+        {.id = "U09",
+         .title = "Resolution divided by the wrong number",
+         .clause = {.text = "JCGM 100:2008, F.2.2.1", .verified = true},
+         .needs = {Need::rows},
+         .detection =
+             "a row of a resolution d with u = d, d/√3, d/2 or d/(2√12); d/√12, and √2 d/√12 of a difference, are "
+             "right",
+         .correction = "u = d/√12 of a display with the step d; √2 times that for a difference of two readings.",
+         .question = "Is the number in the table the step of the display, or half of it?",
+         .examine = wrong_resolution},
+        {.id = "U10",
+         .title = "Maximum permissible error used as a standard uncertainty",
+         .clause = k_type_b_limits,
+         .needs = {Need::rows},
+         .detection = "a row that comes from a specification, with u equal to the maximum permissible error",
+         .correction = "Divide the maximum permissible error by √3, or state why another distribution is known.",
+         .question = "Is the number the limit of a specification or a standard uncertainty, and who verified that the "
+                     "instrument conforms?",
+         .examine = maximum_permissible_error_as_u},
+        {.id = "U11",
+         .title = "Specification used although a certificate states U",
+         .clause = {.text = "ISO/IEC 17025:2017, 6.4.11", .verified = false},
+         .severity = minor,
+         .needs = {Need::rows},
+         .detection = "a row that comes from a specification, and names a certificate with U",
+         .correction = "Use value and U of the certificate, and apply its corrections.",
+         .question = "The certificate says more about this instrument than its specification. Why is the specification "
+                     "used, and are the corrections of the certificate within it?",
+         .examine = specification_beside_certificate},
+        {.id = "U12",
+         .title = "Specification without evidence of conformity",
+         .clause = {.text = "ISO/IEC 17025:2017, A.2.3", .verified = false},
+         .policy = fixed,
+         .severity = major,
+         .needs = {Need::rows},
+         .detection = "a row that comes from a specification, whose words name no certificate, test or verification",
+         .correction = "Name the document that states conformity, with its decision rule.",
+         .question =
+             "A limit says something about an instrument that was found within it. Which document states that, and "
+             "by which decision rule?",
+         .examine = specification_without_evidence},
+        {.id = "U13",
+         .title = "U of a certificate divided by another number than its k",
+         .clause = k_certificate,
+         .needs = {Need::rows},
+         .detection = "u k ≠ U of the certificate, beyond the printed digits and 1 %",
+         .correction = "Divide U by the coverage factor that the certificate states.",
+         .question = "The certificate states U and k. Why is U divided by another number?",
+         .examine = certificate_by_wrong_k},
+        {.id = "U14",
+         .title = "Coverage factor of a certificate not on record",
+         .clause = k_certificate,
+         .policy = fixed,
+         .severity = major,
+         .needs = {Need::rows},
+         .detection = "a row that comes from a certificate, without k, p or a divisor",
+         .correction = "Record k (or p and ν_eff) of the certificate.",
+         .question = "Which coverage factor does the certificate state?",
+         .examine = certificate_without_k},
+        {.id = "U15",
+         .title = "Relative uncertainty of the wrong base",
+         .clause = {.text = "ISO/IEC 17025:2017, 7.8.4.1 a", .verified = false},
+         .severity = critical,
+         .needs = {Need::rows},
+         .detection = "a percentage of full scale that was taken of the reading, or the reverse",
+         .correction = "Multiply the percentage with the base that certificate or data sheet name.",
+         .question = "Of what is the percentage a part: of the reading or of the full scale?",
+         .examine = wrong_base},
+        {.id = "U16",
+         .title = "Certificate used at another point",
+         .clause = {.text = "ISO/IEC 17025:2017, 7.6.1", .verified = false},
+         .policy = fixed,
+         .severity = major,
+         .needs = {Need::rows},
+         .detection =
+             "an estimate outside of the points that the comment names of the certificate, and no row of a fit or "
+             "interpolation",
+         .correction = "Add a term for interpolation or extrapolation, or have the standard calibrated at the point.",
+         .question = "How does the standard behave between and beyond its calibrated points, and where is that in the "
+                     "budget?",
+         .examine = another_point},
+        {.id = "U17",
+         .title = "Asymmetric limits treated as symmetric",
+         .clause = {.text = "JCGM 100:2008, 4.3.8", .verified = true},
+         .severity = minor,
+         .needs = {Need::rows},
+         .detection =
+             "two limits at different distances from the estimate, and u other than their distance divided by √12",
+         .correction = "u = (b₊ + b₋)/√12; better, move the estimate to where the value is expected.",
+         .question = "The limits say that the value is rather on one side. Why is the estimate not in their middle?",
+         .examine = asymmetric_limits},
+        {.id = "U18",
+         .title = "Impossible entry",
+         .clause = {.text = "JCGM 100:2008, 4.3.1", .verified = false},
+         .severity = critical,
+         .needs = {Need::rows},
+         .detection = "negative or missing numbers among u, divisor, sensitivity coefficient and ν",
+         .correction = "Enter the number that was meant.",
+         .question = "Which number was meant?",
+         .examine = impossible_entries},
+        {.id = "U19",
+         .title = "Reliability stated, degrees of freedom infinite",
+         .clause = {.text = "JCGM 100:2008, G.4.2", .verified = true},
+         .severity = minor,
+         .needs = {Need::rows},
+         .detection = "words on the reliability of u, with ν infinite",
+         .correction = "ν = ½ (Δu/u)⁻².",
+         .question = "The sheet says how well u is known, and then counts it as exact. Which of the two is meant?",
+         .examine = reliability_without_nu},
+        {.id = "U20",
+         .title = "Swinging quantity with too narrow a distribution",
+         .clause = {.text = "JCGM 100:2008, H.1.3.4", .verified = false},
+         .severity = information,
+         .needs = {Need::rows},
+         .detection = "a quantity that is said to swing in cycles, with u below a/√2",
+         .correction = "Use the arcsine distribution, u = a/√2.",
+         .question =
+             "A quantity that swings is near its limits most of the time. Was that looked at, or is the record of "
+             "the sensor at hand?",
+         .examine = cyclic_quantity},
+        {.id = "U23",
+         .title = "Value used as its own uncertainty",
+         .clause = {.text = "JCGM 100:2008, 4.3.1", .verified = false},
+         .severity = major,
+         .needs = {Need::rows},
+         .detection = "u, or what is divided, is the estimate of the quantity itself",
+         .correction = "State how well the quantity is known, and where that comes from.",
+         .question = "The uncertainty of this quantity is its own value. How well is it really known?",
+         .examine = value_as_its_own_uncertainty},
+        {.id = "U24",
+         .title = "Maximum permissible error divided by 2",
+         .clause = k_type_b_limits,
+         .needs = {Need::rows},
+         .detection = "a row that comes from a specification, with u equal to half of the maximum permissible error",
+         .correction = "Divide the maximum permissible error by √3, or record the k that belongs to it.",
+         .question = "A limit has no coverage factor. Where does the 2 come from?",
+         .examine = half_of_permissible_error},
+    };
+}
+
+}  // namespace
+
+std::vector<Rule> input_rules() {
+    std::vector<Rule> all = type_a_rules(), type_b = type_b_rules();
+    all.insert(all.end(), std::make_move_iterator(type_b.begin()), std::make_move_iterator(type_b.end()));
+    std::sort(all.begin(), all.end(), [](const Rule& a, const Rule& b) { return a.id < b.id; });
+    return all;
+}
+
+}  // namespace gumcert::audit

@@ -1,0 +1,960 @@
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "audit/rules/budget_model.h"
+#include "audit/rules/constant_ranges.h"
+#include "audit/rules/registry.h"
+#include "audit/rules/row_edits.h"
+#include "gum/expression/name.h"
+#include "gum/expression/name_spelling.h"
+#include "gum/nearest_correlation.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/quantity/unit.h"
+#include "text/lists.h"
+#include "text/numbers.h"
+
+namespace gumcert::audit {
+namespace {
+
+std::optional<BudgetOutcome> outcome_of(const AuditedBudget& budget) {
+    try {
+        return evaluate(budget);
+    } catch (const gum::DiagnosedError&) {
+        return std::nullopt;
+    }
+}
+
+double contribution_of(const AuditedRow& row) {
+    return row.in_sum ? std::abs(row.used_sensitivity) * row.used_u : 0.0;
+}
+
+std::optional<gum::Unit> unit_in(const std::string& text) {
+    if (text.empty()) {
+        return std::nullopt;
+    }
+    try {
+        return gum::Unit::parse(text == "-" ? "1" : text);
+    } catch (const gum::DiagnosedError&) {
+        return std::nullopt;
+    }
+}
+
+/// The model of a budget that somebody else evaluated; our own evaluation differentiated it already.
+std::optional<BudgetModel> foreign_model(const AuditedBudget& budget) {
+    return budget.evaluated_here ? std::nullopt : BudgetModel::of(budget);
+}
+
+/// S01
+void unit_of_sensitivity(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const std::optional<gum::Unit> x = unit_in(at.is.unit), y = unit_in(at.of.unit);
+        if (!x || !y || !(at.is.used_u > 0.0) || !at.is.in_sum) {
+            return;
+        }
+        const gum::Dimension expected = y->dimension() / x->dimension();
+        if (const std::optional<gum::Unit> c = unit_in(at.is.sensitivity_unit)) {
+            if (c->dimension() == expected) {
+                return;
+            }
+            AuditFinding finding = finding_at(
+                at, "sensitivity coefficient",
+                "the unit " + at.is.sensitivity_unit + " does not turn " + at.is.unit + " into " + at.of.unit);
+            finding.evidence = {"c = " + in_words(at.is.used_sensitivity, at.is.sensitivity_unit)};
+            finding.expected = "the dimension of " + at.of.unit + " per " + at.is.unit;
+            finding.actual = at.is.sensitivity_unit;
+            findings.add(std::move(finding));
+            return;
+        }
+        // No coefficient at all: u is added as it stands.
+        if (at.is.sensitivity || at.is.contribution || at.is.used_sensitivity != 1.0) {
+            return;
+        }
+        if (!expected.is_one()) {
+            AuditFinding finding = finding_at(
+                at, "sensitivity coefficient",
+                "u in " + at.is.unit + " is added to a budget in " + at.of.unit + " without a sensitivity coefficient");
+            finding.evidence = {"u = " + in_words(at.is.used_u, at.is.unit)};
+            finding.expected = "a coefficient in " + at.of.unit + " per " + at.is.unit;
+            finding.actual = "none";
+            findings.add(std::move(finding));
+            return;
+        }
+        const double factor = y->difference_from_si(x->difference_to_si(1.0));
+        if (is_about(factor, 1.0, 1e-9)) {
+            return;
+        }
+        AuditFinding finding =
+            finding_at(at, "sensitivity coefficient",
+                       "u in " + at.is.unit + " is added to a budget in " + at.of.unit + " as if both were one unit");
+        finding.evidence = {"u = " + in_words(at.is.used_u, at.is.unit)};
+        finding.expected = "c = " + in_words(factor, at.of.unit + " per " + at.is.unit);
+        finding.actual = "c = 1";
+        finding.correct = set_sensitivity(at.row, factor);
+        findings.add(std::move(finding));
+    });
+}
+
+/// A stated sensitivity coefficient that is not the derivative of the equation.
+struct OtherDerivative {
+    std::size_t row = 0;
+    double stated = 0.0, derivative = 0.0;
+    std::optional<std::size_t> of_budget = {};  ///< the budget of another point where the stated one is the derivative
+};
+
+bool agrees(double stated, double derivative, double digits) {
+    return std::abs(std::abs(stated) - std::abs(derivative)) <= digits + 0.01 * std::abs(derivative);
+}
+
+std::vector<OtherDerivative> other_derivatives(const AuditSubject& subject, std::size_t position) {
+    const AuditedBudget& budget = subject.budgets[position];
+    const std::optional<BudgetModel> model = foreign_model(budget);
+    if (!model || !model->can_be_evaluated()) {
+        return {};
+    }
+    const std::vector<double> x = model->estimates(budget);
+    const std::optional<std::vector<double>> c = model->derivatives(x), h = model->second_derivatives(x);
+    if (!c || !h) {
+        return {};
+    }
+    const std::size_t n = c->size();
+    std::vector<OtherDerivative> others;
+    for (std::size_t i = 0; i < n; ++i) {
+        const AuditedRow& row = budget.rows[model->rows()[i]];
+        if (!row.in_sum || !(row.used_u > 0.0) || (!row.sensitivity && !row.contribution)) {
+            continue;
+        }
+        // The estimates were rounded, too.
+        double digits = row.sensitivity_half_step;
+        for (std::size_t j = 0; j < n; ++j) {
+            digits += std::abs((*h)[i * n + j]) * budget.rows[model->rows()[j]].estimate->half_step;
+        }
+        if (agrees(row.used_sensitivity, (*c)[i], digits)) {
+            continue;
+        }
+        OtherDerivative other{.row = model->rows()[i], .stated = row.used_sensitivity, .derivative = (*c)[i]};
+        for (std::size_t b = 0; b < subject.budgets.size() && !other.of_budget; ++b) {
+            if (b == position || subject.budgets[b].equation != budget.equation ||
+                subject.budgets[b].rows.size() != budget.rows.size()) {
+                continue;
+            }
+            const std::optional<std::vector<double>> there = model->derivatives(model->estimates(subject.budgets[b]));
+            if (there && agrees(row.used_sensitivity, (*there)[i], row.sensitivity_half_step)) {
+                other.of_budget = b;
+            }
+        }
+        others.push_back(other);
+    }
+    return others;
+}
+
+void add_other_derivative(const AuditSubject& subject, std::size_t position, const OtherDerivative& other,
+                          FindingCollector& findings) {
+    const AuditedBudget& budget = subject.budgets[position];
+    const RowAt at{.budget = position, .row = other.row, .of = budget, .is = budget.rows[other.row]};
+    AuditFinding finding = finding_at(
+        at, "sensitivity coefficient",
+        other.of_budget ? "the coefficient " + in_words(other.stated) + " belongs to another point (" +
+                              subject.budgets[*other.of_budget].name + "); here it is " + in_words(other.derivative)
+                        : "the coefficient " + in_words(other.stated) + " is not the derivative of the equation, " +
+                              in_words(other.derivative));
+    finding.evidence = {"equation " + budget.equation, "estimate = " + in_words(at.is.estimate->value, at.is.unit)};
+    finding.expected = "c = " + in_words(other.derivative);
+    finding.actual = "c = " + in_words(other.stated);
+    finding.correct = set_sensitivity(other.row, other.derivative);
+    findings.add(std::move(finding));
+}
+
+/// S02
+void wrong_sensitivity(const AuditSubject& subject, FindingCollector& findings) {
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        for (const OtherDerivative& other : other_derivatives(subject, b)) {
+            if (!other.of_budget) {
+                add_other_derivative(subject, b, other, findings);
+            }
+        }
+    }
+}
+
+/// S17
+void sensitivity_of_another_point(const AuditSubject& subject, FindingCollector& findings) {
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        for (const OtherDerivative& other : other_derivatives(subject, b)) {
+            if (other.of_budget) {
+                add_other_derivative(subject, b, other, findings);
+            }
+        }
+    }
+}
+
+/// S03
+void model_and_rows(const AuditSubject& subject, FindingCollector& findings) {
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        const AuditedBudget& budget = subject.budgets[b];
+        const std::optional<BudgetModel> model = foreign_model(budget);
+        // A table that names its rows in words says nothing about the quantities of the equation.
+        if (!model || model->without_row().size() > model->quantities().size()) {
+            continue;
+        }
+        for (const std::string& name : model->without_row()) {
+            AuditFinding finding = finding_of(subject, b, "the equation has " + name + ", and no row stands for it");
+            finding.kind = "without row: " + name;
+            finding.evidence = {"equation " + budget.equation};
+            finding.contribution_missing = true;
+            findings.add(std::move(finding));
+        }
+        for (std::size_t r = 0; r < budget.rows.size(); ++r) {
+            const std::string& name = budget.rows[r].quantity;
+            const bool used = std::find(model->rows().begin(), model->rows().end(), r) != model->rows().end();
+            constexpr std::size_t k_symbol = 6;  // bytes: longer names are words for contributions beside the equation
+            if (used || name.empty() || name.size() > k_symbol || gum::reason_against_name(name) ||
+                !(contribution_of(budget.rows[r]) > 0.0)) {
+                continue;
+            }
+            AuditFinding finding = finding_at({.budget = b, .row = r, .of = budget, .is = budget.rows[r]}, "",
+                                              "the row stands for " + name + ", which the equation does not have");
+            finding.evidence = {"equation " + budget.equation};
+            findings.add(std::move(finding));
+        }
+    }
+}
+
+/// What the second-order terms of a budget add to u_c² (JCGM 100:2008, note to 5.1.2):
+/// Σ_i Σ_j [½ (∂²f/∂x_i∂x_j)² + ∂f/∂x_i ∂³f/(∂x_i∂x_j²)] u_i² u_j².
+struct SecondOrder {
+    double vanishing = 0.0;  ///< of pairs of which one has no first-order term
+    double others = 0.0;
+    double shift = 0.0;  ///< ½ Σ ∂²f/∂x_i∂x_j u_i u_j r_ij: what the mean of y lies beside f of the estimates
+    std::vector<std::string> pairs;  ///< of `vanishing`
+};
+std::optional<SecondOrder> second_order(const AuditedBudget& budget) {
+    const std::optional<BudgetModel> model = foreign_model(budget);
+    const std::optional<BudgetOutcome> outcome = outcome_of(budget);
+    if (!model || !model->can_be_evaluated() || !outcome) {
+        return std::nullopt;
+    }
+    const std::vector<double> x = model->estimates(budget);
+    const std::optional<std::vector<double>> c = model->derivatives(x), h = model->second_derivatives(x);
+    if (!c || !h) {
+        return std::nullopt;
+    }
+    const std::size_t n = x.size();
+    std::vector<double> u(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const AuditedRow& row = budget.rows[model->rows()[i]];
+        u[i] = row.in_sum ? row.used_u : 0.0;
+    }
+    // ∂³f/(∂x_i∂x_j²) by differences of the second derivatives over half of u_i on either side.
+    std::vector<double> third(n * n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!(u[i] > 0.0) || (*c)[i] == 0.0) {
+            continue;
+        }
+        std::vector<double> above = x, below = x;
+        above[i] += 0.5 * u[i];
+        below[i] -= 0.5 * u[i];
+        const std::optional<std::vector<double>> up = model->second_derivatives(above),
+                                                 down = model->second_derivatives(below);
+        if (!up || !down) {
+            return std::nullopt;
+        }
+        for (std::size_t j = 0; j < n; ++j) {
+            third[i * n + j] = ((*up)[j * n + j] - (*down)[j * n + j]) / u[i];
+        }
+    }
+    SecondOrder order;
+    const auto vanishes = [&](std::size_t i) { return std::abs((*c)[i]) * u[i] < 1e-6 * outcome->u_c; };
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) {
+            const double curved = (*h)[i * n + j];
+            const double term = (0.5 * curved * curved + (*c)[i] * third[i * n + j]) * u[i] * u[i] * u[j] * u[j];
+            const bool missing = curved != 0.0 && u[i] > 0.0 && u[j] > 0.0 && (vanishes(i) || vanishes(j));
+            (missing ? order.vanishing : order.others) += term;
+            if (missing && j >= i) {
+                order.pairs.push_back(i == j ? model->quantities()[i] + "²"
+                                             : model->quantities()[i] + "·" + model->quantities()[j]);
+            }
+        }
+        order.shift += 0.5 * (*h)[i * n + i] * u[i] * u[i];
+    }
+    for (const RowCorrelation& pair : budget.correlations) {
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t j = 0; j < n; ++j) {
+                if (model->rows()[i] == pair.first && model->rows()[j] == pair.second) {
+                    order.shift += (*h)[i * n + j] * u[i] * u[j] * pair.r;
+                }
+            }
+        }
+    }
+    return order;
+}
+
+/// A row for terms of second order, or for the product of two quantities, may be there already.
+bool has_second_order_row(const AuditedBudget& budget) {
+    return std::any_of(budget.rows.begin(), budget.rows.end(), [](const AuditedRow& row) {
+        return mentions(row, {"second order", "second-order", "2nd order", "zweiter ordnung", "higher order",
+                              "product of", "·", "×"});
+    });
+}
+
+/// S04
+void vanishing_first_order(const AuditSubject& subject, FindingCollector& findings) {
+    constexpr double k_share = 0.05;
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        const AuditedBudget& budget = subject.budgets[b];
+        const std::optional<SecondOrder> order = second_order(budget);
+        if (!order || !(order->vanishing > 0.0) || has_second_order_row(budget)) {
+            continue;
+        }
+        const double u_c = evaluate(budget).u_c;
+        if (order->vanishing <= k_share * (u_c * u_c + order->vanishing)) {
+            continue;
+        }
+        const double u = std::sqrt(order->vanishing);
+        AuditFinding finding =
+            finding_of(subject, b,
+                       "an estimate is 0, so first-order terms vanish, and the terms of second order " +
+                           text::all_of(order->pairs) + " are left out");
+        finding.evidence = {"second order u = " + in_words(u, budget.unit),
+                            "u_c of the rows = " + in_words(u_c, budget.unit), "threshold 5 % of u_c²"};
+        finding.expected = "a term u = " + in_words(u, budget.unit);
+        finding.actual = "none";
+        finding.correct = add_contribution(u, "terms of second order: " + text::all_of(order->pairs));
+        findings.add(std::move(finding));
+    }
+}
+
+/// Half a unit of the last digit of U with the digits of the budget.
+double half_digit(const AuditedBudget& budget, double U) {
+    return 0.5 * std::pow(10.0, std::floor(std::log10(U)) - budget.digits + 1);
+}
+
+/// S05
+void not_linear(const AuditSubject& subject, FindingCollector& findings) {
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        const AuditedBudget& budget = subject.budgets[b];
+        const std::optional<SecondOrder> order = second_order(budget);
+        if (!order || !(order->others > 0.0) || budget.monte_carlo || has_second_order_row(budget)) {
+            continue;
+        }
+        const BudgetOutcome outcome = evaluate(budget);
+        const double u_both = std::sqrt(outcome.u_c * outcome.u_c + order->others);
+        const double change = outcome.k * (u_both - outcome.u_c), delta = half_digit(budget, outcome.k * outcome.u_c);
+        if (change <= delta) {
+            continue;
+        }
+        AuditFinding finding = finding_of(
+            subject, b,
+            "the equation is not linear over the uncertainties, and nothing says that the law of propagation "
+            "was validated");
+        finding.evidence = {"U by first order = " + in_words(outcome.k * outcome.u_c, budget.unit),
+                            "U with second order = " + in_words(outcome.k * u_both, budget.unit),
+                            "half a unit of the last digit = " + in_words(delta, budget.unit)};
+        finding.correct = add_contribution(std::sqrt(order->others), "terms of second order");
+        findings.add(std::move(finding));
+    }
+}
+
+/// S18
+void value_beside_mean(const AuditSubject& subject, FindingCollector& findings) {
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        const AuditedBudget& budget = subject.budgets[b];
+        const std::optional<SecondOrder> order = second_order(budget);
+        if (!order || !budget.value || budget.monte_carlo) {
+            continue;
+        }
+        const BudgetOutcome outcome = evaluate(budget);
+        const double delta = half_digit(budget, outcome.U), shift = order->shift;
+        if (std::abs(shift) <= delta) {
+            continue;
+        }
+        AuditFinding finding = finding_of(subject, b,
+                                          "the equation bends over the uncertainties: the mean of the values lies " +
+                                              in_words(shift, budget.unit) + " beside the stated value");
+        finding.evidence = {"value = " + in_words(*budget.value, budget.unit),
+                            "half the sum of second derivatives times covariances = " + in_words(shift, budget.unit),
+                            "half a unit of the last digit = " + in_words(delta, budget.unit)};
+        finding.expected = in_words(*budget.value + shift, budget.unit);
+        finding.actual = in_words(*budget.value, budget.unit);
+        finding.correct = [shift](AuditedBudget& corrected) {
+            if (corrected.value) {
+                *corrected.value += shift;
+            }
+        };
+        findings.add(std::move(finding));
+    }
+}
+
+/// S06
+void too_few_trials(const AuditSubject& subject, FindingCollector& findings) {
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        const AuditedBudget& budget = subject.budgets[b];
+        const std::optional<StatedMonteCarlo>& trials = budget.monte_carlo;
+        const std::optional<BudgetOutcome> outcome = outcome_of(budget);
+        if (!trials || !outcome) {
+            continue;
+        }
+        const double least = 1e4 / (1.0 - budget.coverage.probability);
+        const double delta = half_digit(budget, outcome->U);
+        std::string what;
+        if (trials->numerical_error) {
+            // JCGM 101:2008, 7.9: two standard deviations within the numerical tolerance.
+            what = 2.0 * *trials->numerical_error > delta ? "the numerical error of U moves its last digit" : "";
+        } else if (trials->converged && !*trials->converged) {
+            what = "the trials did not become stable";
+        } else if (!trials->converged && trials->trials && *trials->trials < least) {
+            what = "few trials, and no numerical error of U is stated";
+        }
+        if (what.empty()) {
+            continue;
+        }
+        AuditFinding finding = finding_of(subject, b, std::move(what));
+        if (trials->trials) {
+            finding.evidence.push_back("M = " + text::shortest_plain(*trials->trials) +
+                                       ", 10⁴/(1 − p) = " + text::significant(least, 6));
+        }
+        if (trials->numerical_error) {
+            finding.evidence.push_back("numerical error of U = " + in_words(*trials->numerical_error, budget.unit));
+        }
+        finding.evidence.push_back("half a unit of the last digit = " + in_words(delta, budget.unit));
+        findings.add(std::move(finding));
+    }
+}
+
+/// S07
+void not_repeatable(const AuditSubject& subject, FindingCollector& findings) {
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        if (subject.budgets[b].monte_carlo && !subject.budgets[b].monte_carlo->repeatable) {
+            AuditFinding finding =
+                finding_of(subject, b,
+                           "the trials cannot be repeated: seed, generator or version of the program is not on record");
+            finding.evidence = {"budget " + subject.budgets[b].name};
+            findings.add(std::move(finding));
+        }
+    }
+}
+
+/// S08
+void known_correction(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        if (!at.is.unapplied_correction || *at.is.unapplied_correction == 0.0) {
+            return;
+        }
+        const double correction = *at.is.unapplied_correction, shift = at.is.used_sensitivity * correction;
+        AuditFinding finding =
+            finding_at(at, "estimate",
+                       "a correction of " + in_words(correction, at.is.unit) +
+                           " is known and not applied; the result is off by " + in_words(shift, at.of.unit));
+        finding.evidence = {"c = " + in_words(at.is.used_sensitivity), "u = " + in_words(at.is.used_u, at.is.unit)};
+        finding.correct = [shift](AuditedBudget& budget) {
+            if (budget.value) {
+                *budget.value += shift;
+            }
+        };
+        findings.add(std::move(finding));
+    });
+}
+
+/// Two rows with one source.
+struct SharedSource {
+    std::size_t budget = 0, first = 0, second = 0;
+};
+bool have_correlation(const AuditedBudget& budget, std::size_t a, std::size_t b) {
+    return std::any_of(budget.correlations.begin(), budget.correlations.end(), [a, b](const RowCorrelation& pair) {
+        return (pair.first == a && pair.second == b) || (pair.first == b && pair.second == a);
+    });
+}
+std::vector<SharedSource> shared_sources(const AuditSubject& subject) {
+    std::vector<SharedSource> shared;
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        const std::vector<AuditedRow>& rows = subject.budgets[b].rows;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const std::string source = gum::without_spelling(rows[i].source);
+            for (std::size_t j = i + 1; j < rows.size() && !source.empty(); ++j) {
+                if (contribution_of(rows[i]) > 0.0 && contribution_of(rows[j]) > 0.0 &&
+                    gum::without_spelling(rows[j].source) == source) {
+                    shared.push_back({b, i, j});
+                }
+            }
+        }
+    }
+    return shared;
+}
+
+/// Whether two rows are the drift of one standard twice, or its drift beside its limit of error, which holds it.
+bool counts_twice(const AuditedRow& a, const AuditedRow& b) {
+    const bool two_drifts =
+        a.contributor == Contributor::reference_drift && b.contributor == Contributor::reference_drift;
+    const bool within_limit = a.origin == Origin::specification && b.contributor == Contributor::reference_drift &&
+                              b.origin != Origin::specification;
+    return a.unit == b.unit && (two_drifts || within_limit);
+}
+
+/// S09
+void counted_twice(const AuditSubject& subject, FindingCollector& findings) {
+    for (const SharedSource& pair : shared_sources(subject)) {
+        const AuditedBudget& budget = subject.budgets[pair.budget];
+        std::size_t kept = pair.first, left = pair.second;
+        if (!counts_twice(budget.rows[kept], budget.rows[left])) {
+            std::swap(kept, left);
+            if (!counts_twice(budget.rows[kept], budget.rows[left])) {
+                continue;
+            }
+        }
+        const bool drifts = budget.rows[kept].contributor == Contributor::reference_drift;
+        AuditFinding finding =
+            finding_at({.budget = pair.budget, .row = left, .of = budget, .is = budget.rows[left]}, "",
+                       (drifts ? "the drift of " + budget.rows[left].source + " stands in the budget twice, also as "
+                               : "the drift of " + budget.rows[left].source + " is within the limit of error, ") +
+                           name_of_row(budget, kept));
+        finding.evidence = {"|c| u = " + in_words(contribution_of(budget.rows[kept]), budget.unit) + " and " +
+                                in_words(contribution_of(budget.rows[left]), budget.unit),
+                            "source " + budget.rows[left].source};
+        finding.correct = leave_out(left);
+        findings.add(std::move(finding));
+    }
+}
+
+/// What u_c is where two rows are correlated.
+std::string u_with_correlation(const AuditedBudget& budget, std::size_t a, std::size_t b, double r) {
+    AuditedBudget with = budget;
+    with.correlations.push_back({.first = a, .second = b, .r = r});
+    const std::optional<BudgetOutcome> outcome = outcome_of(with);
+    return outcome ? in_words(outcome->u_c, budget.unit) : "0";
+}
+
+void add_neglected_correlation(const AuditSubject& subject, const SharedSource& pair, const std::string& what,
+                               FindingCollector& findings) {
+    const AuditedBudget& budget = subject.budgets[pair.budget];
+    const std::optional<BudgetOutcome> outcome = outcome_of(budget);
+    AuditFinding finding =
+        finding_at({.budget = pair.budget, .row = pair.second, .of = budget, .is = budget.rows[pair.second]}, "",
+                   what + " " + budget.rows[pair.second].source + " as " + name_of_row(budget, pair.first) +
+                       ", and no correlation is stated");
+    finding.evidence = {"u_c with r = 0: " + (outcome ? in_words(outcome->u_c, budget.unit) : std::string("none")),
+                        "with r = 1: " + u_with_correlation(budget, pair.first, pair.second, 1.0),
+                        "with r = -1: " + u_with_correlation(budget, pair.first, pair.second, -1.0)};
+    findings.add(std::move(finding));
+}
+
+/// S10
+void neglected_correlation(const AuditSubject& subject, FindingCollector& findings) {
+    for (const SharedSource& pair : shared_sources(subject)) {
+        const AuditedBudget& budget = subject.budgets[pair.budget];
+        const AuditedRow &a = budget.rows[pair.first], &b = budget.rows[pair.second];
+        // One certificate, one sensor: the same error is in both. A drift or a resolution is an effect of its own.
+        const bool certificates = a.origin == Origin::certificate && b.origin == Origin::certificate;
+        const bool sensors = a.contributor == Contributor::temperature && b.contributor == Contributor::temperature &&
+                             a.origin != Origin::resolution && b.origin != Origin::resolution &&
+                             !a.type_a.value_or(false) && !b.type_a.value_or(false);
+        const bool fits = a.contributor == Contributor::fit && b.contributor == Contributor::fit;
+        if ((certificates || sensors) && !fits && !have_correlation(budget, pair.first, pair.second)) {
+            add_neglected_correlation(subject, pair, "the row comes from the same source", findings);
+        }
+    }
+}
+
+/// S13
+void neglected_fit_covariance(const AuditSubject& subject, FindingCollector& findings) {
+    for (const SharedSource& pair : shared_sources(subject)) {
+        const AuditedBudget& budget = subject.budgets[pair.budget];
+        if (budget.rows[pair.first].contributor == Contributor::fit &&
+            budget.rows[pair.second].contributor == Contributor::fit &&
+            !have_correlation(budget, pair.first, pair.second)) {
+            add_neglected_correlation(subject, pair, "the parameter comes from the same fit", findings);
+        }
+    }
+}
+
+/// S11
+void impossible_correlations(const AuditSubject& subject, FindingCollector& findings) {
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        const AuditedBudget& budget = subject.budgets[b];
+        bool outside = false;
+        const auto n = static_cast<Eigen::Index>(budget.rows.size());
+        Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(n, n);
+        for (const RowCorrelation& pair : budget.correlations) {
+            const std::string pair_name = name_of_row(budget, pair.first) + " and " + name_of_row(budget, pair.second);
+            if (!(std::abs(pair.r) <= 1.0)) {
+                outside = true;
+                AuditFinding finding =
+                    finding_of(subject, b, "the correlation of " + pair_name + " lies outside of -1 to 1");
+                finding.evidence = {"r = " + in_words(pair.r)};
+                findings.add(std::move(finding));
+            }
+            const auto i = static_cast<Eigen::Index>(pair.first), j = static_cast<Eigen::Index>(pair.second);
+            matrix(i, j) = matrix(j, i) = pair.r;
+        }
+        if (outside || budget.correlations.empty() || gum::is_positive_semidefinite(matrix)) {
+            continue;
+        }
+        // Printed coefficients may miss by their rounding: what two decimals leave open is forgiven.
+        constexpr double k_printed = 0.005;
+        Eigen::MatrixXd tolerance = Eigen::MatrixXd::Zero(n, n);
+        for (const RowCorrelation& pair : budget.correlations) {
+            const auto i = static_cast<Eigen::Index>(pair.first), j = static_cast<Eigen::Index>(pair.second);
+            tolerance(i, j) = tolerance(j, i) = k_printed;
+        }
+        if (gum::nearest_correlation(matrix, tolerance)) {
+            continue;
+        }
+        AuditFinding finding =
+            finding_of(subject, b, "the correlations contradict each other: the matrix is not positive semi-definite");
+        for (const RowCorrelation& pair : budget.correlations) {
+            finding.evidence.push_back("r = " + in_words(pair.r) + " of " + name_of_row(budget, pair.first) + " and " +
+                                       name_of_row(budget, pair.second));
+        }
+        findings.add(std::move(finding));
+    }
+}
+
+/// S12
+void degrees_of_freedom_of_correlated_rows(const AuditSubject& subject, FindingCollector& findings) {
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        const AuditedBudget& budget = subject.budgets[b];
+        const std::optional<BudgetOutcome> outcome = outcome_of(budget);
+        if (!outcome || budget.evaluated_here || budget.coverage.kind != CoverageRule::Kind::student_t ||
+            !std::isfinite(outcome->nu_eff)) {
+            continue;
+        }
+        for (const RowCorrelation& pair : budget.correlations) {
+            const AuditedRow &first = budget.rows[pair.first], &second = budget.rows[pair.second];
+            if (pair.r == 0.0 || (!std::isfinite(first.used_nu) && !std::isfinite(second.used_nu)) ||
+                contribution_of(first) == 0.0 || contribution_of(second) == 0.0) {
+                continue;
+            }
+            AuditFinding finding = finding_of(
+                subject, b,
+                "ν_eff comes from the Welch-Satterthwaite formula, which holds for independent rows; " +
+                    name_of_row(budget, pair.first) + " and " + name_of_row(budget, pair.second) + " are correlated");
+            finding.kind = name_of_row(budget, pair.first) + name_of_row(budget, pair.second);
+            finding.evidence = {"r = " + in_words(pair.r),
+                                "ν = " + in_words(first.used_nu) + " and " + in_words(second.used_nu),
+                                "ν_eff = " + in_words(outcome->nu_eff), "k = " + in_words(outcome->k)};
+            findings.add(std::move(finding));
+        }
+    }
+}
+
+/// S15 of a specification that grows with the length. Coordinate measuring machines have A + L/K with K from 100 to 2000
+/// mm/µm: a relative part from 5E-7 to 1E-5.
+void implausible_length_part(const AuditSubject& subject, FindingCollector& findings) {
+    constexpr double k_least = 5e-7, k_most = 1e-5;
+    for_each_row(subject, [&findings](const RowAt& at) {
+        if (!at.is.limit_constant || !at.is.limit_per_length || !(*at.is.limit_per_length > 0.0)) {
+            return;
+        }
+        // "L in mm" beside micrometres makes the number a thousand times as large.
+        const double stated = *at.is.limit_per_length;
+        const double relative = mentions(at.is, {"l in mm"}) ? stated * 1e-3 : stated;
+        if (relative >= k_least && relative <= k_most) {
+            return;
+        }
+        double factor = 0.0;
+        for (const double tried : {10.0, 0.1, 100.0, 0.01, 1000.0, 0.001}) {
+            if (factor == 0.0 && relative * tried >= k_least && relative * tried <= k_most) {
+                factor = tried;
+            }
+        }
+        AuditFinding finding = finding_at(
+            at, "specification",
+            "the part " + in_words(stated) +
+                " of the specification that grows with the length is not that of a coordinate measuring machine");
+        finding.evidence = {"specification " + in_words(*at.is.limit_constant) + " + " + in_words(stated) + " L",
+                            "known specifications: 5E-7 to 1E-5 of the length"};
+        finding.expected = factor > 0.0 ? in_words(stated * factor) + ", if one power of ten is wrong" : "";
+        finding.actual = in_words(stated);
+        finding.question = "Which exponent does the data sheet of the machine state, and in which unit is L?";
+        if (factor > 0.0 && at.is.origin_value && *at.is.origin_value > *at.is.limit_constant) {
+            const double growing = *at.is.origin_value - *at.is.limit_constant;
+            finding.correct = scale_u(at.row, (*at.is.limit_constant + factor * growing) / *at.is.origin_value);
+        }
+        findings.add(std::move(finding));
+    });
+}
+
+/// S15
+void implausible_constant(const AuditSubject& subject, FindingCollector& findings) {
+    implausible_length_part(subject, findings);
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const ConstantRange* range = constant_range(at.is);
+        const std::optional<gum::Unit> unit = unit_in(at.is.unit);
+        if (range == nullptr || !unit || !at.is.estimate || at.is.estimate->value == 0.0 ||
+            mentions(at.is, {"difference", "differenz", "δ", "Δ", "delta", "unterschied", "unsicherheit"})) {
+            return;
+        }
+        const gum::Unit si = gum::Unit::parse(range->unit);
+        if (!(si.dimension() == unit->dimension())) {
+            return;
+        }
+        const double value = unit->to_si(at.is.estimate->value);
+        const double digits = unit->difference_to_si(at.is.estimate->half_step);
+        if (value + digits >= range->low && value - digits <= range->high) {
+            return;
+        }
+        std::string power;
+        for (int exponent = -6; exponent <= 6 && power.empty(); ++exponent) {
+            const double moved = value * std::pow(10.0, exponent);
+            if (exponent != 0 && moved >= range->low && moved <= range->high) {
+                power = "times 10^" + std::to_string(exponent) + " it would be plausible";
+            }
+        }
+        AuditFinding finding = finding_at(at, "estimate", "not a plausible value for the " + std::string(range->kind));
+        finding.evidence = {"estimate = " + in_words(at.is.estimate->value, at.is.unit)};
+        if (!power.empty()) {
+            finding.evidence.push_back(power);
+        }
+        finding.expected =
+            in_words(unit->from_si(range->low)) + " to " + in_words(unit->from_si(range->high), at.is.unit);
+        finding.actual = in_words(at.is.estimate->value, at.is.unit);
+        findings.add(std::move(finding));
+    });
+}
+
+/// A name without "(2)" at its end, and with its words or factors in alphabetical order.
+std::string order_free_name(const std::string& name) {
+    std::string bare = name;
+    const std::size_t open = bare.rfind('(');
+    if (open != std::string::npos && open > 0 && bare.back() == ')' &&
+        bare.find_first_not_of("0123456789", open + 1) == bare.size() - 1) {
+        bare.resize(open);
+    }
+    for (const std::string_view sign : {"·", "×", "*"}) {
+        for (std::size_t at = bare.find(sign); at != std::string::npos; at = bare.find(sign)) {
+            bare.replace(at, sign.size(), " ");
+        }
+    }
+    std::vector<std::string> words;
+    for (std::size_t at = 0; at < bare.size();) {
+        const std::size_t end = std::min(bare.find(' ', at), bare.size());
+        if (end > at) {
+            words.push_back(gum::without_spelling(bare.substr(at, end - at)));
+        }
+        at = end + 1;
+    }
+    std::sort(words.begin(), words.end());
+    std::string all;
+    for (const std::string& word : words) {
+        all += word + " ";
+    }
+    return all;
+}
+
+/// S16
+void equal_rows(const AuditSubject& subject, FindingCollector& findings) {
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        const AuditedBudget& budget = subject.budgets[b];
+        for (std::size_t i = 0; i < budget.rows.size(); ++i) {
+            for (std::size_t j = i + 1; j < budget.rows.size(); ++j) {
+                const AuditedRow &a = budget.rows[i], &c = budget.rows[j];
+                const bool resolution = a.origin == Origin::resolution || c.origin == Origin::resolution ||
+                                        a.contributor == Contributor::item_resolution ||
+                                        a.contributor == Contributor::reference_resolution;
+                const bool other_source = !a.source.empty() && !c.source.empty() && a.source != c.source;
+                const bool other_estimate = a.estimate && c.estimate && a.estimate->value != c.estimate->value;
+                if (resolution || other_source || other_estimate || !(contribution_of(a) > 0.0) ||
+                    a.used_u != c.used_u || std::abs(a.used_sensitivity) != std::abs(c.used_sensitivity) ||
+                    a.unit != c.unit || !c.in_sum || a.used_nu != c.used_nu || a.quantity.empty() ||
+                    order_free_name(a.quantity) != order_free_name(c.quantity) || have_correlation(budget, i, j)) {
+                    continue;
+                }
+                AuditFinding finding = finding_at({.budget = b, .row = j, .of = budget, .is = c}, "",
+                                                  "the same contribution as " + name_of_row(budget, i));
+                finding.evidence = {"u = " + in_words(c.used_u, c.unit), "c = " + in_words(c.used_sensitivity)};
+                finding.correct = leave_out(j);
+                findings.add(std::move(finding));
+            }
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<Rule> model_rules() {
+    using enum SeverityPolicy;
+    using enum FindingSeverity;
+    return {
+        {.id = "S01",
+         .title = "Sensitivity coefficient with a wrong unit",
+         .clause = {.text = "JCGM 100:2008, 5.1.3", .verified = true},
+         .severity = critical,
+         .needs = {Need::rows},
+         .detection =
+             "the unit of a coefficient is not that of the result per that of the row; or no coefficient, and two "
+             "units",
+         .correction = "State the coefficient in the unit of the result per unit of the row.",
+         .question = "How does a number in the unit of the row become one in the unit of the result?",
+         .examine = unit_of_sensitivity},
+        {.id = "S02",
+         .title = "Sensitivity coefficient is not the derivative",
+         .clause = {.text = "JCGM 100:2008, 5.1.3", .verified = true},
+         .severity = critical,
+         .needs = {Need::model},
+         .detection =
+             "exact derivative of the stated equation at the estimates, against the stated coefficient: more than "
+             "1 % beyond the printed digits of coefficient and estimates",
+         .correction = "Take the derivative of the equation at the estimates.",
+         .question = "Equation and coefficient contradict each other. Which of the two describes the measurement?",
+         .examine = wrong_sensitivity},
+        {.id = "S03",
+         .title = "Equation and rows have different quantities",
+         .clause = {.text = "JCGM 100:2008, 4.1.2", .verified = false},
+         .policy = fixed,
+         .severity = major,
+         .needs = {Need::model},
+         .detection =
+             "a quantity of the equation without a row, or a row with a symbol that the equation does not have",
+         .correction = "Give each quantity of the equation its row, or say with a number why it does not count.",
+         .question =
+             "Is the quantity known so well that it needs no row, or was it forgotten in one of the two places?",
+         .examine = model_and_rows},
+        {.id = "S04",
+         .title = "Terms of second order left out where first-order terms vanish",
+         .clause = {.text = "JCGM 100:2008, 5.1.2 (note) and H.1.7", .verified = true},
+         .severity = major,
+         .needs = {Need::model},
+         .detection =
+             "an estimate of 0 makes a coefficient 0, and the products of second order are more than 5 % of u_c²",
+         .correction = "Add the terms of second order to the budget.",
+         .question = "The estimate of a factor is 0, but its uncertainty is not. Where in the budget is their product?",
+         .examine = vanishing_first_order},
+        {.id = "S05",
+         .title = "Non-linear equation, law of propagation not validated",
+         .clause = {.text = "JCGM 101:2008, 8.1", .verified = false},
+         .severity = major,
+         .needs = {Need::model},
+         .detection =
+             "the terms of second order change U by more than half a unit of its last digit, and no Monte Carlo "
+             "result is stated",
+         .correction = "Validate U by the propagation of distributions, or add the terms of second order.",
+         .question = "The equation bends within the uncertainties. Was U compared with a Monte Carlo result?",
+         .examine = not_linear},
+        {.id = "S06",
+         .title = "Monte Carlo with too few trials",
+         .clause = {.text = "JCGM 101:2008, 7.2 and 7.9", .verified = false},
+         .policy = fixed,
+         .severity = major,
+         .needs = {Need::rows},
+         .detection =
+             "twice the numerical error of U above half a unit of its last digit; where none is stated, trials that "
+             "were not stable, or fewer than 10⁴/(1 − p)",
+         .correction = "State the numerical error of U, and increase the number of trials until it is small enough.",
+         .question = "How far would U move if the trials were repeated with another seed?",
+         .examine = too_few_trials},
+        {.id = "S07",
+         .title = "Monte Carlo result that cannot be repeated",
+         .clause = {.text = "ISO/IEC 17025:2017, 7.5.1", .verified = false},
+         .policy = fixed,
+         .severity = major,
+         .needs = {Need::rows},
+         .detection = "seed, generator or version of the program is not on record",
+         .correction = "Record seed, generator and version.",
+         .question = "How would the laboratory show the same number again?",
+         .examine = not_repeatable},
+        {.id = "S08",
+         .title = "Known correction not applied",
+         .clause = {.text = "JCGM 100:2008, 3.2.4", .verified = true},
+         .severity = major,
+         .needs = {Need::rows},
+         .detection = "a comment that names a correction and says that it is not applied",
+         .correction = "Apply the correction, and state the uncertainty of the correction.",
+         .question = "The error is known. Why does the result carry it?",
+         .examine = known_correction},
+        {.id = "S09",
+         .title = "Same effect counted twice",
+         .clause = {.text = "JCGM 100:2008, 4.3.10", .verified = true},
+         .severity = major,
+         .needs = {Need::rows},
+         .detection = "two rows of drift with one source, or a drift beside the limit of error of the same instrument",
+         .correction = "Leave one of them out.",
+         .question = "Do the two rows stand for two effects, or for one effect that was found in two ways?",
+         .examine = counted_twice},
+        {.id = "S10",
+         .title = "Correlation neglected",
+         .clause = {.text = "JCGM 100:2008, 5.2.2 and F.1.2", .verified = true},
+         .policy = fixed,
+         .severity = major,
+         .needs = {Need::rows},
+         .detection = "two rows from one certificate or one sensor, and no correlation between them",
+         .correction = "State the correlation, or have the common source as a quantity of the equation.",
+         .question = "An error of the common source is in both rows at once. Do they add or cancel?",
+         .examine = neglected_correlation},
+        {.id = "S11",
+         .title = "Impossible correlations",
+         .clause = {.text = "JCGM 100:2008, 5.2.2", .verified = true},
+         .severity = critical,
+         .needs = {Need::rows},
+         .detection = "a coefficient outside of −1 to 1, or a matrix that is not positive semi-definite even where two "
+                      "decimals of every coefficient are left open",
+         .correction = "Take the coefficients from one covariance matrix.",
+         .question = "Where do the coefficients come from?",
+         .examine = impossible_correlations},
+        {.id = "S12",
+         .title = "Welch–Satterthwaite formula with correlated rows",
+         .clause = {.text = "JCGM 100:2008, G.4.1", .verified = true},
+         .policy = fixed,
+         .severity = major,
+         .needs = {Need::rows},
+         .detection = "k = t_p(ν_eff) where correlated rows have finite ν",
+         .correction = "Let correlated quantities enter as one contribution with the ν of their covariance matrix.",
+         .question =
+             "The formula holds for independent rows. How many degrees of freedom have the correlated ones together?",
+         .examine = degrees_of_freedom_of_correlated_rows},
+        {.id = "S13",
+         .title = "Parameters of a fit treated as independent",
+         .clause = {.text = "JCGM 100:2008, H.3", .verified = true},
+         .policy = fixed,
+         .severity = major,
+         .needs = {Need::rows},
+         .detection = "two rows of one fit without a correlation",
+         .correction = "State the covariance of the parameters, or refer the fit to the middle of its points.",
+         .question = "Slope and intercept of one fit depend on each other. Where is their covariance?",
+         .examine = neglected_fit_covariance},
+        {.id = "S15",
+         .title = "Implausible constant",
+         .clause = {.text = "JCGM 100:2008, 4.3.1", .verified = false},
+         .severity = major,
+         .needs = {Need::rows},
+         .detection = "a constant whose words name material and kind, outside of the range that any grade of it has",
+         .correction = "Correct the power of ten or the unit.",
+         .question = "Is the number in the unit that the table states?",
+         .examine = implausible_constant},
+        {.id = "S16",
+         .title = "Two rows are the same contribution",
+         .clause = {.text = "JCGM 100:2008, 4.3.10", .verified = true},
+         .severity = major,
+         .needs = {Need::rows},
+         .detection = "equal u, coefficient, unit and ν under one name, or the same factors in another order",
+         .correction = "Leave one of them out.",
+         .question = "Are these two effects of the same size, or one effect twice?",
+         .examine = equal_rows},
+        {.id = "S17",
+         .title = "Sensitivity coefficient of another point",
+         .clause = {.text = "JCGM 100:2008, 5.1.3", .verified = true},
+         .severity = major,
+         .needs = {Need::model},
+         .detection =
+             "a stated coefficient that is the derivative at another point of the same table, and not at its own",
+         .correction = "Take the derivative at the estimates of the point.",
+         .question = "Was the row copied from another point without its coefficient?",
+         .examine = sensitivity_of_another_point},
+        {.id = "S18",
+         .title = "Value beside the mean of a non-linear equation",
+         .clause = {.text = "JCGM 100:2008, 4.1.4 (note)", .verified = false},
+         .severity = major,
+         .needs = {Need::model},
+         .detection =
+             "half the sum of second derivatives times covariances above half a unit of the last printed digit",
+         .correction = "Correct the value by the term of second order, or say that it stands for f of the estimates.",
+         .question = "Is the stated value meant as f of the estimates or as the mean of what the quantity may be?",
+         .examine = value_beside_mean},
+    };
+}
+
+}  // namespace gumcert::audit

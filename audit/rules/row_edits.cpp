@@ -1,0 +1,116 @@
+#include "audit/rules/row_edits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "audit/row_facts.h"
+#include "text/numbers.h"
+
+namespace gumcert::audit {
+
+void for_each_row(const AuditSubject& subject, const std::function<void(const RowAt&)>& look) {
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        const AuditedBudget& budget = subject.budgets[b];
+        for (std::size_t r = 0; r < budget.rows.size(); ++r) {
+            look({.budget = b, .row = r, .of = budget, .is = budget.rows[r]});
+        }
+    }
+}
+
+AuditFinding finding_at(const RowAt& at, const std::string& column, std::string what) {
+    AuditFinding finding;
+    finding.where = at.is.place;
+    if (!at.is.quantity.empty()) {
+        finding.where += " (" + at.is.quantity + ")";
+    }
+    if (!column.empty()) {
+        finding.where += ", " + column;
+    }
+    finding.what = std::move(what);
+    finding.budgets = {at.budget};
+    finding.kind = at.is.quantity.empty() ? "" : at.is.quantity + "/" + column;
+    return finding;
+}
+
+AuditFinding finding_of(const AuditSubject& subject, std::size_t budget, std::string what) {
+    AuditFinding finding;
+    const AuditedBudget& of = subject.budgets[budget];
+    finding.where = of.place.empty() ? of.name : of.place;
+    finding.what = std::move(what);
+    finding.budgets = {budget};
+    finding.kind = "budget";
+    return finding;
+}
+
+std::string in_words(double number, const std::string& unit) {
+    const std::string digits = std::isfinite(number) ? text::significant(number, 4) : "infinite";
+    return unit.empty() || unit == "1" ? digits : digits + " " + unit;
+}
+
+Correction set_u(std::size_t row, double u) {
+    return [row, u](AuditedBudget& budget) {
+        budget.rows[row].used_u = u;
+        budget.rows[row].u_half_step = 0.0;
+        budget.rows[row].contribution.reset();
+    };
+}
+Correction scale_u(std::size_t row, double factor) {
+    return [row, factor](AuditedBudget& budget) {
+        budget.rows[row].used_u *= factor;
+        budget.rows[row].u_half_step *= factor;
+        budget.rows[row].contribution.reset();
+    };
+}
+Correction set_sensitivity(std::size_t row, double sensitivity) {
+    return [row, sensitivity](AuditedBudget& budget) {
+        budget.rows[row].used_sensitivity = sensitivity;
+        budget.rows[row].sensitivity_half_step = 0.0;
+        budget.rows[row].contribution.reset();
+    };
+}
+Correction set_degrees_of_freedom(std::size_t row, double nu) {
+    return [row, nu](AuditedBudget& budget) { budget.rows[row].used_nu = nu; };
+}
+Correction leave_out(std::size_t row) {
+    return [row](AuditedBudget& budget) { budget.rows[row].in_sum = false; };
+}
+Correction put_in(std::size_t row) {
+    return [row](AuditedBudget& budget) { budget.rows[row].in_sum = true; };
+}
+Correction add_contribution(double contribution, std::string quantity) {
+    return [contribution, quantity = std::move(quantity)](AuditedBudget& budget) {
+        AuditedRow row;
+        row.quantity = quantity;
+        row.used_u = contribution;
+        budget.rows.push_back(std::move(row));
+    };
+}
+Correction both(Correction first, Correction second) {
+    return [first = std::move(first), second = std::move(second)](AuditedBudget& budget) {
+        first(budget);
+        second(budget);
+    };
+}
+
+bool mentions(const AuditedRow& row, const std::vector<std::string_view>& words) {
+    const std::string text = in_small_letters(row.quantity + " " + row.source + " " + row.comment);
+    return std::any_of(words.begin(), words.end(),
+                       [&text](std::string_view word) { return text.find(word) != std::string::npos; });
+}
+
+bool u_differs(const AuditedRow& row, double expected, double relative, double left_open) {
+    return std::abs(row.used_u - expected) > row.u_half_step + left_open + relative * std::abs(expected);
+}
+
+std::string name_of_row(const AuditedBudget& budget, std::size_t row) {
+    const AuditedRow& is = budget.rows[row];
+    const std::string place = is.place.empty() ? "row " + std::to_string(row + 1) : is.place;
+    return is.quantity.empty() ? place : place + " (" + is.quantity + ")";
+}
+
+bool is_about(double a, double b, double tolerance) {
+    return std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b));
+}
+
+}  // namespace gumcert::audit

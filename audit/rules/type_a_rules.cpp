@@ -1,0 +1,438 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "audit/rules/registry.h"
+#include "audit/rules/row_edits.h"
+#include "gum/analysis_of_variance.h"
+#include "text/lists.h"
+#include "text/numbers.h"
+
+namespace gumcert::audit {
+namespace {
+
+bool is_type_a(const AuditedRow& row) {
+    return row.type_a.value_or(row.origin == Origin::readings);
+}
+std::optional<std::size_t> readings_of(const AuditedRow& row) {
+    return row.readings.empty() ? row.n : std::optional(row.readings.size());
+}
+double mean_of(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+/// Experimental standard deviation of two values or more (JCGM 100:2008, 4.2.2).
+double deviation_of(const std::vector<double>& values) {
+    const double mean = mean_of(values);
+    double sum = 0.0;
+    for (const double value : values) {
+        sum += (value - mean) * (value - mean);
+    }
+    return std::sqrt(sum / (static_cast<double>(values.size()) - 1.0));
+}
+std::string nu_in_words(double nu) {
+    return std::isfinite(nu) ? text::significant(nu, 4) : "infinite";
+}
+
+/// U01
+void no_degrees_of_freedom(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        if (!at.is.type_a.value_or(false) || at.is.nu || std::isfinite(at.is.used_nu)) {
+            return;
+        }
+        const std::optional<std::size_t> n = readings_of(at.is);
+        AuditFinding finding =
+            finding_at(at, "ν", "a Type A evaluation without degrees of freedom; it counts as exactly known");
+        finding.evidence = {"u = " + in_words(at.is.used_u, at.is.unit)};
+        if (n && *n >= 2 && !at.is.pooled_s) {
+            finding.evidence.push_back(text::count_of(static_cast<std::int64_t>(*n), "reading"));
+            finding.expected = "ν = " + std::to_string(*n - 1);
+            finding.actual = "no ν";
+            finding.correct = set_degrees_of_freedom(at.row, static_cast<double>(*n - 1));
+        }
+        findings.add(std::move(finding));
+    });
+}
+
+/// U02
+void few_readings(const AuditSubject& subject, FindingCollector& findings) {
+    constexpr std::size_t k_enough = 10;
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const std::optional<std::size_t> n = readings_of(at.is);
+        if (!is_type_a(at.is) || !n || *n >= k_enough || at.is.pooled_s || at.is.group_sizes.size() > 1) {
+            return;
+        }
+        if (*n >= 2 && at.of.coverage.kind != CoverageRule::Kind::fixed && std::isfinite(at.is.used_nu)) {
+            // ν and k follow from the few readings: all that is left is to know of them.
+            AuditFinding finding =
+                finding_at(at, "",
+                           "the scatter comes of " + text::count_of(static_cast<std::int64_t>(*n), "reading") +
+                               "; ν and k account for it");
+            finding.evidence = {"n = " + std::to_string(*n), "ν = " + nu_in_words(at.is.used_nu)};
+            findings.add(std::move(finding));
+            return;
+        }
+        AuditFinding finding = finding_at(at, "",
+                                          *n < 2 ? "one reading has no scatter: s cannot come from it"
+                                                 : "the scatter comes of " + std::to_string(*n) +
+                                                       " readings, and neither ν nor k accounts for so few");
+        finding.evidence = {"n = " + std::to_string(*n), "ν = " + nu_in_words(at.is.used_nu)};
+        if (*n >= 2 && at.is.nu && !std::isfinite(at.is.used_nu)) {
+            finding.expected = "ν = " + std::to_string(*n - 1);
+            finding.actual = "ν infinite";
+            finding.correct = set_degrees_of_freedom(at.row, static_cast<double>(*n - 1));
+        }
+        findings.add(std::move(finding));
+    });
+}
+
+/// U03: s/√m where the result is the mean of another number of readings.
+void other_number_of_readings(const AuditSubject& subject, FindingCollector& findings) {
+    constexpr std::size_t k_most = 1000;
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const std::optional<std::size_t> counted = at.is.averaged ? at.is.averaged : readings_of(at.is);
+        if (!is_type_a(at.is) || !counted || *counted < 1 || !(at.is.used_u > 0.0)) {
+            return;
+        }
+        const double right = std::sqrt(static_cast<double>(*counted));
+        std::optional<double> s, root;
+        if (at.is.stated && at.is.divisor && at.is.divisor->value > 0.0) {
+            s = at.is.stated->value;
+            root = at.is.divisor->value;
+            if (std::abs(*root - right) <= at.is.divisor->half_step + 0.01 * right) {
+                return;
+            }
+        } else if (at.is.readings.size() >= 2 && !at.is.pooled_s) {
+            s = deviation_of(at.is.readings);
+            root = *s / at.is.used_u;
+            if (!(*s > 0.0) || !u_differs(at.is, *s / right)) {
+                return;
+            }
+        } else {
+            return;
+        }
+        // A divisor that is the root of no whole number means something else.
+        const double m = std::round(*root * *root);
+        const bool is_root = m >= 1.0 && m <= static_cast<double>(k_most) && is_about(*root, std::sqrt(m), 0.01);
+        // A single reading has the scatter s itself; only where a mean is known to be stated, s/√1 is wrong.
+        if (!is_root || (m == 1.0 && !at.is.averaged) || m == static_cast<double>(*counted)) {
+            return;
+        }
+        const std::string used = text::significant(m, 6);
+        AuditFinding finding = finding_at(at, "divisor",
+                                          "s is divided by √" + used + ", but " + std::to_string(*counted) +
+                                              (*counted == 1 ? " reading makes" : " readings make") + " the mean");
+        finding.evidence = {"s = " + in_words(*s, at.is.unit), "u = " + in_words(at.is.used_u, at.is.unit),
+                            "n = " + std::to_string(*counted)};
+        finding.expected = "divisor √" + std::to_string(*counted);
+        finding.actual = "divisor √" + used;
+        finding.correct = scale_u(at.row, std::sqrt(m / static_cast<double>(*counted)));
+        // s of the readings that are there has one degree of freedom less than they are.
+        if (!at.is.averaged && *counted >= 2 && at.is.used_nu == m - 1.0) {
+            finding.expected += ", ν = " + std::to_string(*counted - 1);
+            finding.actual += ", ν = " + nu_in_words(at.is.used_nu);
+            finding.correct =
+                both(std::move(finding.correct), set_degrees_of_freedom(at.row, static_cast<double>(*counted - 1)));
+        }
+        findings.add(std::move(finding));
+    });
+}
+
+/// U05: all points of a table are one family: 1 % for a false alarm in any of them (Šidák).
+void scatter_above_budget(const AuditSubject& subject, FindingCollector& findings) {
+    const auto is_compared = [](const AuditedRow& row) {
+        return row.readings.size() >= 2 && row.pooled_s && *row.pooled_s > 0.0;
+    };
+    std::size_t tests = 0;
+    for_each_row(subject, [&](const RowAt& at) { tests += is_compared(at.is) ? 1U : 0U; });
+    if (tests == 0) {
+        return;
+    }
+    constexpr double k_family = 0.01;
+    const double level = -std::expm1(std::log1p(-k_family) / static_cast<double>(tests));
+    for_each_row(subject, [&](const RowAt& at) {
+        if (!is_compared(at.is)) {
+            return;
+        }
+        const double s = deviation_of(at.is.readings), pooled = *at.is.pooled_s;
+        const double nu = static_cast<double>(at.is.readings.size() - 1);
+        const double p = gum::f_upper_tail(s * s / (pooled * pooled), nu, at.is.used_nu);
+        if (p >= level) {
+            return;
+        }
+        AuditFinding finding = finding_at(
+            at, "u",
+            "the readings scatter more than the pooled standard deviation of the budget: " + in_words(s, at.is.unit) +
+                " against " + in_words(pooled, at.is.unit));
+        finding.evidence = {"F = " + in_words(s * s / (pooled * pooled)), "p = " + text::significant(p, 2),
+                            "level of one test = " + text::significant(level, 2) + " (1 % over " +
+                                text::count_of(static_cast<std::int64_t>(tests), "test") + ")"};
+        finding.expected = "s ≤ pooled s within chance";
+        finding.actual = "s = " + in_words(s, at.is.unit);
+        finding.correct = both(scale_u(at.row, s / pooled), set_degrees_of_freedom(at.row, nu));
+        findings.add(std::move(finding));
+    });
+}
+
+/// U06
+void identical_readings(const AuditSubject& subject, FindingCollector& findings) {
+    constexpr std::size_t k_least = 3;
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const std::vector<double>& readings = at.is.readings;
+        const bool equal = readings.size() >= k_least && std::all_of(readings.begin(), readings.end(),
+                                                                     [&](double x) { return x == readings.front(); });
+        const bool has_resolution = std::any_of(at.of.rows.begin(), at.of.rows.end(), [](const AuditedRow& row) {
+            return row.in_sum && row.used_u > 0.0 &&
+                   (row.origin == Origin::resolution || row.contributor == Contributor::item_resolution ||
+                    row.contributor == Contributor::reference_resolution);
+        });
+        if (!equal || has_resolution) {
+            return;
+        }
+        AuditFinding finding = finding_at(
+            at, "readings",
+            "all " + std::to_string(readings.size()) + " readings are equal, and no row stands for the resolution");
+        finding.evidence = {"every reading = " + in_words(readings.front(), at.is.unit)};
+        finding.contribution_missing = true;
+        findings.add(std::move(finding));
+    });
+}
+
+/// Pooled standard deviation of several series (sizes n_i, n_i − 1 degrees of freedom each).
+struct PooledSeries {
+    double s = 0.0, nu = 0.0, largest = 0.0, smallest = 0.0;
+    bool same_size = true;
+};
+std::optional<PooledSeries> pooled_series(const AuditedRow& row) {
+    if (row.group_deviations.size() < 2 || row.group_deviations.size() != row.group_sizes.size()) {
+        return std::nullopt;
+    }
+    PooledSeries pooled{.smallest = row.group_deviations.front()};
+    double sum = 0.0;
+    for (std::size_t i = 0; i < row.group_deviations.size(); ++i) {
+        if (row.group_sizes[i] < 2) {
+            return std::nullopt;
+        }
+        const double nu = static_cast<double>(row.group_sizes[i] - 1), s = row.group_deviations[i];
+        sum += nu * s * s;
+        pooled.nu += nu;
+        pooled.largest = std::max(pooled.largest, s);
+        pooled.smallest = std::min(pooled.smallest, s);
+        pooled.same_size = pooled.same_size && row.group_sizes[i] == row.group_sizes.front();
+    }
+    pooled.s = std::sqrt(sum / pooled.nu);
+    return pooled;
+}
+/// The standard deviation that a row starts from: before its divisor, where it has one.
+double deviation_used(const AuditedRow& row) {
+    return row.stated ? row.stated->value : row.used_u;
+}
+double digits_of_deviation(const AuditedRow& row) {
+    return row.stated ? row.stated->half_step : row.u_half_step;
+}
+
+/// U21
+void largest_deviation(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        if (const std::optional<PooledSeries> pooled = pooled_series(at.is)) {
+            const double s = deviation_used(at.is);
+            if (std::abs(s - pooled->largest) > digits_of_deviation(at.is) + 0.002 * pooled->largest ||
+                !(pooled->s < 0.99 * pooled->largest)) {
+                return;
+            }
+            AuditFinding finding = finding_at(
+                at, "u",
+                "the largest of " + std::to_string(at.is.group_sizes.size()) +
+                    " standard deviations is used, with the degrees of freedom of one series: neither pooled "
+                    "nor the distribution of a maximum");
+            finding.evidence = {"s = " + in_words(s, at.is.unit), "pooled s = " + in_words(pooled->s, at.is.unit),
+                                "ν = " + nu_in_words(at.is.used_nu), "ν of all series = " + nu_in_words(pooled->nu)};
+            finding.expected = "s = " + in_words(pooled->s, at.is.unit) + ", ν = " + nu_in_words(pooled->nu);
+            finding.actual = "s = " + in_words(s, at.is.unit) + ", ν = " + nu_in_words(at.is.used_nu);
+            finding.correct = both(scale_u(at.row, pooled->s / s), set_degrees_of_freedom(at.row, pooled->nu));
+            findings.add(std::move(finding));
+            return;
+        }
+        // Only the largest s is known: it stays, as a bound of the pooled one.
+        if (at.is.group_sizes.size() < 2 || !at.is.group_deviations.empty() ||
+            !mentions(at.is, {"largest", "maximum of", "max(", "max of", "größte", "groesste", "maximale"})) {
+            return;
+        }
+        double nu = 0.0;
+        for (const std::size_t size : at.is.group_sizes) {
+            nu += size > 1 ? static_cast<double>(size - 1) : 0.0;
+        }
+        if (!(nu > at.is.used_nu)) {
+            return;
+        }
+        AuditFinding finding =
+            finding_at(at, "ν",
+                       "the largest of " + std::to_string(at.is.group_sizes.size()) +
+                           " standard deviations is used with the degrees of freedom of one series; pooled, "
+                           "all series would count");
+        finding.evidence = {"u = " + in_words(at.is.used_u, at.is.unit) + ", kept as a bound",
+                            "ν = " + nu_in_words(at.is.used_nu), "ν of all series = " + nu_in_words(nu)};
+        finding.expected = "ν = " + nu_in_words(nu);
+        finding.actual = "ν = " + nu_in_words(at.is.used_nu);
+        finding.correct = set_degrees_of_freedom(at.row, nu);
+        findings.add(std::move(finding));
+    });
+}
+
+/// U22
+void deviation_of_deviations(const AuditSubject& subject, FindingCollector& findings) {
+    constexpr std::size_t k_least = 3;
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const std::optional<PooledSeries> pooled = pooled_series(at.is);
+        if (!pooled || at.is.group_deviations.size() < k_least) {
+            return;
+        }
+        const double s = deviation_used(at.is), spread = deviation_of(at.is.group_deviations);
+        if (std::abs(s - spread) > digits_of_deviation(at.is) + 0.01 * spread || !(spread < 0.9 * pooled->s)) {
+            return;
+        }
+        AuditFinding finding =
+            finding_at(at, "u",
+                       "the standard deviation of " + std::to_string(at.is.group_deviations.size()) +
+                           " standard deviations is taken for the repeatability: it says how the scatter varies, not "
+                           "how large it is");
+        finding.evidence = {"s = " + in_words(s, at.is.unit),
+                            "smallest of the standard deviations = " + in_words(pooled->smallest, at.is.unit),
+                            "pooled s = " + in_words(pooled->s, at.is.unit), "ν = " + nu_in_words(at.is.used_nu)};
+        finding.expected = "s = " + in_words(pooled->s, at.is.unit) + ", ν = " + nu_in_words(pooled->nu);
+        finding.actual = "s = " + in_words(s, at.is.unit);
+        finding.correct = both(scale_u(at.row, pooled->s / s), set_degrees_of_freedom(at.row, pooled->nu));
+        findings.add(std::move(finding));
+    });
+}
+
+/// U25
+void deviation_in_place_of_range(const AuditSubject& subject, FindingCollector& findings) {
+    constexpr std::size_t k_few = 3;
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const std::vector<double>& readings = at.is.readings;
+        if (readings.size() < 2 || readings.size() > k_few || !at.is.stated ||
+            !mentions(at.is, {"range", "max-min", "max - min", "max \u2212 min", "spannweite", "parallelism",
+                              "parallelität"})) {
+            return;
+        }
+        const auto [low, high] = std::minmax_element(readings.begin(), readings.end());
+        const double range = *high - *low, s = deviation_of(readings);
+        const double digits = at.is.stated->half_step + 0.005 * range;
+        if (!(range > 0.0) || std::abs(at.is.stated->value - s) > digits ||
+            std::abs(at.is.stated->value - range) <= digits) {
+            return;
+        }
+        AuditFinding finding = finding_at(at, "stated",
+                                          "the quantity is a range, and the standard deviation of " +
+                                              std::to_string(readings.size()) + " values stands for it");
+        finding.evidence = {"largest − smallest = " + in_words(range, at.is.unit), "s = " + in_words(s, at.is.unit)};
+        finding.expected = in_words(range, at.is.unit);
+        finding.actual = in_words(at.is.stated->value, at.is.unit);
+        finding.correct = scale_u(at.row, range / s);
+        findings.add(std::move(finding));
+    });
+}
+
+}  // namespace
+
+std::vector<Rule> type_a_rules() {
+    using enum SeverityPolicy;
+    using enum FindingSeverity;
+    return {
+        {.id = "U01",
+         .title = "Type A evaluation without degrees of freedom",
+         .clause = {.text = "JCGM 100:2008, 4.2.6", .verified = true},
+         .needs = {Need::rows},
+         .detection = "a row of Type A for which neither the table nor a number of readings gives ν",
+         .correction = "State ν: n − 1 of a mean of n readings, the sum over all series of a pooled estimate.",
+         .question =
+             "The row counts with infinite degrees of freedom, so k is too small where it is large. From how many "
+             "readings does it come?",
+         .examine = no_degrees_of_freedom},
+        {.id = "U02",
+         .title = "Few readings",
+         .clause = {.text = "JCGM 100:2008, 4.2.6 and E.4.3", .verified = false},
+         .severity = minor,
+         .needs = {Need::readings},
+         .detection =
+             "a Type A row from fewer than 10 readings, without a pooled estimate; from 2 readings on, and with ν "
+             "and k that account for it, only to be known",
+         .correction = "Use a pooled estimate of s, or state ν = n − 1 and take k from it.",
+         .question =
+             "A standard deviation of so few readings is itself uncertain. Is there a pooled estimate from earlier "
+             "calibrations, or do ν and k account for the number?",
+         .examine = few_readings},
+        {.id = "U03",
+         .title = "Divisor of another number of readings",
+         .clause = {.text = "JCGM 100:2008, 4.2.3", .verified = true},
+         .needs = {Need::readings},
+         .detection = "s divided by √m where the result is the mean of n ≠ m readings",
+         .correction = "Divide s by the root of the number of readings that the stated value is the mean of.",
+         .question =
+             "Of how many readings is the value on the certificate the mean: of those of the study, or of those of "
+             "the calibration?",
+         .examine = other_number_of_readings},
+        {.id = "U05",
+         .title = "Observed scatter larger than budgeted",
+         .clause = {.text = "ISO/IEC 17025:2017, 7.6.1", .verified = false},
+         .needs = {Need::readings},
+         .detection =
+             "F-test of the readings against the pooled s, 1 % for a false alarm over all points together (Šidák)",
+         .correction = "Use the scatter that was observed, or find its cause and repeat the readings.",
+         .question =
+             "The readings scatter more than the budget says they do. What was different in this calibration, and "
+             "why does the pooled value still hold?",
+         .examine = scatter_above_budget},
+        {.id = "U06",
+         .title = "All readings identical",
+         .clause = {.text = "ISO/IEC 17025:2017, 7.5.1", .verified = false},
+         .policy = fixed,
+         .severity = major,
+         .needs = {Need::readings},
+         .detection = "three or more equal readings where no row stands for a resolution",
+         .correction = "State the resolution as a row of its own, or show that the display was not frozen.",
+         .question =
+             "Readings without any scatter say that the display is coarse, frozen or copied. Which is it, and which "
+             "row stands for the resolution?",
+         .examine = identical_readings},
+        {.id = "U21",
+         .title = "Largest of several standard deviations",
+         .clause = {.text = "JCGM 100:2008, 4.2.4", .verified = true},
+         .severity = minor,
+         .needs = {Need::rows},
+         .detection = "s is the largest of the standard deviations of several series, with ν of one of them",
+         .correction = "Pool the series: s² is the mean of the variances weighted by ν_i, ν the sum of ν_i.",
+         .question =
+             "The largest s with the ν of one series makes k large for no reason. Do the series scatter alike, so "
+             "that they may be pooled?",
+         .examine = largest_deviation},
+        {.id = "U22",
+         .title = "Standard deviation of standard deviations",
+         .clause = {.text = "JCGM 100:2008, 4.2.4", .verified = true},
+         .severity = critical,
+         .needs = {Need::rows},
+         .detection = "s is the standard deviation of the standard deviations of several series",
+         .correction = "Pool the series: s² is the mean of the variances weighted by ν_i, ν the sum of ν_i.",
+         .question = "The number says how much the daily scatter varies, not how large it is. Was the pooled standard "
+                     "deviation meant, as ν suggests?",
+         .examine = deviation_of_deviations},
+        {.id = "U25",
+         .title = "Standard deviation in place of a range",
+         .clause = {.text = "JCGM 100:2008, 4.2.2", .verified = true},
+         .needs = {Need::readings},
+         .detection = "a row that speaks of a range, with two or three values and their standard deviation",
+         .correction = "Use largest less smallest where the quantity is defined so.",
+         .question =
+             "The standard deviation of two values is 0.71 of their difference. Which of the two is the quantity "
+             "that the specification limits?",
+         .examine = deviation_in_place_of_range},
+    };
+}
+
+}  // namespace gumcert::audit

@@ -1,0 +1,210 @@
+// For each rule of combination and coverage: a budget that fires, and one that must not.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "audit/claims.h"
+#include "gum/coverage.h"
+#include "tests/support/audit_rules.h"
+#include "tests/support/audited_budgets.h"
+
+namespace gumcert::audit {
+namespace {
+
+using test::budget_of;
+using test::findings_of;
+using test::printed;
+using test::row;
+using test::subject_of;
+
+/// u_c = 0.5 µm, k = 2, U = 1.0 µm.
+AuditedBudget fixed_budget() {
+    AuditedBudget budget = budget_of({row("a", 0.3), row("b", 0.4)});
+    budget.coverage.kind = CoverageRule::Kind::fixed;
+    budget.claims.u_c = printed("0.50");
+    budget.claims.k = printed("2");
+    budget.claims.U = printed("1.0");
+    return budget;
+}
+
+TEST(CoverageRules, K01NeverAccusesRounding) {
+    AuditedBudget budget = fixed_budget();
+    EXPECT_TRUE(findings_of("K01", subject_of(budget)).empty());
+    budget.claims.u_c = printed("0.62");
+    budget.claims.U = printed("1.24");
+    note_unexplained(budget);
+    std::vector<AuditFinding> findings = findings_of("K01", subject_of(budget));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_NEAR(findings[0].effect->claimed.U, 1.24, 1e-12);
+    EXPECT_NEAR(findings[0].effect->alone.U, 1.0, 1e-12);
+    EXPECT_EQ(findings[0].severity, FindingSeverity::major);  // overstated
+    // Both wrong: two findings, each with its own part.
+    budget.claims.u_c = printed("0.41");
+    budget.claims.U = printed("0.74");
+    note_unexplained(budget);
+    findings = findings_of("K01", subject_of(budget));
+    ASSERT_EQ(findings.size(), 2U);
+    EXPECT_EQ(findings[0].severity, FindingSeverity::critical);
+    EXPECT_NEAR(findings[0].effect->audited.U, 1.0, 1e-12);
+}
+
+TEST(CoverageRules, K02WantsTheTFactor) {
+    AuditedBudget budget = budget_of({row("a", 0.3, 1.0, 5.0), row("b", 0.1)});
+    budget.coverage.kind = CoverageRule::Kind::fixed;
+    const std::vector<AuditFinding> findings = findings_of("K02", subject_of(budget));
+    ASSERT_EQ(findings.size(), 1U);
+    const double nu = findings[0].effect->claimed.nu_eff;
+    EXPECT_NEAR(findings[0].effect->alone.k, gum::coverage_factor(0.9545, nu), 1e-12);
+    budget.rows[0].used_nu = 30.0;
+    EXPECT_TRUE(findings_of("K02", subject_of(budget)).empty());
+    budget.rows[0].used_nu = 5.0;
+    budget.coverage.kind = CoverageRule::Kind::student_t;
+    EXPECT_TRUE(findings_of("K02", subject_of(budget)).empty());
+}
+
+TEST(CoverageRules, K03ReadsTheSentence) {
+    AuditedBudget budget = fixed_budget();
+    budget.claims.coverage_sentence = "k = 2, p = 95 %";
+    EXPECT_TRUE(findings_of("K03", subject_of(budget)).empty());
+    budget.claims.coverage_sentence = "k=2 (95,45 %)";
+    EXPECT_TRUE(findings_of("K03", subject_of(budget)).empty());
+    budget.claims.coverage_sentence = "k = 2, p = 99 %";
+    EXPECT_EQ(findings_of("K03", subject_of(budget)).size(), 1U);
+    budget.claims.coverage_sentence = "coverage factor k = 2";
+    budget.claims.k = printed("1.96");
+    budget.claims.U = printed("0.98");
+    budget.coverage.k = 1.96;
+    EXPECT_EQ(findings_of("K03", subject_of(budget)).size(), 1U);
+}
+
+TEST(CoverageRules, K03DoesNotAccuseTheRoundingOfRows) {
+    // Rows of one digit give ν_eff = 12.5; from all digits the laboratory has 8.
+    AuditedBudget budget = budget_of({row("a", 0.3, 1.0, 6.0), row("b", 0.2)});
+    for (AuditedRow& one : budget.rows) {
+        one.u_half_step = 0.05;
+    }
+    const double k = gum::coverage_factor(0.9545, 8.0);
+    budget.claims.k = exact_number(k, "");
+    budget.claims.U = exact_number(k * std::hypot(0.3, 0.2), "");
+    EXPECT_TRUE(findings_of("K03", subject_of(budget)).empty());
+    budget.claims.k = exact_number(5.0, "");
+    EXPECT_EQ(findings_of("K03", subject_of(budget)).size(), 1U);
+}
+
+TEST(CoverageRules, K04ConvolvesARectangularRow) {
+    AuditedBudget budget = budget_of({row("limit", 1.0), row("rest", 0.2)});
+    budget.coverage.kind = CoverageRule::Kind::fixed;
+    budget.rows[0].shape = Shape::rectangular;
+    std::vector<AuditFinding> findings = findings_of("K04", subject_of(budget));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_NEAR(findings[0].effect->alone.k, 1.700, 0.0005);  // published for a ratio of 0.2
+    budget.rows[1].used_u = 0.0;
+    EXPECT_NEAR(findings_of("K04", subject_of(budget))[0].effect->alone.k, 1.653, 0.0005);
+    budget.rows[1].used_u = 0.4;
+    EXPECT_TRUE(findings_of("K04", subject_of(budget)).empty());
+    budget.rows[1].used_u = 0.2;
+    budget.rows[0].shape = Shape::normal;
+    EXPECT_TRUE(findings_of("K04", subject_of(budget)).empty());
+}
+
+TEST(CoverageRules, K05KnowsTheSumOfAllLimits) {
+    AuditedBudget budget = budget_of({row("limit", 1.0)});
+    budget.coverage.kind = CoverageRule::Kind::fixed;
+    budget.rows[0].shape = Shape::rectangular;
+    ASSERT_EQ(findings_of("K05", subject_of(budget)).size(), 1U);  // 2 against √3
+    budget.rows.push_back(row("normal", 0.01));
+    EXPECT_TRUE(findings_of("K05", subject_of(budget)).empty());
+    budget.rows.pop_back();
+    budget.coverage.k = 1.65;
+    EXPECT_TRUE(findings_of("K05", subject_of(budget)).empty());
+}
+
+TEST(CoverageRules, K06PointsToTheOneRow) {
+    ASSERT_EQ(findings_of("K06", subject_of(budget_of({row("a", 1.0), row("b", 0.1)}))).size(), 1U);
+    EXPECT_EQ(findings_of("K06", subject_of(budget_of({row("a", 1.0), row("b", 0.1)})))[0].severity,
+              FindingSeverity::information);
+    EXPECT_TRUE(findings_of("K06", subject_of(budget_of({row("a", 1.0), row("b", 0.3)}))).empty());
+    // A claim that is too small makes no row larger than the whole.
+    AuditedBudget claimed = budget_of({row("a", 1.0), row("b", 0.3)});
+    claimed.u_c_over_rows = 0.9;
+    EXPECT_TRUE(findings_of("K06", subject_of(claimed)).empty());
+}
+
+TEST(CoverageRules, K07SeesUnequalTails) {
+    AuditedBudget budget = fixed_budget();
+    budget.value = 10.0;
+    budget.monte_carlo = StatedMonteCarlo{};
+    budget.monte_carlo->low = 9.0;
+    budget.monte_carlo->high = 11.1;
+    EXPECT_TRUE(findings_of("K07", subject_of(budget)).empty());
+    budget.monte_carlo->high = 11.6;
+    EXPECT_EQ(findings_of("K07", subject_of(budget)).size(), 1U);
+}
+
+TEST(CoverageRules, K08KnowsFormErrors) {
+    AuditedBudget budget = fixed_budget();
+    budget.value = 0.6;
+    EXPECT_TRUE(findings_of("K08", subject_of(budget)).empty());
+    budget.name = "Flatness of anvil";
+    EXPECT_EQ(findings_of("K08", subject_of(budget)).size(), 1U);
+    budget.value = 1.2;
+    EXPECT_TRUE(findings_of("K08", subject_of(budget)).empty());
+}
+
+TEST(CoverageRules, K09KnowsALinearSum) {
+    AuditedBudget budget = fixed_budget();
+    EXPECT_TRUE(findings_of("K09", subject_of(budget)).empty());
+    budget.claims.u_c = printed("0.70");
+    budget.claims.U = printed("1.40");
+    note_unexplained(budget);
+    const std::vector<AuditFinding> findings = findings_of("K09", subject_of(budget));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_NEAR(findings[0].effect->alone.U, 1.0, 1e-12);
+    EXPECT_TRUE(findings_of("K01", subject_of(budget)).empty());
+}
+
+TEST(CoverageRules, K11LeavesOurOwnEvaluationsAlone) {
+    AuditedBudget budget = budget_of({row("a", 0.3, 1.0, 5.9)});
+    AuditSubject subject = subject_of(budget);
+    ASSERT_EQ(findings_of("K11", subject).size(), 1U);
+    EXPECT_EQ(findings_of("K11", subject)[0].severity, FindingSeverity::information);
+    EXPECT_NEAR(findings_of("K11", subject)[0].effect->alone.k, gum::coverage_factor(0.9545, 5.0), 1e-12);
+    subject.kind = AuditSubject::Kind::record;
+    ASSERT_EQ(findings_of("K11", subject).size(), 1U);
+    EXPECT_FALSE(findings_of("K11", subject)[0].effect);
+    budget.rows[0].used_nu = 5.0;
+    EXPECT_TRUE(findings_of("K11", subject_of(budget)).empty());
+    budget.rows[0].used_nu = 500.3;
+    EXPECT_TRUE(findings_of("K11", subject_of(budget)).empty());
+}
+
+TEST(CoverageRules, K12ComparesWithTheTolerance) {
+    AuditedBudget budget = fixed_budget();
+    budget.limits = {.lower = -0.8, .upper = 0.8};
+    EXPECT_EQ(findings_of("K12", subject_of(budget)).size(), 1U);
+    budget.limits = {.lower = -3.0, .upper = 3.0};
+    EXPECT_TRUE(findings_of("K12", subject_of(budget)).empty());
+}
+
+TEST(CoverageRules, K13SeesWhatAFormatHides) {
+    AuditedBudget budget = budget_of({row("a", 0.3, 1.0, 6.5279)});
+    budget.coverage.kind = CoverageRule::Kind::fixed;
+    budget.claims.coverage_probability = 0.95;
+    budget.claims.k = printed("2");
+    budget.claims.U = exact_number(0.3 * gum::coverage_factor(0.95, 6.5279), "");
+    note_unexplained(budget);
+    const std::vector<AuditFinding> findings = findings_of("K13", subject_of(budget));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_EQ(findings[0].expected, "k = 2.40");
+    EXPECT_TRUE(findings_of("K01", subject_of(budget)).empty());
+    EXPECT_TRUE(findings_of("K03", subject_of(budget)).empty());
+    budget.claims.k = printed("2.40");
+    note_unexplained(budget);
+    EXPECT_TRUE(findings_of("K13", subject_of(budget)).empty());
+}
+
+}  // namespace
+}  // namespace gumcert::audit

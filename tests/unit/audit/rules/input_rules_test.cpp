@@ -1,0 +1,255 @@
+// For each rule of Type B inputs: a budget that fires, and one that must not.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/support/audit_rules.h"
+#include "tests/support/audited_budgets.h"
+
+namespace gumcert::audit {
+namespace {
+
+using test::budget_of;
+using test::findings_of;
+using test::row;
+using test::row_from;
+using test::subject_of;
+constexpr double k_root_of_3 = std::numbers::sqrt3;
+
+bool fires(std::string_view id, const AuditedRow& one) {
+    return !findings_of(id, subject_of(one)).empty();
+}
+/// u_c where a row of 0.01 µm stands beside.
+double beside(double u) {
+    return std::hypot(u, 0.01);
+}
+
+TEST(InputRules, U08ClassifiesTheDivisor) {
+    const auto limit = [](double ratio, Shape shape) {
+        return row_from("limit", Origin::limits, 0.6, 0.6 * ratio, shape);
+    };
+    EXPECT_FALSE(fires("U08", limit(1.0 / k_root_of_3, Shape::rectangular)));
+    EXPECT_FALSE(fires("U08", limit(1.0 / 1.73, Shape::rectangular)));
+    EXPECT_FALSE(fires("U08", limit(1.0 / std::sqrt(6.0), Shape::triangular)));
+    EXPECT_FALSE(fires("U08", limit(1.0 / std::numbers::sqrt2, Shape::arcsine)));
+    EXPECT_FALSE(fires("U08", limit(0.5, Shape::normal)));
+    EXPECT_FALSE(fires("U08", limit(0.5, Shape::not_stated)));
+    EXPECT_FALSE(fires("U08", limit(1.0 / std::sqrt(12.0), Shape::rectangular)));  // 0.6 may be the width
+    for (const double ratio : {1.0, 0.5, 1.0 / 3.0, 1.0 / std::sqrt(6.0), std::pow(3.0, -0.25)}) {
+        const std::vector<AuditFinding> findings = findings_of("U08", subject_of(limit(ratio, Shape::rectangular)));
+        ASSERT_EQ(findings.size(), 1U) << ratio;
+        EXPECT_NEAR(findings[0].effect->alone.u_c, beside(0.6 / k_root_of_3), 1e-12) << ratio;
+    }
+    EXPECT_NE(findings_of("U08", subject_of(limit(std::pow(3.0, -0.25), Shape::rectangular)))[0].what.find("twice"),
+              std::string::npos);
+    EXPECT_TRUE(fires("U08", limit(1.0 / k_root_of_3, Shape::triangular)));
+    AuditedRow half = limit(1.0 / std::sqrt(12.0), Shape::rectangular);
+    half.comment = "\u00B1 0.6";
+    EXPECT_TRUE(fires("U08", half));
+}
+
+TEST(InputRules, U08DoesNotAccuseRounding) {
+    // a = 0.6 printed with one digit, u = 0.35 computed from 0.61.
+    AuditedRow one = row("limit", 0.35);
+    one.shape = Shape::rectangular;
+    one.stated = test::printed("0.6");
+    one.u_half_step = 0.005;
+    EXPECT_FALSE(fires("U08", one));
+    one.used_u = 0.40;
+    EXPECT_TRUE(fires("U08", one));
+}
+
+TEST(InputRules, U08AndU13BelieveColumnsBeforeWords) {
+    // "accuracy over 1 year": the 1 is no half-width, where the columns give u.
+    AuditedRow one = row_from("calibrator", Origin::specification, 1.0, 0.0000693, Shape::rectangular);
+    one.u_half_step = 0.00000005;
+    one.divisor = exact_number(k_root_of_3, "");
+    EXPECT_FALSE(fires("U08", one));
+    one.stated = test::printed("0.00012");
+    EXPECT_FALSE(fires("U08", one));
+    one.stated = test::printed("0.00024");
+    one.divisor = test::printed("3.46");
+    EXPECT_TRUE(fires("U08", one));
+    AuditedRow standard = row_from("standard", Origin::certificate, 12.0, 0.18);
+    standard.certificate_k = 2.0;
+    EXPECT_TRUE(fires("U13", standard));
+    standard.stated = test::printed("0.36");
+    standard.divisor = test::printed("2");
+    EXPECT_FALSE(fires("U13", standard));
+}
+
+TEST(InputRules, U09AllowsADifferenceOfTwoReadings) {
+    const auto display = [](double u) { return row_from("display, step 0.1", Origin::resolution, 0.1, u); };
+    EXPECT_FALSE(fires("U09", display(0.1 / std::sqrt(12.0))));
+    EXPECT_FALSE(fires("U09", display(0.1 * std::numbers::sqrt2 / std::sqrt(12.0))));
+    for (const double u : {0.1, 0.1 / k_root_of_3, 0.05, 0.05 / std::sqrt(12.0)}) {
+        const std::vector<AuditFinding> findings = findings_of("U09", subject_of(display(u)));
+        ASSERT_EQ(findings.size(), 1U) << u;
+        EXPECT_NEAR(findings[0].effect->alone.u_c, beside(0.1 / std::sqrt(12.0)), 1e-12) << u;
+    }
+    // A column of half-widths, and words without a number.
+    AuditedRow column = row_from("display", Origin::resolution, 0.05, 0.05 / k_root_of_3, Shape::rectangular);
+    column.stated = test::printed("0.05");
+    EXPECT_FALSE(fires("U09", column));
+}
+
+TEST(InputRules, U10AndU24ReadAPermissibleError) {
+    EXPECT_TRUE(fires("U10", row_from("reference", Origin::specification, 0.4, 0.4)));
+    EXPECT_FALSE(fires("U10", row_from("reference", Origin::specification, 0.4, 0.4 / k_root_of_3)));
+    const std::vector<AuditFinding> halved =
+        findings_of("U24", subject_of(row_from("reference", Origin::specification, 0.4, 0.2)));
+    ASSERT_EQ(halved.size(), 1U);
+    EXPECT_NEAR(halved[0].effect->alone.u_c, beside(0.4 / k_root_of_3), 1e-12);
+    EXPECT_FALSE(fires("U24", row_from("reference", Origin::specification, 0.4, 0.4 / k_root_of_3)));
+    AuditedRow with_k = row_from("reference", Origin::specification, 0.4, 0.2);
+    with_k.certificate_k = 2.0;
+    EXPECT_FALSE(fires("U24", with_k));
+    // One finding for one slip.
+    EXPECT_FALSE(fires("U08", row_from("reference", Origin::specification, 0.4, 0.4, Shape::rectangular)));
+    EXPECT_FALSE(fires("U08", row_from("reference", Origin::specification, 0.4, 0.2, Shape::rectangular)));
+}
+
+TEST(InputRules, U11IsMinorWhereUFalls) {
+    AuditedRow one = row_from("reference", Origin::specification, 0.4, 0.4 / k_root_of_3);
+    EXPECT_FALSE(fires("U11", one));
+    one.certificate_U = 0.1;
+    one.certificate_k = 2.0;
+    const std::vector<AuditFinding> findings = findings_of("U11", subject_of(one));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_EQ(findings[0].severity, FindingSeverity::minor);
+    EXPECT_NEAR(findings[0].effect->alone.u_c, beside(0.05), 1e-12);
+    one.certificate_U = 1.0;  // the certificate says that the instrument is worse
+    EXPECT_EQ(findings_of("U11", subject_of(one))[0].severity, FindingSeverity::critical);
+}
+
+TEST(InputRules, U12AsksForEvidence) {
+    AuditedRow one = row_from("reference", Origin::specification, 0.4, 0.4 / k_root_of_3);
+    EXPECT_TRUE(fires("U12", one));
+    one.comment = "verified, report 17";
+    EXPECT_FALSE(fires("U12", one));
+}
+
+TEST(InputRules, U13DividesByTheKOfTheCertificate) {
+    const auto standard = [](double u) {
+        AuditedRow one = row_from("standard", Origin::certificate, 0.36, u);
+        one.certificate_k = 2.0;
+        return one;
+    };
+    EXPECT_FALSE(fires("U13", standard(0.18)));
+    for (const double u : {0.36, 0.36 / k_root_of_3, 0.36 / 1.96, 0.12}) {
+        const std::vector<AuditFinding> findings = findings_of("U13", subject_of(standard(u)));
+        ASSERT_EQ(findings.size(), 1U) << u;
+        EXPECT_NEAR(findings[0].effect->alone.u_c, beside(0.18), 1e-12) << u;
+    }
+    // 1.96 in place of 2 is two percent: not critical.
+    EXPECT_LT(findings_of("U13", subject_of(standard(0.36 / 1.96)))[0].severity, FindingSeverity::critical);
+    EXPECT_EQ(findings_of("U13", subject_of(standard(0.12)))[0].severity, FindingSeverity::critical);
+}
+
+TEST(InputRules, U14WantsKOnRecord) {
+    AuditedRow one = row_from("standard", Origin::certificate, 0.36, 0.18);
+    EXPECT_TRUE(fires("U14", one));
+    one.divisor = test::printed("2");
+    EXPECT_FALSE(fires("U14", one));
+    one.divisor.reset();
+    one.certificate_probability = 0.95;
+    EXPECT_FALSE(fires("U14", one));
+}
+
+TEST(InputRules, U15TakesThePartOfTheRightBase) {
+    AuditedRow one = row("pressure", 0.01 / k_root_of_3);
+    one.estimate = test::printed("2.00");
+    one.stated = exact_number(0.01, "");
+    one.relative_uncertainty = 0.005;
+    one.relative_to = RelativeTo::full_scale;
+    one.full_scale = 10.0;
+    const std::vector<AuditFinding> findings = findings_of("U15", subject_of(one));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_NEAR(findings[0].effect->alone.u_c, beside(0.05 / k_root_of_3), 1e-12);
+    EXPECT_EQ(findings[0].severity, FindingSeverity::critical);
+    one.stated = exact_number(0.05, "");
+    EXPECT_FALSE(fires("U15", one));
+}
+
+TEST(InputRules, U16AsksForInterpolation) {
+    AuditedRow one = row_from("standard", Origin::certificate, 0.36, 0.18);
+    one.estimate = test::printed("150.0");
+    one.certificate_low = 0.0;
+    one.certificate_high = 100.0;
+    EXPECT_TRUE(fires("U16", one));
+    one.certificate_high = 150.0;
+    EXPECT_FALSE(fires("U16", one));
+    one.certificate_high = 100.0;
+    AuditedRow fit = row("extrapolation", 0.1);
+    fit.contributor = Contributor::fit;
+    EXPECT_TRUE(findings_of("U16", subject_of(budget_of({one, fit}))).empty());
+}
+
+TEST(InputRules, U17TakesBothLimits) {
+    AuditedRow one = row("limit", 0.1 / k_root_of_3);
+    one.lower_limit = -0.1;
+    one.upper_limit = 0.3;
+    const std::vector<AuditFinding> findings = findings_of("U17", subject_of(one));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_NEAR(findings[0].effect->alone.u_c, beside(0.4 / std::sqrt(12.0)), 1e-12);
+    one.used_u = 0.4 / std::sqrt(12.0);
+    EXPECT_FALSE(fires("U17", one));
+}
+
+TEST(InputRules, U18FindsImpossibleNumbers) {
+    AuditedRow one = row("a", 0.1);
+    EXPECT_FALSE(fires("U18", one));
+    one.u = exact_number(-0.1, "");
+    EXPECT_TRUE(fires("U18", one));
+    one = row("a", 0.1);
+    one.divisor = exact_number(0.0, "");
+    EXPECT_TRUE(fires("U18", one));
+    one = row("a", 0.1);
+    one.nu = exact_number(-1.0, "");
+    EXPECT_TRUE(fires("U18", one));
+    one = row("a", 0.1, -2.0);
+    EXPECT_FALSE(fires("U18", one));
+    one.sensitivity = exact_number(std::nan(""), "");
+    EXPECT_TRUE(fires("U18", one));
+    EXPECT_EQ(findings_of("U18", subject_of(one))[0].severity, FindingSeverity::critical);
+}
+
+TEST(InputRules, U19TurnsReliabilityIntoNu) {
+    AuditedRow one = row("limit", 0.1);
+    one.reliability = 0.25;
+    const std::vector<AuditFinding> findings = findings_of("U19", subject_of(one));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_EQ(findings[0].expected, "ν = 8");
+    one.used_nu = 8.0;
+    EXPECT_FALSE(fires("U19", one));
+}
+
+TEST(InputRules, U20KnowsSwingingQuantities) {
+    AuditedRow one = row_from("room", Origin::limits, 0.5, 0.5 / k_root_of_3, Shape::rectangular);
+    EXPECT_FALSE(fires("U20", one));
+    one.cyclic = true;
+    const std::vector<AuditFinding> findings = findings_of("U20", subject_of(one));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_NEAR(findings[0].effect->alone.u_c, beside(0.5 / std::numbers::sqrt2), 1e-12);
+    one.used_u = 0.5 / std::numbers::sqrt2;
+    EXPECT_FALSE(fires("U20", one));
+}
+
+TEST(InputRules, U23FindsAValueThatIsItsOwnUncertainty) {
+    AuditedRow one = row("alpha", 11.5e-6 / k_root_of_3);
+    one.estimate = test::printed("11.5e-6");
+    one.stated = test::printed("11.5e-6");
+    EXPECT_TRUE(fires("U23", one));
+    one.stated = test::printed("1e-6");
+    EXPECT_FALSE(fires("U23", one));
+    one.stated.reset();
+    EXPECT_TRUE(fires("U23", one));
+    one.origin_value = 11.5e-6;  // a column of limits
+    EXPECT_FALSE(fires("U23", one));
+}
+
+}  // namespace
+}  // namespace gumcert::audit

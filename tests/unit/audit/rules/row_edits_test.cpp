@@ -1,0 +1,67 @@
+#include "audit/rules/row_edits.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/audited_budgets.h"
+
+namespace gumcert::audit {
+namespace {
+
+using test::budget_of;
+using test::row;
+
+TEST(RowEdits, CorrectOneRow) {
+    AuditedBudget budget = budget_of({row("a", 1.0), row("b", 2.0)});
+    budget.rows[1].u_half_step = 0.5;
+    budget.rows[1].contribution = exact_number(2.0, "");
+    scale_u(1, 0.5)(budget);
+    EXPECT_EQ(budget.rows[1].used_u, 1.0);
+    EXPECT_EQ(budget.rows[1].u_half_step, 0.25);
+    EXPECT_FALSE(budget.rows[1].contribution);
+    both(set_u(0, 3.0), set_sensitivity(0, -2.0))(budget);
+    EXPECT_EQ(budget.rows[0].used_u, 3.0);
+    EXPECT_EQ(budget.rows[0].used_sensitivity, -2.0);
+    set_degrees_of_freedom(0, 4.0)(budget);
+    EXPECT_EQ(budget.rows[0].used_nu, 4.0);
+    leave_out(0)(budget);
+    EXPECT_FALSE(budget.rows[0].in_sum);
+    put_in(0)(budget);
+    EXPECT_TRUE(budget.rows[0].in_sum);
+    add_contribution(0.7, "more")(budget);
+    ASSERT_EQ(budget.rows.size(), 3U);
+    EXPECT_EQ(budget.rows[2].used_u, 0.7);
+}
+
+TEST(RowEdits, SayWhereAndWhat) {
+    const AuditSubject subject = test::subject_of(budget_of({row("a", 1.0)}));
+    std::size_t rows = 0;
+    for_each_row(subject, [&rows](const RowAt& at) {
+        ++rows;
+        const AuditFinding finding = finding_at(at, "u", "wrong");
+        EXPECT_EQ(finding.where, "row of a (a), u");
+        EXPECT_EQ(finding.budgets, (std::vector<std::size_t>{0}));
+    });
+    EXPECT_EQ(rows, 1U);
+    EXPECT_EQ(finding_of(subject, 0, "wrong").where, "table 1");
+    EXPECT_EQ(name_of_row(subject.budgets[0], 0), "row of a (a)");
+    EXPECT_EQ(in_words(0.23094, "um"), "0.2309 um");
+    EXPECT_EQ(in_words(5.0, "1"), "5");
+    EXPECT_EQ(in_words(test::k_infinite), "infinite");
+}
+
+TEST(RowEdits, CompareNumbersAndWords) {
+    AuditedRow one = row("Drift", 0.30);
+    one.comment = "Verified";
+    EXPECT_TRUE(mentions(one, {"verif"}));
+    EXPECT_TRUE(mentions(one, {"nothing", "drift"}));
+    EXPECT_FALSE(mentions(one, {"certificate"}));
+    one.u_half_step = 0.005;
+    EXPECT_FALSE(u_differs(one, 0.307));
+    EXPECT_TRUE(u_differs(one, 0.315));
+    EXPECT_FALSE(u_differs(one, 0.315, 0.01, 0.01));
+    EXPECT_TRUE(is_about(1.0, 1.0099));
+    EXPECT_FALSE(is_about(1.0, 1.02));
+}
+
+}  // namespace
+}  // namespace gumcert::audit

@@ -1,0 +1,146 @@
+// For each rule of readings: a budget that fires, and one that must not.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/support/audit_rules.h"
+#include "tests/support/audited_budgets.h"
+
+namespace gumcert::audit {
+namespace {
+
+using test::budget_of;
+using test::findings_of;
+using test::row;
+using test::row_of_readings;
+using test::subject_of;
+
+const std::vector<double> k_five = {10.01, 10.03, 9.98, 10.00, 10.02};
+constexpr double k_s_of_five = 0.019235384061671353;  // √0.00037
+
+TEST(TypeARules, U01AsksForDegreesOfFreedom) {
+    AuditedRow one = row("repeatability", 0.5);
+    one.type_a = true;
+    one.nu.reset();
+    one.n = 5;
+    const std::vector<AuditFinding> findings = findings_of("U01", subject_of(one));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_EQ(findings[0].expected, "ν = 4");
+    EXPECT_NEAR(findings[0].effect->alone.nu_eff, 4.0, 0.01);
+    one.n.reset();
+    ASSERT_EQ(findings_of("U01", subject_of(one)).size(), 1U);
+    EXPECT_FALSE(findings_of("U01", subject_of(one))[0].effect);  // nobody knows ν
+    one.nu = exact_number(4.0, "");
+    one.used_nu = 4.0;
+    EXPECT_TRUE(findings_of("U01", subject_of(one)).empty());
+}
+
+TEST(TypeARules, U02IsMinorWhereNuAndKAccountForFewReadings) {
+    AuditedRow one = row_of_readings("repeatability", k_five, k_s_of_five / std::sqrt(5.0));
+    ASSERT_EQ(findings_of("U02", subject_of(one)).size(), 1U);
+    EXPECT_EQ(findings_of("U02", subject_of(one))[0].severity, FindingSeverity::minor);
+    one.used_nu = test::k_infinite;
+    one.nu = exact_number(test::k_infinite, "");
+    const std::vector<AuditFinding> ignored = findings_of("U02", subject_of(budget_of({one})));
+    ASSERT_EQ(ignored.size(), 1U);
+    EXPECT_EQ(ignored[0].severity, FindingSeverity::critical);  // k = 2.87 in place of 2
+    one.pooled_s = 0.02;
+    EXPECT_TRUE(findings_of("U02", subject_of(one)).empty());
+    AuditedRow ten = one;
+    ten.pooled_s.reset();
+    ten.readings = std::vector<double>(10, 1.0);
+    EXPECT_TRUE(findings_of("U02", subject_of(ten)).empty());
+}
+
+TEST(TypeARules, U03WantsTheReadingsOfTheMean) {
+    AuditedRow one = row_of_readings("repeatability", k_five, k_s_of_five / std::sqrt(10.0));
+    std::vector<AuditFinding> findings = findings_of("U03", subject_of(one));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_EQ(findings[0].expected, "divisor √5");
+    one.used_u = k_s_of_five / std::sqrt(5.0);
+    EXPECT_TRUE(findings_of("U03", subject_of(one)).empty());
+    one.used_u = k_s_of_five;  // scatter of a single reading
+    EXPECT_TRUE(findings_of("U03", subject_of(one)).empty());
+    one.averaged = 5;  // but the certificate states a mean
+    EXPECT_EQ(findings_of("U03", subject_of(one)).size(), 1U);
+    // A study of ten readings, and a mean of three.
+    AuditedRow study = row("repeatability", 0.1, 1.0, 9.0);
+    study.type_a = true;
+    study.n = 10;
+    study.stated = exact_number(0.1 * std::sqrt(10.0), "");
+    study.divisor = test::printed("3.16");
+    EXPECT_TRUE(findings_of("U03", subject_of(study)).empty());
+    study.averaged = 3;
+    findings = findings_of("U03", subject_of(study));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_NEAR(findings[0].effect->alone.u_c, std::hypot(0.1 * std::sqrt(10.0 / 3.0), 0.01), 1e-12);
+}
+
+TEST(TypeARules, U05ControlsTheFamilyOfPoints) {
+    // F = 3.7 with 4 and 20 degrees of freedom: p = 0.02 … not below 1 %; F = 7: p = 0.001.
+    const auto point = [](double pooled) {
+        AuditedRow one = row_of_readings("repeatability", k_five, pooled / std::sqrt(5.0));
+        one.pooled_s = pooled;
+        one.used_nu = 20.0;
+        return budget_of({one, row("rest", 0.001)});
+    };
+    EXPECT_TRUE(findings_of("U05", subject_of(point(k_s_of_five / std::sqrt(3.7)))).empty());
+    const AuditedBudget suspicious = point(k_s_of_five / std::sqrt(7.0));
+    ASSERT_EQ(findings_of("U05", subject_of(suspicious)).size(), 1U);
+    EXPECT_NEAR(findings_of("U05", subject_of(suspicious))[0].effect->alone.u_c,
+                std::hypot(k_s_of_five / std::sqrt(5.0), 0.001), 1e-9);
+    // One of a hundred points may look so by chance.
+    std::vector<AuditedBudget> table(99, point(k_s_of_five));
+    table.push_back(suspicious);
+    EXPECT_TRUE(findings_of("U05", subject_of(table)).empty());
+}
+
+TEST(TypeARules, U06AllowsACoarseDisplay) {
+    const AuditedRow frozen = row_of_readings("repeatability", {5.0, 5.0, 5.0}, 0.0);
+    const std::vector<AuditFinding> findings = findings_of("U06", subject_of(frozen));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_TRUE(findings[0].missing_term);
+    const AuditedRow display = test::row_from("display", Origin::resolution, 1.0, 0.2887);
+    EXPECT_TRUE(findings_of("U06", subject_of(budget_of({frozen, display}))).empty());
+    EXPECT_TRUE(findings_of("U06", subject_of(row_of_readings("repeatability", k_five, 0.01))).empty());
+}
+
+TEST(TypeARules, U21PoolsTheSeries) {
+    AuditedRow one = row("repeatability", 0.4, 1.0, 2.0);
+    one.group_deviations = {0.2, 0.3, 0.4};
+    one.group_sizes = {3, 3, 3};
+    const std::vector<AuditFinding> findings = findings_of("U21", subject_of(one));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_NEAR(findings[0].effect->alone.u_c, std::hypot(std::sqrt(0.29 / 3.0), 0.01), 1e-12);
+    EXPECT_NEAR(findings[0].effect->alone.nu_eff, 6.0, 0.02);
+    one.used_u = std::sqrt(0.29 / 3.0);
+    EXPECT_TRUE(findings_of("U21", subject_of(one)).empty());
+}
+
+TEST(TypeARules, U22KnowsTheSpreadOfDeviations) {
+    AuditedRow one = row("repeatability", 0.1, 1.0, 6.0);
+    one.group_deviations = {0.2, 0.3, 0.4};
+    one.group_sizes = {3, 3, 3};
+    const std::vector<AuditFinding> findings = findings_of("U22", subject_of(one));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_EQ(findings[0].severity, FindingSeverity::critical);
+    one.used_u = 0.31;
+    EXPECT_TRUE(findings_of("U22", subject_of(one)).empty());
+}
+
+TEST(TypeARules, U25WantsARangeForARange) {
+    AuditedRow one = row_of_readings("parallelism", {0.0100, 0.0241}, 0.0);
+    one.comment = "max - min of two places";
+    one.stated = exact_number(0.0141 / std::sqrt(2.0), "");
+    one.used_u = one.stated->value;
+    const std::vector<AuditFinding> findings = findings_of("U25", subject_of(one));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_NEAR(findings[0].effect->alone.u_c, std::hypot(0.0141, 0.01), 1e-9);
+    one.stated = exact_number(0.0141, "");
+    EXPECT_TRUE(findings_of("U25", subject_of(one)).empty());
+}
+
+}  // namespace
+}  // namespace gumcert::audit
