@@ -1,0 +1,853 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "audit/rules/registry.h"
+#include "audit/rules/row_edits.h"
+#include "audit/rules/worksheet_view.h"
+#include "text/lists.h"
+#include "text/numbers.h"
+#include "workbook/formula_text.h"
+
+namespace gumcert::audit {
+namespace {
+
+using workbook::CellKind;
+using workbook::CellPlace;
+using workbook::CellValue;
+using workbook::Formula;
+using workbook::FormulaNode;
+using workbook::FormulaNodeKind;
+
+constexpr Clause k_data_control{.text = "ISO/IEC 17025:2017, 7.11.2", .verified = true};
+constexpr Clause k_data_transfer{.text = "ISO/IEC 17025:2017, 7.11.6", .verified = true};
+constexpr Clause k_evaluation{.text = "ISO/IEC 17025:2017, 7.6", .verified = true};
+constexpr Clause k_type_b{.text = "JCGM 100:2008, 4.3.7", .verified = true};
+
+/// A finding about a cell.
+AuditFinding finding_in(const std::string& place, std::string what) {
+    AuditFinding finding;
+    finding.where = place;
+    finding.what = std::move(what);
+    return finding;
+}
+
+bool is_call(const FormulaNode& node, std::initializer_list<std::string_view> names) {
+    return node.kind == FormulaNodeKind::call && std::find(names.begin(), names.end(), node.text) != names.end();
+}
+bool calls(const Formula& formula, std::initializer_list<std::string_view> names) {
+    return std::any_of(formula.nodes.begin(), formula.nodes.end(),
+                       [&names](const FormulaNode& node) { return is_call(node, names); });
+}
+
+/// The cell that a node refers to by itself; nothing for a range, another workbook or anything else.
+std::optional<CellPlace> cell_of(const WorksheetView& view, const SheetFormula& formula, const FormulaNode& node) {
+    if (node.kind != FormulaNodeKind::reference) {
+        return std::nullopt;
+    }
+    const workbook::Reference& reference = formula.formula.references[node.reference];
+    if (!reference.workbook.empty() || reference.shape != workbook::ReferenceShape::cell ||
+        !reference.last_sheet.empty()) {
+        return std::nullopt;
+    }
+    CellPlace cell{.sheet = formula.cell.sheet, .address = reference.first.address};
+    if (!reference.sheet.empty()) {
+        const std::optional<std::size_t> sheet = workbook::find_sheet(view.workbook(), reference.sheet);
+        if (!sheet) {
+            return std::nullopt;
+        }
+        cell.sheet = *sheet;
+    }
+    return cell;
+}
+
+std::string small_letters(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return text;
+}
+bool says(const std::string& text, std::initializer_list<std::string_view> words) {
+    const std::string lower = small_letters(text);
+    return std::any_of(words.begin(), words.end(),
+                       [&lower](std::string_view word) { return lower.find(word) != std::string::npos; });
+}
+
+/// The place of the cell that holds u of a row, or what it was divided from.
+std::string place_of(const std::optional<StatedNumber>& number) {
+    return number ? number->place : std::string();
+}
+
+// W01 -----------------------------------------------------------------------------------------------------------------
+
+/// √ of a cell that is a root already, or of a root itself.
+bool takes_root_twice(const WorksheetView& view, const SheetFormula& formula) {
+    return std::any_of(formula.formula.nodes.begin(), formula.formula.nodes.end(), [&](const FormulaNode& node) {
+        if (!is_call(node, {"SQRT"}) || node.children != 1) {
+            return false;
+        }
+        const FormulaNode& inner = formula.formula.nodes[formula.formula.children_of(node)[0]];
+        if (is_call(inner, {"SQRT"})) {
+            return true;
+        }
+        const std::optional<CellPlace> cell = cell_of(view, formula, inner);
+        const SheetFormula* read = cell ? view.formula_at(*cell) : nullptr;
+        return read != nullptr && is_call(read->formula.nodes[read->formula.root()], {"SQRT"});
+    });
+}
+
+/// The divisor that a row has: that of its column, or stated/u.
+std::optional<double> divisor_of(const AuditedRow& row) {
+    if (row.stated && row.used_u > 0.0 && row.stated->value != 0.0) {
+        return std::abs(row.stated->value) / row.used_u;
+    }
+    return row.divisor ? std::optional(row.divisor->value) : std::nullopt;
+}
+
+void root_taken_twice(const AuditSubject& subject, FindingCollector& findings) {
+    const std::optional<WorksheetView> view = worksheet_of(subject);
+    for_each_row(subject, [&](const RowAt& at) {
+        const std::string place = place_of(at.is.u);
+        const SheetFormula* formula = view ? view->formula_at(place) : nullptr;
+        const bool in_formula = formula != nullptr && takes_root_twice(*view, *formula);
+        const std::optional<double> divisor = divisor_of(at.is);
+        if (!in_formula) {
+            return;
+        }
+        AuditFinding finding = finding_at(
+            at, place.empty() ? "u" : place,
+            "the root of the divisor is taken twice: " + in_words(divisor.value_or(std::pow(3.0, 0.25))) +
+                " divides, where the table says " + (at.is.shape_text.empty() ? "nothing" : at.is.shape_text));
+        if (at.is.divisor && at.is.stated) {
+            const double u = std::abs(at.is.stated->value) / at.is.divisor->value;
+            finding.expected = "u = " + in_words(u, at.is.unit);
+            finding.correct = set_u(at.row, u);
+        } else if (at.is.stated) {
+            const double u = std::abs(at.is.stated->value) / std::numbers::sqrt3;
+            finding.expected = "u = " + in_words(u, at.is.unit);
+            finding.correct = set_u(at.row, u);
+        }
+        finding.actual = "u = " + in_words(at.is.used_u, at.is.unit);
+        finding.evidence = {
+            "divisor " + in_words(divisor.value_or(0.0)),
+            "column of divisors: " + (at.is.divisor ? in_words(at.is.divisor->value) : std::string("none"))};
+        findings.add(std::move(finding));
+    });
+}
+
+// W02 -----------------------------------------------------------------------------------------------------------------
+
+struct Divisor {
+    double value;
+    std::string_view name;
+};
+constexpr std::array<Divisor, 8> k_divisors = {
+    Divisor{1.7320508075688772, "√3 (rectangular)"},
+    Divisor{2.449489742783178, "√6 (triangular)"},
+    Divisor{1.4142135623730951, "√2 (arcsine)"},
+    Divisor{2.0, "2 (normal, k = 2)"},
+    Divisor{3.0, "3"},
+    Divisor{3.4641016151377544, "√12 (a full step)"},
+    Divisor{2.23606797749979, "√5"},
+    Divisor{1.3160740129524924, "the root of √3"},
+};
+
+std::optional<double> divisor_of_shape(Shape shape) {
+    switch (shape) {
+        case Shape::rectangular:
+            return std::numbers::sqrt3;
+        case Shape::triangular:
+            return std::sqrt(6.0);
+        case Shape::arcsine:
+            return std::numbers::sqrt2;
+        default:
+            return std::nullopt;
+    }
+}
+
+void divisor_against_label(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        if (!at.is.divisor || !(at.is.divisor->value > 0.0)) {
+            return;
+        }
+        const double divisor = at.is.divisor->value;
+        const std::optional<double> expected = divisor_of_shape(at.is.shape);
+        const double allowed = std::max(at.is.divisor->half_step, 2e-4 * divisor);
+        std::string known;
+        for (const Divisor& other : k_divisors) {
+            if (std::abs(other.value - divisor) <= allowed) {
+                known = other.name;
+            }
+        }
+        const bool full_step = at.is.shape == Shape::rectangular && is_about(divisor, std::sqrt(12.0), 2e-4);
+        const bool disagrees = expected ? std::abs(*expected - divisor) > allowed && !full_step
+                                        : at.is.shape == Shape::normal && !known.empty() &&
+                                              (known.starts_with("√3") || known.starts_with("√6"));
+        if (!disagrees) {
+            return;
+        }
+        AuditFinding finding = finding_at(at, at.is.divisor->place.empty() ? "divisor" : at.is.divisor->place,
+                                          "the divisor " + in_words(divisor) + " is not that of the distribution \"" +
+                                              at.is.shape_text + "\"" + (known.empty() ? "" : ": it is " + known));
+        finding.actual = in_words(divisor);
+        finding.evidence = {"divisor = " + text::shortest(divisor), "distribution: " + at.is.shape_text};
+        if (expected) {
+            finding.expected = text::significant(*expected, 6);
+            finding.correct = scale_u(at.row, divisor / *expected);
+        } else {
+            finding.expected = "k of the normal distribution, e.g. 2";
+        }
+        findings.add(std::move(finding));
+    });
+}
+
+// W03 -----------------------------------------------------------------------------------------------------------------
+
+void volatile_function(const AuditSubject& subject, FindingCollector& findings) {
+    const std::optional<WorksheetView> view = worksheet_of(subject);
+    for (const SheetFormula& formula : view->formulas()) {
+        if (formula.in_result && calls(formula.formula, {"NOW", "TODAY", "RAND", "RANDBETWEEN"})) {
+            AuditFinding finding = finding_in(
+                formula.place, "U rests on a function that gives another value each time the file is opened");
+            finding.evidence = {
+                "=" + workbook::find_cell(view->workbook().sheets[formula.cell.sheet], formula.cell.address)->formula};
+            findings.add(std::move(finding));
+        }
+    }
+}
+
+// W04 -----------------------------------------------------------------------------------------------------------------
+
+bool is_over_readings(const Formula& formula) {
+    return calls(formula, {"AVERAGE", "STDEV", "STDEV.S", "STDEVA", "STDEV.P", "STDEVP", "VAR", "VAR.S", "VARP",
+                           "VAR.P", "MEDIAN", "DEVSQ", "COUNT"});
+}
+
+/// What stands in the cells that a formula over readings reads.
+struct ReadingsRange {
+    std::size_t numbers = 0, texts = 0, cells = 0;
+    std::vector<std::string> text_places;
+    std::string area;
+};
+ReadingsRange readings_of(const WorksheetView& view, const SheetFormula& formula) {
+    ReadingsRange range;
+    for (const CellPlace& cell : view.read_by(formula.cell)) {
+        const CellValue value = view.value(cell);
+        ++range.cells;
+        range.numbers += value.kind == CellKind::number ? 1U : 0U;
+        if (value.kind == CellKind::text) {
+            ++range.texts;
+            range.text_places.push_back(view.place(cell));
+        }
+    }
+    const std::vector<workbook::Area> areas = view.areas_read(formula.cell);
+    range.area = areas.empty() ? "" : workbook::a1_text(areas.front().range);
+    return range;
+}
+
+/// n whose root a formula like SQRT(5) or SQRT(D5) takes.
+std::optional<double> rooted_number(const WorksheetView& view, const SheetFormula& formula) {
+    const FormulaNode& root = formula.formula.nodes[formula.formula.root()];
+    if (!is_call(root, {"SQRT"}) || root.children != 1) {
+        return std::nullopt;
+    }
+    const FormulaNode& inner = formula.formula.nodes[formula.formula.children_of(root)[0]];
+    if (inner.kind == FormulaNodeKind::number) {
+        return inner.number;
+    }
+    const std::optional<CellPlace> cell = cell_of(view, formula, inner);
+    const CellValue value = cell ? view.value(*cell) : CellValue{};
+    return value.kind == CellKind::number ? std::optional(value.number) : std::nullopt;
+}
+
+void count_of_readings(const AuditSubject& subject, FindingCollector& findings) {
+    const std::optional<WorksheetView> view = worksheet_of(subject);
+    for (const SheetFormula& formula : view->formulas()) {
+        if (!is_over_readings(formula.formula)) {
+            continue;
+        }
+        const ReadingsRange range = readings_of(*view, formula);
+        if (range.numbers < 2) {
+            continue;
+        }
+        for (const std::string& place : range.text_places) {
+            AuditFinding finding = finding_in(
+                place, "text among the readings " + range.area + ": mean and standard deviation leave it out");
+            finding.evidence = {formula.place + " reads " + range.area,
+                                text::count_of(static_cast<std::int64_t>(range.numbers), "number") + " of " +
+                                    text::count_of(static_cast<std::int64_t>(range.cells), "cell")};
+            findings.add(std::move(finding));
+        }
+    }
+    for_each_row(subject, [&](const RowAt& at) {
+        const SheetFormula* stated = view->formula_at(place_of(at.is.stated));
+        const SheetFormula* divisor = view->formula_at(place_of(at.is.divisor));
+        if (stated == nullptr || divisor == nullptr) {
+            return;
+        }
+        const std::optional<double> n = rooted_number(*view, *divisor);
+        // The cell itself, or the one that it passes on.
+        const SheetFormula* spread = stated;
+        const std::vector<CellPlace> read = view->read_by(stated->cell);
+        if (!is_over_readings(spread->formula) && read.size() == 1) {
+            spread = view->formula_at(read.front());
+        }
+        if (!n || spread == nullptr || !is_over_readings(spread->formula)) {
+            return;
+        }
+        const ReadingsRange range = readings_of(*view, *spread);
+        const auto numbers = static_cast<double>(range.numbers);
+        if (range.numbers < 2 || (*n == numbers && range.cells == range.numbers)) {
+            return;
+        }
+        AuditFinding finding =
+            finding_at(at, at.is.divisor->place,
+                       "√" + text::shortest(*n) + " divides a standard deviation of " + range.area + ", which has " +
+                           text::count_of(static_cast<std::int64_t>(range.numbers), "number") + " in " +
+                           text::count_of(static_cast<std::int64_t>(range.cells), "cell"));
+        finding.expected = "√" + text::shortest(numbers);
+        finding.actual = "√" + text::shortest(*n);
+        finding.evidence = {"n of the divisor: " + text::shortest(*n),
+                            "numbers in the range: " + text::shortest(numbers),
+                            "cells of the range: " + std::to_string(range.cells)};
+        finding.correct = both(scale_u(at.row, std::sqrt(*n / numbers)), set_degrees_of_freedom(at.row, numbers - 1.0));
+        findings.add(std::move(finding));
+    });
+}
+
+// W05 -----------------------------------------------------------------------------------------------------------------
+
+bool has_absolute_reference(const Formula& formula) {
+    return std::any_of(formula.references.begin(), formula.references.end(), [](const workbook::Reference& reference) {
+        return reference.first.row_is_absolute || reference.first.column_is_absolute;
+    });
+}
+
+void stray_address(const AuditSubject& subject, FindingCollector& findings) {
+    const std::optional<WorksheetView> view = worksheet_of(subject);
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        const AuditedBudget& budget = subject.budgets[b];
+        std::map<CellPlace, std::size_t> first_reader;
+        for (std::size_t r = 0; r < budget.rows.size(); ++r) {
+            const AuditedRow& row = budget.rows[r];
+            const SheetFormula* formula = view->formula_at(place_of(row.stated ? row.stated : row.u));
+            if (formula == nullptr) {
+                continue;
+            }
+            for (const CellPlace& read : view->read_by(formula->cell)) {
+                const CellValue value = view->value(read);
+                if (value.kind != CellKind::number || view->formula_at(read) != nullptr) {
+                    continue;
+                }
+                const auto [first, is_new] = first_reader.emplace(read, r);
+                if (is_new || first->second == r) {
+                    continue;
+                }
+                const AuditedRow& other = budget.rows[first->second];
+                const SheetFormula* other_formula = view->formula_at(place_of(other.stated ? other.stated : other.u));
+                if (!has_absolute_reference(formula->formula) &&
+                    (other_formula == nullptr || !has_absolute_reference(other_formula->formula))) {
+                    continue;
+                }
+                const RowAt at{.budget = b, .row = r, .of = budget, .is = row};
+                AuditFinding finding = finding_at(at, formula->place,
+                                                  "reads the same cell as the row \"" + other.quantity +
+                                                      "\" by an absolute address: " + view->place(read) +
+                                                      " counts twice, or another cell was meant");
+                finding.evidence = {view->place(read) + " = " + in_words(value.number),
+                                    "read by " + formula->place + " and " +
+                                        (other_formula == nullptr ? other.place : other_formula->place)};
+                finding.correct = leave_out(r);
+                findings.add(std::move(finding));
+            }
+        }
+    }
+}
+
+// W06 -----------------------------------------------------------------------------------------------------------------
+
+/// A run of cells one below the other that pass on single cells of one column.
+struct CopiedRun {
+    std::vector<const SheetFormula*> formulas;
+    std::vector<CellPlace> read;
+};
+
+std::vector<CopiedRun> copied_runs(const WorksheetView& view) {
+    std::map<std::pair<std::size_t, std::uint32_t>, std::map<std::uint32_t, const SheetFormula*>> columns;
+    for (const SheetFormula& formula : view.formulas()) {
+        if (formula.formula.nodes.size() == 1 && cell_of(view, formula, formula.formula.nodes[0])) {
+            columns[{formula.cell.sheet, formula.cell.address.column}][formula.cell.address.row] = &formula;
+        }
+    }
+    std::vector<CopiedRun> runs;
+    for (const auto& [column, formulas] : columns) {
+        CopiedRun run;
+        std::uint32_t last_row = 0;
+        const auto close = [&] {
+            if (run.formulas.size() >= 3) {
+                runs.push_back(run);
+            }
+            run = {};
+        };
+        for (const auto& [row, formula] : formulas) {
+            const CellPlace read = *cell_of(view, *formula, formula->formula.nodes[0]);
+            const bool goes_on = !run.read.empty() && row == last_row + 1 && read.sheet == run.read.front().sheet &&
+                                 read.address.column == run.read.front().address.column;
+            if (!goes_on) {
+                close();
+            }
+            run.formulas.push_back(formula);
+            run.read.push_back(read);
+            last_row = row;
+        }
+        close();
+    }
+    return runs;
+}
+
+void reading_read_twice(const AuditSubject& subject, FindingCollector& findings) {
+    const std::optional<WorksheetView> view = worksheet_of(subject);
+    for (const CopiedRun& run : copied_runs(*view)) {
+        std::set<CellPlace> seen;
+        std::set<CellPlace> missing;
+        const CellPlace first = *std::min_element(run.read.begin(), run.read.end());
+        for (std::uint32_t i = 0; i < run.read.size(); ++i) {
+            const CellPlace expected{.sheet = first.sheet,
+                                     .address = {.row = first.address.row + i, .column = first.address.column}};
+            if (view->value(expected).kind == CellKind::number &&
+                std::find(run.read.begin(), run.read.end(), expected) == run.read.end()) {
+                missing.insert(expected);
+            }
+        }
+        for (std::size_t i = 0; i < run.read.size(); ++i) {
+            if (seen.insert(run.read[i]).second) {
+                continue;
+            }
+            std::string what = "reads " + view->place(run.read[i]) + " a second time";
+            std::vector<std::string> places;
+            for (const CellPlace& cell : missing) {
+                places.push_back(view->place(cell));
+            }
+            if (!places.empty()) {
+                what += ", and " + text::all_of(places) + (places.size() == 1 ? " is" : " are") + " never read";
+            }
+            AuditFinding finding = finding_in(run.formulas[i]->place, what);
+            finding.evidence = {"column of copies " + run.formulas.front()->place + " to " +
+                                run.formulas.back()->place};
+            findings.add(std::move(finding));
+        }
+    }
+}
+
+// W07, W08 ------------------------------------------------------------------------------------------------------------
+
+/// A table of corrections of a standard: heads of a column of corrections and one of their U.
+struct StandardTable {
+    std::size_t sheet = 0;
+    std::uint32_t head_row = 1, correction = 0, U = 0;
+};
+
+std::vector<StandardTable> standard_tables(const WorksheetView& view) {
+    std::vector<StandardTable> tables;
+    for (std::size_t s = 0; s < view.workbook().sheets.size(); ++s) {
+        std::map<std::uint32_t, StandardTable> by_row;
+        for (const workbook::Cell& cell : view.workbook().sheets[s].cells) {
+            if (cell.value.kind != CellKind::text) {
+                continue;
+            }
+            StandardTable& table = by_row[cell.address.row];
+            table.sheet = s;
+            table.head_row = cell.address.row;
+            const std::string& text = cell.value.text;
+            if (says(text, {"correction", "korrektion", "korrektur", "deviation", "abweichung", "error", "fehler"})) {
+                table.correction = cell.address.column;
+            } else if (text.starts_with("U") || says(text, {"uncertainty", "unsicherheit"})) {
+                table.U = cell.address.column;
+            }
+        }
+        for (const auto& [row, table] : by_row) {
+            if (table.correction != 0 && table.U != 0) {
+                tables.push_back(table);
+            }
+        }
+    }
+    return tables;
+}
+
+/// Calls `look` with the correction and U of each row below the heads, until both columns are empty.
+void for_each_correction(
+    const WorksheetView& view,
+    const std::function<void(const CellPlace&, const CellValue&, const CellPlace&, const CellValue&)>& look) {
+    constexpr std::uint32_t k_longest = 10'000;
+    for (const StandardTable& table : standard_tables(view)) {
+        for (std::uint32_t row = table.head_row + 1; row < table.head_row + k_longest; ++row) {
+            const CellPlace c{.sheet = table.sheet, .address = {.row = row, .column = table.correction}};
+            const CellPlace u{.sheet = table.sheet, .address = {.row = row, .column = table.U}};
+            const CellValue correction = view.value(c), U = view.value(u);
+            if (correction.kind == CellKind::blank && U.kind == CellKind::blank) {
+                break;
+            }
+            look(c, correction, u, U);
+        }
+    }
+}
+
+void correction_without_uncertainty(const AuditSubject& subject, FindingCollector& findings) {
+    const std::optional<WorksheetView> view = worksheet_of(subject);
+    for_each_correction(
+        *view, [&](const CellPlace& c, const CellValue& correction, const CellPlace& u, const CellValue& U) {
+            const auto is_nothing = [](const CellValue& value) {
+                return value.kind == CellKind::blank || (value.kind == CellKind::number && value.number == 0.0);
+            };
+            if (is_nothing(correction) && is_nothing(U)) {
+                AuditFinding finding = finding_in(
+                    view->place(c), "a correction of 0 with an uncertainty of 0: cells that were never filled in");
+                finding.evidence = {view->place(c) + " = 0", view->place(u) + " = 0"};
+                findings.add(std::move(finding));
+            }
+        });
+}
+
+void uncertainty_not_positive(const AuditSubject& subject, FindingCollector& findings) {
+    const std::optional<WorksheetView> view = worksheet_of(subject);
+    for_each_correction(
+        *view, [&](const CellPlace&, const CellValue& correction, const CellPlace& u, const CellValue& U) {
+            if (U.kind != CellKind::number || U.number > 0.0 || (U.number == 0.0 && correction.number == 0.0)) {
+                return;
+            }
+            std::string what = "an expanded uncertainty of " + in_words(U.number);
+            if (correction.kind == CellKind::number && correction.number == U.number) {
+                what += ", the number of the column of corrections";
+            }
+            AuditFinding finding = finding_in(view->place(u), what);
+            finding.expected = "U > 0";
+            finding.actual = in_words(U.number);
+            findings.add(std::move(finding));
+        });
+}
+
+// W09 -----------------------------------------------------------------------------------------------------------------
+
+void component_left_out(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        if (at.is.in_sum || !at.of.claims.u_c) {
+            return;
+        }
+        AuditFinding finding =
+            finding_at(at, place_of(at.is.contribution),
+                       "the combined uncertainty in " + at.of.claims.u_c->place + " leaves this contribution out");
+        finding.evidence = {"contribution = " + in_words(std::abs(at.is.used_sensitivity) * at.is.used_u, at.of.unit)};
+        finding.correct = put_in(at.row);
+        findings.add(std::move(finding));
+    });
+}
+
+// W10 -----------------------------------------------------------------------------------------------------------------
+
+void choice_over_text(const AuditSubject& subject, FindingCollector& findings) {
+    const std::optional<WorksheetView> view = worksheet_of(subject);
+    for (const SheetFormula& formula : view->formulas()) {
+        const FormulaNode& root = formula.formula.nodes[formula.formula.root()];
+        if (!is_call(root, {"MAX", "MIN"})) {
+            continue;
+        }
+        std::size_t numbers = 0, others = 0;
+        std::string where;
+        for (const CellPlace& cell : view->read_by(formula.cell)) {
+            const CellValue value = view->value(cell);
+            numbers += value.kind == CellKind::number ? 1U : 0U;
+            if (value.kind == CellKind::text || value.kind == CellKind::blank) {
+                ++others;
+                where = view->place(cell) + (value.kind == CellKind::text ? " = \"" + value.text + "\"" : " is empty");
+            }
+        }
+        // One number is left to choose from: the other one, the floor, is no number.
+        if (numbers != 1 || others == 0) {
+            continue;
+        }
+        AuditFinding finding = finding_in(formula.place, root.text + " chooses between a number and " + where +
+                                                             ", which it leaves out: the floor is gone");
+        finding.evidence = {where};
+        findings.add(std::move(finding));
+    }
+}
+
+// W11, W12 ------------------------------------------------------------------------------------------------------------
+
+void value_of_another_workbook(const AuditSubject& subject, FindingCollector& findings) {
+    const std::optional<WorksheetView> view = worksheet_of(subject);
+    for (const SheetFormula& formula : view->formulas()) {
+        const auto link =
+            std::find_if(formula.formula.references.begin(), formula.formula.references.end(),
+                         [](const workbook::Reference& reference) { return !reference.workbook.empty(); });
+        if (link != formula.formula.references.end()) {
+            AuditFinding finding =
+                finding_in(formula.place, "the value comes from another workbook, [" + link->workbook + "]");
+            findings.add(std::move(finding));
+        }
+    }
+}
+
+void error_in_chain(const AuditSubject& subject, FindingCollector& findings) {
+    const std::optional<WorksheetView> view = worksheet_of(subject);
+    for (std::size_t s = 0; s < view->workbook().sheets.size(); ++s) {
+        const workbook::Sheet& sheet = view->workbook().sheets[s];
+        const bool hidden = sheet.state != workbook::SheetState::visible;
+        for (const workbook::Cell& cell : sheet.cells) {
+            const CellPlace at{.sheet = s, .address = cell.address};
+            const CellValue value = view->value(at);
+            const SheetFormula* formula = view->formula_at(at);
+            const bool broken =
+                value.kind == CellKind::error ||
+                (formula != nullptr &&
+                 std::any_of(formula->formula.nodes.begin(), formula->formula.nodes.end(),
+                             [](const FormulaNode& node) { return node.kind == FormulaNodeKind::error; }));
+            if (!broken) {
+                continue;
+            }
+            AuditFinding finding = finding_in(
+                view->place(at),
+                std::string("an error value") + (hidden ? " on a hidden sheet" : "") +
+                    (view->stands_under_results(at) ? ", and U rests on it" : "; no result that we found rests on it"));
+            findings.add(std::move(finding));
+        }
+        const bool used = std::any_of(sheet.cells.begin(), sheet.cells.end(), [&](const workbook::Cell& cell) {
+            return view->stands_under_results({.sheet = s, .address = cell.address});
+        });
+        if (hidden && used) {
+            findings.add(finding_in(sheet.name, "U rests on a hidden sheet"));
+        }
+    }
+}
+
+// W13 -----------------------------------------------------------------------------------------------------------------
+
+bool is_rate_per_year(const std::string& label) {
+    return says(label, {"per year", "/yr", "/year", "p.a.", "pro jahr", "/a", "/jahr", "annual"});
+}
+
+void time_units(const AuditSubject& subject, FindingCollector& findings) {
+    const std::optional<WorksheetView> view = worksheet_of(subject);
+    for (const SheetFormula& formula : view->formulas()) {
+        const bool has_dates = calls(formula.formula, {"NOW", "TODAY", "DATEVALUE", "DATE", "DAYS"});
+        if (!has_dates) {
+            continue;
+        }
+        const std::vector<CellPlace> read = view->read_by(formula.cell);
+        const bool per_year = std::any_of(read.begin(), read.end(),
+                                          [&](const CellPlace& cell) { return is_rate_per_year(view->label(cell)); });
+        for (const workbook::FormulaLiteral& literal : workbook::literal_numbers(formula.formula)) {
+            const bool divides =
+                formula.formula.nodes[literal.parent].kind == FormulaNodeKind::divide && literal.argument == 1;
+            const bool days_in_year = literal.number >= 360.0 && literal.number <= 366.0;
+            if (!per_year || !divides || days_in_year) {
+                continue;
+            }
+            AuditFinding finding = finding_in(formula.place, "a rate per year times days divided by " + literal.text +
+                                                                 ": the units of time do not close");
+            finding.expected = "days/365";
+            finding.actual = "days/" + literal.text;
+            finding.evidence = {
+                "=" + workbook::find_cell(view->workbook().sheets[formula.cell.sheet], formula.cell.address)->formula};
+            for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+                for (std::size_t r = 0; r < subject.budgets[b].rows.size(); ++r) {
+                    const AuditedRow& row = subject.budgets[b].rows[r];
+                    if (place_of(row.stated) == formula.place || place_of(row.u) == formula.place) {
+                        finding.budgets = {b};
+                        finding.correct = scale_u(r, literal.number / 365.0);
+                    }
+                }
+            }
+            findings.add(std::move(finding));
+        }
+    }
+}
+
+// W14 -----------------------------------------------------------------------------------------------------------------
+
+void computed_and_not_used(const AuditSubject& subject, FindingCollector& findings) {
+    const std::optional<WorksheetView> view = worksheet_of(subject);
+    std::set<CellPlace> read;
+    for (const SheetFormula& formula : view->formulas()) {
+        for (const CellPlace& cell : view->read_by(formula.cell)) {
+            read.insert(cell);
+        }
+    }
+    for (const SheetFormula& formula : view->formulas()) {
+        const bool visible = view->workbook().sheets[formula.cell.sheet].state == workbook::SheetState::visible;
+        if (!visible || formula.in_result || read.contains(formula.cell)) {
+            continue;
+        }
+        const std::string label = view->label(formula.cell);
+        if (says(label, {"correction", "korrektion", "korrektur", "drift", "deviation", "abweichung", "uncertainty",
+                         "unsicherheit"})) {
+            AuditFinding finding = finding_in(formula.place, "computed, and never used: \"" + label + "\"");
+            findings.add(std::move(finding));
+        }
+    }
+}
+
+// W16 -----------------------------------------------------------------------------------------------------------------
+
+void not_protected(const AuditSubject& subject, FindingCollector& findings) {
+    const workbook::Workbook& workbook = subject.workbook->workbook;
+    const bool any = workbook.metadata.structure_is_protected ||
+                     std::any_of(workbook.sheets.begin(), workbook.sheets.end(),
+                                 [](const workbook::Sheet& sheet) { return sheet.is_protected; });
+    if (!any) {
+        findings.add(finding_in(subject.name,
+                                "no sheet is protected, and nothing says which version of the workbook was validated"));
+    }
+}
+
+}  // namespace
+
+std::vector<Rule> worksheet_rules() {
+    return {
+        {.id = "W01",
+         .title = "Root taken twice",
+         .clause = k_type_b,
+         .needs = {Need::workbook},
+         .detection = "a formula takes the root of a cell that is a root already (without formulas: U08)",
+         .correction = "Divide by the divisor of the table itself.",
+         .question = "The divisor is a root already: why is its root taken again?",
+         .examine = root_taken_twice},
+        {.id = "W02",
+         .title = "Divisor and stated distribution disagree",
+         .clause = k_type_b,
+         .needs = {Need::rows},
+         .detection = "the divisor is not that of the named distribution, beyond its printed digits: √3, √6, √2, k",
+         .correction =
+             "Divide by the divisor of the distribution, or name the distribution that the divisor belongs to.",
+         .question = "Which of the two is meant, the distribution or the divisor?",
+         .examine = divisor_against_label},
+        {.id = "W03",
+         .title = "Volatile function under U",
+         .clause = k_data_control,
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::major,
+         .needs = {Need::workbook},
+         .detection = "NOW, TODAY, RAND or RANDBETWEEN in a cell on which a result stands",
+         .correction = "Type the date of the calibration into a cell, and compute with that.",
+         .question = "For which day was the issued uncertainty computed, and how is it found again?",
+         .examine = volatile_function},
+        {.id = "W04",
+         .title = "Numbers of readings differ",
+         .clause = {.text = "JCGM 100:2008, 4.2.3", .verified = true},
+         .needs = {Need::workbook},
+         .detection = "text among readings; n of the divisor is not the number of readings in the range",
+         .correction = "Correct the reading, and divide by the root of the number of readings that count.",
+         .question = "How many readings were taken, and which of them count?",
+         .examine = count_of_readings},
+        {.id = "W05",
+         .title = "One cell feeds two rows by an absolute address",
+         .clause = {.text = "JCGM 100:2008, 4.3.10", .verified = true},
+         .needs = {Need::workbook},
+         .detection = "two rows of a budget read the same number, one of them by an absolute address",
+         .correction = "Let each row read its own cell, or leave the second row out.",
+         .question = "Which cell was the second row meant to read?",
+         .examine = stray_address},
+        {.id = "W06",
+         .title = "A reading is read twice, another never",
+         .clause = k_data_transfer,
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::major,
+         .needs = {Need::workbook},
+         .detection = "a column of copies of readings reads one cell twice",
+         .correction = "Copy each reading once.",
+         .question = "Which readings belong to the result?",
+         .examine = reading_read_twice},
+        {.id = "W07",
+         .title = "Correction 0 with U 0",
+         .clause = {.text = "ISO/IEC 17025:2017, 6.4.11", .verified = true},
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::critical,
+         .needs = {Need::workbook},
+         .detection = "both columns of a table of a standard hold 0 or nothing",
+         .correction = "Fill in the certificate, or take the point out of the table.",
+         .question = "What does the certificate of the standard state at this point?",
+         .examine = correction_without_uncertainty},
+        {.id = "W08",
+         .title = "Uncertainty of a standard not above 0",
+         .clause = {.text = "ISO/IEC 17025:2017, 6.4.11", .verified = true},
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::critical,
+         .needs = {Need::workbook},
+         .detection = "U ≤ 0 in a table of a standard",
+         .correction = "Take U from the certificate of the standard.",
+         .question = "What does the certificate of the standard state as U at this point?",
+         .examine = uncertainty_not_positive},
+        {.id = "W09",
+         .title = "Component not in the sum",
+         .clause = {.text = "JCGM 100:2008, 5.1.2", .verified = true},
+         .needs = {Need::workbook},
+         .detection = "the formula of u_c reads the contributions of other rows, and not this one",
+         .correction = "Let the sum reach over all contributions.",
+         .question = "Is the row left out on purpose, and why does it stand in the table?",
+         .examine = component_left_out},
+        {.id = "W10",
+         .title = "MAX or MIN over text or nothing",
+         .clause = k_data_control,
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::critical,
+         .needs = {Need::workbook},
+         .detection = "MAX or MIN over one number and cells with text or nothing",
+         .correction = "Put the number that is meant into the cell, and let the formula fail where there is none.",
+         .question = "Which floor should hold here, and since when has it been missing?",
+         .examine = choice_over_text},
+        {.id = "W11",
+         .title = "Value of another workbook",
+         .clause = k_data_transfer,
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::major,
+         .needs = {Need::workbook},
+         .detection = "a formula names another workbook",
+         .correction = "Bring the value into this workbook, with its source and version.",
+         .question = "Which version of the other workbook was read, and who controls it?",
+         .examine = value_of_another_workbook},
+        {.id = "W12",
+         .title = "Error value or hidden sheet",
+         .clause = k_data_control,
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::minor,
+         .needs = {Need::workbook},
+         .detection = "#REF!, #VALUE! and their like, on any sheet; a hidden sheet under a result",
+         .correction = "Repair or remove the cell; show what a result rests on.",
+         .question = "What did the cell hold, and what still reads it?",
+         .examine = error_in_chain},
+        {.id = "W13",
+         .title = "Units of time do not close",
+         .clause = {.text = "JCGM 100:2008, 5.1.3", .verified = false},
+         .needs = {Need::workbook},
+         .detection = "a rate per year times a difference of days, divided by something else than 365",
+         .correction = "Divide days by 365.",
+         .question = "Is the age of the calibration meant in days, months or years?",
+         .examine = time_units},
+        {.id = "W14",
+         .title = "Computed and never used",
+         .clause = k_evaluation,
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::major,
+         .needs = {Need::workbook},
+         .detection = "a correction, drift or uncertainty that no formula reads and no result stands on",
+         .correction = "Use it, or say why it does not count.",
+         .question = "Was the correction meant to be applied?",
+         .examine = computed_and_not_used},
+        {.id = "W16",
+         .title = "Workbook not protected",
+         .clause = k_data_control,
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::minor,
+         .needs = {Need::workbook},
+         .detection = "no sheet and no structure is protected",
+         .correction = "Protect the cells with formulas, and note version and validation.",
+         .question = "How is it made sure that the formulas are those that were validated?",
+         .examine = not_protected},
+    };
+}
+
+}  // namespace gumcert::audit
