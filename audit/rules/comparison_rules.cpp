@@ -1,0 +1,470 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "audit/rules/registry.h"
+#include "audit/rules/row_edits.h"
+#include "audit/rules/stated_outcome.h"
+#include "certificate/text_words.h"
+#include "gum/comparison/robust_statistics.h"
+#include "gum/comparison/scores.h"
+#include "gum/coverage.h"
+#include "gum/quantity/diagnostic.h"
+#include "text/lists.h"
+#include "text/numbers.h"
+
+namespace gumcert::audit {
+namespace {
+
+constexpr Clause k_validity{.text = "ISO/IEC 17025:2017, 7.7.1 and 7.7.3", .verified = true};
+constexpr Clause k_outliers_acted_on{.text = "ISO/IEC 17025:2017, 7.7.3 and 7.10", .verified = true};
+constexpr Clause k_scores{.text = "ISO 13528:2022, 9", .verified = false};
+constexpr Clause k_assigned_value{.text = "ISO 13528:2022, 7; ISO/IEC 17043", .verified = false};
+constexpr Clause k_key_comparison{.text = "M. G. Cox, The evaluation of key comparison data, 2002", .verified = false};
+
+// Thresholds of N01 and its neighbours; each finding states its own.
+constexpr double k_low_tail = 0.025;  // P(χ² ≤ Σζ²): uncertainties too large for the differences
+constexpr double k_wide_against_spread = 1.5;
+constexpr double k_wide_against_capability = 2.0;
+constexpr double k_assigned_value_share = 0.3;  // of σ_pt
+constexpr double k_inconsistent = 0.05;
+constexpr std::size_t k_least_laboratories = 5;  // for a robust standard deviation
+
+std::span<const AuditedScore> scores_of(const AuditSubject& subject) {
+    return subject.comparison ? std::span<const AuditedScore>(subject.comparison->scores)
+                              : std::span<const AuditedScore>();
+}
+AuditFinding finding_of_score(const AuditedScore& score, std::string what) {
+    AuditFinding finding;
+    finding.where = score.name.empty() ? "comparison" : score.name;
+    finding.what = std::move(what);
+    // Scores with one fault are one finding: the words before the first number tell which.
+    finding.kind = "score/" + finding.what.substr(0, finding.what.find_first_of("0123456789"));
+    return finding;
+}
+AuditFinding finding_of_comparison(std::string what) {
+    AuditFinding finding;
+    finding.where = "comparison";
+    finding.what = std::move(what);
+    return finding;
+}
+std::string short_number(double number) {
+    return text::significant(number, 3);
+}
+
+std::optional<double> en_of(const AuditedScore& score) {
+    if (score.en) {
+        return score.en;
+    }
+    const double squares = score.U * score.U + score.reference_U * score.reference_U;
+    return squares > 0.0 ? std::optional((score.value - score.reference_value) / std::sqrt(squares)) : std::nullopt;
+}
+std::optional<double> en_of(const AuditedBudget& budget) {
+    if (budget.claims.en) {
+        return budget.claims.en->value;
+    }
+    const std::optional<BudgetOutcome> outcome = outcome_or_none(budget);
+    return outcome ? outcome->en : std::nullopt;
+}
+
+/// Σ ζ² over all scores, with the ζ that is stated or follows from u; nothing where one has neither.
+std::optional<double> sum_of_squared_zeta(std::span<const AuditedScore> scores) {
+    double sum = 0.0;
+    for (const AuditedScore& score : scores) {
+        const double squares = score.u * score.u + score.reference_u * score.reference_u;
+        if (!score.zeta && !(squares > 0.0)) {
+            return std::nullopt;
+        }
+        const double zeta = score.zeta ? *score.zeta : (score.value - score.reference_value) / std::sqrt(squares);
+        sum += zeta * zeta;
+    }
+    return scores.empty() ? std::nullopt : std::optional(sum);
+}
+
+/// s* of the values of laboratories that were compared with one reference value; nothing for points of different ones.
+std::optional<double> robust_deviation(std::span<const AuditedScore> scores) {
+    std::vector<double> values;
+    for (const AuditedScore& score : scores) {
+        if (score.reference_value != scores.front().reference_value) {
+            return std::nullopt;
+        }
+        values.push_back(score.value);
+    }
+    if (values.size() < k_least_laboratories) {
+        return std::nullopt;
+    }
+    try {
+        return gum::algorithm_a(values).scale;
+    } catch (const gum::DiagnosedError&) {
+        return std::nullopt;
+    }
+}
+
+/// N01, what is seen of the numbers as they are stated.
+void inflated_uncertainty(const AuditSubject& subject, FindingCollector& findings) {
+    const std::span<const AuditedScore> scores = scores_of(subject);
+    const std::optional<double> chi_square = sum_of_squared_zeta(scores);
+    std::optional<double> p_low = subject.comparison ? subject.comparison->p_low : std::nullopt;
+    if (!p_low && chi_square && scores.size() > 1) {
+        p_low = gum::chi_square_lower_tail(*chi_square, static_cast<double>(scores.size()));
+    }
+    if (p_low && *p_low < k_low_tail) {
+        AuditFinding finding = finding_of_comparison(
+            "the differences are too small for the stated uncertainties: p_low = " + short_number(*p_low) +
+            ", threshold 0.025");
+        finding.evidence = {"p_low = " + short_number(*p_low)};
+        findings.add(std::move(finding));
+    }
+    const std::optional<double> spread = robust_deviation(scores);
+    for (const AuditedScore& score : scores) {
+        if (spread && *spread > 0.0 && score.u > k_wide_against_spread * *spread) {
+            AuditFinding finding = finding_of_score(score, "u = " + in_words(score.u) + " is larger than 1.5 s* = " +
+                                                               in_words(k_wide_against_spread * *spread) +
+                                                               " of all laboratories (threshold 1.5)");
+            findings.add(std::move(finding));
+        }
+    }
+    for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
+        const AuditedBudget& budget = subject.budgets[i];
+        const std::optional<double> U = stated_U(budget);
+        if (budget.reference && budget.capability && U && *U > k_wide_against_capability * *budget.capability) {
+            AuditFinding finding =
+                finding_of(subject, i,
+                           "U = " + in_words(*U, budget.unit) + " in a comparison is more than twice the capability " +
+                               in_words(*budget.capability, budget.unit) + " (threshold 2), and no reason is stated");
+            findings.add(std::move(finding));
+        }
+    }
+}
+
+/// N01, what follows from the other findings: |E_n| ≤ 1 as stated, and above 1 with all of them corrected.
+void passes_by_inflation_only(const AuditSubject& subject, std::span<const AuditFinding> others,
+                              FindingCollector& findings) {
+    std::vector<bool> said(subject.budgets.size(), false);
+    for (const AuditFinding& other : others) {
+        if (!other.effect || !other.effect->claimed.en || !other.effect->audited.en) {
+            continue;
+        }
+        const double claimed = *other.effect->claimed.en, audited = *other.effect->audited.en;
+        const std::size_t budget = other.effect->budget;
+        if (std::abs(claimed) > 1.0 || std::abs(audited) <= 1.0 || said[budget]) {
+            continue;
+        }
+        said[budget] = true;
+        AuditFinding finding = finding_of(subject, budget,
+                                          "|E_n| = " + short_number(std::abs(claimed)) +
+                                              " passes only because U is inflated: with all findings "
+                                              "corrected it is " +
+                                              short_number(std::abs(audited)) + " (threshold 1)");
+        finding.expected = "|E_n| = " + short_number(std::abs(audited));
+        finding.actual = "|E_n| = " + short_number(std::abs(claimed));
+        findings.add(std::move(finding), FindingSeverity::critical);
+    }
+}
+
+/// N02
+void factors_mixed(const AuditSubject& subject, FindingCollector& findings) {
+    for (const AuditedScore& score : scores_of(subject)) {
+        const double difference = score.value - score.reference_value;
+        const double squares = score.U * score.U + score.reference_U * score.reference_U;
+        constexpr double k_printed = 0.02;  // of a score with two decimals, and 2 % of it
+        if (score.en && squares > 0.0) {
+            const double right = difference / std::sqrt(squares);
+            if (!score.correlation_known &&
+                std::abs(std::abs(*score.en) - std::abs(right)) > k_printed * (1.0 + std::abs(right))) {
+                AuditFinding finding =
+                    finding_of_score(score, "E_n is stated as " + short_number(*score.en) + ", and follows as " +
+                                                short_number(right) + " from the expanded uncertainties");
+                finding.expected = short_number(right);
+                finding.actual = short_number(*score.en);
+                findings.add(std::move(finding));
+            }
+        }
+        if (score.k && score.reference_k && !is_about(*score.k, *score.reference_k, gum::k_same_coverage_factor)) {
+            findings.add(finding_of_score(score, "k = " + short_number(*score.k) +
+                                                     " and k = " + short_number(*score.reference_k) +
+                                                     " meet in one E_n (they differ by more than 2.5 %)"),
+                         FindingSeverity::major);
+        }
+        for (const auto& [U, u, k, side] :
+             {std::tuple(score.U, score.u, score.k, "of the laboratory"),
+              std::tuple(score.reference_U, score.reference_u, score.reference_k, "of the reference")}) {
+            if (k && U > 0.0 && u > 0.0 && !is_about(U, *k * u, 0.05)) {
+                findings.add(
+                    finding_of_score(score, "U = " + in_words(U) + " " + side + " is not k·u = " + in_words(*k * u)));
+            }
+        }
+    }
+}
+
+/// N03
+void correlation_ignored(const AuditSubject& subject, FindingCollector& findings) {
+    if (subject.comparison) {
+        const AuditedComparison& comparison = *subject.comparison;
+        const bool open = std::any_of(comparison.scores.begin(), comparison.scores.end(),
+                                      [](const AuditedScore& score) { return !score.correlation_known; });
+        if (open && !comparison.shared_sources.empty()) {
+            findings.add(finding_of_comparison("both sides name the same source, and no correlation is stated: " +
+                                               text::listed(comparison.shared_sources, 4)));
+        }
+        if (open && comparison.assigned_value_contains_participant) {
+            findings.add(
+                finding_of_comparison("the laboratory's own result is part of the assigned value, and no correlation "
+                                      "is stated"));
+        }
+    }
+    for_each_row(subject, [&findings](const RowAt& at) {
+        if (!at.of.reference || at.of.reference->correlation != 0.0) {
+            return;
+        }
+        const std::u32string name = certificate::letters_of(at.of.reference->name);
+        constexpr std::size_t k_least = 4;  // letters: shorter names stand in other words
+        if (name.size() >= k_least && certificate::letters_of(words_of_row(at.is)).find(name) != std::u32string::npos) {
+            findings.add(finding_at(at, "",
+                                    "the row rests on " + at.of.reference->name +
+                                        ", with which the result is compared, and the correlation is 0"));
+        }
+    });
+}
+
+/// N04
+void z_with_uncertain_assigned_value(const AuditSubject& subject, FindingCollector& findings) {
+    for (const AuditedScore& score : scores_of(subject)) {
+        if (!score.z || !score.sigma_pt || score.reference_u <= k_assigned_value_share * *score.sigma_pt) {
+            continue;
+        }
+        AuditFinding finding = finding_of_score(
+            score, "z is used, and u(X) = " + in_words(score.reference_u) +
+                       " is more than 0.3 σ_pt = " + in_words(k_assigned_value_share * *score.sigma_pt));
+        finding.expected = "z′ = (x − X)/√(σ_pt² + u²(X))";
+        findings.add(std::move(finding));
+    }
+}
+
+/// N05
+void reference_not_better(const AuditSubject& subject, FindingCollector& findings) {
+    for (const AuditedScore& score : scores_of(subject)) {
+        if (score.U > 0.0 && score.reference_U >= score.U) {
+            findings.add(finding_of_score(score, "U of the reference, " + in_words(score.reference_U) +
+                                                     ", is not smaller than that of the laboratory, " +
+                                                     in_words(score.U)));
+        }
+    }
+    for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
+        const AuditedBudget& budget = subject.budgets[i];
+        const std::optional<double> U = stated_U(budget);
+        if (budget.reference && U && budget.reference->expanded_uncertainty >= *U) {
+            findings.add(finding_of(subject, i,
+                                    "U of the reference, " +
+                                        in_words(budget.reference->expanded_uncertainty, budget.unit) +
+                                        ", is not smaller than that of the result, " + in_words(*U, budget.unit)));
+        }
+    }
+}
+
+/// N06
+void no_action_on_record(const AuditSubject& subject, FindingCollector& findings) {
+    if (subject.comparison && !subject.comparison->action_record.empty()) {
+        return;
+    }
+    for (const AuditedScore& score : scores_of(subject)) {
+        const std::optional<double> en = en_of(score);
+        if (en && std::abs(*en) > 1.0) {
+            findings.add(finding_of_score(
+                score, "|E_n| = " + short_number(std::abs(*en)) + " is above 1, and no action is on record"));
+        }
+    }
+    for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
+        const std::optional<double> en = en_of(subject.budgets[i]);
+        if (en && std::abs(*en) > 1.0) {
+            findings.add(finding_of(
+                subject, i, "|E_n| = " + short_number(std::abs(*en)) + " is above 1, and no action is on record"));
+        }
+    }
+}
+
+/// N07
+void instability_not_in_reference(const AuditSubject& subject, FindingCollector& findings) {
+    if (subject.comparison && !subject.comparison->scores.empty() && !subject.comparison->instability_in_reference) {
+        findings.add(
+            finding_of_comparison("the uncertainty of the reference value has no contribution of the stability of the "
+                                  "artefact"));
+    }
+}
+
+/// N08
+void reference_without_uncertainty(const AuditSubject& subject, FindingCollector& findings) {
+    for (const AuditedScore& score : scores_of(subject)) {
+        if (!(score.reference_U > 0.0) && !(score.reference_u > 0.0)) {
+            findings.add(finding_of_score(
+                score, "the reference value " + in_words(score.reference_value) + " has no uncertainty"));
+        }
+    }
+    for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
+        const std::optional<ComparedReference>& reference = subject.budgets[i].reference;
+        if (reference && !(reference->expanded_uncertainty > 0.0)) {
+            findings.add(finding_of(
+                subject, i,
+                "the reference value " + in_words(reference->value, subject.budgets[i].unit) + " has no uncertainty"));
+        }
+    }
+}
+
+/// N09
+void inconsistent_set(const AuditSubject& subject, FindingCollector& findings) {
+    const std::span<const AuditedScore> scores = scores_of(subject);
+    const std::optional<double> chi_square = sum_of_squared_zeta(scores);
+    std::optional<double> p_high = subject.comparison ? subject.comparison->p_high : std::nullopt;
+    if (!p_high && chi_square && scores.size() > 1) {
+        p_high = gum::chi_square_upper_tail(*chi_square, static_cast<double>(scores.size()));
+    }
+    if (p_high && *p_high < k_inconsistent) {
+        AuditFinding finding = finding_of_comparison(
+            "the results contradict each other more than their uncertainties allow: "
+            "p_high = " +
+            short_number(*p_high) + ", threshold 0.05");
+        finding.evidence = {"p_high = " + short_number(*p_high)};
+        findings.add(std::move(finding));
+    }
+}
+
+/// N10
+void counted_one_by_one(const AuditSubject& subject, FindingCollector& findings) {
+    if (!subject.comparison) {
+        return;
+    }
+    const AuditedComparison& comparison = *subject.comparison;
+    const std::vector<AuditedScore>& scores = comparison.scores;
+    constexpr std::size_t k_least = 3;
+    const bool all_pass = std::all_of(scores.begin(), scores.end(), [](const AuditedScore& score) {
+        const std::optional<double> en = en_of(score);
+        return en && std::abs(*en) <= 1.0;
+    });
+    if (scores.size() < k_least || !all_pass || comparison.shared_sources.empty() || comparison.p_low ||
+        comparison.p_high) {
+        return;
+    }
+    findings.add(
+        finding_of_comparison(std::to_string(scores.size()) +
+                              " scores share a source, and are presented one by one without their covariance"));
+}
+
+}  // namespace
+
+std::vector<Rule> comparison_rules() {
+    return {
+        {.id = "N01",
+         .title = "E_n passes only because U is inflated",
+         .clause = k_validity,
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::major,
+         .needs = {Need::comparison},
+         .detection =
+             "|E_n| > 1 with all findings corrected (critical); p_low < 0.025 over the set; u > 1.5 s* of five or "
+             "more laboratories; U more than twice the capability",
+         .correction = "Correct the uncertainty, and score again.",
+         .question = "Why is the uncertainty so much larger than the differences, or than the capability?",
+         .examine = inflated_uncertainty,
+         .conclude = passes_by_inflation_only},
+        {.id = "N02",
+         .title = "u and U, or different k, mixed in E_n",
+         .clause = k_scores,
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::critical,
+         .needs = {Need::comparison},
+         .detection =
+             "E_n recomputed from the expanded uncertainties (0.02 and 2 %), where no correlation is stated; k of "
+             "both sides (2.5 %, major); U against k·u (5 %)",
+         .correction = "Use expanded uncertainties of the same coverage probability on both sides.",
+         .question = "Which k belongs to the two uncertainties?",
+         .examine = factors_mixed},
+        {.id = "N03",
+         .title = "Correlation between result and reference ignored",
+         .clause = k_key_comparison,
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::major,
+         .needs = {Need::comparison},
+         .detection = "sources that both sides name, the laboratory inside the assigned value, or a row that names the "
+                      "reference, and no correlation",
+         .correction = "State the correlation; r of the shared part, or 0 with the reason.",
+         .question = "Which standards do both sides have in common?",
+         .examine = correlation_ignored},
+        {.id = "N04",
+         .title = "z used although the assigned value is uncertain",
+         .clause = k_scores,
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::major,
+         .needs = {Need::comparison},
+         .detection = "u(X) above 0.3 σ_pt",
+         .correction = "Use z′ or E_n.",
+         .question = "How was the uncertainty of the assigned value taken into account?",
+         .examine = z_with_uncertain_assigned_value},
+        {.id = "N05",
+         .title = "Reference not better than the laboratory",
+         .clause = k_scores,
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::major,
+         .needs = {Need::comparison},
+         .detection = "U of the reference at least as large as that of the result",
+         .correction = "Compare with a better reference; this comparison validates nothing.",
+         .question = "What does a comparison with a reference of this uncertainty show?",
+         .examine = reference_not_better},
+        {.id = "N06",
+         .title = "|E_n| above 1 without action on record",
+         .clause = k_outliers_acted_on,
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::critical,
+         .needs = {Need::comparison},
+         .detection = "|E_n| above 1 and no record of what was done",
+         .correction = "Find the cause, act, and put it on record.",
+         .question = "What was done about this result?",
+         .examine = no_action_on_record},
+        {.id = "N07",
+         .title = "Instability of the artefact not in the reference",
+         .clause = k_assigned_value,
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::major,
+         .needs = {Need::comparison},
+         .detection = "a comparison that names no contribution of the stability of the artefact",
+         .correction = "Add the contribution, or show by measurements at start and end that there is none.",
+         .question = "What is known of the artefact's stability during the comparison?",
+         .examine = instability_not_in_reference},
+        {.id = "N08",
+         .title = "Reference value without uncertainty",
+         .clause = k_assigned_value,
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::major,
+         .needs = {Need::comparison},
+         .detection = "a reference whose u and U are 0 or not stated",
+         .correction = "State the uncertainty of the reference value and where it is traceable to.",
+         .question = "Where does the reference value come from?",
+         .examine = reference_without_uncertainty},
+        {.id = "N09",
+         .title = "Inconsistent set of results",
+         .clause = k_key_comparison,
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::major,
+         .needs = {Need::comparison},
+         .detection = "p_high of Σζ² below 0.05, given the covariance where it is stated",
+         .correction = "Look for the result that contradicts the others, or for what the uncertainties leave out.",
+         .question = "How was the inconsistency dealt with?",
+         .examine = inconsistent_set},
+        {.id = "N10",
+         .title = "Correlated scores presented as independent successes",
+         .clause = k_scores,
+         .policy = SeverityPolicy::fixed,
+         .severity = FindingSeverity::minor,
+         .needs = {Need::comparison},
+         .detection = "three scores or more that share a source, all with |E_n| ≤ 1, and no joint statement",
+         .correction = "State the covariance and one score of all points together.",
+         .question = "Which effects do these points have in common?",
+         .examine = counted_one_by_one},
+    };
+}
+
+}  // namespace gumcert::audit

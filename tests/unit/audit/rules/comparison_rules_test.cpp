@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "audit/audit.h"
+#include "audit/rules/registry.h"
+#include "audit/rules/row_edits.h"
+#include "tests/support/audit_subject.h"
+
+namespace gumcert::audit {
+namespace {
+
+using test::found_by;
+using test::subject_with;
+using testing::HasSubstr;
+
+/// E_n and ζ as they follow from the numbers.
+AuditedScore score_of(const std::string& name, double value, double U, double reference_U) {
+    AuditedScore score;
+    score.name = name;
+    score.value = value;
+    score.U = U;
+    score.u = 0.5 * U;
+    score.reference_U = reference_U;
+    score.reference_u = 0.5 * reference_U;
+    score.k = score.reference_k = 2.0;
+    score.en = value / std::sqrt(U * U + reference_U * reference_U);
+    return score;
+}
+AuditSubject comparison_of(std::vector<AuditedScore> scores) {
+    AuditSubject subject = subject_with({});
+    subject.comparison.emplace().scores = std::move(scores);
+    subject.comparison->instability_in_reference = true;
+    return subject;
+}
+/// Differences as large as their uncertainties make them expect.
+std::vector<AuditedScore> sound_scores() {
+    return {score_of("A", 0.5, 1.0, 0.3), score_of("B", -0.6, 1.0, 0.3), score_of("C", 0.4, 1.0, 0.3),
+            score_of("D", -0.3, 1.0, 0.3), score_of("E", 0.7, 1.0, 0.3)};
+}
+
+TEST(ComparisonRules, find_nothing_in_a_sound_comparison) {
+    for (const Rule& rule : comparison_rules()) {
+        EXPECT_EQ(found_by(comparison_rules(), rule.id, comparison_of(sound_scores())), "") << rule.id;
+    }
+}
+
+TEST(ComparisonRules, N01_states_its_thresholds) {
+    std::vector<AuditedScore> small;
+    for (const char* name : {"A", "B", "C", "D", "E", "F"}) {
+        small.push_back(score_of(name, 0.05, 1.0, 0.3));
+    }
+    EXPECT_THAT(found_by(comparison_rules(), "N01", comparison_of(small)), HasSubstr("threshold 0.025"));
+    std::vector<AuditedScore> wide = sound_scores();
+    wide[2] = score_of("C", 0.4, 3.0, 0.3);
+    EXPECT_THAT(found_by(comparison_rules(), "N01", comparison_of(wide)), HasSubstr("u = 1.5 is larger than 1.5 s*"));
+    AuditedBudget budget = test::sound_budget();
+    budget.reference = ComparedReference{.value = 10.1, .expanded_uncertainty = 0.1, .correlation = 0.0, .name = "NMI"};
+    budget.capability = 0.15;
+    EXPECT_THAT(found_by(comparison_rules(), "N01", subject_with({budget})),
+                HasSubstr("more than twice the capability"));
+    budget.capability = 0.16;
+    EXPECT_EQ(found_by(comparison_rules(), "N01", subject_with({budget})), "");
+}
+
+TEST(ComparisonRules, N01_sees_a_success_that_only_inflation_made) {
+    AuditedBudget budget = test::sound_budget();
+    budget.reference = ComparedReference{.value = 10.3, .expanded_uncertainty = 0.1, .correlation = 0.0, .name = "NMI"};
+    std::vector<Rule> rules = comparison_rules();
+    rules.push_back(
+        {.id = "U10", .title = "planted", .examine = [](const AuditSubject& subject, FindingCollector& findings) {
+             AuditFinding finding = finding_of(subject, 0, "u is too large");
+             finding.correct = scale_u(0, 0.1);
+             findings.add(std::move(finding));
+         }});
+    const AuditReport report = audit(subject_with({budget}), rules);
+    EXPECT_TRUE(std::any_of(report.findings.begin(), report.findings.end(), [](const AuditFinding& finding) {
+        return finding.rule == "N01" && finding.severity == FindingSeverity::critical &&
+               finding.what.find("passes only because U is inflated") != std::string::npos;
+    }));
+    budget.reference->value = 10.1;
+    const AuditReport sound = audit(subject_with({budget}), rules);
+    EXPECT_TRUE(std::none_of(sound.findings.begin(), sound.findings.end(),
+                             [](const AuditFinding& finding) { return finding.rule == "N01"; }));
+}
+
+TEST(ComparisonRules, N02_recomputes_the_score) {
+    std::vector<AuditedScore> scores = sound_scores();
+    scores[0].en = 0.5 / std::sqrt(0.25 + 0.09);  // u of one side, U of the other
+    EXPECT_THAT(found_by(comparison_rules(), "N02", comparison_of(scores)), HasSubstr("E_n is stated as 0.857"));
+    scores = sound_scores();
+    scores[1].reference_k = 3.0;
+    scores[1].reference_u = 0.1;
+    EXPECT_THAT(found_by(comparison_rules(), "N02", comparison_of(scores)), HasSubstr("meet in one E_n"));
+    scores = sound_scores();
+    scores[1].u = 1.0;
+    EXPECT_THAT(found_by(comparison_rules(), "N02", comparison_of(scores)), HasSubstr("is not k·u"));
+}
+
+TEST(ComparisonRules, N03_asks_for_the_correlation) {
+    AuditSubject subject = comparison_of(sound_scores());
+    subject.comparison->shared_sources = {"laser EX-1"};
+    EXPECT_THAT(found_by(comparison_rules(), "N03", subject), HasSubstr("laser EX-1"));
+    for (AuditedScore& score : subject.comparison->scores) {
+        score.correlation_known = true;
+    }
+    EXPECT_EQ(found_by(comparison_rules(), "N03", subject), "");
+    AuditedBudget budget = test::sound_budget();
+    budget.reference =
+        ComparedReference{.value = 10.1, .expanded_uncertainty = 0.1, .correlation = 0.0, .name = "Block EX-4"};
+    EXPECT_EQ(found_by(comparison_rules(), "N03", subject_with({budget})), "");
+    budget.rows[0].source = "calibrated against block EX-4";
+    EXPECT_THAT(found_by(comparison_rules(), "N03", subject_with({budget})), HasSubstr("the correlation is 0"));
+    budget.reference->correlation = 0.4;
+    EXPECT_EQ(found_by(comparison_rules(), "N03", subject_with({budget})), "");
+}
+
+TEST(ComparisonRules, N04_compares_the_assigned_value_with_sigma) {
+    std::vector<AuditedScore> scores = sound_scores();
+    scores[0].z = 1.0;
+    scores[0].sigma_pt = 0.4;
+    EXPECT_THAT(found_by(comparison_rules(), "N04", comparison_of(scores)), HasSubstr("more than 0.3 σ_pt"));
+    scores[0].sigma_pt = 0.5;
+    EXPECT_EQ(found_by(comparison_rules(), "N04", comparison_of(scores)), "");
+}
+
+TEST(ComparisonRules, N05_asks_for_a_better_reference) {
+    std::vector<AuditedScore> scores = sound_scores();
+    scores[0] = score_of("A", 0.5, 1.0, 1.0);
+    EXPECT_THAT(found_by(comparison_rules(), "N05", comparison_of(scores)), HasSubstr("is not smaller"));
+}
+
+TEST(ComparisonRules, N06_asks_what_was_done) {
+    std::vector<AuditedScore> scores = sound_scores();
+    scores[0] = score_of("A", 1.5, 1.0, 0.3);
+    AuditSubject subject = comparison_of(scores);
+    EXPECT_THAT(found_by(comparison_rules(), "N06", subject), HasSubstr("|E_n| = 1.44 is above 1"));
+    subject.comparison->action_record = "CAPA 26-014";
+    EXPECT_EQ(found_by(comparison_rules(), "N06", subject), "");
+}
+
+TEST(ComparisonRules, N07_asks_for_the_stability_of_the_artefact) {
+    AuditSubject subject = comparison_of(sound_scores());
+    subject.comparison->instability_in_reference = false;
+    EXPECT_THAT(found_by(comparison_rules(), "N07", subject), HasSubstr("stability of the artefact"));
+}
+
+TEST(ComparisonRules, N08_asks_for_the_uncertainty_of_the_reference) {
+    std::vector<AuditedScore> scores = sound_scores();
+    scores[0] = score_of("A", 0.5, 1.0, 0.0);
+    EXPECT_THAT(found_by(comparison_rules(), "N08", comparison_of(scores)), HasSubstr("has no uncertainty"));
+}
+
+TEST(ComparisonRules, N09_sees_contradicting_results) {
+    std::vector<AuditedScore> scores = sound_scores();
+    scores[0] = score_of("A", 2.5, 1.0, 0.3);
+    EXPECT_THAT(found_by(comparison_rules(), "N09", comparison_of(scores)), HasSubstr("threshold 0.05"));
+    AuditSubject with_covariance = comparison_of(scores);
+    with_covariance.comparison->p_high = 0.2;
+    EXPECT_EQ(found_by(comparison_rules(), "N09", with_covariance), "");
+}
+
+TEST(ComparisonRules, N10_asks_for_a_joint_statement) {
+    AuditSubject subject = comparison_of(sound_scores());
+    subject.comparison->shared_sources = {"one set-up"};
+    EXPECT_THAT(found_by(comparison_rules(), "N10", subject), HasSubstr("5 scores share a source"));
+    subject.comparison->p_low = 0.4;
+    EXPECT_EQ(found_by(comparison_rules(), "N10", subject), "");
+}
+
+}  // namespace
+}  // namespace gumcert::audit

@@ -1,0 +1,86 @@
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "audit/audit.h"
+#include "audit/rules/registry.h"
+#include "tests/support/audit_subject.h"
+
+namespace gumcert::audit {
+namespace {
+
+using test::found_by;
+using testing::HasSubstr;
+
+AuditSubject subject_at(double low, double high) {
+    AuditedBudget budget = test::sound_budget();
+    AuditedRow& row = budget.rows[5];
+    row.unit = "K";
+    row.origin = Origin::limits;
+    row.origin_value = 0.5;
+    AuditSubject subject = test::subject_with_certificate({budget});
+    certificate::Condition condition;
+    condition.kind = "temperature";
+    condition.unit = "degC";
+    condition.minimum = low;
+    condition.maximum = high;
+    condition.U = 0.1;
+    condition.sensor = "EX-T1";
+    subject.certificate->data.conditions = {condition};
+    return subject;
+}
+
+TEST(EnvironmentRules, E02_takes_the_recorded_range_into_the_budget) {
+    EXPECT_EQ(found_by(environment_rules(), "E02", subject_at(19.6, 20.6)), "");
+    const auto findings = test::findings_of(environment_rules(), "E02", subject_at(19.0, 21.0));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_THAT(findings[0].what, HasSubstr("±1 K about its middle, and the budget has ±0.5 K"));
+    AuditedBudget corrected = test::sound_budget();
+    findings[0].correct(corrected);
+    EXPECT_NEAR(corrected.rows[5].used_u, 0.10, 1e-12);
+}
+
+TEST(EnvironmentRules, E03_asks_for_the_calibration_of_a_sensor) {
+    AuditSubject subject = subject_at(19.9, 20.1);
+    EXPECT_EQ(found_by(environment_rules(), "E03", subject), "");
+    subject.certificate->data.conditions[0].U.reset();
+    EXPECT_THAT(found_by(environment_rules(), "E03", subject), HasSubstr("EX-T1 has no U"));
+    subject.certificate->data.standards.emplace_back().identification = "EX-T1";
+    EXPECT_EQ(found_by(environment_rules(), "E03", subject), "");
+}
+
+TEST(EnvironmentRules, E04_asks_for_the_time_to_acclimatise) {
+    AuditSubject subject = subject_at(19.9, 20.1);
+    EXPECT_EQ(found_by(environment_rules(), "E04", subject), "");
+    subject.certificate->data.dates.received = subject.certificate->data.dates.performed_from = "2026-03-02";
+    EXPECT_THAT(found_by(environment_rules(), "E04", subject), HasSubstr("on the day of receipt"));
+    subject.certificate->data.dates.received = "2026-03-01";
+    EXPECT_EQ(found_by(environment_rules(), "E04", subject), "");
+}
+
+TEST(EnvironmentRules, E06_sees_a_trend_of_readings) {
+    AuditSubject subject = test::subject_with({test::sound_budget()});
+    std::vector<double>& readings = subject.budgets[0].rows[3].readings;
+    readings = {1.0, 1.11, 1.19, 1.32, 1.38, 1.51, 1.60};
+    EXPECT_THAT(found_by(environment_rules(), "E06", subject), HasSubstr("have a trend in their order"));
+    readings = {1.0, 1.5, 0.9, 1.4, 1.1, 1.3, 1.2};
+    EXPECT_EQ(found_by(environment_rules(), "E06", subject), "");
+    readings = {1.0, 1.1, 1.2, 1.3, 1.41};  // five readings tell too little
+    EXPECT_EQ(found_by(environment_rules(), "E06", subject), "");
+    readings = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+    EXPECT_EQ(found_by(environment_rules(), "E06", subject), "");
+}
+
+TEST(EnvironmentRules, E07_sees_limits_in_place_of_observations) {
+    AuditSubject subject = subject_at(18.0, 22.0);
+    EXPECT_EQ(found_by(environment_rules(), "E07", subject), "");
+    subject.certificate->data.conditions[0].lower_limit = 18.0;
+    subject.certificate->data.conditions[0].upper_limit = 22.0;
+    EXPECT_THAT(found_by(environment_rules(), "E07", subject), HasSubstr("exactly the limits"));
+    subject.certificate->data.conditions[0].maximum = 21.9;
+    EXPECT_EQ(found_by(environment_rules(), "E07", subject), "");
+}
+
+}  // namespace
+}  // namespace gumcert::audit
