@@ -1,0 +1,461 @@
+#include "audit/sources/record_subject.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "audit/budget_outcome.h"
+#include "audit/checklists.h"
+#include "audit/row_facts.h"
+#include "audit/row_meaning.h"
+#include "gum/conformity/decision_rule.h"
+#include "gum/coverage.h"
+#include "text/lists.h"
+
+namespace gumcert::audit {
+namespace {
+
+using nlohmann::json;
+
+std::optional<double> number_at(const json& statement, const char* key) {
+    const auto found = statement.find(key);
+    return found != statement.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
+}
+
+/// The number that a key or its `relative_` twin states.
+std::optional<double> absolute_at(const json& statement, const std::string& key, double value) {
+    if (const std::optional<double> stated = number_at(statement, key.c_str())) {
+        return stated;
+    }
+    const std::optional<double> relative = number_at(statement, ("relative_" + key).c_str());
+    return relative ? std::optional(*relative * std::abs(value)) : std::nullopt;
+}
+
+Shape shape_of_record(const std::string& distribution) {
+    static const std::map<std::string, Shape> k_shapes = {
+        {"normal", Shape::normal},         {"student_t", Shape::student_t}, {"uniform", Shape::rectangular},
+        {"triangular", Shape::triangular}, {"arcsine", Shape::arcsine},     {"trapezoidal", Shape::trapezoidal},
+    };
+    const auto found = k_shapes.find(distribution);
+    return found == k_shapes.end() ? (distribution.empty() ? Shape::not_stated : Shape::other) : found->second;
+}
+
+/// What the job states of an input, or of a component of it, put to its row: where u comes from.
+void state_origin(AuditedRow& row, const json& statement, double value) {
+    if (const std::optional<double> mpe = number_at(statement, "mpe")) {
+        row.origin = Origin::specification;
+        row.origin_value = *mpe;
+    } else if (const std::optional<double> step = number_at(statement, "resolution")) {
+        row.origin = Origin::resolution;
+        row.origin_value = *step;
+    } else if (const std::optional<double> half_width = number_at(statement, "half_width")) {
+        row.origin = Origin::limits;
+        row.origin_value = *half_width;
+    } else if (const std::optional<double> U = absolute_at(statement, "U", value)) {
+        row.origin = Origin::certificate;
+        row.origin_value = *U;
+        row.certificate_k = number_at(statement, "k");
+        row.certificate_probability = number_at(statement, "p");
+    }
+    if (const auto limits = statement.find("limits"); limits != statement.end() && limits->is_array() &&
+                                                      limits->size() == 2 && limits->at(0).is_number() &&
+                                                      limits->at(1).is_number()) {
+        row.origin = Origin::limits;
+        row.origin_value = 0.5 * (limits->at(1).get<double>() - limits->at(0).get<double>());
+    }
+    if (const auto readings = statement.find("observations"); readings != statement.end() && readings->is_array()) {
+        row.origin = Origin::readings;
+        for (const json& reading : *readings) {
+            if (reading.is_number()) {
+                row.readings.push_back(reading.get<double>());
+            }
+        }
+        row.n = row.readings.size();
+    }
+    if (const auto pooled = statement.find("pooled"); pooled != statement.end() && pooled->is_object()) {
+        row.pooled_s = number_at(*pooled, "s");
+    }
+    for (const char* key : {"note", "significance"}) {
+        if (const auto text = statement.find(key); text != statement.end() && text->is_string()) {
+            row.comment += (row.comment.empty() ? "" : "; ") + text->get<std::string>();
+        }
+    }
+}
+
+/// \param result_unit  of the result
+AuditedRow row_of(const reports::BudgetRow& stated, const std::string& quantity, const std::string& pointer,
+                  const std::string& result_unit, const json* statement) {
+    AuditedRow row;
+    row.quantity = quantity;
+    row.unit = stated.unit;
+    row.source = stated.source;
+    row.place = pointer;
+    if (stated.value) {
+        row.estimate = exact_number(*stated.value, pointer + "/value");
+    }
+    row.u = exact_number(stated.u, pointer + "/u");
+    row.used_u = stated.u;
+    if (stated.sensitivity) {
+        row.sensitivity = exact_number(*stated.sensitivity, pointer + "/sensitivity");
+        row.used_sensitivity = *stated.sensitivity;
+    } else {
+        // The row stands for many quantities: its contribution is known, and what is beside it is one typical u.
+        row.unit = result_unit;
+        row.used_u = stated.contribution;
+        row.u = exact_number(stated.contribution, pointer + "/contribution");
+        row.used_sensitivity = 1.0;
+    }
+    row.used_nu = stated.nu.value_or(std::numeric_limits<double>::infinity());
+    row.nu = exact_number(row.used_nu, pointer + "/nu");
+    row.type_a = stated.type == "A";
+    row.shape = shape_of_record(stated.distribution);
+    row.shape_text = stated.distribution;
+    if (statement != nullptr && statement->is_object()) {
+        state_origin(row, *statement, stated.value.value_or(0.0));
+    }
+    row.contributor = contributor_of(row.quantity, row.comment, row.source);
+    // The job says by its keys what u was made of; where it states u alone, its note may say more.
+    if (statement != nullptr && statement->contains("u") && !row.comment.empty()) {
+        read_comment(row);
+        note_row_facts(row);
+        if (row.origin == Origin::certificate && !row.origin_value) {
+            row.origin = Origin::not_stated;  // a word in a note is no certificate
+        }
+    }
+    return row;
+}
+
+/// What the job states of its inputs, by name.
+class StatementsOfJob {
+public:
+    explicit StatementsOfJob(const std::string& job_json) : job_(json::parse(job_json, nullptr, false)) {}
+
+    [[nodiscard]] const json* of(const std::string& input) const {
+        const auto inputs = job_.is_object() ? job_.find("inputs") : job_.end();
+        if (inputs == job_.end() || !inputs->is_object()) {
+            return nullptr;
+        }
+        const auto found = inputs->find(input);
+        return found == inputs->end() ? nullptr : &*found;
+    }
+    [[nodiscard]] const json* of(const std::string& input, std::size_t component) const {
+        const json* statement = of(input);
+        const auto components = statement == nullptr ? json::const_iterator{} : statement->find("components");
+        if (statement == nullptr || components == statement->end() || component >= components->size()) {
+            return nullptr;
+        }
+        return &components->at(component);
+    }
+
+private:
+    json job_;
+};
+
+std::string description_of(const reports::EvaluationRecord& record, const std::string& input) {
+    const auto found =
+        std::find_if(record.inputs.begin(), record.inputs.end(),
+                     [&input](const reports::InputQuantity& quantity) { return quantity.name == input; });
+    return found == record.inputs.end() || found->description.empty() ? "" : found->description.in("en");
+}
+
+void add_rows(AuditedBudget& budget, const std::vector<reports::BudgetRow>& rows, const std::string& pointer,
+              const reports::EvaluationRecord* record, const StatementsOfJob* job) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const reports::BudgetRow& stated = rows[i];
+        const std::string place = pointer + "/" + std::to_string(i);
+        const std::string description = record == nullptr ? "" : description_of(*record, stated.input);
+        const std::string name = description.empty() ? stated.input : stated.input + ", " + description;
+        if (stated.role.empty() && stated.components.size() > 1) {
+            for (std::size_t c = 0; c < stated.components.size(); ++c) {
+                const reports::BudgetRow& part = stated.components[c];
+                budget.rows.push_back(row_of(part, name + ": " + part.input, place + "/components/" + std::to_string(c),
+                                             budget.unit, job == nullptr ? nullptr : job->of(stated.input, c)));
+            }
+            continue;
+        }
+        const json* statement = job == nullptr ? nullptr : job->of(stated.input, 0);
+        if (statement == nullptr && job != nullptr) {
+            statement = job->of(stated.input);
+        }
+        budget.rows.push_back(row_of(stated, name, place, budget.unit, statement));
+    }
+}
+
+/// The rule that gives the k of a result again: of ν_eff, of the convolution of its rows, or none of both.
+CoverageRule coverage_of(AuditedBudget budget, const std::string& coverage, double k, double probability) {
+    CoverageRule rule{.kind = CoverageRule::Kind::student_t, .k = k, .probability = probability};
+    const auto gives_k = [&](const CoverageRule& tried) {
+        budget.coverage = tried;
+        budget.floor_applied = false;
+        return std::abs(evaluate(budget).k / k - 1.0) < 1e-3;  // a convolution is exact to 5e-4 at least
+    };
+    if (coverage == "convolution") {
+        rule.kind = CoverageRule::Kind::convolution;
+    }
+    for (const bool truncate : {false, true}) {
+        rule.truncate = truncate;
+        if (gives_k(rule)) {
+            return rule;
+        }
+    }
+    rule.truncate = false;
+    rule.kind = CoverageRule::Kind::fixed;
+    return rule;
+}
+
+void state_coverage(AuditedBudget& budget, const std::string& coverage, std::optional<double> k, double probability) {
+    if (!k || !(*k > 0.0)) {
+        return;
+    }
+    try {
+        budget.coverage = coverage_of(budget, coverage, *k, probability);
+    } catch (const gum::DiagnosedError&) {
+        budget.coverage = {.kind = CoverageRule::Kind::fixed, .k = *k, .probability = probability};
+    }
+}
+
+/// The certified value of a result: capability, and the specification that it was held against.
+struct CertifiedAt {
+    const certificate::CertifiedValue* value = nullptr;
+    const certificate::AgreedSpecification* specification = nullptr;
+};
+
+/// The values that a certificate certifies, in the order of the results of a name.
+class CertifiedValues {
+public:
+    explicit CertifiedValues(const std::optional<certificate::Certificate>& certificate) : certificate_(certificate) {
+        if (!certificate) {
+            return;
+        }
+        for (const certificate::CertifiedTable& table : certificate->tables) {
+            for (const certificate::CertifiedColumn& column : table.columns) {
+                for (const certificate::CertifiedValue& value : column.values) {
+                    by_result_[column.result].push_back(&value);
+                }
+            }
+        }
+    }
+    /// \param result  "l" or, at a point of a table, "l[20 mm]"
+    [[nodiscard]] CertifiedAt next(const std::string& result) {
+        const std::string name = result.substr(0, result.find('['));
+        const auto values = by_result_.find(name);
+        std::size_t& taken = taken_[name];
+        if (values == by_result_.end() || taken >= values->second.size()) {
+            return {};
+        }
+        CertifiedAt at{.value = values->second[taken++]};
+        if (at.value->verdict) {
+            for (const certificate::AgreedSpecification& specification : certificate_->data.specifications) {
+                if (specification.id == at.value->verdict->specification) {
+                    at.specification = &specification;
+                }
+            }
+        }
+        return at;
+    }
+
+private:
+    const std::optional<certificate::Certificate>& certificate_;
+    std::map<std::string, std::vector<const certificate::CertifiedValue*>> by_result_;
+    std::map<std::string, std::size_t> taken_;
+};
+
+void state_conformity(AuditedBudget& budget, const CertifiedAt& certified) {
+    if (certified.value == nullptr) {
+        return;
+    }
+    budget.capability = certified.value->capability;
+    budget.claims.U =
+        certified.value->U ? std::optional(exact_number(*certified.value->U, budget.place)) : budget.claims.U;
+    if (certified.value->raised && certified.value->capability) {
+        budget.claims.U = exact_number(*certified.value->capability, budget.place);
+    }
+    if (!certified.value->verdict) {
+        return;
+    }
+    const certificate::Verdict& verdict = *certified.value->verdict;
+    budget.limits = {.lower = verdict.lower, .upper = verdict.upper};
+    budget.rule = gum::decision_rule_from_id(verdict.rule);
+    budget.claims.verdict = verdict.verdict;
+    if (certified.specification != nullptr) {
+        const certificate::AgreedSpecification::Rule& rule = certified.specification->rule;
+        budget.rule_parameters.guard_factor = rule.guard_factor;
+        budget.rule_parameters.guard_band = rule.guard_band;
+        budget.rule_parameters.probability = rule.probability;
+        budget.rule_parameters.test_uncertainty_ratio = rule.test_uncertainty_ratio;
+        budget.rule_parameters.largest_U = rule.largest_U;
+        budget.rule_parameters.alternative = gum::decision_rule_from_id(rule.alternative);
+        budget.rule_parameters.population_reliability = rule.population_reliability;
+        budget.rule_parameters.population_deviation = rule.population_deviation;
+        budget.rule_parameters.population_centre = rule.population_centre;
+        budget.rule_parameters.method = rule.method;
+    }
+    // A rule that cannot be applied here is none: the verdict of the certificate stays what it claims.
+    if (budget.rule && !gum::check_decision_rule(*budget.rule, budget.rule_parameters, budget.limits).empty()) {
+        budget.rule.reset();
+    }
+}
+
+double variance_of_rows(const AuditedBudget& budget) {
+    double variance = 0.0;
+    for (const AuditedRow& row : budget.rows) {
+        variance += row.used_sensitivity * row.used_sensitivity * row.used_u * row.used_u;
+    }
+    return variance;
+}
+
+AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::Result& result,
+                        const StatementsOfJob& job, CertifiedValues& certified) {
+    AuditedBudget budget;
+    budget.name = result.name;
+    budget.unit = result.unit;
+    budget.place = "/results/" + result.name;
+    budget.evaluated_here = true;
+    add_rows(budget, result.budget, budget.place + "/budget", &record, &job);
+    if (record.model) {
+        budget.equation = text::listed(record.model->equations);
+    }
+    if (record.certificate) {
+        budget.method = record.certificate->data.method.identification;
+    }
+    if (checklist_of(budget.method) == nullptr) {
+        budget.method = method_in_title(budget.method + " " + record.title);
+    }
+    const reports::ReportedResult& reported = result.reported;
+    const bool by_trials = reported.method == "monte_carlo";
+    budget.value = reported.value;
+    const double u = reported.u.value_or(result.u);
+    // What is not in the rows: correlations, second-order terms, the scatter of trials.
+    const double variance = variance_of_rows(budget);
+    budget.correlation_variance = std::abs(u * u - variance) > 1e-9 * u * u ? u * u - variance : 0.0;
+    const std::optional<double> k = by_trials ? reported.k : result.k;
+    state_coverage(budget, by_trials ? "monte_carlo" : result.coverage, k, reported.coverage_probability);
+    Claims& claims = budget.claims;
+    claims.value = exact_number(reported.value, budget.place);
+    claims.value->text = reported.printed.value;
+    claims.u_c = exact_number(u, budget.place);
+    if (result.nu_eff && !by_trials) {
+        claims.nu_eff = exact_number(*result.nu_eff, budget.place);
+    }
+    if (k) {
+        claims.k = exact_number(*k, budget.place);
+    }
+    if (reported.U) {
+        claims.U = exact_number(*reported.U, budget.place);
+    }
+    claims.coverage_probability = reported.coverage_probability;
+    state_conformity(budget, certified.next(result.name));
+    return budget;
+}
+
+AuditedScore score_of(const reports::ComparisonPoint& point) {
+    AuditedScore score;
+    score.name = !point.name.empty() ? point.name : point.participant + (point.item.empty() ? "" : ", " + point.item);
+    if (score.name.empty()) {
+        score.name = point.direction + " " + point.printed_angle;
+    }
+    score.value = point.value.number;
+    score.u = point.u.value_or(0.0);
+    score.U = point.U.number.value_or(0.0);
+    score.reference_value = point.reference_value.number;
+    score.reference_u = point.reference_u.value_or(0.0);
+    score.reference_U = point.reference_U.number.value_or(0.0);
+    score.k = point.k.number;
+    score.reference_k = point.reference_k;
+    score.en = point.En.number;
+    score.zeta = point.zeta.number;
+    score.z = point.z.number;
+    score.correlation_known = point.correlation.has_value();
+    return score;
+}
+
+AuditedComparison comparison_of(const reports::Comparison& stated) {
+    AuditedComparison comparison;
+    for (const reports::ComparisonPoint& point : stated.points) {
+        if (point.En.number || point.zeta.number || point.z.number) {
+            comparison.scores.push_back(score_of(point));
+        }
+    }
+    if (!stated.summary.empty()) {
+        comparison.p_low = stated.summary.back().p_low.number;
+        comparison.p_high = stated.summary.back().p_high.number;
+    }
+    for (const reports::SharedSource& shared : stated.shared_sources) {
+        comparison.shared_sources.push_back(shared.source);
+    }
+    for (const reports::ComparisonItemEvaluation& item : stated.items) {
+        comparison.instability_in_reference =
+            comparison.instability_in_reference || item.u_stability.number.has_value();
+    }
+    return comparison;
+}
+
+/// The budget of one side of a comparison, where the record holds it: what correcting it does to E_n is seen at the point
+/// with the largest |E_n|.
+void add_side(AuditSubject& subject, const reports::Comparison& comparison, const std::vector<reports::BudgetRow>& rows,
+              const std::string& name, const std::string& pointer) {
+    const auto largest =
+        std::max_element(comparison.points.begin(), comparison.points.end(), [](const auto& a, const auto& b) {
+            return std::abs(a.En.number.value_or(0.0)) < std::abs(b.En.number.value_or(0.0));
+        });
+    if (rows.empty() || largest == comparison.points.end() || !largest->U.number || !largest->reference_U.number) {
+        return;
+    }
+    const bool is_reference = pointer == "/comparison/reference_budget";
+    AuditedBudget budget;
+    budget.name = name;
+    budget.unit = comparison.unit;
+    budget.place = pointer;
+    budget.evaluated_here = true;
+    add_rows(budget, rows, pointer, nullptr, nullptr);
+    const double U = is_reference ? *largest->reference_U.number : *largest->U.number;
+    const double other_U = is_reference ? *largest->U.number : *largest->reference_U.number;
+    budget.value = is_reference ? largest->reference_value.number : largest->value.number;
+    budget.reference =
+        ComparedReference{.value = is_reference ? largest->value.number : largest->reference_value.number,
+                          .expanded_uncertainty = other_U,
+                          .correlation = largest->correlation.value_or(0.0),
+                          .name = is_reference ? comparison.method_name : comparison.reference_name};
+    const double u = is_reference ? largest->reference_u.value_or(0.0) : largest->u.value_or(0.0);
+    if (u > 0.0) {
+        budget.coverage = {.kind = CoverageRule::Kind::fixed, .k = U / u, .probability = comparison.score_probability};
+        budget.claims.k = exact_number(U / u, pointer);
+        budget.claims.coverage_probability = comparison.score_probability;
+        // The rows are those of a typical value; this point has its own u, and the difference stays.
+        budget.correlation_variance = u * u - variance_of_rows(budget);
+    }
+    budget.claims.U = exact_number(U, pointer);
+    budget.claims.en = largest->En.number ? std::optional(exact_number(*largest->En.number, pointer)) : std::nullopt;
+    subject.budgets.push_back(std::move(budget));
+}
+
+}  // namespace
+
+AuditSubject subject_of(const reports::EvaluationRecord& record, const std::string& name) {
+    AuditSubject subject;
+    subject.kind = AuditSubject::Kind::record;
+    subject.name = name;
+    subject.certificate = record.certificate;
+    const StatementsOfJob job(record.job_json);
+    CertifiedValues certified(subject.certificate);
+    for (const reports::Result& result : record.results) {
+        if (!result.budget.empty()) {
+            subject.budgets.push_back(budget_of(record, result, job, certified));
+        }
+    }
+    if (record.comparison) {
+        subject.comparison = comparison_of(*record.comparison);
+        add_side(subject, *record.comparison, record.comparison->method_budget, record.comparison->method_name,
+                 "/comparison/method_budget");
+        add_side(subject, *record.comparison, record.comparison->reference_budget, record.comparison->reference_name,
+                 "/comparison/reference_budget");
+    }
+    return subject;
+}
+
+}  // namespace gumcert::audit

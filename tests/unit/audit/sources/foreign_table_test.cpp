@@ -1,0 +1,117 @@
+#include "audit/sources/foreign_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "workbook/read_csv.h"
+
+namespace gumcert::audit {
+namespace {
+
+ForeignTables tables_of(const std::string& csv) {
+    const workbook::Workbook workbook = workbook::read_csv(csv, "budget.csv", "budget");
+    return budgets_in(workbook, workbook::evaluate_workbook(workbook), "budget.csv");
+}
+
+TEST(BudgetsIn, ReadsTheTableOfTheContract) {
+    const ForeignTables tables = tables_of(
+        "quantity,estimate,unit,u,divisor,distribution,sensitivity,contribution,nu,source,comment\n"
+        "standard,100.001,mm,0.0002,2,normal,1,0.0002,60,K 123,\"U = 0.0004 mm, k = 2\"\n"
+        "resolution,0,mm,0.00029,,rectangular,1,0.00029,,,resolution 0.001 mm\n"
+        "u_c,,mm,0.00035\n"
+        "nu_eff,,,560\n"
+        "k,,,2\n"
+        "U,,mm,0.0007\n");
+    ASSERT_EQ(tables.budgets.size(), 1U);
+    EXPECT_TRUE(tables.not_read.empty());
+    const AuditedBudget& budget = tables.budgets.front();
+    ASSERT_EQ(budget.rows.size(), 2U);
+    EXPECT_EQ(budget.unit, "mm");
+    EXPECT_EQ(budget.rows[0].quantity, "standard");
+    EXPECT_DOUBLE_EQ(budget.rows[0].used_u, 0.0002);
+    EXPECT_DOUBLE_EQ(budget.rows[0].used_nu, 60.0);
+    EXPECT_EQ(budget.rows[0].origin, Origin::certificate);
+    EXPECT_EQ(budget.rows[1].origin, Origin::resolution);
+    EXPECT_EQ(budget.rows[1].shape, Shape::rectangular);
+    EXPECT_TRUE(std::isinf(budget.rows[1].used_nu));
+    ASSERT_TRUE(budget.claims.u_c && budget.claims.U && budget.claims.k && budget.claims.nu_eff);
+    EXPECT_DOUBLE_EQ(budget.claims.U->value, 0.0007);
+    EXPECT_DOUBLE_EQ(budget.claims.U->half_step, 0.00005);
+    EXPECT_EQ(budget.claims.U->place, "budget!D7");
+    EXPECT_EQ(budget.u_c_over_rows, 1.0) << "rounded rows give the claimed u_c within their digits";
+}
+
+TEST(BudgetsIn, ReadsGermanTablesWithDecimalCommas) {
+    const ForeignTables tables = tables_of(
+        "Messgröße;Länge l\n"
+        "Größe;Schätzwert;Einheit;Standardunsicherheit u(xi);Verteilung;Sensitivitätskoeffizient;Beitrag\n"
+        "Normal;50,0002;mm;0,00003;normal;1;0,00003\n"
+        "Auflösung;0;mm;0,00029;Rechteck;1;0,00029\n"
+        "Kombinierte Standardunsicherheit;;mm;0,00029\n"
+        "Erweiterte Messunsicherheit;;mm;0,00058\n"
+        "Erweiterungsfaktor;;;2\n");
+    ASSERT_EQ(tables.budgets.size(), 1U);
+    const AuditedBudget& budget = tables.budgets.front();
+    EXPECT_EQ(budget.name, "Länge l");
+    ASSERT_EQ(budget.rows.size(), 2U);
+    EXPECT_DOUBLE_EQ(budget.rows[1].used_u, 0.00029);
+    EXPECT_EQ(budget.rows[1].shape, Shape::rectangular);
+    ASSERT_TRUE(budget.claims.U);
+    EXPECT_DOUBLE_EQ(budget.claims.U->value, 0.00058);
+    EXPECT_EQ(budget.coverage.kind, CoverageRule::Kind::fixed);
+}
+
+TEST(BudgetsIn, ReadsLimitsCapabilityAndReference) {
+    const ForeignTables tables = tables_of(
+        "quantity,unit,u,sensitivity\n"
+        "a,um,0.3,1\n"
+        "b,um,0.4,1\n"
+        "value,10.2,um\n"
+        "k,2\n"
+        "U,1.0,um\n"
+        "CMC,1.5,um\n"
+        "lower limit,9\n"
+        "upper limit,11\n"
+        "decision rule,DR-03\n"
+        "verdict,pass\n"
+        "reference value,9.8\n"
+        "U_ref,0.6\n");
+    ASSERT_EQ(tables.budgets.size(), 1U);
+    const AuditedBudget& budget = tables.budgets.front();
+    EXPECT_EQ(budget.value, 10.2);
+    EXPECT_EQ(budget.capability, 1.5);
+    EXPECT_FALSE(budget.floor_applied) << "U is stated below the capability";
+    EXPECT_EQ(budget.limits.lower, 9.0);
+    EXPECT_EQ(budget.limits.upper, 11.0);
+    EXPECT_EQ(budget.rule, gum::DecisionRule::guard_band_u);
+    EXPECT_EQ(budget.claims.verdict, "pass");
+    ASSERT_TRUE(budget.reference);
+    EXPECT_EQ(budget.reference->value, 9.8);
+    EXPECT_EQ(budget.reference->expanded_uncertainty, 0.6);
+}
+
+TEST(BudgetsIn, SeveralTablesOfOneSheetAreSeveralBudgets) {
+    const std::string table = "quantity,unit,u,sensitivity\na,um,0.3,1\nU,0.6,um\n";
+    const ForeignTables tables = tables_of(table + "\n\n\n" + table);
+    ASSERT_EQ(tables.budgets.size(), 2U);
+    EXPECT_TRUE(tables.budgets[0].claims.U && tables.budgets[1].claims.U);
+}
+
+TEST(BudgetsIn, SaysWhatCouldNotBeRead) {
+    const ForeignTables tables = tables_of(
+        "quantity,unit,u,sensitivity\n"
+        "a,um,see annex,1\n"
+        "b,um,0.2,1\n");
+    ASSERT_EQ(tables.not_read.size(), 1U);
+    EXPECT_NE(tables.not_read.front().find("\"see annex\""), std::string::npos) << tables.not_read.front();
+    EXPECT_NE(tables.not_read.front().find("budget!C2"), std::string::npos) << tables.not_read.front();
+
+    const ForeignTables none = tables_of("date,operator\n2026-01-01,A\n");
+    EXPECT_TRUE(none.budgets.empty());
+    ASSERT_EQ(none.not_read.size(), 1U);
+}
+
+}  // namespace
+}  // namespace gumcert::audit
