@@ -10,6 +10,14 @@ namespace gumcert::reports {
 
 // The forms of a document from its view, see certificate_view(). Certificates and studies share them.
 
+/// A page from one of the templates (Mustache). Texts of the view are escaped where the template does not ask for them
+/// as they are.
+/// \param file  name in the folder of templates: "certificate.html.mustache"
+/// \param view  objects, arrays and texts; an empty array is what does not apply
+/// \throws gum::StorageError if the template is missing or damaged
+[[nodiscard]] std::string filled_template(const std::string& file, const nlohmann::json& view,
+                                          const RenderAssets& assets);
+
 [[nodiscard]] std::string view_as_text(const nlohmann::json& view);
 
 /// \throws gum::StorageError if a template is missing or damaged

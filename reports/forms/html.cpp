@@ -46,19 +46,23 @@ data to_mustache(const nlohmann::json& value) {
 
 }  // namespace
 
-std::string view_as_html(nlohmann::json view, const RenderAssets& assets) {
-    view["style"] = read_asset(assets.templates / "certificate.css");
-    const std::filesystem::path file = assets.templates / "certificate.html.mustache";
-    kainjow::mustache::mustache page{read_asset(file)};
+std::string filled_template(const std::string& file, const nlohmann::json& view, const RenderAssets& assets) {
+    const std::filesystem::path path = assets.templates / file;
+    kainjow::mustache::mustache page{read_asset(path)};
     std::string html = page.is_valid() ? page.render(to_mustache(view)) : std::string();
     if (!page.is_valid()) {
         throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0001",
-                                                .where = file.string(),
+                                                .where = path.string(),
                                                 .what = page.error_message(),
                                                 .rule = "the template is Mustache",
                                                 .action = "take the templates of this release"});
     }
     return html;
+}
+
+std::string view_as_html(nlohmann::json view, const RenderAssets& assets) {
+    view["style"] = read_asset(assets.templates / "certificate.css");
+    return filled_template("certificate.html.mustache", view, assets);
 }
 
 std::string render_html(const EvaluationRecord& record, const RenderAssets& assets) {

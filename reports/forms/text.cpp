@@ -1,6 +1,7 @@
 #include "reports/forms/asset_files.h"
 #include "reports/forms/document_forms.h"
 #include "reports/forms/render.h"
+#include "reports/forms/text_columns.h"
 #include "reports/view/certificate_view.h"
 
 #include <nlohmann/json.hpp>
@@ -18,111 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t k_columns = 100;
 constexpr std::size_t k_part_indent = 2;
-
-struct Glyph {
-    std::string bytes;
-    std::size_t width = 1;  ///< columns of a terminal or a fixed-width font
-};
-
-/// Characters of a valid UTF-8 text; combining marks are joined to the character before them.
-std::vector<Glyph> glyphs(const std::string& text) {
-    std::vector<Glyph> all;
-    std::size_t i = 0;
-    while (i < text.size()) {
-        const auto lead = static_cast<unsigned char>(text[i]);
-        const std::size_t length = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
-        const std::string c = text.substr(i, length);
-        i += length;
-        const bool combining = (c >= "\u0300" && c <= "\u036F") || (c >= "\u200B" && c <= "\u200D");
-        if (combining && !all.empty()) {
-            all.back().bytes += c;
-            continue;
-        }
-        const bool wide = (c >= "\u1100" && c <= "\u115F") || (c >= "\u2E80" && c <= "\uA4CF") ||
-                          (c >= "\uAC00" && c <= "\uD7A3") || (c >= "\uF900" && c <= "\uFAFF") ||
-                          (c >= "\uFF00" && c <= "\uFF60") || (c >= "\U0001F300" && c <= "\U0003FFFD");
-        all.push_back({c, combining ? 0U : wide ? 2U : 1U});
-    }
-    return all;
-}
-
-std::size_t width(const std::string& text) {
-    std::size_t sum = 0;
-    for (const Glyph& g : glyphs(text)) {
-        sum += g.width;
-    }
-    return sum;
-}
-
-/// Signs that must not begin a line.
-bool closes(const std::string& glyph) {
-    static constexpr std::string_view k_signs = "。，、；：！？）」』》%,.;:!?)";
-    return k_signs.find(glyph) != std::string_view::npos;
-}
-
-/// Signs that must not end a line.
-bool opens(const std::string& glyph) {
-    static constexpr std::string_view k_signs = "（「『《(";
-    return k_signs.find(glyph) != std::string_view::npos;
-}
-
-/// Lines of at most `most` columns, broken at blanks, beside wide characters (Chinese has no blanks), and inside a word
-/// only where the word alone is longer.
-std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
-    std::vector<std::string> lines(1);
-    std::size_t used = 0;
-    std::vector<Glyph> word;
-    std::size_t word_width = 0;
-    bool after_blank = true;
-    const auto put_word = [&] {
-        if (word.empty()) {
-            return;
-        }
-        const std::size_t gap = used > 0 && after_blank ? 1 : 0;
-        if (used + gap + word_width > most && used > 0) {
-            lines.emplace_back();
-            used = 0;
-        }
-        if (used > 0 && after_blank) {
-            lines.back() += ' ';
-            ++used;
-        }
-        for (const Glyph& g : word) {
-            if (used + g.width > most && used > 0) {
-                lines.emplace_back();
-                used = 0;
-            }
-            lines.back() += g.bytes;
-            used += g.width;
-        }
-        word.clear();
-        word_width = 0;
-        after_blank = false;
-    };
-    for (const Glyph& g : glyphs(text)) {
-        if (g.bytes == " ") {
-            put_word();
-            after_blank = true;
-            continue;
-        }
-        const bool wide = g.width == 2 || (!word.empty() && word.back().width == 2);
-        if (wide && !word.empty() && !closes(g.bytes) && !opens(word.back().bytes)) {
-            put_word();
-        }
-        word.push_back(g);
-        word_width += g.width;
-    }
-    put_word();
-    return lines;
-}
-
-std::string padded(const std::string& text, std::size_t to, bool right) {
-    const std::size_t own = width(text);
-    const std::string blanks(to > own ? to - own : 0, ' ');
-    return right ? blanks + text : text + blanks;
-}
 
 std::string text_of(const json& object, const char* key) {
     return object.at(key).get<std::string>();

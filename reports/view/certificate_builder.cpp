@@ -34,8 +34,25 @@ bool is_decimal(const std::string& text) {
     return from < text.size() && text.find_first_not_of("0123456789.", from) == std::string::npos;
 }
 
-/// A drawing whose texts that are plain numbers (ticks of the axes, above all) have a decimal sign of the language.
-std::string with_numbers_of(const std::string& drawing, const std::string& sign) {
+/// A text with the same decimal sign in all languages.
+std::string with_one_sign(const std::string& text) {
+    std::string out = text;
+    for (std::size_t i = 1; i + 1 < out.size(); ++i) {
+        const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+        if (out[i] == ',' && is_digit(out[i - 1]) && is_digit(out[i + 1])) {
+            out[i] = '.';
+        }
+    }
+    return out;
+}
+
+const char* name_of(RowKind kind) {
+    return kind == RowKind::closing ? "closing" : kind == RowKind::part ? "part" : "plain";
+}
+
+}  // namespace
+
+std::string with_decimal_signs(const std::string& drawing, const std::string& sign) {
     if (sign == ".") {
         return drawing;
     }
@@ -54,24 +71,6 @@ std::string with_numbers_of(const std::string& drawing, const std::string& sign)
     }
     return out + drawing.substr(at);
 }
-
-/// A text with the same decimal sign in all languages.
-std::string with_one_sign(const std::string& text) {
-    std::string out = text;
-    for (std::size_t i = 1; i + 1 < out.size(); ++i) {
-        const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-        if (out[i] == ',' && is_digit(out[i - 1]) && is_digit(out[i + 1])) {
-            out[i] = '.';
-        }
-    }
-    return out;
-}
-
-const char* name_of(RowKind kind) {
-    return kind == RowKind::closing ? "closing" : kind == RowKind::part ? "part" : "plain";
-}
-
-}  // namespace
 
 std::string plain(double v) {
     constexpr double k_least = 1e-7;
@@ -143,8 +142,9 @@ void CertificateBuilder::definitions(const std::vector<std::pair<Text, Text>>& r
 
 void CertificateBuilder::figure(const std::string& id, const Text& caption, const std::string& alternative_text,
                                 const std::string& drawing) {
-    json entry = {
-        {"id", id}, {"alt", printable(alternative_text)}, {"svg", with_numbers_of(drawing, wording_.decimal_sign())}};
+    json entry = {{"id", id},
+                  {"alt", printable(alternative_text)},
+                  {"svg", with_decimal_signs(drawing, wording_.decimal_sign())}};
     put(entry, "number", wording_("document", "figure") + " " + std::to_string(++figures_), wording_.languages());
     put(entry, "caption", caption, wording_.languages());
     block("figure", std::move(entry));

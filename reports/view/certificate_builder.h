@@ -93,6 +93,9 @@ void put(nlohmann::json& object, const std::string& key, const Text& text, const
 [[nodiscard]] std::string plain(double v);
 [[nodiscard]] std::string plain(std::int64_t v);
 
+/// A drawing whose texts that are plain numbers (ticks of the axes, above all) have a decimal sign of the language.
+[[nodiscard]] std::string with_decimal_signs(const std::string& drawing, const std::string& sign);
+
 /// Degrees of freedom, as certificate::printed_degrees_of_freedom prints them; a word for infinitely many.
 [[nodiscard]] Text degrees_of_freedom(const std::optional<double>& nu, const Wording& words);
 
