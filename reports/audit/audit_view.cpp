@@ -1,0 +1,520 @@
+#include "reports/audit/audit_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "audit/severity.h"
+#include "certificate/statement_of_uncertainty.h"
+#include "gum/quantity/unit.h"
+#include "gum/rounding.h"
+#include "reports/printable_text.h"
+#include "text/numbers.h"
+
+namespace gumcert::reports {
+namespace {
+
+using audit::AuditedBudget;
+using audit::AuditedRow;
+using audit::BudgetOutcome;
+using audit::Contributor;
+
+constexpr int k_digits = 3;  // of numbers that stand alone
+
+std::string rounded(double number, int digits = k_digits) {
+    return std::isfinite(number) ? gum::round_significant(number, digits) : number > 0.0 ? "∞" : "";
+}
+
+std::string printed_nu(double nu) {
+    return std::isfinite(nu) ? certificate::printed_degrees_of_freedom(nu) : "∞";
+}
+
+std::string printed_k(double k) {
+    return std::isfinite(k) ? gum::round_to_quantum(k, 2) : "∞";
+}
+
+std::string signed_percent(double share) {
+    if (!std::isfinite(share)) {
+        return share > 0.0 ? "+∞" : "";
+    }
+    const std::string text = gum::percent(std::abs(share));
+    return text == "0.0" ? text : (share > 0.0 ? "+" : "-") + text;
+}
+
+/// The number as the file prints it, else its shortest digits.
+std::string stated_text(const std::optional<audit::StatedNumber>& number) {
+    if (!number) {
+        return "";
+    }
+    return number->text.empty() ? (std::isfinite(number->value) ? text::shortest_plain(number->value) : "∞")
+                                : printable(number->text);
+}
+
+PrintedOutcome printed(const BudgetOutcome& outcome, const audit::Claims* claims = nullptr) {
+    PrintedOutcome all{.number = outcome,
+                       .value = printable(outcome.printed_value),
+                       .u_c = rounded(outcome.u_c),
+                       .nu_eff = printed_nu(outcome.nu_eff),
+                       .k = printed_k(outcome.k),
+                       .U = printable(outcome.printed_U),
+                       .En = outcome.en ? gum::round_to_quantum(*outcome.en, 2) : "",
+                       .verdict = printable(outcome.verdict)};
+    if (claims != nullptr) {
+        const auto take = [](const std::optional<audit::StatedNumber>& claim, std::string& text) {
+            text = claim ? stated_text(claim) : text;
+        };
+        take(claims->value, all.value);
+        take(claims->u_c, all.u_c);
+        take(claims->nu_eff, all.nu_eff);
+        take(claims->k, all.k);
+        take(claims->U, all.U);
+        take(claims->en, all.En);
+    }
+    return all;
+}
+
+PrintedInterval printed(const audit::Interval& interval, std::string (*text)(double)) {
+    return {.number = interval, .low = text(interval.low), .high = text(interval.high)};
+}
+
+const char* name_of(audit::Shape shape) {
+    switch (shape) {
+        case audit::Shape::normal:
+            return "normal";
+        case audit::Shape::student_t:
+            return "student_t";
+        case audit::Shape::rectangular:
+            return "uniform";
+        case audit::Shape::triangular:
+            return "triangular";
+        case audit::Shape::arcsine:
+            return "arcsine";
+        case audit::Shape::trapezoidal:
+            return "trapezoidal";
+        default:
+            return "";
+    }
+}
+
+const char* name_of(audit::CoverageRule::Kind kind) {
+    switch (kind) {
+        case audit::CoverageRule::Kind::fixed:
+            return "fixed";
+        case audit::CoverageRule::Kind::student_t:
+            return "student_t";
+        case audit::CoverageRule::Kind::convolution:
+            return "convolution";
+    }
+    return "";
+}
+
+const char* name_of(audit::AuditSubject::Kind kind) {
+    switch (kind) {
+        case audit::AuditSubject::Kind::job:
+            return "job";
+        case audit::AuditSubject::Kind::record:
+            return "record";
+        case audit::AuditSubject::Kind::table:
+            return "table";
+        case audit::AuditSubject::Kind::workbook:
+            return "workbook";
+        case audit::AuditSubject::Kind::certificate:
+            return "certificate";
+    }
+    return "";
+}
+
+const char* name_of(audit::FindingSeverity severity) {
+    return k_audit_severities[3 - static_cast<std::size_t>(severity)];
+}
+
+std::string unit_text(const std::string& unit) {
+    return printable(gum::unit_for_people(unit));
+}
+
+double contribution_of(const AuditedRow& row) {
+    return row.in_sum ? std::abs(row.used_sensitivity) * row.used_u : 0.0;
+}
+
+AuditedRowView row_view(const AuditedRow& row, double sum_of_squares) {
+    const double part = contribution_of(row);
+    AuditedRowView view{
+        .quantity = printable(row.quantity),
+        .unit = unit_text(row.unit),
+        .estimate = stated_text(row.estimate),
+        .stated = stated_text(row.stated),
+        .divisor = stated_text(row.divisor),
+        .u = row.u ? stated_text(row.u) : rounded(row.used_u),
+        .sensitivity = row.sensitivity ? stated_text(row.sensitivity) : text::shortest_plain(row.used_sensitivity),
+        .nu = row.nu ? stated_text(row.nu) : "",
+        .source = printable(row.source),
+        .comment = printable(row.comment),
+        .place = printable(row.place),
+        .shape = printable(row.shape_text),
+        .shape_name = name_of(row.shape),
+        .contribution = part,
+        .contribution_text = rounded(part),
+        .share = part * part / sum_of_squares,
+        .share_percent = "",
+        .in_sum = row.in_sum,
+        .findings = {}};
+    view.share_percent = gum::percent(view.share);
+    if (view.divisor.empty() && row.certificate_k) {
+        view.divisor = text::shortest_plain(*row.certificate_k);
+    }
+    return view;
+}
+
+/// Whether a finding is about a row: its place begins with that of the row, up to the end or a sign that ends a place.
+bool is_about_row(const std::string& where, const std::string& place) {
+    return !place.empty() && where.starts_with(place) &&
+           (where.size() == place.size() || where[place.size()] == ' ' || where[place.size()] == ',' ||
+            where[place.size()] == '/');
+}
+
+struct ContributorKind {
+    const char* id;
+    std::vector<Contributor> rows;
+};
+
+const std::vector<ContributorKind>& contributor_kinds() {
+    static const std::vector<ContributorKind> k_kinds = {
+        {"reference", {Contributor::reference}},
+        {"stability", {Contributor::reference_drift}},
+        {"resolution", {Contributor::item_resolution, Contributor::reference_resolution}},
+        {"repeatability", {Contributor::repeatability}},
+        {"reproducibility", {Contributor::reproducibility}},
+        {"environment", {Contributor::temperature, Contributor::expansion, Contributor::refractive_index}}};
+    return k_kinds;
+}
+
+ContributorView contributor_view(const ContributorKind& kind, const AuditedBudget& budget, double sum_of_squares) {
+    ContributorView view;
+    view.id = kind.id;
+    double squares = 0.0;
+    for (const AuditedRow& row : budget.rows) {
+        if (std::find(kind.rows.begin(), kind.rows.end(), row.contributor) == kind.rows.end()) {
+            continue;
+        }
+        view.rows.push_back(printable(row.quantity));
+        const double part = contribution_of(row);
+        squares += part * part;
+        if (part == 0.0 && !row.comment.empty()) {
+            view.reason += (view.reason.empty() ? "" : "; ") + printable(row.comment);
+        }
+    }
+    view.contribution = std::sqrt(squares);
+    if (!view.rows.empty()) {
+        view.contribution_text = rounded(view.contribution);
+        view.share_percent = gum::percent(squares / sum_of_squares);
+    }
+    return view;
+}
+
+/// A limit or reference of a budget: its shortest digits.
+std::string plain_number(const std::optional<double>& number) {
+    return number ? text::shortest_plain(*number) : "";
+}
+
+AuditedResultView::Claim claim_of(const std::optional<audit::StatedNumber>& claim, const audit::Interval& allowed) {
+    return {.stated = claim.has_value(), .allowed = !claim || claim->interval().meets(allowed)};
+}
+
+AuditedResultView result_view(const audit::AuditedResult& result, const AuditedBudget& budget) {
+    AuditedResultView view;
+    view.name = printable(result.name);
+    view.unit = unit_text(result.unit);
+    view.place = printable(budget.place);
+    view.equation = printable(budget.equation);
+    view.method = printable(budget.method);
+    view.capability = plain_number(budget.capability);
+    view.capability_number = budget.capability;
+    view.coverage = name_of(budget.coverage.kind);
+    if (budget.coverage.kind == audit::CoverageRule::Kind::fixed) {
+        view.stated_k = text::shortest_plain(budget.coverage.k);
+    } else {
+        view.coverage_probability = text::without_trailing_zeros(text::fixed(100.0 * budget.coverage.probability, 2));
+    }
+    view.lower_limit = plain_number(budget.limits.lower);
+    view.upper_limit = plain_number(budget.limits.upper);
+    if (budget.reference) {
+        view.reference_name = printable(budget.reference->name);
+        view.reference_value = plain_number(budget.reference->value);
+        view.reference_U = plain_number(budget.reference->expanded_uncertainty);
+    }
+    view.claimed = printed(result.claimed, &budget.claims);
+    view.recomputed = printed(result.recomputed);
+    view.audited = printed(result.audited);
+    const auto three_digits = [](double number) { return rounded(number); };
+    view.u_c = printed(result.allowed.u_c, three_digits);
+    view.nu_eff = printed(result.allowed.nu_eff, printed_nu);
+    view.k = printed(result.allowed.k, printed_k);
+    view.U = printed(result.allowed.U, three_digits);
+    view.claim_u_c = claim_of(budget.claims.u_c, result.allowed.u_c);
+    view.claim_nu_eff = claim_of(budget.claims.nu_eff, result.allowed.nu_eff);
+    view.claim_k = claim_of(budget.claims.k, result.allowed.k);
+    view.claim_U = claim_of(budget.claims.U, result.allowed.U);
+    view.change = change_of(result.claimed, result.audited);
+    view.sampled_shares = result.sampled_shares;
+    view.budget_U_number = result.recomputed.k * result.recomputed.u_c;
+    view.budget_U = rounded(view.budget_U_number, 2);
+
+    const double squares = std::accumulate(
+        budget.rows.begin(), budget.rows.end(), 0.0,
+        [](double sum, const AuditedRow& row) { return sum + contribution_of(row) * contribution_of(row); });
+    // A budget has an outcome where its rows add up to more than 0, or its claim does.
+    const double whole = squares > 0.0 ? squares : 1.0;
+    for (const AuditedRow& row : budget.rows) {
+        view.rows.push_back(row_view(row, whole));
+    }
+    std::stable_sort(view.rows.begin(), view.rows.end(),
+                     [](const AuditedRowView& a, const AuditedRowView& b) { return a.contribution > b.contribution; });
+    for (const ContributorKind& kind : contributor_kinds()) {
+        view.contributors.push_back(contributor_view(kind, budget, whole));
+    }
+    return view;
+}
+
+/// How much the corrections change a result: a decision before U.
+std::pair<bool, double> rank_of(const AuditedResultView& result) {
+    const double ratio = result.audited.number.U / result.claimed.number.U;
+    return {result.change.decision_turns(), ratio > 0.0 ? std::abs(std::log(ratio)) : 0.0};
+}
+
+std::string form_of(const certificate::ScopeEntry& entry) {
+    const certificate::Capability& capability = entry.capability;
+    const std::string unit = capability.unit.empty() ? "" : " " + unit_text(capability.unit);
+    if (capability.form == "value") {
+        return text::shortest_plain(capability.U) + unit;
+    }
+    return capability.form == "function" ? printable(capability.expression) + unit : capability.form;
+}
+
+AuditedFileView::ScopeLine scope_line(const certificate::ScopeEntry& entry) {
+    AuditedFileView::ScopeLine line{.id = printable(entry.id),
+                                    .measurand = printable(entry.measurand.in("en")),
+                                    .range = "",
+                                    .form = form_of(entry)};
+    for (const certificate::ScopeEntry::Range& range : entry.ranges) {
+        const std::string unit = unit_text(range.argument.unit);
+        line.range += (line.range.empty() ? "" : "; ") + text::shortest_plain(range.low) + " … " +
+                      text::shortest_plain(range.high) + (unit.empty() ? "" : " " + unit);
+    }
+    return line;
+}
+
+const audit::Rule* rule_of(const std::string& id, std::span<const audit::Rule> rules) {
+    const auto found =
+        std::find_if(rules.begin(), rules.end(), [&id](const audit::Rule& rule) { return rule.id == id; });
+    return found == rules.end() ? nullptr : &*found;
+}
+
+std::optional<std::size_t> waiver_of(const audit::AuditFinding& finding, const std::vector<Waiver>& waivers) {
+    for (std::size_t i = 0; i < waivers.size(); ++i) {
+        if (waivers[i].rule == finding.rule && (waivers[i].where.empty() || waivers[i].where == finding.where)) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+/// Positions of results by positions of budgets.
+std::optional<std::size_t> result_at(const audit::AuditReport& report, std::size_t budget) {
+    for (std::size_t i = 0; i < report.results.size(); ++i) {
+        if (report.results[i].budget == budget) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+AuditFindingView finding_view(const audit::AuditFinding& finding, const audit::AuditReport& report,
+                              std::span<const audit::Rule> rules, const std::vector<Waiver>& waivers) {
+    AuditFindingView view;
+    view.id = printable(finding.rule);
+    if (const audit::Rule* rule = rule_of(finding.rule, rules)) {
+        view.title = rule->title;
+        view.clause = rule->clause.text;
+        view.clause_verified = rule->clause.verified;
+    }
+    view.severity = name_of(finding.severity);
+    view.where = printable(finding.where);
+    view.what = printable(finding.what);
+    view.expected = printable(finding.expected);
+    view.actual = printable(finding.actual);
+    view.correction = printable(finding.correction);
+    view.question = printable(finding.question);
+    for (const std::string& evidence : finding.evidence) {
+        view.evidence.push_back(printable(evidence));
+    }
+    for (const std::size_t budget : finding.budgets) {
+        const std::optional<std::size_t> result = result_at(report, budget);
+        if (result && std::find(view.results.begin(), view.results.end(), *result) == view.results.end()) {
+            view.results.push_back(*result);
+        }
+    }
+    if (finding.effect) {
+        const audit::Effect& effect = *finding.effect;
+        view.effect = EffectView{.claimed = printed(effect.claimed),
+                                 .alone = printed(effect.alone),
+                                 .last = printed(effect.last),
+                                 .audited = printed(effect.audited),
+                                 .share = effect.share,
+                                 .share_percent = signed_percent(effect.share),
+                                 .change_alone = change_of(effect.claimed, effect.alone),
+                                 .change_last = change_of(effect.last, effect.audited),
+                                 .result = result_at(report, effect.budget).value_or(0)};
+    }
+    if (finding.missing_term) {
+        const audit::MissingTerm& term = *finding.missing_term;
+        view.missing_term = MissingTermView{
+            .number = term,
+            .u_for_digit = rounded(term.u_for_digit, 2),
+            .u_for_verdict = term.u_for_verdict ? rounded(*term.u_for_verdict, 2) : "",
+            .unit = finding.budgets.empty() ? "" : unit_text(report.subject.budgets[finding.budgets.front()].unit)};
+    }
+    view.waiver = waiver_of(finding, waivers);
+    return view;
+}
+
+void tie_findings_to_results(AuditedFileView& file) {
+    for (std::size_t i = 0; i < file.findings.size(); ++i) {
+        for (const std::size_t at : file.findings[i].results) {
+            AuditedResultView& result = file.results[at];
+            result.findings.push_back(i);
+            for (AuditedRowView& row : result.rows) {
+                if (is_about_row(file.findings[i].where, row.place)) {
+                    row.findings.push_back(i);
+                }
+            }
+        }
+    }
+}
+
+/// What is known of the law of propagation against Monte Carlo.
+std::vector<RuleAnswer> linearity_of(const AuditedFileView& file) {
+    std::vector<RuleAnswer> answers;
+    for (const char* rule : {"S04", "S05", "S06", "S07", "S18", "S19"}) {
+        for (const AuditFindingView& finding : file.findings) {
+            if (finding.id == rule) {
+                answers.push_back({.id = finding.id, .title = finding.title, .answer = finding.what});
+            }
+        }
+        for (const NotCheckedView& one : file.not_checked) {
+            if (one.id == rule) {
+                answers.push_back({.id = one.id, .title = one.title, .answer = one.because});
+            }
+        }
+    }
+    return answers;
+}
+
+AuditedFileView file_view(const audit::AuditReport& report, std::span<const audit::Rule> rules,
+                          const std::vector<Waiver>& waivers) {
+    AuditedFileView file;
+    file.name = printable(report.subject.name);
+    file.kind = name_of(report.subject.kind);
+    if (report.subject.certificate) {
+        const certificate::CertificateData& data = report.subject.certificate->data;
+        if (data.accreditation) {
+            for (const certificate::ScopeEntry& entry : data.accreditation->scope) {
+                file.scope.push_back(scope_line(entry));
+            }
+        }
+        file.method = printable(data.method.identification) +
+                      (data.method.version.empty() ? "" : " (" + printable(data.method.version) + ")");
+    }
+    for (const audit::AuditedResult& result : report.results) {
+        file.results.push_back(result_view(result, report.subject.budgets[result.budget]));
+    }
+    for (std::size_t i = 1; i < file.results.size(); ++i) {
+        file.worst = rank_of(file.results[i]) > rank_of(file.results[file.worst]) ? i : file.worst;
+    }
+    for (const audit::AuditFinding& finding : report.findings) {
+        file.findings.push_back(finding_view(finding, report, rules, waivers));
+        ++file.counts[3 - static_cast<std::size_t>(finding.severity)];
+        const std::string& question = file.findings.back().question;
+        if (question.empty()) {
+            continue;
+        }
+        const auto asked = std::find_if(file.questions.begin(), file.questions.end(),
+                                        [&question](const QuestionView& one) { return one.question == question; });
+        if (asked == file.questions.end()) {
+            file.questions.push_back({.question = question, .findings = {file.findings.size() - 1}});
+        } else {
+            asked->findings.push_back(file.findings.size() - 1);
+        }
+    }
+    tie_findings_to_results(file);
+    for (const audit::RuleNotChecked& one : report.not_checked) {
+        const audit::Rule* rule = rule_of(one.rule, rules);
+        file.not_checked.push_back({.id = printable(one.rule),
+                                    .title = rule == nullptr ? "" : std::string(rule->title),
+                                    .because = printable(one.because)});
+    }
+    file.linearity = linearity_of(file);
+    for (const std::string& sentence : report.subject.not_read) {
+        file.not_read.push_back(printable(sentence));
+    }
+    return file;
+}
+
+/// The gravest finding, 0 for none; then the worst result.
+std::tuple<std::size_t, bool, double> rank_of(const AuditedFileView& file) {
+    std::size_t gravest = 0;
+    for (std::size_t i = 0; i < file.counts.size() && gravest == 0; ++i) {
+        gravest = file.counts[i] > 0 ? file.counts.size() - i : 0;
+    }
+    const auto [turns, change] = file.results.empty() ? std::pair(false, 0.0) : rank_of(file.results[file.worst]);
+    return {gravest, turns, change};
+}
+
+}  // namespace
+
+Change change_of(const BudgetOutcome& before, const BudgetOutcome& after) {
+    Change change;
+    change.relative = after.U / before.U - 1.0;
+    change.percent = signed_percent(change.relative);
+    // direction_in_words() says "U understated"; forms put the word into their own language.
+    change.direction = audit::direction_in_words(before, after).substr(2);
+    change.verdict_turns = before.verdict != after.verdict;
+    change.En_crosses_one = before.en && after.en && (std::abs(*before.en) > 1.0) != (std::abs(*after.en) > 1.0);
+    return change;
+}
+
+AuditedRowView summed_rows(const AuditedResultView& result, std::size_t from) {
+    AuditedRowView sum;
+    double squares = 0.0;
+    for (std::size_t i = from; i < result.rows.size(); ++i) {
+        squares += result.rows[i].contribution * result.rows[i].contribution;
+        sum.share += result.rows[i].share;
+    }
+    sum.contribution = std::sqrt(squares);
+    sum.contribution_text = rounded(sum.contribution);
+    sum.share_percent = gum::percent(sum.share);
+    return sum;
+}
+
+AuditView make_audit_view(std::span<const audit::AuditReport> reports, std::span<const audit::Rule> rules,
+                          const AuditContext& context) {
+    AuditView view;
+    view.program = printable(context.program);
+    for (const Waiver& waiver : context.waivers) {
+        view.waivers.push_back({.rule = printable(waiver.rule),
+                                .where = printable(waiver.where),
+                                .by = printable(waiver.by),
+                                .when = printable(waiver.when),
+                                .reason = printable(waiver.reason)});
+    }
+    view.files.reserve(reports.size());
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+        view.files.push_back(file_view(reports[i], rules, context.waivers));
+        view.files.back().sha256 = i < context.digests.size() ? printable(context.digests[i]) : "";
+        view.worst = rank_of(view.files[i]) > rank_of(view.files[view.worst]) ? i : view.worst;
+    }
+    return view;
+}
+
+}  // namespace gumcert::reports

@@ -1,0 +1,135 @@
+#include "reports/audit/audit_words.h"
+
+namespace gumcert::reports {
+
+std::string enumerated(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) {
+        text += (text.empty() ? "" : "; ") + name;
+    }
+    return text;
+}
+
+std::string AuditWords::operator()(const std::string& name) const {
+    return wording_("audit", name).first();
+}
+
+std::string AuditWords::filled(const std::string& name, const Wording::Values& values) const {
+    return wording_.filled("audit", name, values).first();
+}
+
+std::string AuditWords::number(const std::string& printed) const {
+    if (printed.empty()) {
+        return wording_("document", "absent").first();
+    }
+    return wording_.number(printed).first();
+}
+
+std::string AuditWords::with_unit(const std::string& printed, const std::string& unit) const {
+    return number(printed) + (printed.empty() || unit.empty() ? "" : "\u00A0" + unit);
+}
+
+std::string AuditWords::interval(const PrintedInterval& interval) const {
+    return interval.low == interval.high ? number(interval.low) : number(interval.low) + " … " + number(interval.high);
+}
+
+std::string AuditWords::severity(const std::string& name) const {
+    return wording_("finding_severity", name).first();
+}
+
+std::string AuditWords::verdict(const std::string& name) const {
+    if (name.empty()) {
+        return wording_("document", "absent").first();
+    }
+    return wording_.has("verdict_name", name) ? wording_("verdict_name", name).first() : name;
+}
+
+std::string AuditWords::distribution(const AuditedRowView& row) const {
+    if (!row.shape.empty()) {
+        return row.shape;
+    }
+    return row.shape_name.empty() ? "" : wording_("distribution_name", row.shape_name).first();
+}
+
+std::string AuditWords::contributor(const std::string& id) const {
+    return wording_("audit_contributor", id).first();
+}
+
+std::string AuditWords::file_kind(const std::string& id) const {
+    return wording_("audit_kind", id).first();
+}
+
+std::string AuditWords::direction(const Change& change) const {
+    return wording_("audit_direction", change.direction).first();
+}
+
+std::string AuditWords::change(const PrintedOutcome& before, const PrintedOutcome& after, const Change& change,
+                               const std::string& unit) const {
+    std::string text = filled("change_of_U", {{"before", number(before.U)},
+                                              {"after", with_unit(after.U, unit)},
+                                              {"percent", number(change.percent)},
+                                              {"direction", direction(change)}});
+    if (change.verdict_turns) {
+        text += "; " +
+                filled("change_of_verdict", {{"before", verdict(before.verdict)}, {"after", verdict(after.verdict)}});
+    }
+    if (!before.En.empty() && !after.En.empty() && before.En != after.En) {
+        text += "; " + filled("change_of_En", {{"before", number(before.En)}, {"after", number(after.En)}});
+    }
+    return text;
+}
+
+std::string AuditWords::effect_alone(const EffectView& effect, const AuditedFileView& file) const {
+    const AuditedResultView& result = file.results[effect.result];
+    return (file.results.size() > 1 ? result.name + ": " : "") +
+           change(effect.claimed, effect.alone, effect.change_alone, result.unit);
+}
+
+std::string AuditWords::effect_last(const EffectView& effect, const AuditedFileView& file) const {
+    const AuditedResultView& result = file.results[effect.result];
+    return (file.results.size() > 1 ? result.name + ": " : "") +
+           change(effect.last, effect.audited, effect.change_last, result.unit);
+}
+
+std::string AuditWords::missing_term(const MissingTermView& term) const {
+    std::string text = filled("bound_of_digit", {{"u", with_unit(term.u_for_digit, term.unit)}});
+    text += " " + (term.u_for_verdict.empty()
+                       ? (*this)("bound_of_no_verdict")
+                       : filled("bound_of_verdict", {{"u", with_unit(term.u_for_verdict, term.unit)}}));
+    return text;
+}
+
+std::string AuditWords::clause(const AuditFindingView& finding) const {
+    if (finding.clause.empty()) {
+        return "";
+    }
+    return finding.clause_verified ? finding.clause : finding.clause + " " + (*this)("not_verified");
+}
+
+std::string AuditWords::coverage(const AuditedResultView& result) const {
+    const std::string name = wording_("audit_coverage", result.coverage).first();
+    return name + (result.coverage == "fixed" ? ", k = " + number(result.stated_k)
+                                              : ", " + number(result.coverage_probability) + " %");
+}
+
+std::string AuditWords::method(const AuditedFileView& file, const AuditedResultView& result) const {
+    return !file.method.empty() ? file.method : !result.method.empty() ? result.method : (*this)("not_stated");
+}
+
+AuditSentence AuditWords::sentence(const std::string& english) const {
+    const std::string worded = wording_.sentence(english).first();
+    return {.text = worded, .english = !english.empty() && language() != "en" && worded == english};
+}
+
+std::string AuditWords::contributor_text(const ContributorView& contributor, const std::string& unit) const {
+    if (contributor.rows.empty()) {
+        return (*this)("no_row");
+    }
+    if (contributor.contribution == 0.0) {
+        return contributor.reason.empty() ? (*this)("zero_without_reason")
+                                          : filled("zero_because", {{"reason", contributor.reason}});
+    }
+    return with_unit(contributor.contribution_text, unit) + " (" + number(contributor.share_percent) + " %)";
+}
+
+}  // namespace gumcert::reports

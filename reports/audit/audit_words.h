@@ -1,0 +1,68 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/audit/audit_view.h"
+#include "reports/wording.h"
+
+namespace gumcert::reports {
+
+/// A text, and whether it is English in a document of another language.
+struct AuditSentence {
+    std::string text;
+    bool english = false;
+};
+
+/// "a; b; c".
+[[nodiscard]] std::string enumerated(const std::vector<std::string>& names);
+
+/// Words of an audit in the language of its document (group `audit` of templates/wording): the forms for people share
+/// them.
+class AuditWords {
+public:
+    /// \param wording  must outlive this object; its first language is used
+    explicit AuditWords(const Wording& wording) : wording_(wording) {}
+
+    [[nodiscard]] const std::string& language() const { return wording_.language(); }
+    [[nodiscard]] const std::string& decimal_sign() const { return wording_.decimal_sign(); }
+    /// A label or sentence of the group `audit`.
+    [[nodiscard]] std::string operator()(const std::string& name) const;
+    [[nodiscard]] std::string filled(const std::string& name, const Wording::Values& values) const;
+    /// A printed number with the decimal sign of the language; "–" where there is none.
+    [[nodiscard]] std::string number(const std::string& printed) const;
+    [[nodiscard]] std::string with_unit(const std::string& printed, const std::string& unit) const;
+    /// "0.481 … 0.503", one number where both are the same.
+    [[nodiscard]] std::string interval(const PrintedInterval& interval) const;
+    [[nodiscard]] std::string severity(const std::string& name) const;
+    [[nodiscard]] std::string verdict(const std::string& name) const;
+    [[nodiscard]] std::string distribution(const AuditedRowView& row) const;
+    [[nodiscard]] std::string contributor(const std::string& id) const;
+    [[nodiscard]] std::string file_kind(const std::string& id) const;
+    /// "U understated".
+    [[nodiscard]] std::string direction(const Change& change) const;
+    /// "U 0.50 → 0.62 µm (+24.1 %): U understated; verdict pass → fail; Eₙ 0.91 → 1.10".
+    [[nodiscard]] std::string change(const PrintedOutcome& before, const PrintedOutcome& after, const Change& change,
+                                     const std::string& unit) const;
+    /// What correcting a finding alone does; with the name of the result where the file has several.
+    [[nodiscard]] std::string effect_alone(const EffectView& effect, const AuditedFileView& file) const;
+    /// The same as the last of all corrections.
+    [[nodiscard]] std::string effect_last(const EffectView& effect, const AuditedFileView& file) const;
+    /// What a missing contribution would have to be.
+    [[nodiscard]] std::string missing_term(const MissingTermView& term) const;
+    /// The clause, and that nobody held it against the document where that is so.
+    [[nodiscard]] std::string clause(const AuditFindingView& finding) const;
+    /// How a budget comes to U: "t-distribution, 95.45 %".
+    [[nodiscard]] std::string coverage(const AuditedResultView& result) const;
+    /// The method of a certificate, else that of the budget.
+    [[nodiscard]] std::string method(const AuditedFileView& file, const AuditedResultView& result) const;
+    /// A sentence of a rule: in the language where the catalogue of sentences has it.
+    [[nodiscard]] AuditSentence sentence(const std::string& english) const;
+    /// A number with what a contributor is: "0.012 µm (3.1 %)", or why there is none.
+    [[nodiscard]] std::string contributor_text(const ContributorView& contributor, const std::string& unit) const;
+
+private:
+    const Wording& wording_;
+};
+
+}  // namespace gumcert::reports

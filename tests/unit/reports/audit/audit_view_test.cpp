@@ -1,0 +1,210 @@
+#include "reports/audit/audit_view.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/printable_text.h"
+#include "tests/support/hostile_strings.h"
+#include "tests/support/sample_audit.h"
+
+namespace gumcert::reports {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+AuditView view_of(const audit::AuditReport& report, const std::vector<Waiver>& waivers = {}) {
+    return make_audit_view(std::vector{report}, test::sample_rules(),
+                           {.program = "gumcert 0.1.0", .digests = {std::string(64, 'a')}, .waivers = waivers});
+}
+
+TEST(AuditViewOfABudget, HoldsNumbersBesideTheirTexts) {
+    const audit::AuditReport report = test::sample_audit();
+    const AuditView view = view_of(report);
+    const AuditedResultView& result = view.files.at(0).results.at(0);
+    EXPECT_EQ(result.claimed.U, "1.3");
+    EXPECT_EQ(result.claimed.u_c, "0.66") << "as the file prints it";
+    EXPECT_EQ(result.recomputed.u_c, "0.659");
+    EXPECT_EQ(result.audited.U, "1.5");
+    EXPECT_EQ(result.audited.number.U, report.results[0].audited.U);
+    EXPECT_EQ(result.claimed.verdict, "pass");
+    EXPECT_EQ(result.audited.verdict, "fail");
+    EXPECT_TRUE(result.change.verdict_turns);
+    EXPECT_TRUE(result.change.En_crosses_one);
+    EXPECT_EQ(result.change.direction, "understated");
+    EXPECT_EQ(result.capability, "0.9");
+    EXPECT_EQ(result.coverage_probability, "95.45");
+    EXPECT_EQ(view.files[0].sha256, std::string(64, 'a'));
+}
+
+TEST(AuditViewOfABudget, SortsRowsByTheirShareAndTiesFindingsToThem) {
+    const AuditView view = view_of(test::sample_audit());
+    const AuditedResultView& result = view.files[0].results[0];
+    ASSERT_EQ(result.rows.size(), 7U);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < result.rows.size(); ++i) {
+        sum += result.rows[i].share;
+        EXPECT_TRUE(i == 0 || result.rows[i].contribution <= result.rows[i - 1].contribution);
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+    EXPECT_EQ(result.rows[0].quantity, "parallelism of the faces");
+    ASSERT_THAT(result.rows[0].findings, ElementsAre(1U));
+    EXPECT_EQ(view.files[0].findings[1].id, "U10");
+    EXPECT_EQ(result.rows[3].divisor, "2");
+    EXPECT_EQ(result.rows[3].nu, "") << "the table says nothing";
+    EXPECT_EQ(result.rows[1].nu, "9");
+}
+
+TEST(AuditViewOfABudget, APlaceThatBeginsLikeAnotherIsAnotherRow) {
+    audit::AuditReport report = test::sample_audit();
+    report.findings[0].where = "row 11";
+    const AuditView view = view_of(report);
+    for (const AuditedRowView& row : view.files[0].results[0].rows) {
+        EXPECT_TRUE(row.findings.empty() || row.place != "row 1") << row.place;
+    }
+}
+
+TEST(AuditViewOfABudget, SaysWhichClaimsTheRowsDoNotAllow) {
+    const AuditedResultView honest = view_of(test::sample_audit()).files[0].results[0];
+    EXPECT_TRUE(honest.claim_U.stated);
+    EXPECT_TRUE(honest.claim_U.allowed) << "1.3 may stand for 1.33";
+    EXPECT_FALSE(honest.claim_k.stated);
+    EXPECT_FALSE(honest.all_stated());
+
+    audit::AuditSubject subject;
+    subject.budgets = {test::sample_audited_budget()};
+    subject.budgets[0].claims.u_c = test::printed_number("0.60", "row 9");
+    const audit::AuditReport report = audit::audit(std::move(subject), test::sample_rules());
+    EXPECT_FALSE(view_of(report).files[0].results[0].claim_u_c.allowed);
+}
+
+TEST(AuditViewOfABudget, AsksForSixContributors) {
+    const AuditView view = view_of(test::sample_audit());
+    const std::vector<ContributorView>& all = view.files[0].results[0].contributors;
+    ASSERT_EQ(all.size(), 6U);
+    EXPECT_EQ(all[0].id, "reference");
+    EXPECT_EQ(all[0].contribution_text, "0.280");
+    EXPECT_EQ(all[1].reason, "two calibrations only, no trend seen") << "0 with a reason";
+    EXPECT_TRUE(all[4].rows.empty()) << "no row of reproducibility";
+    EXPECT_THAT(all[5].rows, ElementsAre("temperature difference", "expansion coefficient"));
+    EXPECT_NEAR(all[5].contribution, std::hypot(0.12, 0.035), 1e-12);
+}
+
+TEST(AuditViewOfABudget, SumsTheRestOfTheRows) {
+    const AuditedResultView result = view_of(test::sample_audit()).files[0].results[0];
+    const AuditedRowView rest = summed_rows(result, 4);
+    EXPECT_NEAR(rest.contribution, std::hypot(0.12, 0.035), 1e-12);
+    EXPECT_EQ(rest.contribution_text, "0.125");
+    EXPECT_NEAR(rest.share, result.rows[4].share + result.rows[5].share + result.rows[6].share, 1e-15);
+    EXPECT_EQ(summed_rows(result, 7).contribution_text, "0");
+}
+
+TEST(AuditViewOfABudget, HasEffectsBoundsAndQuestions) {
+    const AuditView view = view_of(test::sample_audit());
+    const AuditedFileView& file = view.files[0];
+    ASSERT_EQ(file.findings.size(), 3U);
+    EXPECT_EQ(file.counts, (std::array<std::size_t, 4>{1, 1, 1, 0}));
+    const AuditFindingView& first = file.findings[0];
+    EXPECT_EQ(first.id, "U13");
+    EXPECT_EQ(first.severity, "critical");
+    EXPECT_EQ(first.title, "Certificate uncertainty divided by the wrong number");
+    EXPECT_FALSE(first.clause_verified);
+    ASSERT_TRUE(first.effect);
+    EXPECT_EQ(first.effect->change_alone.percent, "+23.7");
+    EXPECT_EQ(first.effect->change_alone.direction, "understated");
+    const AuditFindingView& last = file.findings[2];
+    ASSERT_TRUE(last.missing_term);
+    EXPECT_EQ(last.missing_term->unit, "µm");
+    EXPECT_NE(last.missing_term->u_for_digit, "");
+    EXPECT_EQ(file.questions.size(), 3U);
+    ASSERT_EQ(file.not_checked.size(), 2U);
+    EXPECT_EQ(file.not_checked[0].title, "Calibration of a standard expired");
+    ASSERT_EQ(file.linearity.size(), 1U);
+    EXPECT_EQ(file.linearity[0].id, "S05");
+    EXPECT_EQ(file.not_read.size(), 1U);
+    // The shares of all findings are the change from claimed to audited.
+    const double whole = first.effect->share + file.findings[1].effect->share;
+    EXPECT_NEAR(whole, first.effect->audited.number.U / first.effect->claimed.number.U - 1.0, 1e-9);
+}
+
+TEST(AuditViewOfABudget, FindsTheWaiverOfAFinding) {
+    const Waiver by_rule{.rule = "B05", .by = "A. N.", .when = "2026-03-04", .reason = "one operator"};
+    const Waiver elsewhere{.rule = "U10", .where = "row 9", .by = "A. N.", .when = "2026-03-04", .reason = "other"};
+    const AuditView view = view_of(test::sample_audit(), {by_rule, elsewhere});
+    EXPECT_EQ(view.files[0].findings[2].waiver, 0U);
+    EXPECT_FALSE(view.files[0].findings[1].waiver);
+}
+
+TEST(AuditViewOfSeveralFiles, PutsTheWorstForward) {
+    audit::AuditSubject quiet;
+    quiet.name = "quiet.csv";
+    quiet.budgets = {test::sample_audited_budget()};
+    const std::vector<audit::AuditReport> reports = {audit::audit(std::move(quiet), {}), test::sample_audit()};
+    const AuditView view = make_audit_view(reports, test::sample_rules(), {});
+    EXPECT_EQ(view.worst, 1U);
+    EXPECT_EQ(view.files[0].findings.size(), 0U);
+    EXPECT_EQ(view.files[0].sha256, "");
+}
+
+TEST(AuditViewOfSeveralFiles, TheWorstResultIsOneWhoseDecisionTurns) {
+    audit::AuditReport report = test::sample_audit_of_points();
+    AuditedFileView file = view_of(report).files[0];
+    ASSERT_EQ(file.results.size(), 4U);
+    const AuditedResultView& worst = file.results[file.worst];
+    EXPECT_TRUE(worst.change.decision_turns());
+    for (const AuditedResultView& result : file.results) {
+        EXPECT_TRUE(!result.change.decision_turns() || result.change.relative <= worst.change.relative) << result.name;
+    }
+}
+
+TEST(AuditViewOfSeveralFiles, ABudgetWithoutAnOutcomeShiftsNoPosition) {
+    audit::AuditSubject subject;
+    audit::AuditedBudget empty;
+    empty.name = "empty";
+    subject.budgets = {empty, test::sample_audited_budget()};
+    const audit::AuditReport report = audit::audit(std::move(subject), test::sample_rules());
+    ASSERT_EQ(report.results.size(), 1U);
+    EXPECT_EQ(report.results[0].budget, 1U);
+    const AuditView view = view_of(report);
+    EXPECT_EQ(view.files[0].results[0].rows.size(), 7U);
+    ASSERT_TRUE(view.files[0].findings[0].effect);
+    EXPECT_EQ(view.files[0].findings[0].effect->result, 0U);
+}
+
+TEST(ChangeOf, SaysDirectionAndDecisions) {
+    audit::BudgetOutcome before;
+    before.U = 1.0;
+    before.printed_U = "1.0";
+    before.verdict = "pass";
+    before.en = 0.9;
+    audit::BudgetOutcome after = before;
+    EXPECT_EQ(change_of(before, after).percent, "0.0");
+    EXPECT_EQ(change_of(before, after).direction, "unchanged");
+    EXPECT_FALSE(change_of(before, after).decision_turns());
+    after.U = 0.8;
+    after.printed_U = "0.80";
+    after.en = -1.1;
+    EXPECT_EQ(change_of(before, after).percent, "-20.0");
+    EXPECT_EQ(change_of(before, after).direction, "overstated");
+    EXPECT_TRUE(change_of(before, after).En_crosses_one);
+    EXPECT_FALSE(change_of(before, after).verdict_turns);
+}
+
+TEST(AuditViewOfHostileNames, TakesNoHiddenCharacterOver) {
+    for (const std::string& hostile : test::hostile::characters()) {
+        const AuditView view = view_of(test::hostile_audit(hostile));
+        const AuditedFileView& file = view.files[0];
+        EXPECT_EQ(file.name, printable(hostile));
+        EXPECT_EQ(file.results[0].name, printable(hostile));
+        EXPECT_TRUE(std::any_of(file.results[0].rows.begin(), file.results[0].rows.end(),
+                                [&](const AuditedRowView& row) { return row.quantity == printable(hostile); }));
+        EXPECT_EQ(file.findings[0].what, printable(file.findings[0].what));
+        EXPECT_EQ(file.findings[0].where, printable(file.findings[0].where));
+    }
+}
+
+}  // namespace
+}  // namespace gumcert::reports

@@ -1,0 +1,122 @@
+#include "reports/audit/audit_words.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "reports/forms/asset_files.h"
+#include "tests/unit/reports/document_text.h"
+
+namespace gumcert::reports {
+namespace {
+
+class AuditWordsIn : public ::testing::Test {
+protected:
+    AuditWords in(const std::string& language) {
+        RenderAssets from = assets();
+        from.languages = {language};
+        texts_ = read_wording(from);
+        wording_ = std::make_unique<Wording>(texts_);
+        return AuditWords(*wording_);
+    }
+
+private:
+    nlohmann::json texts_;
+    std::unique_ptr<Wording> wording_;
+};
+
+PrintedOutcome with_U(const std::string& U, const std::string& verdict = "", const std::string& En = "") {
+    PrintedOutcome outcome;
+    outcome.U = U;
+    outcome.verdict = verdict;
+    outcome.En = En;
+    return outcome;
+}
+
+TEST_F(AuditWordsIn, SayAChangeInOneLine) {
+    const Change change{.relative = 0.24, .percent = "+24.0", .direction = "understated", .verdict_turns = true};
+    EXPECT_EQ(in("en").change(with_U("0.50", "pass", "0.91"), with_U("0.62", "fail", "1.10"), change, "µm"),
+              "U 0.50 → 0.62\u00A0µm (+24.0 %): U understated; verdict pass → fail; Eₙ 0.91 → 1.10");
+    EXPECT_EQ(in("de").change(with_U("0.50"), with_U("0.62"), {.percent = "-24.0", .direction = "overstated"}, ""),
+              "U 0,50 → 0,62 (−24,0 %): U zu groß angegeben");
+}
+
+TEST_F(AuditWordsIn, PrintWhatIsAbsentAsADash) {
+    const AuditWords words = in("en");
+    EXPECT_EQ(words.number(""), "–");
+    EXPECT_EQ(words.with_unit("", "µm"), "–");
+    EXPECT_EQ(words.verdict(""), "–");
+    EXPECT_EQ(words.verdict("conditional_pass"), "conditional pass");
+    EXPECT_EQ(words.verdict("OK"), "OK") << "as a file states it";
+    EXPECT_EQ(words.interval({.number = {}, .low = "1.2", .high = "1.2"}), "1.2");
+    EXPECT_EQ(words.interval({.number = {}, .low = "1.2", .high = "∞"}), "1.2 … ∞");
+}
+
+TEST_F(AuditWordsIn, SayWhatAMissingContributionWouldHaveToBe) {
+    const AuditWords words = in("en");
+    EXPECT_EQ(
+        words.missing_term({.number = {}, .u_for_digit = "0.13", .u_for_verdict = "", .unit = "µm"}),
+        "The missing contribution changes the printed U from u = 0.13\u00A0µm on. No size of it changes a decision.");
+    EXPECT_EQ(
+        words.missing_term({.number = {}, .u_for_digit = "0.13", .u_for_verdict = "0.2", .unit = ""}),
+        "The missing contribution changes the printed U from u = 0.13 on. It changes the decision from u = 0.2 on.");
+}
+
+TEST_F(AuditWordsIn, TellAClauseThatNobodyLookedUp) {
+    const AuditWords words = in("en");
+    AuditFindingView finding;
+    EXPECT_EQ(words.clause(finding), "");
+    finding.clause = "JCGM 100:2008, 4.3.7";
+    EXPECT_EQ(words.clause(finding), "JCGM 100:2008, 4.3.7 (not held against the document)");
+    finding.clause_verified = true;
+    EXPECT_EQ(words.clause(finding), "JCGM 100:2008, 4.3.7");
+}
+
+TEST_F(AuditWordsIn, GiveANumberOrAReasonForAContributor) {
+    const AuditWords words = in("en");
+    ContributorView contributor;
+    EXPECT_EQ(words.contributor_text(contributor, "µm"), "no row, no reason");
+    contributor.rows = {"drift"};
+    EXPECT_EQ(words.contributor_text(contributor, "µm"), "0, no reason");
+    contributor.reason = "none seen";
+    EXPECT_EQ(words.contributor_text(contributor, "µm"), "0: none seen");
+    contributor.contribution = 0.28;
+    contributor.contribution_text = "0.280";
+    contributor.share_percent = "18.1";
+    EXPECT_EQ(words.contributor_text(contributor, "µm"), "0.280\u00A0µm (18.1 %)");
+}
+
+TEST_F(AuditWordsIn, MarkASentenceThatStaysEnglish) {
+    EXPECT_FALSE(in("en").sentence("no such sentence").english);
+    const AuditSentence german = in("de").sentence("no such sentence");
+    EXPECT_TRUE(german.english);
+    EXPECT_EQ(german.text, "no such sentence");
+    EXPECT_FALSE(in("de").sentence("").english);
+}
+
+TEST_F(AuditWordsIn, NameCoverageAndMethod) {
+    const AuditWords words = in("en");
+    AuditedResultView result;
+    result.coverage = "fixed";
+    result.stated_k = "2";
+    EXPECT_EQ(words.coverage(result), "a fixed number, k = 2");
+    result.coverage = "student_t";
+    result.coverage_probability = "95.45";
+    EXPECT_EQ(words.coverage(result), "the t-distribution with ν_eff, 95.45 %");
+    AuditedFileView file;
+    EXPECT_EQ(words.method(file, result), "not stated");
+    result.method = "micrometer";
+    EXPECT_EQ(words.method(file, result), "micrometer");
+    file.method = "QM-7 (3)";
+    EXPECT_EQ(words.method(file, result), "QM-7 (3)");
+}
+
+TEST(Enumerated, SeparatesBySemicolons) {
+    EXPECT_EQ(enumerated({}), "");
+    EXPECT_EQ(enumerated({"a", "b"}), "a; b");
+}
+
+}  // namespace
+}  // namespace gumcert::reports
