@@ -217,6 +217,42 @@ void add_check(CLI::App& program, Arguments& a) {
         "signature. Exit code 1 where an error is found. docs/digital_certificate.md");
 }
 
+void add_audit(CLI::App& program, Arguments& a) {
+    CLI::App& command = *program.add_subcommand(
+        "audit", "What an assessor would remark on an uncertainty budget, and what each remark does to the result");
+    command
+        .add_option("FILE", a.files,
+                    "Jobs and records (JSON), budgets as tables (CSV) or workbooks (.xlsx), folders of them")
+        ->required();
+    command
+        .add_option("-o,--output", a.audit.output,
+                    "File, whose ending says the form, or folder: audit.txt, audit.json, audit.sarif, audit.html and "
+                    "audit.pdf, or the one that --format names. Default: text to the terminal")
+        ->type_name("PLACE");
+    command
+        .add_option("--format", a.audit.format,
+                    "text, json (for programs), sarif (for review tools), html (for people, in one file) or pdf")
+        ->type_name("FORM")
+        ->check(CLI::IsMember({"text", "json", "sarif", "html", "pdf"}));
+    command
+        .add_option("--language", a.audit.languages, "Language of text, HTML and PDF: en, de, zh-Hant, es. Default: en")
+        ->expected(1)
+        ->type_name("LANGUAGE")
+        ->check(CLI::IsMember({"en", "de", "zh-Hant", "es"}));
+    command.add_flag("--verbose", a.audit.verbose, "Name every rule that was not checked, and why");
+    add_share(command, a.audit.share);
+    command.footer(
+        "Example: gumcert audit examples/audit/paper_fixture_budget/budget.csv\n"
+        "         gumcert audit budget.xlsx -o audit.html\n"
+        "         gumcert audit budgets/ --format json -o -\n"
+        "A table begins with a row of heads: quantity, estimate, unit, u, divisor, distribution, sensitivity,\n"
+        "contribution, nu, source, comment, in any order, in English or German; rows named u_c, nu_eff, k and U state\n"
+        "the claimed result. Formulas of workbooks are evaluated. Each finding is corrected in a copy, and everything\n"
+        "is evaluated again: its effect on U, on the verdict and on En, alone and together. Exit code 1 where a "
+        "finding\n"
+        "is critical. docs/audit.md, docs/audit_rules.md");
+}
+
 void add_verify(CLI::App& program, Arguments& a) {
     CLI::App& command = *program.add_subcommand("verify", "Check the signatures of certificates (XML or PDF)");
     command.add_option("FILE", a.files, "Signed files")->required();
@@ -291,6 +327,7 @@ std::unique_ptr<CLI::App> command_line(Arguments& a, std::string (*version)()) {
     add_render(*program, a);
     add_import(*program, a);
     add_check(*program, a);
+    add_audit(*program, a);
     add_verify(*program, a);
     add_simulate(*program, a);
     add_plan(*program, a);

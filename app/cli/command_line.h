@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/audit_command.h"
 #include "app/cli/issue_commands.h"
 #include "app/cli/terminal.h"
 
@@ -23,6 +24,7 @@ struct Arguments {
     std::vector<std::string> jobs, records, files, revocation_lists, codes;
     std::string job, file, output, format, share, trust_store;
     DocumentOptions documents;
+    AuditOptions audit;
     std::optional<std::size_t> runs;
     std::optional<std::int64_t> seed;
 };

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/cli/audit_command.h"
 #include "app/cli/certificate_commands.h"
 #include "app/cli/command_line.h"
 #include "app/cli/explain_command.h"
@@ -71,6 +72,9 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
             refuse_usage("check dcc", "no file", "gumcert check dcc FILE", "name the digital certificates");
         }
         return check_files(a.files, certificates, a.trust_store, a.share, a.common);
+    }
+    if (a.command == "audit") {
+        return audit_files(a.files, a.audit, a.common);
     }
     if (a.command == "verify") {
         return verify_files(a.files, a.trust_store, a.revocation_lists, a.common);

@@ -1,0 +1,168 @@
+#include "app/audit_files.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "app/evaluate_job.h"
+#include "app/read_file.h"
+#include "app/recompute_record.h"
+#include "audit/rules/registry.h"
+#include "audit/sources/record_subject.h"
+#include "audit/sources/workbook_subject.h"
+#include "encoding/sha2.h"
+#include "gum/monte_carlo/worker_threads.h"
+#include "workbook/read_csv.h"
+#include "workbook/read_xlsx.h"
+
+namespace gumcert::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 4> k_endings = {".json", ".csv", ".xlsx", ".xlsm"};
+
+std::string small_letters(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return text;
+}
+
+enum class Contents { job, record, workbook, table, other };
+
+Contents contents_of(const std::string& bytes) {
+    if (bytes.starts_with("PK\x03\x04")) {
+        return Contents::workbook;
+    }
+    const std::size_t first = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    if (first == std::string::npos || bytes[first] == '<' || bytes.starts_with("\xD0\xCF\x11\xE0") ||
+        bytes.starts_with("%PDF")) {
+        return Contents::other;
+    }
+    if (bytes[first] == '{' || bytes[first] == '/') {
+        return bytes.find("\"gumcert/record/") != std::string::npos ? Contents::record : Contents::job;
+    }
+    return Contents::table;
+}
+
+/// Where a record says something else than its own job gives; nothing where that cannot be found out, and why: not_read.
+std::optional<std::vector<std::string>> disagreements_of(reports::EvaluationRecord record, const std::string& name,
+                                                         unsigned threads, const fs::path& templates,
+                                                         const gum::Progress& progress,
+                                                         std::vector<std::string>& not_read) {
+    try {
+        if (const std::optional<gum::Diagnostic> why = recompute_record(record, name, threads, templates, progress)) {
+            not_read.push_back(name + ": was not held against its own job: " + why->what);
+            return std::nullopt;
+        }
+        return std::vector<std::string>{};
+    } catch (const gum::InputError& refused) {
+        std::vector<std::string> places;
+        for (const gum::Diagnostic& problem : refused.diagnostics()) {
+            places.push_back(problem.where + ": " + problem.what);
+        }
+        return places;
+    }
+}
+
+}  // namespace
+
+std::vector<fs::path> files_to_audit(const std::vector<fs::path>& named) {
+    std::vector<fs::path> files;
+    for (const fs::path& name : named) {
+        std::error_code error;
+        if (!fs::is_directory(name, error)) {
+            files.push_back(name);
+            continue;
+        }
+        std::vector<fs::path> found;
+        for (const fs::directory_entry& entry :
+             fs::recursive_directory_iterator(name, fs::directory_options::skip_permission_denied)) {
+            const std::string ending = small_letters(entry.path().extension().string());
+            if (entry.is_regular_file() && std::find(k_endings.begin(), k_endings.end(), ending) != k_endings.end()) {
+                found.push_back(entry.path());
+            }
+        }
+        if (found.empty()) {
+            throw gum::InputError(gum::Diagnostic{
+                .code = "GC-AUDIT-0010",
+                .where = name.string(),
+                .what = "no file in this folder can be audited",
+                .rule = "gumcert audit reads jobs and records (JSON), tables (CSV) and workbooks (.xlsx)",
+                .action = "name the files themselves"});
+        }
+        std::sort(found.begin(), found.end());
+        files.insert(files.end(), found.begin(), found.end());
+    }
+    return files;
+}
+
+AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& templates,
+                       const gum::Progress& progress) {
+    const std::string bytes = read_file(file);
+    const std::string name = file.filename().string();
+    AuditedFile audited{.file = file, .digest = encoding::sha256(bytes), .report = {}};
+    const std::span<const audit::Rule> rules = audit::all_rules();
+    switch (contents_of(bytes)) {
+        case Contents::job: {
+            const Evaluation evaluation = evaluate_job(file, CovarianceFile::none, threads, templates, progress);
+            audit::AuditSubject subject = audit::subject_of(evaluation.record, name);
+            subject.kind = audit::AuditSubject::Kind::job;
+            audited.report = audit::audit(std::move(subject), rules);
+            break;
+        }
+        case Contents::record: {
+            reports::EvaluationRecord record = reports::record_from_json(bytes, file.string());
+            audit::AuditSubject subject = audit::subject_of(record, name);
+            subject.disagreements =
+                disagreements_of(std::move(record), name, threads, templates, progress, subject.not_read);
+            audited.report = audit::audit(std::move(subject), rules);
+            break;
+        }
+        case Contents::workbook:
+            audited.report = audit::audit(audit::subject_of(workbook::read_xlsx(bytes, file.string()), name), rules);
+            break;
+        case Contents::table:
+            audited.report = audit::audit(
+                audit::subject_of(workbook::read_csv(bytes, file.string(), file.stem().string()), name), rules);
+            break;
+        case Contents::other:
+            throw gum::InputError(gum::Diagnostic{
+                .code = "GC-AUDIT-0011",
+                .where = file.string(),
+                .what = "neither a job, a record, a table nor a workbook",
+                .rule = "gumcert audit reads jobs and records (JSON), tables (CSV) and workbooks (.xlsx)",
+                .action =
+                    "store an old workbook (.xls) as .xlsx, copy the table of a PDF into a CSV file; for a digital "
+                    "certificate use gumcert check dcc"});
+    }
+    return audited;
+}
+
+std::vector<AuditAttempt> audit_files(const std::vector<fs::path>& files, unsigned threads, const fs::path& templates,
+                                      const gum::Progress& progress) {
+    std::vector<AuditAttempt> attempts(files.size());
+    std::vector<std::size_t> tables, others;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        (small_letters(files[i].extension().string()) == ".json" ? others : tables).push_back(i);
+    }
+    const auto attempt = [&](std::size_t file, const gum::Progress& told) {
+        try {
+            attempts[file].audited = audit_file(files[file], threads, templates, told);
+        } catch (...) {
+            attempts[file].failure = std::current_exception();
+        }
+    };
+    gum::WorkerThreads workers(threads);
+    workers.run(tables.size(), [&](unsigned, std::size_t task) { attempt(tables[task], {}); });
+    for (const std::size_t file : others) {
+        attempt(file, progress);
+    }
+    return attempts;
+}
+
+}  // namespace gumcert::app

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "audit/audit.h"
+#include "gum/quantity/progress.h"
+
+namespace gumcert::app {
+
+/// A file of an audit, and what was found in it.
+struct AuditedFile {
+    std::filesystem::path file;
+    std::string digest;  ///< SHA-256 of its bytes
+    audit::AuditReport report;
+};
+
+/// The files that an audit looks at: the named ones, and of a folder all of its files and folders whose endings the audit
+/// knows (.json, .csv, .xlsx, .xlsm, .xml), sorted by name. Records and documents beside a job that gumcert wrote are
+/// left out where the job itself is there.
+/// \throws gum::InputError    GC-AUDIT-0010 a folder without such a file
+/// \throws gum::StorageError  what cannot be looked at
+[[nodiscard]] std::vector<std::filesystem::path> files_to_audit(const std::vector<std::filesystem::path>& named);
+
+/// Audits one file, whatever it is: a job is evaluated first, a record taken as it states itself and held against its own
+/// job, a table (CSV) or workbook (.xlsx) read and its formulas evaluated, a digital certificate read.
+/// \throws gum::InputError    what the readers refuse; GC-AUDIT-0011 a file of another kind
+/// \throws gum::NoResultError, gum::StorageError
+[[nodiscard]] AuditedFile audit_file(const std::filesystem::path& file, unsigned threads,
+                                     const std::filesystem::path& templates, const gum::Progress& progress = {});
+
+/// What became of a file.
+struct AuditAttempt {
+    std::optional<AuditedFile> audited;
+    std::exception_ptr failure;  ///< what audit_file() threw, where it is not audited
+};
+
+/// audit_file() of each of them, in their order. Tables and workbooks are audited side by side, jobs and records one after
+/// the other, which use all threads themselves; results are the same for any number of threads.
+[[nodiscard]] std::vector<AuditAttempt> audit_files(const std::vector<std::filesystem::path>& files, unsigned threads,
+                                                    const std::filesystem::path& templates,
+                                                    const gum::Progress& progress = {});
+
+}  // namespace gumcert::app

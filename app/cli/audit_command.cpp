@@ -1,0 +1,164 @@
+#include "app/cli/audit_command.h"
+
+#include <fmt/core.h>
+#include <gumcert_build_info.h>
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+#include "app/audit_files.h"
+#include "app/cli/share_folder.h"
+#include "app/output_files.h"
+#include "audit/rules/registry.h"
+#include "reports/audit/audit_document.h"
+#include "reports/audit/audit_html.h"
+#include "reports/audit/audit_json.h"
+#include "reports/audit/audit_sarif.h"
+#include "reports/audit/audit_text.h"
+#include "reports/audit/audit_view.h"
+#include "reports/forms/asset_files.h"
+#include "reports/wording.h"
+
+namespace gumcert::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Form {
+    std::string_view name, file;  ///< after --format, and in a folder
+};
+constexpr std::array<Form, 5> k_forms = {Form{"text", "audit.txt"}, Form{"json", "audit.json"},
+                                         Form{"sarif", "audit.sarif"}, Form{"html", "audit.html"},
+                                         Form{"pdf", "audit.pdf"}};
+
+/// Which forms go where.
+struct Destination {
+    std::vector<std::pair<std::string, fs::path>> files;  ///< form and file
+    std::string to_stdout;                                ///< form; "" nothing
+};
+
+std::string form_of_ending(const fs::path& file) {
+    const std::string ending = file.extension().string();
+    if (ending == ".txt") {
+        return "text";
+    }
+    const auto form = std::find_if(k_forms.begin(), k_forms.end(),
+                                   [&ending](const Form& f) { return "." + std::string(f.name) == ending; });
+    return form == k_forms.end() ? "" : std::string(form->name);
+}
+
+std::string_view file_name_of(std::string_view form) {
+    return std::find_if(k_forms.begin(), k_forms.end(), [form](const Form& f) { return f.name == form; })->file;
+}
+
+/// A name with an ending that the form has is a file; any other is a folder, which gets the form that is asked for, or
+/// all of them.
+Destination destination_of(const AuditOptions& options, const fs::path& first) {
+    Destination to;
+    if (options.output.empty() || options.output == "-") {
+        const bool needs_file = (options.format == "html" || options.format == "pdf") && options.output.empty();
+        if (needs_file) {
+            fs::path beside = first.has_filename() ? first : first.parent_path();
+            beside.replace_extension();
+            beside += "-audit." + options.format;
+            to.files.emplace_back(options.format, std::move(beside));
+        } else {
+            to.to_stdout = options.format.empty() ? "text" : options.format;
+        }
+        return to;
+    }
+    const fs::path output(options.output);
+    const std::string by_ending = form_of_ending(output);
+    if (!by_ending.empty() || (output.has_extension() && !options.format.empty() && !fs::is_directory(output))) {
+        to.files.emplace_back(options.format.empty() ? by_ending : options.format, output);
+        return to;
+    }
+    if (!options.format.empty()) {
+        to.files.emplace_back(options.format, output / file_name_of(options.format));
+        return to;
+    }
+    for (const Form& form : k_forms) {
+        to.files.emplace_back(std::string(form.name), output / form.file);
+    }
+    return to;
+}
+
+std::string rendered(const reports::AuditView& view, const std::string& form, const AuditOptions& options) {
+    if (form == "json") {
+        return reports::audit_as_json(view);
+    }
+    if (form == "sarif") {
+        return reports::audit_as_sarif(view, audit::all_rules());
+    }
+    const std::vector<std::string> languages =
+        options.languages.empty() ? std::vector<std::string>{"en"} : options.languages;
+    const reports::RenderAssets assets = render_assets(options.share, languages);
+    if (form == "html") {
+        return reports::audit_as_html(view, assets);
+    }
+    if (form == "pdf") {
+        return reports::audit_as_pdf(view, assets);
+    }
+    return reports::audit_as_text(view, reports::Wording(reports::read_wording(assets)), options.verbose);
+}
+
+}  // namespace
+
+ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& options, const CommonOptions& common) {
+    const std::vector<fs::path> named(files.begin(), files.end());
+    const std::vector<fs::path> all = app::files_to_audit(named);
+    const Destination to = destination_of(options, named.front());
+    for (const auto& [form, file] : to.files) {
+        app::require_writable(file);
+        app::require_not_an_input(file, all);
+    }
+    const fs::path templates = templates_folder(options.share);
+    ExitCode code = done;
+    std::vector<audit::AuditReport> reports;
+    reports::AuditContext context;
+    context.program = fmt::format("gumcert {}", k_version);
+    ProgressLine progress(!common.quiet);
+    for (app::AuditAttempt& attempt : app::audit_files(all, static_cast<unsigned>(common.threads), templates,
+                                                       [&](const std::string& text) { progress(text); })) {
+        const ExitCode one = explained(common, [&] {
+            if (attempt.failure) {
+                std::rethrow_exception(attempt.failure);
+            }
+            const bool critical = attempt.audited->report.has_critical();
+            reports.push_back(std::move(attempt.audited->report));
+            context.digests.push_back(std::move(attempt.audited->digest));
+            return critical ? negative_answer : done;
+        });
+        code = std::max(code, one);
+    }
+    progress.clear();
+    if (reports.empty()) {
+        return code;
+    }
+    const reports::AuditView view = reports::make_audit_view(reports, audit::all_rules(), context);
+    if (!to.to_stdout.empty()) {
+        write_to_stdout(rendered(view, to.to_stdout, options));
+        return code;
+    }
+    std::vector<app::OutputFile> written;
+    for (const auto& [form, file] : to.files) {
+        written.push_back({.path = file, .bytes = rendered(view, form, options)});
+    }
+    std::vector<fs::path> inputs = all;
+    add_program_files(inputs, options.share);
+    app::write_files(written, inputs);
+    if (!common.quiet) {
+        for (const app::OutputFile& file : written) {
+            fmt::print("Written: {}\n", file.path.string());
+        }
+    }
+    return code;
+}
+
+}  // namespace gumcert::cli

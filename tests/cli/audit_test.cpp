@@ -1,0 +1,135 @@
+// The audit as a user meets it: tables, workbooks, jobs, records and folders; forms and places; exit codes.
+#include "tests/cli/job_files.h"
+#include "tests/cli/program.h"
+#include "tests/support/json_schema.h"
+
+namespace gumcert::cli {
+namespace {
+
+using nlohmann::json;
+
+fs::path example(const std::string& file) {
+    return fs::path(GUMCERT_SOURCE_DIR) / "examples" / "audit" / file;
+}
+
+/// A sound budget: nothing in it is critical.
+constexpr const char* k_sound =
+    "quantity,estimate,unit,u,distribution,sensitivity,contribution,nu,source\n"
+    "length of the standard,100.0002,mm,0.00020,normal,1,0.00020,60,certificate K 123\n"
+    "drift of the standard,0,mm,0.00010,rectangular,1,0.00010,inf,history\n"
+    "resolution of the item,0,mm,0.00029,rectangular,1,0.00029,inf,\n"
+    "u_c,,mm,0.00037\nnu_eff,,,700\nk,,,2\nU,,mm,0.00073\ncoverage probability,95.45 %\n";
+
+class AuditProgram : public ProgramTest {
+protected:
+    [[nodiscard]] Ended audit(std::vector<std::string> words) const {
+        words.insert(words.begin(), "audit");
+        words.insert(words.end(), {"--share", GUMCERT_SOURCE_DIR});
+        return gumcert(words);
+    }
+    [[nodiscard]] json audit_json(const fs::path& file) const {
+        return json::parse(audit({file.string(), "--format", "json"}).out);
+    }
+    static const json* finding(const json& report, const std::string& id) {
+        for (const json& one : report["findings"]) {
+            if (one["id"] == id) {
+                return &one;
+            }
+        }
+        return nullptr;
+    }
+};
+
+TEST_F(AuditProgram, FindsWhatIsWrongWithTheBudgetOfThePaper) {
+    for (const char* const name : {"budget.csv", "budget.xlsx", "budget.json"}) {
+        const fs::path file = example("paper_fixture_budget") / name;
+        const json report = audit_json(file);
+        const json* mpe = finding(report, "U10");
+        ASSERT_NE(mpe, nullptr) << name;
+        EXPECT_LT((*mpe)["effect"]["alone"]["U"].get<double>(), report["claimed"]["U"].get<double>()) << name;
+        const json* exponent = finding(report, "S15");
+        ASSERT_NE(exponent, nullptr) << name;
+        EXPECT_EQ((*exponent)["severity"], "critical") << name;
+        for (const char* const missing : {"B01", "B02"}) {
+            EXPECT_NE(finding(report, missing), nullptr) << name << " " << missing;
+        }
+    }
+    // The program adds up its own rows; the table of the paper drops a term.
+    const json table = audit_json(example("paper_fixture_budget") / "budget.csv");
+    ASSERT_NE(finding(table, "K01"), nullptr);
+    EXPECT_NEAR(table["recomputed"]["u_c"].get<double>(), 0.4459, 1e-4);
+    EXPECT_EQ(table["claimed"]["u_c"], 0.413);
+}
+
+TEST_F(AuditProgram, ExitCodeSaysWhetherAFindingIsCritical) {
+    write_bytes(folder() / "sound.csv", k_sound);
+    const Ended sound = audit({(folder() / "sound.csv").string()});
+    EXPECT_EQ(sound.code, 0) << sound.out << sound.err;
+    EXPECT_EQ(audit({example("paper_fixture_budget/budget.csv").string()}).code, 1);
+    write_bytes(folder() / "picture.pdf", "%PDF-1.7\n");
+    const Ended refused = audit({(folder() / "picture.pdf").string()});
+    EXPECT_EQ(refused.code, 3);
+    EXPECT_NE(refused.err.find("GC-AUDIT-0011"), std::string::npos) << refused.err;
+}
+
+TEST_F(AuditProgram, WritesAllFormsIntoAFolder) {
+    const Ended ended = audit({example("paper_fixture_budget/budget.csv").string(), "-o", (folder() / "out").string()});
+    EXPECT_EQ(ended.code, 1) << ended.err;
+    for (const char* const name : {"audit.txt", "audit.json", "audit.sarif", "audit.html", "audit.pdf"}) {
+        EXPECT_TRUE(fs::exists(folder() / "out" / name)) << name;
+    }
+    const json report = json::parse(bytes_of(folder() / "out" / "audit.json"));
+    EXPECT_EQ(test::JsonSchema("audit-1.schema.json").refusals(report), "");
+    EXPECT_EQ(report["schema"], "gumcert/audit/1");
+    EXPECT_EQ(json::parse(bytes_of(folder() / "out" / "audit.sarif"))["version"], "2.1.0");
+    EXPECT_TRUE(bytes_of(folder() / "out" / "audit.pdf").starts_with("%PDF-"));
+}
+
+TEST_F(AuditProgram, TheEndingOfAFileSaysItsForm) {
+    const fs::path page = folder() / "page.html";
+    (void)audit({example("paper_fixture_budget/budget.csv").string(), "-o", page.string(), "--language", "de"});
+    EXPECT_NE(bytes_of(page).find("lang=\"de\""), std::string::npos);
+}
+
+TEST_F(AuditProgram, AFolderIsAuditedFileByFile) {
+    write_bytes(folder() / "budgets" / "a.csv", k_sound);
+    write_bytes(folder() / "budgets" / "b" / "c.csv", k_sound);
+    const Ended ended = audit({(folder() / "budgets").string(), "--format", "json"});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(json::parse(ended.out)["files"].size(), 2U);
+    fs::create_directory(folder() / "empty");
+    EXPECT_EQ(audit({(folder() / "empty").string()}).code, 3);
+}
+
+TEST_F(AuditProgram, ARecordIsHeldAgainstItsOwnJob) {
+    const fs::path record = folder() / "record.json";
+    ASSERT_EQ(gumcert({"evaluate", (fs::path(GUMCERT_SOURCE_DIR) / "examples/gauge_block/job.json").string(), "-o",
+                       record.string(), "--share", GUMCERT_SOURCE_DIR})
+                  .code,
+              0);
+    const json whole = audit_json(record);
+    EXPECT_EQ(finding(whole, "P01"), nullptr);
+    EXPECT_TRUE(whole["not_read"].empty()) << whole["not_read"];
+    json changed = json::parse(bytes_of(record));
+    json& result = changed["results"].begin().value();
+    result["u"] = result["u"].get<double>() * 0.5;
+    write_bytes(record, changed.dump());
+    EXPECT_EQ(audit({record.string()}).code, 3) << "its digest is that of other contents";
+    changed.erase("digest");
+    write_bytes(record, changed.dump());
+    EXPECT_NE(audit_json(record)["not_read"].dump().find("was not held against its own job"), std::string::npos);
+}
+
+TEST_F(AuditProgram, SameFileSameBytes) {
+    const std::vector<std::string> words = {example("planted_workbook/planted.xlsx").string(), "--format", "json"};
+    EXPECT_EQ(audit(words).out, audit(words).out);
+}
+
+TEST_F(AuditProgram, HelpNamesTheColumns) {
+    const Ended help = gumcert({"audit", "--help"});
+    EXPECT_EQ(help.code, 0);
+    EXPECT_NE(help.out.find("quantity, estimate, unit, u, divisor"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gumcert::cli
