@@ -7,8 +7,8 @@
 
 namespace gumcert::certificate {
 
-// Every struct of a certificate is described once, by a function `describe(archive, value)`; what reads a job, what
-// reads and writes a record and what compares the JSON Schemas all walk that description. So a key exists once.
+// Every struct of a certificate is described once, by a function `describe(archive, value)`; what reads a job, what reads
+// and writes a record, what writes its JSON Schema and what compares that of jobs walk it. So a key exists once.
 // The functions are found by argument-dependent lookup.
 //
 // What an archive has, where R is nothing, a NumberRule, a TextForm or a list of words { "a", "b" }:

@@ -8,12 +8,13 @@
 set(GUMCERT_LAYER_FOLDERS text encoding gum/quantity json gum/expression gum gum/monte_carlo gum/conformity
                           gum/comparison certificate certificate/gates engine engine/rotary_table
                           engine/rotary_table/trials engine/rotary_table/studies gum/budget gum/circle_closure
-                          gum/rotary_table gum/rotary_table/studies jobs jobs/certificate jobs/budget
+                          gum/rotary_table gum/rotary_table/studies workbook audit audit/rules jobs jobs/certificate jobs/budget
                           jobs/circle_closure jobs/rotary_table jobs/comparison jobs/schema reports/record
-                          reports/record/make reports/record/make/budget reports/record/make/comparison
+                          reports/record/schema audit/sources reports/record/make reports/record/make/budget
+                          reports/record/make/comparison
                           reports/record/make/rotary_table reports/record/make/circle_closure
                           reports/record/make/certificate reports reports/plots reports/view reports/forms
-                          reports/studies reports/dcc signing imports app app/cli)
+                          reports/audit reports/studies reports/dcc signing imports app app/cli)
 
 # Our own layers whose headers a layer may include and whose library it may link.
 set(GUMCERT_EDGES_text)
@@ -37,6 +38,11 @@ set(GUMCERT_EDGES_gum_rotary_table                   text gum/quantity gum gum/m
                                                      engine/rotary_table/trials gum/budget)
 set(GUMCERT_EDGES_gum_rotary_table_studies           text gum/quantity gum gum/monte_carlo engine/rotary_table
                                                      engine/rotary_table/studies gum/rotary_table)
+set(GUMCERT_EDGES_workbook                           text gum/quantity)
+set(GUMCERT_EDGES_audit                              text gum/quantity gum gum/monte_carlo gum/conformity
+                                                     gum/comparison certificate workbook)
+set(GUMCERT_EDGES_audit_rules                        text gum/quantity gum/expression gum
+                                                     gum/comparison certificate workbook audit)
 set(GUMCERT_EDGES_jobs                               text encoding gum/quantity json gum gum/monte_carlo)
 set(GUMCERT_EDGES_jobs_certificate                   text encoding gum/quantity json gum/conformity certificate jobs)
 set(GUMCERT_EDGES_jobs_budget                        text gum/quantity gum/expression gum certificate gum/budget jobs
@@ -48,8 +54,12 @@ set(GUMCERT_EDGES_jobs_rotary_table                  text gum/quantity gum certi
                                                      jobs/budget)
 set(GUMCERT_EDGES_jobs_comparison                    text gum/quantity gum gum/comparison certificate jobs
                                                      jobs/certificate jobs/budget jobs/circle_closure jobs/rotary_table)
-set(GUMCERT_EDGES_jobs_schema                        jobs jobs/budget jobs/circle_closure jobs/rotary_table)
+set(GUMCERT_EDGES_jobs_schema                        json jobs jobs/budget jobs/circle_closure jobs/rotary_table
+                                                     jobs/comparison)
 set(GUMCERT_EDGES_reports_record                     text encoding gum/quantity json gum certificate)
+set(GUMCERT_EDGES_reports_record_schema              json reports/record)
+set(GUMCERT_EDGES_audit_sources                      text gum gum/conformity certificate workbook
+                                                     audit reports/record)
 set(GUMCERT_EDGES_reports_record_make                text encoding gum/quantity json gum gum/monte_carlo certificate
                                                      engine/rotary_table reports/record)
 set(GUMCERT_EDGES_reports_record_make_budget         text gum/quantity gum gum/monte_carlo certificate engine
@@ -74,6 +84,8 @@ set(GUMCERT_EDGES_reports_plots                      text gum/quantity certifica
 set(GUMCERT_EDGES_reports_view                       text gum/quantity gum certificate reports/record reports
                                                      reports/plots)
 set(GUMCERT_EDGES_reports_forms                      text gum/quantity json reports/record reports reports/view)
+set(GUMCERT_EDGES_reports_audit                      text encoding gum/quantity json gum certificate audit reports
+                                                     reports/plots reports/view reports/forms)
 set(GUMCERT_EDGES_reports_studies                    text gum/quantity json gum engine/rotary_table gum/rotary_table
                                                      gum/rotary_table/studies reports/plots reports/forms)
 set(GUMCERT_EDGES_reports_dcc                        text encoding gum/quantity json gum certificate reports/record
@@ -88,10 +100,11 @@ set(GUMCERT_EDGES_app                                text encoding gum/quantity 
                                                      reports/record reports/record/make reports/record/make/budget
                                                      reports/record/make/comparison reports/record/make/rotary_table
                                                      reports/record/make/circle_closure reports/record/make/certificate
-                                                     reports reports/forms reports/studies reports/dcc signing)
+                                                     reports reports/forms reports/studies reports/dcc signing workbook audit
+                                                     audit/rules audit/sources)
 set(GUMCERT_EDGES_app_cli                            text encoding gum/quantity certificate/gates reports/record
                                                      reports/record/make reports reports/view reports/forms signing
-                                                     imports app)
+                                                     imports app audit/rules reports/audit)
 
 # Headers from outside that a layer may include: a first folder (Eigen) or one file (cholmod.h). The standard library is
 # free for all; what a layer may not do with it is in tests/lint/check_includes.py. Headers of POSIX count as foreign.
@@ -114,6 +127,9 @@ set(GUMCERT_THIRD_PARTY_gum_budget                         Eigen)
 set(GUMCERT_THIRD_PARTY_gum_circle_closure                 Eigen)
 set(GUMCERT_THIRD_PARTY_gum_rotary_table                   Eigen)
 set(GUMCERT_THIRD_PARTY_gum_rotary_table_studies           Eigen)
+set(GUMCERT_THIRD_PARTY_workbook                           boost libxml zip.h)
+set(GUMCERT_THIRD_PARTY_audit)
+set(GUMCERT_THIRD_PARTY_audit_rules                        Eigen)
 set(GUMCERT_THIRD_PARTY_jobs                               Eigen nlohmann)
 set(GUMCERT_THIRD_PARTY_jobs_certificate                   nlohmann)
 set(GUMCERT_THIRD_PARTY_jobs_budget                        nlohmann)
@@ -122,6 +138,8 @@ set(GUMCERT_THIRD_PARTY_jobs_rotary_table                  Eigen nlohmann)
 set(GUMCERT_THIRD_PARTY_jobs_comparison                    Eigen nlohmann)
 set(GUMCERT_THIRD_PARTY_jobs_schema                        nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_record                     nlohmann)
+set(GUMCERT_THIRD_PARTY_reports_record_schema              nlohmann)
+set(GUMCERT_THIRD_PARTY_audit_sources                      nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_record_make                gumcert_build_info.h nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_record_make_budget         Eigen nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_record_make_comparison     Eigen nlohmann)
@@ -133,6 +151,7 @@ set(GUMCERT_THIRD_PARTY_reports_plots)
 set(GUMCERT_THIRD_PARTY_reports_view                       nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_forms                      fcntl.h kainjow nlohmann poll.h qpdf spawn.h sys/wait.h
                                                            unistd.h)
+set(GUMCERT_THIRD_PARTY_reports_audit                      nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_studies                    nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_dcc                        libxml nlohmann)
 set(GUMCERT_THIRD_PARTY_signing                            fcntl.h libxml nlohmann openssl poll.h qpdf spawn.h
@@ -153,7 +172,8 @@ set(GUMCERT_ONLY_IN gum/quantity/dense_factors.h Eigen/Eigenvalues Eigen/QR Eige
 set(GUMCERT_PRIVATE_HEADERS gum/quantity/unit_expression.h reports/forms/qpdf_objects.h signing/certificates.h signing/checked_signature.h signing/cms.h
                             signing/document_verification.h signing/external_program.h
                             signing/openssl_handles.h signing/qpdf_objects.h signing/signing_files.h signing/time_texts.h
-                            signing/xml_tree.h)
+                            signing/xml_tree.h workbook/letters.h workbook/operand.h workbook/package_parts.h
+                            workbook/sheet_part.h workbook/workbook_parts.h workbook/xml_events.h)
 
 foreach(layer IN LISTS GUMCERT_LAYER_FOLDERS)
     string(REPLACE "/" "_" name ${layer})

@@ -22,7 +22,6 @@ struct DescribedKey {
     int lists = 0;     ///< how many arrays are around it
     bool optional = false, needed = false, filled = false;
     std::vector<std::string> words;
-    bool added = false;  ///< records of earlier releases do not have it
     std::optional<certificate::NumberRule> number;
     std::optional<certificate::TextForm> form;
 };
@@ -54,7 +53,7 @@ public:
     /// A key that records of earlier releases do not have.
     template <class Type>
     void added(const std::string& key, const Type& v) {
-        (*this)(key, v).added = true;
+        (*this)(key, v);
     }
     template <class Type, class... Rule>
     void needed(const std::string& key, const Type& v, Rule... rule) {
