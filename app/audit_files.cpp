@@ -10,6 +10,7 @@
 #include "app/evaluate_job.h"
 #include "app/read_file.h"
 #include "app/recompute_record.h"
+#include "audit/row_facts.h"
 #include "audit/rules/registry.h"
 #include "audit/sources/record_subject.h"
 #include "audit/sources/workbook_subject.h"
@@ -25,12 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 4> k_endings = {".json", ".csv", ".xlsx", ".xlsm"};
-
-std::string small_letters(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-    return text;
-}
 
 enum class Contents { job, record, workbook, table, other };
 
@@ -82,7 +77,7 @@ std::vector<fs::path> files_to_audit(const std::vector<fs::path>& named) {
         std::vector<fs::path> found;
         for (const fs::directory_entry& entry :
              fs::recursive_directory_iterator(name, fs::directory_options::skip_permission_denied)) {
-            const std::string ending = small_letters(entry.path().extension().string());
+            const std::string ending = audit::in_small_letters(entry.path().extension().string());
             if (entry.is_regular_file() && std::find(k_endings.begin(), k_endings.end(), ending) != k_endings.end()) {
                 found.push_back(entry.path());
             }
@@ -148,7 +143,7 @@ std::vector<AuditAttempt> audit_files(const std::vector<fs::path>& files, unsign
     std::vector<AuditAttempt> attempts(files.size());
     std::vector<std::size_t> tables, others;
     for (std::size_t i = 0; i < files.size(); ++i) {
-        (small_letters(files[i].extension().string()) == ".json" ? others : tables).push_back(i);
+        (audit::in_small_letters(files[i].extension().string()) == ".json" ? others : tables).push_back(i);
     }
     const auto attempt = [&](std::size_t file, const gum::Progress& told) {
         try {

@@ -255,11 +255,8 @@ std::optional<Statement> take_statement(const SheetView& sheet, const std::vecto
     return statement;
 }
 
-std::string verdict_in_our_words(std::string verdict) {
-    std::string lower;
-    for (const char character : verdict) {
-        lower += character >= 'A' && character <= 'Z' ? static_cast<char>(character + 32) : character;
-    }
+std::string verdict_in_our_words(const std::string& verdict) {
+    const std::string lower = in_small_letters(verdict);
     const auto is_one_of = [&lower](std::initializer_list<std::string_view> words) {
         return std::find(words.begin(), words.end(), lower) != words.end();
     };
