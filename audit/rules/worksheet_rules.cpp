@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "audit/row_facts.h"
 #include "audit/rules/registry.h"
 #include "audit/rules/row_edits.h"
 #include "audit/rules/worksheet_view.h"
@@ -66,13 +67,8 @@ std::optional<CellPlace> cell_of(const WorksheetView& view, const SheetFormula& 
     return cell;
 }
 
-std::string small_letters(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-    return text;
-}
 bool says(const std::string& text, std::initializer_list<std::string_view> words) {
-    const std::string lower = small_letters(text);
+    const std::string lower = in_small_letters(text);
     return std::any_of(words.begin(), words.end(),
                        [&lower](std::string_view word) { return lower.find(word) != std::string::npos; });
 }
@@ -210,7 +206,8 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
 void volatile_function(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
     for (const SheetFormula& formula : view->formulas()) {
-        if (formula.in_result && calls(formula.formula, {"NOW", "TODAY", "RAND", "RANDBETWEEN"})) {
+        if (view->stands_under_results(formula.cell) &&
+            calls(formula.formula, {"NOW", "TODAY", "RAND", "RANDBETWEEN"})) {
             AuditFinding finding = finding_in(
                 formula.place, "U rests on a function that gives another value each time the file is opened");
             finding.evidence = {
@@ -679,7 +676,7 @@ void computed_and_not_used(const AuditSubject& subject, FindingCollector& findin
     }
     for (const SheetFormula& formula : view->formulas()) {
         const bool visible = view->workbook().sheets[formula.cell.sheet].state == workbook::SheetState::visible;
-        if (!visible || formula.in_result || read.contains(formula.cell)) {
+        if (!visible || view->stands_under_results(formula.cell) || read.contains(formula.cell)) {
             continue;
         }
         const std::string label = view->label(formula.cell);

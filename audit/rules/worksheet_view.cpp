@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "gum/quantity/diagnostic.h"
-
 namespace gumcert::audit {
 namespace {
 
@@ -25,40 +23,21 @@ std::set<std::string> places_of_claims(const AuditSubject& subject) {
 
 }  // namespace
 
-WorksheetView::WorksheetView(const AuditSubject& subject) : held_(*subject.workbook), graph_(held_.workbook) {
-    const std::set<std::string> claims = places_of_claims(subject);
+WorksheetView::WorksheetView(const AuditSubject& subject) : held_(*subject.workbook) {
     std::vector<workbook::CellPlace> results;
-    for (std::size_t s = 0; s < held_.workbook.sheets.size(); ++s) {
-        for (const workbook::Cell& cell : held_.workbook.sheets[s].cells) {
-            const workbook::CellPlace at{.sheet = s, .address = cell.address};
-            if (claims.contains(place(at))) {
-                results.push_back(at);
-            }
-            if (cell.formula.empty()) {
-                continue;
-            }
-            try {
-                SheetFormula read{.cell = at, .place = place(at), .formula = {}};
-                read.formula = workbook::parse_formula(cell.formula, read.place);
-                by_place_[read.place] = formulas_.size();
-                formulas_.push_back(std::move(read));
-            } catch (const gum::DiagnosedError&) {
-                // The evaluation names it as not evaluated.
-                continue;
-            }
+    for (const std::string& place : places_of_claims(subject)) {
+        if (const auto cell = held_.cells.find(place); cell != held_.cells.end()) {
+            results.push_back(cell->second);
         }
     }
-    for (const workbook::CellPlace& cell : graph_.closure(results)) {
+    for (const workbook::CellPlace& cell : held_.graph.closure(results)) {
         under_.insert(cell);
-    }
-    for (SheetFormula& formula : formulas_) {
-        formula.in_result = under_.contains(formula.cell);
     }
 }
 
 const SheetFormula* WorksheetView::formula_at(const std::string& place) const {
-    const auto found = by_place_.find(place);
-    return found == by_place_.end() ? nullptr : &formulas_[found->second];
+    const auto found = held_.formula_at.find(place);
+    return found == held_.formula_at.end() ? nullptr : &held_.formulas[found->second];
 }
 const SheetFormula* WorksheetView::formula_at(const workbook::CellPlace& cell) const {
     return formula_at(place(cell));
@@ -75,7 +54,7 @@ workbook::CellValue WorksheetView::value(const workbook::CellPlace& cell) const 
 }
 
 std::vector<workbook::CellPlace> WorksheetView::read_by(const workbook::CellPlace& cell) const {
-    return graph_.precedents(cell, k_most_read);
+    return held_.graph.precedents(cell, k_most_read);
 }
 
 std::string WorksheetView::place(const workbook::CellPlace& cell) const {

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <map>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -11,17 +8,8 @@
 #include "audit/audited_workbook.h"
 #include "audit/subject.h"
 #include "workbook/cell_graph.h"
-#include "workbook/formula.h"
 
 namespace gumcert::audit {
-
-/// A formula of a workbook, read into a tree.
-struct SheetFormula {
-    workbook::CellPlace cell;
-    std::string place;  ///< "Budget!D5"
-    workbook::Formula formula;
-    bool in_result = false;  ///< a result of the audited budgets stands on it
-};
 
 /// A workbook as the rules of worksheets walk over it.
 class WorksheetView {
@@ -30,7 +18,7 @@ public:
     explicit WorksheetView(const AuditSubject& subject);
 
     [[nodiscard]] const workbook::Workbook& workbook() const { return held_.workbook; }
-    [[nodiscard]] const std::vector<SheetFormula>& formulas() const { return formulas_; }
+    [[nodiscard]] const std::vector<SheetFormula>& formulas() const { return held_.formulas; }
     /// The formula of a cell; nullptr where it has none that was understood.
     [[nodiscard]] const SheetFormula* formula_at(const std::string& place) const;
     [[nodiscard]] const SheetFormula* formula_at(const workbook::CellPlace& cell) const;
@@ -39,7 +27,7 @@ public:
     /// Cells that a formula reads, each once, blank ones too, up to 10 000.
     [[nodiscard]] std::vector<workbook::CellPlace> read_by(const workbook::CellPlace& cell) const;
     [[nodiscard]] std::vector<workbook::Area> areas_read(const workbook::CellPlace& cell) const {
-        return graph_.areas_read(cell);
+        return held_.graph.areas_read(cell);
     }
     [[nodiscard]] std::string place(const workbook::CellPlace& cell) const;
     [[nodiscard]] bool stands_under_results(const workbook::CellPlace& cell) const { return under_.contains(cell); }
@@ -48,9 +36,6 @@ public:
 
 private:
     const AuditedWorkbook& held_;
-    workbook::CellGraph graph_;
-    std::vector<SheetFormula> formulas_;
-    std::map<std::string, std::size_t> by_place_;
     std::set<workbook::CellPlace> under_;  ///< on which the claims stand
 };
 

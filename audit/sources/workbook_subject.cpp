@@ -10,31 +10,20 @@
 #include "audit/audited_workbook.h"
 #include "audit/claims.h"
 #include "audit/sources/foreign_table.h"
-#include "workbook/cell_graph.h"
 
 namespace gumcert::audit {
 namespace {
 
 using workbook::CellPlace;
 
-std::map<std::string, CellPlace> cells_by_place(const workbook::Workbook& workbook) {
-    std::map<std::string, CellPlace> cells;
-    for (std::size_t s = 0; s < workbook.sheets.size(); ++s) {
-        for (const workbook::Cell& cell : workbook.sheets[s].cells) {
-            cells.emplace(workbook::sheet_a1(workbook.sheets[s].name, cell.address),
-                          CellPlace{.sheet = s, .address = cell.address});
-        }
-    }
-    return cells;
-}
-
 /// Marks the rows that the formula of u_c leaves out.
-void mark_sum(AuditedBudget& budget, const workbook::CellGraph& graph, const std::map<std::string, CellPlace>& cells) {
+void mark_sum(AuditedBudget& budget, const AuditedWorkbook& held) {
+    const std::map<std::string, CellPlace>& cells = held.cells;
     if (!budget.claims.u_c || !cells.contains(budget.claims.u_c->place)) {
         return;
     }
     const CellPlace u_c = cells.at(budget.claims.u_c->place);
-    const std::vector<CellPlace> list = graph.closure(std::vector{u_c});
+    const std::vector<CellPlace> list = held.graph.closure(std::vector{u_c});
     const std::set<CellPlace> under(list.begin(), list.end());
     const auto reached = [&](const AuditedRow& row) {
         for (const std::optional<StatedNumber>* number : {&row.contribution, &row.u, &row.stated}) {
@@ -63,19 +52,15 @@ void mark_sum(AuditedBudget& budget, const workbook::CellGraph& graph, const std
 AuditSubject subject_of(workbook::Workbook workbook, const std::string& name) {
     AuditSubject subject;
     subject.name = name;
-    auto held = std::make_shared<AuditedWorkbook>();
-    held->evaluation = workbook::evaluate_workbook(workbook);
-    held->workbook = std::move(workbook);
+    auto held = std::make_shared<const AuditedWorkbook>(std::move(workbook));
     ForeignTables tables = budgets_in(held->workbook, held->evaluation, name);
     subject.budgets = std::move(tables.budgets);
     subject.not_read = std::move(tables.not_read);
     subject.kind = AuditSubject::Kind::table;
     if (!held->evaluation.cells.empty()) {
         subject.kind = AuditSubject::Kind::workbook;
-        const workbook::CellGraph graph(held->workbook);
-        const std::map<std::string, CellPlace> cells = cells_by_place(held->workbook);
         for (AuditedBudget& budget : subject.budgets) {
-            mark_sum(budget, graph, cells);
+            mark_sum(budget, *held);
         }
         for (const workbook::NotEvaluated& reason : held->evaluation.reasons) {
             const workbook::Sheet& sheet = held->workbook.sheets[reason.sheet];
