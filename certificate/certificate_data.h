@@ -178,6 +178,17 @@ struct Omission {
     LocalisedText reason;
 };
 
+/// A finding of the audit of the budgets that somebody accepts, with a reason. It is printed under the deviations, and
+/// no longer blocks the issue (certificate/waiver.h).
+struct Waiver {
+    std::string finding;  ///< rule of the audit: "U10"
+    std::string where;    ///< place as the finding has it; "" every finding of the rule
+    std::string by;       ///< who accepts it
+    std::string date;     ///< when
+    LocalisedText reason;
+    friend bool operator==(const Waiver&, const Waiver&) = default;
+};
+
 struct Adjustment {
     bool adjusted = false;
     LocalisedText as_found;  ///< where the results before adjustment stand, or why there are none
@@ -217,6 +228,7 @@ struct CertificateData {
     std::string recalibration_date, recalibration_agreement;
     std::optional<Amendment> amendment;
     std::vector<Omission> omissions;
+    std::vector<Waiver> waivers;
 };
 
 }  // namespace gumcert::certificate

@@ -264,6 +264,15 @@ void describe(Archive& a, Struct& r) {
     a.needed("reason", r.reason);
 }
 
+template <class Archive, Described<Waiver> Struct>
+void describe(Archive& a, Struct& r) {
+    a.needed("finding", r.finding);
+    a("where", r.where);
+    a.needed("by", r.by);
+    a.needed("date", r.date, TextForm::date);
+    a.needed("reason", r.reason);
+}
+
 template <class Archive, Described<Adjustment> Struct>
 void describe(Archive& a, Struct& r) {
     a.needed("adjusted", r.adjusted);
@@ -326,6 +335,7 @@ void describe(Archive& a, Struct& r) {
     a("recalibration_agreement", r.recalibration_agreement);
     a("amendment", r.amendment);
     a("omissions", r.omissions);
+    a.added("waivers", r.waivers);
 }
 
 // What the evaluation adds. It stands in records only.

@@ -302,6 +302,28 @@ void omissions(FindingList& found, const CertificateData& data) {
     }
 }
 
+void waivers(FindingList& found, const CertificateData& data) {
+    for (std::size_t i = 0; i < data.waivers.size(); ++i) {
+        const Waiver& waiver = data.waivers[i];
+        const std::string of_finding = "the waiver of " + waiver.finding;
+        if (!is_name(waiver.by)) {
+            found.major("R18", iso_17025("7.8.2.1 n"), place_in("/waivers", i, "by"),
+                        of_finding + " names nobody who accepts the finding",
+                        "Name the person; the waiver has no effect.");
+        }
+        if (!is_statement(waiver.reason)) {
+            found.major("R18", iso_17025("7.8.2.1 n"), place_in("/waivers", i, "reason"),
+                        of_finding + " has no reason, or one that says nothing",
+                        "State it in a sentence; the waiver has no effect.");
+        }
+        if (!data.dates.issued.empty() && waiver.date > data.dates.issued) {
+            found.major("R18", iso_17025("7.8.2.1 n"), place_in("/waivers", i, "date"),
+                        of_finding + " is dated later than the certificate",
+                        "Correct the date; the waiver has no effect.");
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<Finding> completeness_findings(const Certificate& certificate) {
@@ -322,6 +344,7 @@ std::vector<Finding> completeness_findings(const Certificate& certificate) {
     amendment(found, data);
     languages(found, data, certificate.profile);
     omissions(found, data);
+    waivers(found, data);
     if (!data.recalibration_date.empty() && !is_identification(data.recalibration_agreement)) {
         found.critical("R08", iso_17025("7.8.4.3"), "/recalibration_date",
                        "a date of recalibration is stated without an agreement with the customer",

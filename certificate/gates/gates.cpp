@@ -29,13 +29,19 @@ void pass_gates(Certificate& certificate, const std::vector<Finding>& audit) {
                                              symbol_findings(certificate), language_findings(certificate), audit}) {
         all.insert(all.end(), more.begin(), more.end());
     }
+    certificate.findings.clear();
+    certificate.symbol = certificate.data.status == "accredited" && has_accredited_value(certificate);
+    add_findings(certificate, all);
+}
+
+void add_findings(Certificate& certificate, const std::vector<Finding>& later) {
+    std::vector<Finding>& all = certificate.findings;
+    all.insert(all.end(), later.begin(), later.end());
     std::stable_sort(all.begin(), all.end(),
                      [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
     const bool critical = !all.empty() && all.front().severity == FindingSeverity::critical;
-    const std::string& status = certificate.data.status;
-    certificate.findings = std::move(all);
-    certificate.blocked = critical && status != "specimen";
-    certificate.symbol = status == "accredited" && !critical && has_accredited_value(certificate);
+    certificate.blocked = critical && certificate.data.status != "specimen";
+    certificate.symbol = certificate.symbol && !critical;
 }
 
 }  // namespace gumcert::certificate

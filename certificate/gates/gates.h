@@ -48,4 +48,8 @@ namespace gumcert::certificate {
 /// Example: examples/api/records.cpp
 void pass_gates(Certificate& certificate, const std::vector<Finding>& audit = {});
 
+/// Puts what was found later to the findings of a certificate that has passed the gates, the gravest first; a critical
+/// one blocks it, and takes the symbol.
+void add_findings(Certificate& certificate, const std::vector<Finding>& later);
+
 }  // namespace gumcert::certificate

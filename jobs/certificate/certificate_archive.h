@@ -70,6 +70,11 @@ public:
     /// \param place  of an object
     explicit CertificateArchive(const CertificatePlace& place) : CertificateArchive(value_at(place), place) {}
 
+    /// A key that records of earlier releases do not have.
+    template <class Type, class... Rule>
+    void added(std::string_view key, Type& v, const Rule&... rule) {
+        (*this)(key, v, rule...);
+    }
     /// The program fills it in: no key of a job.
     template <class Type>
     void filled(std::string_view, Type&) {}

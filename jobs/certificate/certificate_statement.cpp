@@ -110,6 +110,26 @@ std::optional<CertificateData> read_certificate(JobFiles& files, const JsonDocum
     return read_data(files, root);
 }
 
+std::vector<certificate::Waiver> parse_waivers(std::string_view bytes, const std::string& file) {
+    ProblemList problems(file);
+    std::vector<certificate::Waiver> waivers;
+    const std::optional<JsonDocument> document = read_json_document(bytes, problems);
+    const CertificatePlace root{document ? &*document : nullptr, "", &problems};
+    if (document && document->value.is_array()) {
+        waivers.resize(document->value.size());
+        for (std::size_t i = 0; i < waivers.size(); ++i) {
+            CertificateArchive::read_struct_at(waivers[i], root.child(i));
+        }
+    } else if (document && !document->value.is_discarded()) {
+        root.refuse(k_wrong_type, "the document is " + described(document->value), "must be a list of waivers",
+                    R"(write [{"finding": "U10", "by": …, "date": …, "reason": …}])");
+    }
+    if (problems.refusals() > 0) {
+        throw gum::InputError(problems.refused());
+    }
+    return waivers;
+}
+
 Profile parse_profile(std::string_view bytes, const std::string& file) {
     ProblemList problems(file);
     std::optional<Profile> profile = read_profile(bytes, problems);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "certificate/certificate_data.h"
 #include "jobs/job_files.h"
@@ -17,6 +18,11 @@ namespace gumcert::jobs {
 /// \return nothing without the key, or when it was refused (the problems are in `files`)
 [[nodiscard]] std::optional<certificate::CertificateData> read_certificate(JobFiles& files, const JsonDocument& job,
                                                                            ProblemList& problems);
+
+/// Waivers of findings of an audit in a file of their own, for tables and workbooks, which have no certificate data: a list
+/// of objects as `waivers` of certificate data has them.
+/// \throws gum::InputError  with every problem
+[[nodiscard]] std::vector<certificate::Waiver> parse_waivers(std::string_view bytes, const std::string& file);
 
 /// A profile of an accreditation body.
 /// \param bytes  content of templates/profiles/<id>.json

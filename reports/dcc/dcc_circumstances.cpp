@@ -4,6 +4,7 @@
 #include "gum/quantity/unit.h"
 #include "reports/dcc/dcc_quantity.h"
 #include "reports/dcc/dcc_writer.h"
+#include "reports/deviations.h"
 
 namespace gumcert::reports {
 
@@ -25,11 +26,12 @@ void calibration_method(DccWriter& w) {
     w.xml.open("dcc:usedMethod", {{"refType", w.ref_types()("method")}});
     w.text("dcc:name", m.title.empty() ? Text(m.identification) : words.localised(m.title));
     Text description = words.localised(m.description);
-    if (m.no_deviations) {
-        append_line(description, words("certificate", "deviations") + ": " + words("certificate", "none"));
+    std::vector<Text> deviations = deviations_in_words(words, w.data());
+    if (deviations.empty() && m.no_deviations) {
+        deviations.push_back(words("certificate", "none"));
     }
-    for (const certificate::LocalisedText& deviation : m.deviations) {
-        append_line(description, words("certificate", "deviations") + ": " + words.localised(deviation));
+    for (const Text& deviation : deviations) {
+        append_line(description, words("certificate", "deviations") + ": " + deviation);
     }
     w.optional_text("dcc:description", description);
     w.optional_string("dcc:norm", m.standard);

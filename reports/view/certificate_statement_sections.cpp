@@ -1,6 +1,7 @@
 #include "reports/view/certificate_statement_sections.h"
 
 #include "gum/quantity/unit.h"
+#include "reports/deviations.h"
 #include "reports/plots/certified_plots.h"
 #include "reports/plots/svg_plot.h"
 #include "reports/printed_texts.h"
@@ -166,12 +167,12 @@ void method_section(CertificateBuilder& builder, const Wording& words, const Cer
     add_fact(rows, words("certificate", "title"), words.localised(m.title));
     add_fact(rows, words("certificate", "standard"), m.standard);
     add_fact(rows, words("certificate", "procedure"), words.localised(m.description));
-    for (const certificate::LocalisedText& deviation : m.deviations) {
-        rows.emplace_back(words("certificate", "deviations"), words.localised(deviation));
+    std::vector<Text> deviations = deviations_in_words(words, data);
+    if (deviations.empty()) {
+        deviations.push_back(words("certificate", m.no_deviations ? "none" : "not_stated"));
     }
-    if (m.deviations.empty()) {
-        rows.emplace_back(words("certificate", "deviations"),
-                          words("certificate", m.no_deviations ? "none" : "not_stated"));
+    for (const Text& deviation : deviations) {
+        rows.emplace_back(words("certificate", "deviations"), deviation);
     }
     rows.emplace_back(words("certificate", "sampling"),
                       data.sampling.empty() ? words("certificate", "not_applicable") : words.localised(data.sampling));

@@ -67,6 +67,16 @@ inline bool certificate_data(std::string_view bundle) {
         demand_honest(error.diagnostics());
     }
     try {
+        for (const certificate::Waiver& waiver : parse_waivers(files["certificate.json"], "certificate.json")) {
+            demand(!waiver.finding.empty() && !waiver.by.empty() && !waiver.reason.empty(), "what a waiver needs");
+            demand(certificate::calendar_date(waiver.date).has_value(), "the date of a waiver");
+        }
+        accepted = true;
+    } catch (const gum::InputError& error) {
+        demand(!error.diagnostics().empty(), "refused without a reason");
+        demand_honest(error.diagnostics());
+    }
+    try {
         const certificate::Profile profile = parse_profile(files["certificate.json"], "certificate.json");
         demand(profile.digits == 1 || profile.digits == 2, "digits of a profile");
         accepted = true;

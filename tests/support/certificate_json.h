@@ -35,6 +35,10 @@ public:
     void needed(const char* key, const Type& v, std::initializer_list<const char*>) {
         (*this)(key, v);
     }
+    template <class Type, class... Rule>
+    void added(const char* key, const Type& v, Rule... rule) {
+        (*this)(key, v, rule...);
+    }
     template <class Type>
     void filled(const char*, const Type&) {}
 

@@ -38,6 +38,10 @@ public:
     void needed(const char* key, Type& member, std::initializer_list<const char*> words) {
         key_of(key, true, [&] { value(member, words); });
     }
+    template <class Type, class... Rule>
+    void added(const char* key, Type& member, const Rule&... rule) {
+        key_of(key, false, [&] { value(member, rule...); });
+    }
     template <class Type>
     void filled(const char*, Type&) {}
 

@@ -156,6 +156,7 @@ inline constexpr std::tuple k_definitions{
     DefinitionOf<certificate::Adjustment>{"certificate_adjustment"},
     DefinitionOf<certificate::Amendment>{"certificate_amendment"},
     DefinitionOf<certificate::Omission>{"certificate_omission"},
+    DefinitionOf<certificate::Waiver>{"certificate_waiver"},
     DefinitionOf<certificate::CertifiedTable>{
         "certificate_certified_table",
         "Results as a table of columns, with the texts that every form of the certificate prints."},

@@ -361,5 +361,24 @@ TEST(CompletenessGate, WantsNumberReasonAndChangesOfAnAmendment) {
     expect_finding(only(completeness_findings(c)), "R12", iso("7.8.8.1"), k_major, "/amendment/reason");
 }
 
+TEST(CompletenessGate, WantsPersonReasonAndDateOfAWaiver) {
+    Certificate c = passed_certificate();
+    c.data.waivers = {{.finding = "U10",
+                       .where = {},
+                       .by = "Head of laboratory",
+                       .date = c.data.dates.issued,
+                       .reason = "The maker states it so, in writing."}};
+    EXPECT_THAT(completeness_findings(c), testing::IsEmpty());
+    c.data.waivers.front().by = "-";
+    c.data.waivers.front().reason = "ok";
+    c.data.waivers.front().date = "2999-01-01";
+    const std::vector<Finding> found = completeness_findings(c);
+    ASSERT_EQ(found.size(), 3U);
+    for (const Finding& finding : found) {
+        EXPECT_EQ(finding.id, "R18");
+        EXPECT_EQ(finding.severity, FindingSeverity::major);
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::certificate

@@ -22,6 +22,31 @@ TEST(Gates, GiveTheSymbolToAPassedCertificateOnly) {
     EXPECT_FALSE(c.symbol);
 }
 
+TEST(Gates, AreClosedByWhatIsFoundLater) {
+    Certificate c = passed_certificate();
+    pass_gates(c);
+    add_findings(c, {});
+    EXPECT_TRUE(c.symbol);
+    add_findings(
+        c,
+        {{.id = "audit-K02", .clause = {}, .severity = FindingSeverity::major, .where = {}, .what = {}, .action = {}}});
+    EXPECT_FALSE(c.blocked);
+    EXPECT_TRUE(c.symbol);
+    add_findings(c, {{.id = "audit-U13",
+                      .clause = {},
+                      .severity = FindingSeverity::critical,
+                      .where = {},
+                      .what = {},
+                      .action = {}}});
+    EXPECT_TRUE(c.blocked);
+    EXPECT_FALSE(c.symbol);
+    ASSERT_EQ(c.findings.size(), 2U);
+    EXPECT_EQ(c.findings.front().id, "audit-U13") << "the gravest first";
+    c.data.status = "specimen";
+    add_findings(c, {});
+    EXPECT_FALSE(c.blocked);
+}
+
 TEST(Gates, BlockByOneCriticalFinding) {
     Certificate c = passed_certificate();
     c.data.method.no_deviations = false;  // major
