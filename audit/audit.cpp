@@ -108,8 +108,19 @@ void look_again(const AuditSubject& subject, std::span<const Rule> rules, std::v
 }  // namespace
 
 bool AuditReport::has_critical() const {
-    return std::any_of(findings.begin(), findings.end(),
-                       [](const AuditFinding& finding) { return finding.severity == FindingSeverity::critical; });
+    return std::any_of(findings.begin(), findings.end(), [this](const AuditFinding& finding) {
+        return finding.severity == FindingSeverity::critical && waiver_of(finding, subject.waivers) == nullptr;
+    });
+}
+
+const certificate::Waiver* waiver_of(const AuditFinding& finding, std::span<const certificate::Waiver> waivers) {
+    const auto accepts = [&finding](const certificate::Waiver& waiver) {
+        return waiver.finding == finding.rule && (waiver.where.empty() || waiver.where == finding.where ||
+                                                  std::find(finding.other_places.begin(), finding.other_places.end(),
+                                                            waiver.where) != finding.other_places.end());
+    };
+    const auto found = finding.of_gate ? waivers.end() : std::find_if(waivers.begin(), waivers.end(), accepts);
+    return found == waivers.end() ? nullptr : &*found;
 }
 
 AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
@@ -181,6 +192,17 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
         };
         return key(a) < key(b);
     });
+    for (const certificate::Waiver& waiver : subject.waivers) {
+        const bool fits = std::any_of(
+            report.findings.begin(), report.findings.end(),
+            [&waiver](const AuditFinding& finding) { return waiver_of(finding, std::span(&waiver, 1)) != nullptr; });
+        const std::string sentence = "the waiver of " + waiver.finding +
+                                     (waiver.where.empty() ? "" : " at " + waiver.where) + " fits no finding";
+        std::vector<std::string>& said = subject.not_read;
+        if (!fits && std::find(said.begin(), said.end(), sentence) == said.end()) {
+            said.push_back(sentence);
+        }
+    }
     report.subject = std::move(subject);
     return report;
 }

@@ -35,8 +35,15 @@ struct AuditReport {
     std::vector<AuditFinding> findings;  ///< the gravest first, then by effect, then by rule
     std::vector<RuleNotChecked> not_checked;
 
+    /// Whether a critical finding is left that nobody accepts.
     [[nodiscard]] bool has_critical() const;
 };
+
+/// The waiver that accepts a finding: of its rule, and of its place where the waiver names one. What the gates of a
+/// certificate found is not accepted in this way: they have reasons of their own for what may be left out.
+/// \return nullptr where nobody accepts it
+[[nodiscard]] const certificate::Waiver* waiver_of(const AuditFinding& finding,
+                                                   std::span<const certificate::Waiver> waivers);
 
 /// Applies all rules to a subject, and evaluates what each correction does to every result that it touches.
 /// \param rules  audit/rules/registry.h holds them all

@@ -22,6 +22,7 @@ struct AuditedScore {
 };
 
 struct AuditedComparison {
+    bool between_laboratories = false;  ///< each score is that of another laboratory, which acts on it
     std::vector<AuditedScore> scores;
     std::optional<double> p_low, p_high;      ///< of the sum of squared scores given their covariance
     std::vector<std::string> shared_sources;  ///< standards that both sides name
@@ -42,7 +43,8 @@ struct AuditSubject {
     std::shared_ptr<const AuditedWorkbook> workbook;  ///< audit/audited_workbook.h; none where no formulas are known
     /// Of a record that was evaluated again: where it says something else than its own job gives, as sentences.
     std::optional<std::vector<std::string>> disagreements;
-    std::vector<std::string> not_read;  ///< what could not be understood, in sentences
+    std::vector<std::string> not_read;              ///< what could not be understood, in sentences
+    std::vector<certificate::Waiver> waivers = {};  ///< that have effect (certificate/waiver.h)
 };
 
 }  // namespace gumcert::audit

@@ -58,7 +58,7 @@ set(GUMCERT_EDGES_jobs_schema                        json jobs jobs/budget jobs/
                                                      jobs/comparison)
 set(GUMCERT_EDGES_reports_record                     text encoding gum/quantity json gum certificate)
 set(GUMCERT_EDGES_reports_record_schema              json reports/record)
-set(GUMCERT_EDGES_audit_sources                      text gum gum/conformity certificate workbook
+set(GUMCERT_EDGES_audit_sources                      text gum/quantity gum gum/conformity certificate workbook
                                                      audit reports/record)
 set(GUMCERT_EDGES_reports_record_make                text encoding gum/quantity json gum gum/monte_carlo certificate
                                                      engine/rotary_table reports/record)
@@ -94,14 +94,14 @@ set(GUMCERT_EDGES_signing                            text encoding gum/quantity 
 set(GUMCERT_EDGES_imports                            gum/quantity json gum/expression certificate reports reports/dcc
                                                      signing)
 set(GUMCERT_EDGES_app                                text encoding gum/quantity json gum/monte_carlo certificate
-                                                     engine/rotary_table/studies gum/budget gum/circle_closure
+                                                     certificate/gates engine/rotary_table/studies gum/budget gum/circle_closure
                                                      gum/rotary_table gum/rotary_table/studies jobs jobs/certificate
                                                      jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison
                                                      reports/record reports/record/make reports/record/make/budget
                                                      reports/record/make/comparison reports/record/make/rotary_table
                                                      reports/record/make/circle_closure reports/record/make/certificate
-                                                     reports reports/forms reports/studies reports/dcc signing workbook audit
-                                                     audit/rules audit/sources)
+                                                     reports reports/forms reports/audit reports/studies reports/dcc signing
+                                                     workbook audit audit/rules audit/sources)
 set(GUMCERT_EDGES_app_cli                            text encoding gum/quantity certificate/gates reports/record
                                                      reports/record/make reports reports/view reports/forms signing
                                                      imports app audit/rules reports/audit)

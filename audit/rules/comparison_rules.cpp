@@ -272,11 +272,19 @@ void no_action_on_record(const AuditSubject& subject, FindingCollector& findings
     if (subject.comparison && !subject.comparison->action_record.empty()) {
         return;
     }
+    const bool others_act = subject.comparison && subject.comparison->between_laboratories;
     for (const AuditedScore& score : scores_of(subject)) {
         const std::optional<double> en = en_of(score);
-        if (en && std::abs(*en) > 1.0) {
-            findings.add(finding_of_score(
-                score, "|E_n| = " + short_number(std::abs(*en)) + " is above 1, and no action is on record"));
+        if (!en || std::abs(*en) <= 1.0) {
+            continue;
+        }
+        const std::string above = "|E_n| = " + short_number(std::abs(*en)) + " is above 1";
+        if (others_act) {
+            // An organiser has the signal of a laboratory to report; what that laboratory does is on record there.
+            findings.add(finding_of_score(score, above + ": a signal for this laboratory, which acts on it"),
+                         FindingSeverity::information);
+        } else {
+            findings.add(finding_of_score(score, above + ", and no action is on record"));
         }
     }
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
@@ -420,7 +428,8 @@ std::vector<Rule> comparison_rules() {
          .policy = SeverityPolicy::fixed,
          .severity = FindingSeverity::critical,
          .needs = {Need::comparison},
-         .detection = "|E_n| above 1 and no record of what was done",
+         .detection = "|E_n| above 1 and no record of what was done; between laboratories an information, because each "
+                      "acts on its own signal",
          .correction = "Find the cause, act, and put it on record.",
          .question = "What was done about this result?",
          .examine = no_action_on_record},

@@ -20,6 +20,7 @@ constexpr std::array k_gate_findings{
     GateFinding{"R15", "R07"},
     GateFinding{"R16", "P10"},
     GateFinding{"R17", "R11"},
+    GateFinding{"R18", "R07"},
     GateFinding{"Q01", "R07"},
     GateFinding{"Q02", "R07"},
     // environment
@@ -135,6 +136,7 @@ void take_gate_findings(const AuditSubject& subject, FindingCollector& findings)
             continue;
         }
         AuditFinding finding;
+        finding.of_gate = true;
         finding.where = gate.where;
         finding.what = gate.what;
         finding.correction = gate.action;

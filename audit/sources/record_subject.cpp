@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,8 @@
 #include "audit/checklists.h"
 #include "audit/row_facts.h"
 #include "audit/row_meaning.h"
+#include "audit/sources/job_statements.h"
+#include "certificate/waiver.h"
 #include "gum/conformity/decision_rule.h"
 #include "gum/coverage.h"
 #include "text/lists.h"
@@ -89,7 +93,7 @@ void state_origin(AuditedRow& row, const json& statement, double value) {
 
 /// \param result_unit  of the result
 AuditedRow row_of(const reports::BudgetRow& stated, const std::string& quantity, const std::string& pointer,
-                  const std::string& result_unit, const json* statement) {
+                  const std::string& result_unit, const json& statement) {
     AuditedRow row;
     row.quantity = quantity;
     row.unit = stated.unit;
@@ -115,12 +119,12 @@ AuditedRow row_of(const reports::BudgetRow& stated, const std::string& quantity,
     row.type_a = stated.type == "A";
     row.shape = shape_of_record(stated.distribution);
     row.shape_text = stated.distribution;
-    if (statement != nullptr && statement->is_object()) {
-        state_origin(row, *statement, stated.value.value_or(0.0));
+    if (statement.is_object()) {
+        state_origin(row, statement, stated.value.value_or(0.0));
     }
     row.contributor = contributor_of(row.quantity, row.comment, row.source);
     // The job says by its keys what u was made of; where it states u alone, its note may say more.
-    if (statement != nullptr && statement->contains("u") && !row.comment.empty()) {
+    if (statement.is_object() && statement.contains("u") && !row.comment.empty()) {
         read_comment(row);
         note_row_facts(row);
         if (row.origin == Origin::certificate && !row.origin_value) {
@@ -130,32 +134,6 @@ AuditedRow row_of(const reports::BudgetRow& stated, const std::string& quantity,
     return row;
 }
 
-/// What the job states of its inputs, by name.
-class StatementsOfJob {
-public:
-    explicit StatementsOfJob(const std::string& job_json) : job_(json::parse(job_json, nullptr, false)) {}
-
-    [[nodiscard]] const json* of(const std::string& input) const {
-        const auto inputs = job_.is_object() ? job_.find("inputs") : job_.end();
-        if (inputs == job_.end() || !inputs->is_object()) {
-            return nullptr;
-        }
-        const auto found = inputs->find(input);
-        return found == inputs->end() ? nullptr : &*found;
-    }
-    [[nodiscard]] const json* of(const std::string& input, std::size_t component) const {
-        const json* statement = of(input);
-        const auto components = statement == nullptr ? json::const_iterator{} : statement->find("components");
-        if (statement == nullptr || components == statement->end() || component >= components->size()) {
-            return nullptr;
-        }
-        return &components->at(component);
-    }
-
-private:
-    json job_;
-};
-
 std::string description_of(const reports::EvaluationRecord& record, const std::string& input) {
     const auto found =
         std::find_if(record.inputs.begin(), record.inputs.end(),
@@ -164,7 +142,7 @@ std::string description_of(const reports::EvaluationRecord& record, const std::s
 }
 
 void add_rows(AuditedBudget& budget, const std::vector<reports::BudgetRow>& rows, const std::string& pointer,
-              const reports::EvaluationRecord* record, const StatementsOfJob* job) {
+              const reports::EvaluationRecord* record, const JobStatements* job, const std::string& point) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const reports::BudgetRow& stated = rows[i];
         const std::string place = pointer + "/" + std::to_string(i);
@@ -174,13 +152,13 @@ void add_rows(AuditedBudget& budget, const std::vector<reports::BudgetRow>& rows
             for (std::size_t c = 0; c < stated.components.size(); ++c) {
                 const reports::BudgetRow& part = stated.components[c];
                 budget.rows.push_back(row_of(part, name + ": " + part.input, place + "/components/" + std::to_string(c),
-                                             budget.unit, job == nullptr ? nullptr : job->of(stated.input, c)));
+                                             budget.unit, job == nullptr ? json() : job->of(stated.input, point, c)));
             }
             continue;
         }
-        const json* statement = job == nullptr ? nullptr : job->of(stated.input, 0);
-        if (statement == nullptr && job != nullptr) {
-            statement = job->of(stated.input);
+        json statement = job == nullptr ? json() : job->of(stated.input, point, 0);
+        if (statement.is_null() && job != nullptr) {
+            statement = job->of(stated.input, point);
         }
         budget.rows.push_back(row_of(stated, name, place, budget.unit, statement));
     }
@@ -279,6 +257,9 @@ void state_conformity(AuditedBudget& budget, const CertifiedAt& certified) {
         return;
     }
     const certificate::Verdict& verdict = *certified.value->verdict;
+    if (verdict.verdict == "not_applicable") {
+        return;  // nothing was decided: nothing can be held against the rule
+    }
     budget.limits = {.lower = verdict.lower, .upper = verdict.upper};
     budget.rule = gum::decision_rule_from_id(verdict.rule);
     budget.claims.verdict = verdict.verdict;
@@ -310,13 +291,13 @@ double variance_of_rows(const AuditedBudget& budget) {
 }
 
 AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::Result& result,
-                        const StatementsOfJob& job, CertifiedValues& certified) {
+                        const JobStatements& job, CertifiedValues& certified) {
     AuditedBudget budget;
     budget.name = result.name;
     budget.unit = result.unit;
     budget.place = "/results/" + result.name;
     budget.evaluated_here = true;
-    add_rows(budget, result.budget, budget.place + "/budget", &record, &job);
+    add_rows(budget, result.budget, budget.place + "/budget", &record, &job, result.point);
     if (record.model) {
         budget.equation = text::listed(record.model->equations);
     }
@@ -376,6 +357,7 @@ AuditedScore score_of(const reports::ComparisonPoint& point) {
 
 AuditedComparison comparison_of(const reports::Comparison& stated) {
     AuditedComparison comparison;
+    comparison.between_laboratories = stated.form == "laboratories";
     for (const reports::ComparisonPoint& point : stated.points) {
         if (point.En.number || point.zeta.number || point.z.number) {
             comparison.scores.push_back(score_of(point));
@@ -397,41 +379,119 @@ AuditedComparison comparison_of(const reports::Comparison& stated) {
 
 /// The budget of one side of a comparison, where the record holds it: what correcting it does to E_n is seen at the point
 /// with the largest |E_n|.
-void add_side(AuditSubject& subject, const reports::Comparison& comparison, const std::vector<reports::BudgetRow>& rows,
-              const std::string& name, const std::string& pointer) {
+/// \param side  with its rows, name and place
+void add_side(AuditSubject& subject, const reports::Comparison& comparison, AuditedBudget side, bool is_reference) {
     const auto largest =
         std::max_element(comparison.points.begin(), comparison.points.end(), [](const auto& a, const auto& b) {
             return std::abs(a.En.number.value_or(0.0)) < std::abs(b.En.number.value_or(0.0));
         });
-    if (rows.empty() || largest == comparison.points.end() || !largest->U.number || !largest->reference_U.number) {
+    if (side.rows.empty() || largest == comparison.points.end() || !largest->U.number || !largest->reference_U.number) {
         return;
     }
-    const bool is_reference = pointer == "/comparison/reference_budget";
-    AuditedBudget budget;
-    budget.name = name;
-    budget.unit = comparison.unit;
-    budget.place = pointer;
-    budget.evaluated_here = true;
-    add_rows(budget, rows, pointer, nullptr, nullptr);
     const double U = is_reference ? *largest->reference_U.number : *largest->U.number;
     const double other_U = is_reference ? *largest->U.number : *largest->reference_U.number;
-    budget.value = is_reference ? largest->reference_value.number : largest->value.number;
-    budget.reference =
-        ComparedReference{.value = is_reference ? largest->value.number : largest->reference_value.number,
-                          .expanded_uncertainty = other_U,
-                          .correlation = largest->correlation.value_or(0.0),
-                          .name = is_reference ? comparison.method_name : comparison.reference_name};
+    side.value = is_reference ? largest->reference_value.number : largest->value.number;
+    side.reference = ComparedReference{.value = is_reference ? largest->value.number : largest->reference_value.number,
+                                       .expanded_uncertainty = other_U,
+                                       .correlation = largest->correlation.value_or(0.0),
+                                       .name = is_reference ? comparison.method_name : comparison.reference_name};
     const double u = is_reference ? largest->reference_u.value_or(0.0) : largest->u.value_or(0.0);
     if (u > 0.0) {
-        budget.coverage = {.kind = CoverageRule::Kind::fixed, .k = U / u, .probability = comparison.score_probability};
-        budget.claims.k = exact_number(U / u, pointer);
-        budget.claims.coverage_probability = comparison.score_probability;
+        side.coverage = {.kind = CoverageRule::Kind::fixed, .k = U / u, .probability = comparison.score_probability};
+        side.claims.k = exact_number(U / u, side.place);
+        side.claims.coverage_probability = comparison.score_probability;
         // The rows are those of a typical value; this point has its own u, and the difference stays.
-        budget.correlation_variance = u * u - variance_of_rows(budget);
+        side.correlation_variance = u * u - variance_of_rows(side);
     }
-    budget.claims.U = exact_number(U, pointer);
-    budget.claims.en = largest->En.number ? std::optional(exact_number(*largest->En.number, pointer)) : std::nullopt;
-    subject.budgets.push_back(std::move(budget));
+    side.claims.U = exact_number(U, side.place);
+    side.claims.en = largest->En.number ? std::optional(exact_number(*largest->En.number, side.place)) : std::nullopt;
+    subject.budgets.push_back(std::move(side));
+}
+
+AuditedBudget side_of(const reports::Comparison& comparison, const std::vector<reports::BudgetRow>& rows,
+                      const std::string& name, const std::string& place) {
+    AuditedBudget side;
+    side.name = name;
+    side.unit = comparison.unit;
+    side.place = place;
+    side.evaluated_here = true;
+    add_rows(side, rows, place, nullptr, nullptr, "");
+    return side;
+}
+
+/// What the job of the fixture states of its inputs: a file of the job of a rotary table.
+JobStatements statements_of_fixture(const reports::EvaluationRecord& record, const std::string& file) {
+    reports::EvaluationRecord of_fixture;
+    of_fixture.job_files = record.job_files;
+    for (const reports::InputFile& held : record.job_files) {
+        if (held.name == file) {
+            of_fixture.job_json = reports::bytes_of(held).value_or("");
+        }
+    }
+    return JobStatements(of_fixture);
+}
+
+/// Puts the budget of the fixture, where it has one of its own, into the place of what the fixture contributes to the
+/// laboratory's side, scaled to it: so correcting it is seen in E_n. The uncertainties of all coordinates are taken to
+/// change by the same factor as that of the coordinate with the largest one.
+void put_budget_of_fixture(AuditedBudget& side, const reports::EvaluationRecord& record) {
+    constexpr std::string_view k_fixture = "fixture CMM";  // source of budgets of rotary tables
+    if (!record.rotary || !record.rotary->fixture_budget || record.rotary->fixture_budget->largest.empty()) {
+        return;
+    }
+    const auto row = std::find_if(side.rows.begin(), side.rows.end(),
+                                  [&](const AuditedRow& one) { return one.quantity == k_fixture; });
+    if (row == side.rows.end()) {
+        return;
+    }
+    const reports::FixtureBudget& fixture = *record.rotary->fixture_budget;
+    const JobStatements job = statements_of_fixture(record, fixture.file);
+    AuditedBudget of_fixture;
+    of_fixture.unit = side.unit;
+    add_rows(of_fixture, fixture.largest, "/rotary/fixture_budget/largest", nullptr, &job, fixture.largest_coordinate);
+    const double variance = variance_of_rows(of_fixture);
+    if (!(variance > 0.0)) {
+        return;
+    }
+    const double factor = std::abs(row->used_sensitivity) * row->used_u / std::sqrt(variance);
+    for (AuditedRow& one : of_fixture.rows) {
+        one.quantity = "fixture, " + one.quantity;
+        one.used_sensitivity *= factor;
+        one.sensitivity = exact_number(one.used_sensitivity, one.place + "/sensitivity");
+    }
+    const auto after = side.rows.erase(row);
+    side.rows.insert(after, std::make_move_iterator(of_fixture.rows.begin()),
+                     std::make_move_iterator(of_fixture.rows.end()));
+}
+
+/// The waivers of a certificate that have effect; of another record those that its audit shows beside its findings.
+std::vector<certificate::Waiver> waivers_of(const reports::EvaluationRecord& record) {
+    std::vector<certificate::Waiver> waivers;
+    if (record.certificate) {
+        const certificate::CertificateData& data = record.certificate->data;
+        std::copy_if(data.waivers.begin(), data.waivers.end(), std::back_inserter(waivers),
+                     [&data](const auto& waiver) { return certificate::has_effect(waiver, data.dates.issued); });
+        return waivers;
+    }
+    const json audit = json::parse(record.audit_json, nullptr, false);
+    if (!audit.is_object() || !audit.contains("findings") || !audit.at("findings").is_array()) {
+        return waivers;
+    }
+    for (const json& finding : audit.at("findings")) {
+        const auto text = [](const json& object, const char* key) {
+            const auto found = object.find(key);
+            return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+        };
+        if (finding.is_object() && finding.contains("waiver") && finding.at("waiver").is_object()) {
+            const json& waiver = finding.at("waiver");
+            waivers.push_back({.finding = text(finding, "id"),
+                               .where = text(finding, "where"),
+                               .by = text(waiver, "by"),
+                               .date = text(waiver, "when"),
+                               .reason = text(waiver, "reason")});
+        }
+    }
+    return waivers;
 }
 
 }  // namespace
@@ -441,7 +501,8 @@ AuditSubject subject_of(const reports::EvaluationRecord& record, const std::stri
     subject.kind = AuditSubject::Kind::record;
     subject.name = name;
     subject.certificate = record.certificate;
-    const StatementsOfJob job(record.job_json);
+    subject.waivers = waivers_of(record);
+    const JobStatements job(record);
     CertifiedValues certified(subject.certificate);
     for (const reports::Result& result : record.results) {
         if (!result.budget.empty()) {
@@ -450,10 +511,17 @@ AuditSubject subject_of(const reports::EvaluationRecord& record, const std::stri
     }
     if (record.comparison) {
         subject.comparison = comparison_of(*record.comparison);
-        add_side(subject, *record.comparison, record.comparison->method_budget, record.comparison->method_name,
-                 "/comparison/method_budget");
-        add_side(subject, *record.comparison, record.comparison->reference_budget, record.comparison->reference_name,
-                 "/comparison/reference_budget");
+        const reports::Comparison& comparison = *record.comparison;
+        AuditedBudget method =
+            side_of(comparison, comparison.method_budget,
+                    comparison.method_name.empty() ? "displacement of the contact point" : comparison.method_name,
+                    "/comparison/method_budget");
+        put_budget_of_fixture(method, record);
+        add_side(subject, comparison, std::move(method), false);
+        add_side(
+            subject, comparison,
+            side_of(comparison, comparison.reference_budget, comparison.reference_name, "/comparison/reference_budget"),
+            true);
     }
     return subject;
 }

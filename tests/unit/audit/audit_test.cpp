@@ -82,5 +82,27 @@ TEST(Audit, SaysWhatItCouldNotDo) {
     EXPECT_NE(report.subject.not_read[0].find("u_c"), std::string::npos);
 }
 
+TEST(Audit, KnowsWhatSomebodyAccepts) {
+    AuditSubject subject = subject_of({budget_of({row("a", 1.0), row("b", 0.01)})});
+    subject.waivers = {{.finding = "Z01", .where = "row 1", .by = "A. N.", .date = "2026-03-04", .reason = "known"},
+                       {.finding = "Z09", .where = {}, .by = "A. N.", .date = "2026-03-04", .reason = "gone"}};
+    const std::vector<Rule> rules{k_half, k_missing};
+    const AuditReport report = audit(subject, rules);
+    const AuditFinding& half = report.findings[0];
+    ASSERT_EQ(half.severity, FindingSeverity::critical);
+    EXPECT_EQ(waiver_of(half, report.subject.waivers), &report.subject.waivers[0]);
+    EXPECT_EQ(waiver_of(report.findings[1], report.subject.waivers), nullptr);
+    EXPECT_FALSE(report.has_critical());
+    ASSERT_EQ(report.subject.not_read.size(), 1U);
+    EXPECT_EQ(report.subject.not_read[0], "the waiver of Z09 fits no finding");
+    EXPECT_EQ(audit(report.subject, rules).subject.not_read.size(), 1U) << "said once";
+
+    AuditFinding of_gate = half;
+    of_gate.of_gate = true;
+    EXPECT_EQ(waiver_of(of_gate, report.subject.waivers), nullptr);
+    subject.waivers[0].where = "row 2";
+    EXPECT_TRUE(audit(subject, rules).has_critical());
+}
+
 }  // namespace
 }  // namespace gumcert::audit

@@ -142,6 +142,13 @@ TEST(ComparisonRules, N06_asks_what_was_done) {
     EXPECT_THAT(found_by(comparison_rules(), "N06", subject), HasSubstr("|E_n| = 1.44 is above 1"));
     subject.comparison->action_record = "CAPA 26-014";
     EXPECT_EQ(found_by(comparison_rules(), "N06", subject), "");
+    // The organiser of a comparison between laboratories reports the signal; the laboratory acts.
+    subject.comparison->action_record.clear();
+    subject.comparison->between_laboratories = true;
+    EXPECT_THAT(found_by(comparison_rules(), "N06", subject), HasSubstr("a signal for this laboratory"));
+    for (const AuditFinding& finding : audit(subject, comparison_rules()).findings) {
+        EXPECT_TRUE(finding.rule != "N06" || finding.severity == FindingSeverity::information);
+    }
 }
 
 TEST(ComparisonRules, N07_asks_for_the_stability_of_the_artefact) {

@@ -1,0 +1,152 @@
+#include "audit/sources/job_statements.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "gum/quantity/diagnostic.h"
+#include "workbook/read_csv.h"
+
+namespace gumcert::audit {
+namespace {
+
+using nlohmann::json;
+
+/// Ways to say what is known of a quantity: where a point uses one of them, that of the job holds no longer. Other keys
+/// (k, nu, distribution) go on to hold unless the point has them too.
+constexpr std::array<std::string_view, 11> k_ways_to_state = {
+    "u",   "U",          "relative_u",   "relative_U", "half_width", "limits",
+    "mpe", "resolution", "observations", "samples",    "components"};
+
+bool states_uncertainty(const json& statement) {
+    return std::any_of(k_ways_to_state.begin(), k_ways_to_state.end(),
+                       [&statement](std::string_view key) { return statement.contains(key); });
+}
+
+/// "3" of a reading `V.3`.
+bool is_count(std::string_view text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+}  // namespace
+
+JobStatements::JobStatements(const reports::EvaluationRecord& record) {
+    // The job of a record is canonical; another job among its files is as a person wrote it, with comments.
+    const json job = json::parse(record.job_json, nullptr, false, true);
+    if (!job.is_object()) {
+        return;
+    }
+    if (const auto inputs = job.find("inputs"); inputs != job.end() && inputs->is_object()) {
+        inputs_ = *inputs;
+    }
+    const auto points = job.find("points");
+    if (points == job.end()) {
+        return;
+    }
+    if (points->is_array()) {
+        read_array(*points);
+    } else if (points->is_object() && points->contains("file") && points->at("file").is_string()) {
+        for (const reports::InputFile& file : record.job_files) {
+            const std::optional<std::string> bytes =
+                file.name == points->at("file").get_ref<const std::string&>() ? reports::bytes_of(file) : std::nullopt;
+            if (bytes) {
+                read_table(*bytes);
+            }
+        }
+    }
+}
+
+void JobStatements::read_array(const json& points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!points[i].is_object()) {
+            continue;
+        }
+        json stated = json::object();
+        std::string name = std::to_string(i + 1);
+        for (const auto& [key, value] : points[i].items()) {
+            if (key == "point") {
+                name = value.is_string() ? value.get<std::string>() : value.dump();
+            } else {
+                stated[key] = value.is_object() ? value : json{{"value", value}};
+            }
+        }
+        by_point_[name] = std::move(stated);
+    }
+}
+
+void JobStatements::read_table(const std::string& bytes) {
+    workbook::Workbook table;
+    try {
+        table = workbook::read_csv(bytes, "points", "points");
+    } catch (const gum::DiagnosedError&) {
+        return;  // a dialect that the reader of jobs alone knows: the statements of the job stay
+    }
+    if (table.sheets.empty()) {
+        return;
+    }
+    std::map<std::uint32_t, std::string> heads;
+    std::map<std::uint32_t, std::pair<std::string, json>> rows;
+    for (const workbook::Cell& cell : table.sheets.front().cells) {
+        const workbook::CellValue& value = cell.value;
+        if (cell.address.row == 1) {
+            heads[cell.address.column] = value.text;
+            continue;
+        }
+        const auto head = heads.find(cell.address.column);
+        if (head == heads.end() || value.kind == workbook::CellKind::blank) {
+            continue;
+        }
+        auto& [name, stated] = rows.try_emplace(cell.address.row, "", json::object()).first->second;
+        if (head->second == "point") {
+            name = value.text;
+            continue;
+        }
+        const std::size_t dot = head->second.find('.');
+        const std::string input = head->second.substr(0, dot);
+        const std::string key = dot == std::string::npos ? "value" : head->second.substr(dot + 1);
+        const json content = value.kind == workbook::CellKind::number ? json(value.number) : json(value.text);
+        if (is_count(key)) {
+            stated[input]["observations"].push_back(content);
+        } else {
+            stated[input][key] = content;
+        }
+    }
+    for (auto& [row, point] : rows) {
+        const std::string name = point.first.empty() ? std::to_string(row - 1) : point.first;
+        by_point_[name] = std::move(point.second);
+    }
+}
+
+json JobStatements::of(const std::string& input, const std::string& point) const {
+    const auto common = inputs_.is_object() ? inputs_.find(input) : inputs_.end();
+    json statement = common != inputs_.end() && common->is_object() ? *common : json();
+    const auto at = by_point_.find(point);
+    if (point.empty() || at == by_point_.end() || !at->second.contains(input)) {
+        return statement;
+    }
+    const json& own = at->second.at(input);
+    if (statement.is_null()) {
+        return own;
+    }
+    if (states_uncertainty(own)) {
+        for (const std::string_view key : k_ways_to_state) {
+            statement.erase(std::string(key));
+        }
+    }
+    statement.update(own);
+    return statement;
+}
+
+json JobStatements::of(const std::string& input, const std::string& point, std::size_t component) const {
+    const json statement = of(input, point);
+    const auto components = statement.is_object() ? statement.find("components") : statement.end();
+    if (!statement.is_object() || components == statement.end() || component >= components->size()) {
+        return {};
+    }
+    return components->at(component);
+}
+
+}  // namespace gumcert::audit

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "reports/record/evaluation_record.h"
+
+namespace gumcert::audit {
+
+/// What the job of a record states of its input quantities: for all points, and what a point of a table states in its
+/// place (docs/budget_job.md, "points"). The reader of jobs has refused what is wrong; here nothing is refused again.
+class JobStatements {
+public:
+    explicit JobStatements(const reports::EvaluationRecord& record);
+
+    /// The statement of an input as it holds at a point, an object; null where the job has none.
+    /// \param point  name of the point; "" without a table
+    [[nodiscard]] nlohmann::json of(const std::string& input, const std::string& point) const;
+    /// The same of a component of an input; null where it has no such component.
+    [[nodiscard]] nlohmann::json of(const std::string& input, const std::string& point, std::size_t component) const;
+
+private:
+    nlohmann::json inputs_;                           ///< of the job
+    std::map<std::string, nlohmann::json> by_point_;  ///< inputs by name, each an object
+
+    void read_array(const nlohmann::json& points);
+    void read_table(const std::string& bytes);
+};
+
+}  // namespace gumcert::audit

@@ -1,0 +1,57 @@
+#include "audit/sources/job_statements.h"
+
+#include <gtest/gtest.h>
+
+namespace gumcert::audit {
+namespace {
+
+using nlohmann::json;
+
+reports::EvaluationRecord record_of(const char* points, std::vector<reports::InputFile> files = {}) {
+    reports::EvaluationRecord record;
+    record.job_json = std::string(R"({"inputs": {"x": {"unit": "V", "U": 1, "k": 2, "source": "STD-1"},
+        "y": {"observations": [0, 1]}, "z": {"components": [{"u": 1}, {"u": 2}]}}, "points": )") +
+                      points + "}";
+    record.job_files = std::move(files);
+    return record;
+}
+
+TEST(JobStatements, OfAPointTakeThePlaceOfThoseOfTheJob) {
+    const JobStatements job(record_of(R"([{"point": "a", "x": {"U": 0.04}, "y": {"observations": [20.1, 20.2, 20.3]}},
+                                          {"x": 7}, {"point": "c", "x": {"half_width": 0.1}}])"));
+    EXPECT_EQ(job.of("x", ""), json::parse(R"({"unit": "V", "U": 1, "k": 2, "source": "STD-1"})"));
+    EXPECT_EQ(job.of("x", "a"), json::parse(R"({"unit": "V", "U": 0.04, "k": 2, "source": "STD-1"})"));
+    EXPECT_EQ(job.of("y", "a").at("observations").size(), 3U);
+    EXPECT_EQ(job.of("x", "2").at("value"), 7) << "a point without name has its number";
+    EXPECT_EQ(job.of("x", "2").at("U"), 1);
+    EXPECT_FALSE(job.of("x", "c").contains("U")) << "another way to state it replaces the one of the job";
+    EXPECT_EQ(job.of("y", "c").at("observations").size(), 2U);
+    EXPECT_TRUE(job.of("nothing", "a").is_null());
+}
+
+TEST(JobStatements, OfATableAreItsColumns) {
+    const JobStatements job(record_of(
+        R"({"file": "points.csv"})",
+        {reports::input_file("points.csv", "point,x,x.U,y.1,y.2,y.3\nlow,1,0.01,5,6,7\nhigh,2,0.02,8,9,10\n", true)}));
+    EXPECT_EQ(job.of("x", "high"), json::parse(R"({"unit": "V", "value": 2.0, "U": 0.02, "k": 2, "source": "STD-1"})"));
+    EXPECT_EQ(job.of("y", "low").at("observations"), json::parse("[5.0, 6.0, 7.0]"));
+}
+
+TEST(JobStatements, HaveComponents) {
+    const JobStatements job(record_of("[]"));
+    EXPECT_EQ(job.of("z", "", 1), json::parse(R"({"u": 2})"));
+    EXPECT_TRUE(job.of("z", "", 2).is_null());
+    EXPECT_TRUE(job.of("x", "", 0).is_null());
+}
+
+TEST(JobStatements, OfATextThatIsNoJobAreNone) {
+    reports::EvaluationRecord record;
+    EXPECT_TRUE(JobStatements(record).of("x", "").is_null());
+    record.job_json = "{ // the fixture\n \"inputs\": {\"x\": {\"u\": 1}}}";
+    EXPECT_EQ(JobStatements(record).of("x", ""), json::parse(R"({"u": 1})")) << "a job has comments";
+    record.job_json = "[1]";
+    EXPECT_TRUE(JobStatements(record).of("x", "").is_null());
+}
+
+}  // namespace
+}  // namespace gumcert::audit
