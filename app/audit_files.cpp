@@ -14,8 +14,10 @@
 #include "audit/rules/registry.h"
 #include "audit/sources/record_subject.h"
 #include "audit/sources/workbook_subject.h"
+#include "certificate/waiver.h"
 #include "encoding/sha2.h"
 #include "gum/monte_carlo/worker_threads.h"
+#include "jobs/certificate/certificate_statement.h"
 #include "workbook/read_csv.h"
 #include "workbook/read_xlsx.h"
 
@@ -96,34 +98,51 @@ std::vector<fs::path> files_to_audit(const std::vector<fs::path>& named) {
     return files;
 }
 
-AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& templates,
-                       const gum::Progress& progress) {
+std::vector<certificate::Waiver> waivers_from(const fs::path& file) {
+    const std::string bytes = read_file(file);
+    std::vector<certificate::Waiver> waivers = jobs::parse_waivers(bytes, file.string());
+    std::vector<gum::Diagnostic> problems;
+    for (std::size_t i = 0; i < waivers.size(); ++i) {
+        if (!certificate::has_effect(waivers[i], "")) {
+            problems.push_back({.code = "GC-AUDIT-0012",
+                                .where = file.string() + "#/" + std::to_string(i),
+                                .what = "the waiver of " + waivers[i].finding + " names nobody, or gives no reason",
+                                .rule = "a finding is accepted by a person, with a reason that is a sentence",
+                                .action = "state \"by\" and \"reason\""});
+        }
+    }
+    if (!problems.empty()) {
+        throw gum::InputError(std::move(problems));
+    }
+    return waivers;
+}
+
+AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& templates, const gum::Progress& progress,
+                       std::span<const certificate::Waiver> waivers) {
     const std::string bytes = read_file(file);
     const std::string name = file.filename().string();
     AuditedFile audited{.file = file, .digest = encoding::sha256(bytes), .report = {}};
-    const std::span<const audit::Rule> rules = audit::all_rules();
+    audit::AuditSubject subject;
     switch (contents_of(bytes)) {
-        case Contents::job: {
-            const Evaluation evaluation = evaluate_job(file, CovarianceFile::none, threads, templates, progress);
-            audit::AuditSubject subject = audit::subject_of(evaluation.record, name);
-            subject.kind = audit::AuditSubject::Kind::job;
-            audited.report = audit::audit(std::move(subject), rules);
+        case Contents::job:
+            audited.report = *evaluate_job(file, CovarianceFile::none, threads, templates, progress).audit;
+            if (waivers.empty()) {
+                return audited;
+            }
+            subject = audited.report.subject;
             break;
-        }
         case Contents::record: {
             reports::EvaluationRecord record = reports::record_from_json(bytes, file.string());
-            audit::AuditSubject subject = audit::subject_of(record, name);
+            subject = audit::subject_of(record, name);
             subject.disagreements =
                 disagreements_of(std::move(record), name, threads, templates, progress, subject.not_read);
-            audited.report = audit::audit(std::move(subject), rules);
             break;
         }
         case Contents::workbook:
-            audited.report = audit::audit(audit::subject_of(workbook::read_xlsx(bytes, file.string()), name), rules);
+            subject = audit::subject_of(workbook::read_xlsx(bytes, file.string()), name);
             break;
         case Contents::table:
-            audited.report = audit::audit(
-                audit::subject_of(workbook::read_csv(bytes, file.string(), file.stem().string()), name), rules);
+            subject = audit::subject_of(workbook::read_csv(bytes, file.string(), file.stem().string()), name);
             break;
         case Contents::other:
             throw gum::InputError(gum::Diagnostic{
@@ -135,11 +154,13 @@ AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& t
                     "store an old workbook (.xls) as .xlsx, copy the table of a PDF into a CSV file; for a digital "
                     "certificate use gumcert check dcc"});
     }
+    subject.waivers.insert(subject.waivers.end(), waivers.begin(), waivers.end());
+    audited.report = audit::audit(std::move(subject), audit::all_rules());
     return audited;
 }
 
 std::vector<AuditAttempt> audit_files(const std::vector<fs::path>& files, unsigned threads, const fs::path& templates,
-                                      const gum::Progress& progress) {
+                                      const gum::Progress& progress, std::span<const certificate::Waiver> waivers) {
     std::vector<AuditAttempt> attempts(files.size());
     std::vector<std::size_t> tables, others;
     for (std::size_t i = 0; i < files.size(); ++i) {
@@ -147,7 +168,7 @@ std::vector<AuditAttempt> audit_files(const std::vector<fs::path>& files, unsign
     }
     const auto attempt = [&](std::size_t file, const gum::Progress& told) {
         try {
-            attempts[file].audited = audit_file(files[file], threads, templates, told);
+            attempts[file].audited = audit_file(files[file], threads, templates, told, waivers);
         } catch (...) {
             attempts[file].failure = std::current_exception();
         }

@@ -3,6 +3,7 @@
 #include <exception>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,11 @@ struct AuditedFile {
     audit::AuditReport report;
 };
 
+/// Waivers from a file (docs/audit.md).
+/// \throws gum::InputError    what the reader refuses; GC-AUDIT-0012 a waiver that names nobody or gives no reason
+/// \throws gum::StorageError
+[[nodiscard]] std::vector<certificate::Waiver> waivers_from(const std::filesystem::path& file);
+
 /// The files that an audit looks at: the named ones, and of a folder all of its files and folders whose endings the audit
 /// knows (.json, .csv, .xlsx, .xlsm, .xml), sorted by name. Records and documents beside a job that gumcert wrote are
 /// left out where the job itself is there.
@@ -29,8 +35,10 @@ struct AuditedFile {
 /// job, a table (CSV) or workbook (.xlsx) read and its formulas evaluated, a digital certificate read.
 /// \throws gum::InputError    what the readers refuse; GC-AUDIT-0011 a file of another kind
 /// \throws gum::NoResultError, gum::StorageError
+/// \param waivers  of findings of every file, beside those of a job or record itself
 [[nodiscard]] AuditedFile audit_file(const std::filesystem::path& file, unsigned threads,
-                                     const std::filesystem::path& templates, const gum::Progress& progress = {});
+                                     const std::filesystem::path& templates, const gum::Progress& progress = {},
+                                     std::span<const certificate::Waiver> waivers = {});
 
 /// What became of a file.
 struct AuditAttempt {
@@ -42,6 +50,7 @@ struct AuditAttempt {
 /// the other, which use all threads themselves; results are the same for any number of threads.
 [[nodiscard]] std::vector<AuditAttempt> audit_files(const std::vector<std::filesystem::path>& files, unsigned threads,
                                                     const std::filesystem::path& templates,
-                                                    const gum::Progress& progress = {});
+                                                    const gum::Progress& progress = {},
+                                                    std::span<const certificate::Waiver> waivers = {});
 
 }  // namespace gumcert::app

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string_view>
 
+#include "app/audit_evaluation.h"
 #include "jobs/job_kind.h"
 #include "reports/forms/record_sentences.h"
 
@@ -59,6 +60,7 @@ Evaluation evaluate_job(const jobs::FileSource& source, const std::string& job_f
         throw;
     }
     Evaluation evaluation = kind->evaluate(task);
+    audit_evaluation(evaluation, job_file);
     reports::identify_sentences(evaluation.record, templates);
     return evaluation;
 }

@@ -2,10 +2,12 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "audit/audit.h"
 #include "certificate/certificate_data.h"
 #include "certificate/profile.h"
 #include "gum/quantity/progress.h"
@@ -46,6 +48,9 @@ struct Evaluation {
     std::string covariance_file;  ///< its name; empty where `covariance` is
     bool negative = false;        ///< evaluated, and the answer is no: not validated where validation was demanded
     bool blocked = false;         ///< critical findings block the issue of the certificate
+    /// What an assessor would remark; set by evaluate_job().
+    std::shared_ptr<const audit::AuditReport> audit = {};
+    std::vector<certificate::Waiver> waivers = {};  ///< of a job whose record is no certificate
 };
 
 /// What the evaluation of a job is given, whatever its kind.

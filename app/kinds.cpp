@@ -118,6 +118,9 @@ Evaluation evaluate_comparison_job(const EvaluationTask& task) {
     Evaluation evaluation;
     evaluation.record = reports::evaluate_comparison(job, task.held_files(job.files), task.progress);
     evaluation.negative = !evaluation.record.comparison->items_without_result.empty();
+    if (job.certificate) {
+        evaluation.waivers = job.certificate->waivers;
+    }
     return evaluation;
 }
 

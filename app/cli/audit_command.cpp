@@ -119,13 +119,16 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
         app::require_not_an_input(file, all);
     }
     const fs::path templates = templates_folder(options.share);
+    const std::vector<certificate::Waiver> waivers =
+        options.waivers.empty() ? std::vector<certificate::Waiver>{} : app::waivers_from(options.waivers);
     ExitCode code = done;
     std::vector<audit::AuditReport> reports;
     reports::AuditContext context;
     context.program = fmt::format("gumcert {}", k_version);
     ProgressLine progress(!common.quiet);
-    for (app::AuditAttempt& attempt : app::audit_files(all, static_cast<unsigned>(common.threads), templates,
-                                                       [&](const std::string& text) { progress(text); })) {
+    for (app::AuditAttempt& attempt : app::audit_files(
+             all, static_cast<unsigned>(common.threads), templates, [&](const std::string& text) { progress(text); },
+             waivers)) {
         const ExitCode one = explained(common, [&] {
             if (attempt.failure) {
                 std::rethrow_exception(attempt.failure);
@@ -151,6 +154,9 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
         written.push_back({.path = file, .bytes = rendered(view, form, options)});
     }
     std::vector<fs::path> inputs = all;
+    if (!options.waivers.empty()) {
+        inputs.emplace_back(options.waivers);
+    }
     add_program_files(inputs, options.share);
     app::write_files(written, inputs);
     if (!common.quiet) {

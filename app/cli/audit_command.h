@@ -12,6 +12,7 @@ struct AuditOptions {
     std::string output;                  ///< file or folder; "" and "-": standard output, of HTML and PDF a file beside
     std::string format;                  ///< "json", "sarif", "html", "pdf", "text"; "": by the ending of the output
     std::vector<std::string> languages;  ///< the first one is used
+    std::string waivers;                 ///< file with waivers of findings; "" none
     std::string share;
     bool verbose = false;  ///< the text names each rule that was not checked
 };

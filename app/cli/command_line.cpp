@@ -239,6 +239,10 @@ void add_audit(CLI::App& program, Arguments& a) {
         ->expected(1)
         ->type_name("LANGUAGE")
         ->check(CLI::IsMember({"en", "de", "zh-Hant", "es"}));
+    add_file(
+        command, "--waivers", a.audit.waivers,
+        "Findings that somebody accepts, with name, date and reason (JSON): they are shown as accepted, and do not "
+        "decide on the exit code");
     command.add_flag("--verbose", a.audit.verbose, "Name every rule that was not checked, and why");
     add_share(command, a.audit.share);
     command.footer(

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "app/audit_evaluation.h"
 #include "app/cli/clock.h"
 #include "app/cli/share_folder.h"
 #include "app/cli/summary.h"
@@ -20,6 +22,7 @@
 #include "app/recompute_record.h"
 #include "certificate/gates/day_of_issue.h"
 #include "certificate/gates/printed_languages.h"
+#include "reports/audit/audit_html.h"
 #include "reports/forms/record_sentences.h"
 #include "reports/record/evaluation_record.h"
 
@@ -119,6 +122,37 @@ void report_withheld(const std::string& where, const std::vector<fs::path>& docu
     }
 }
 
+/// The audit as run writes it beside the record.
+constexpr const char* k_audit_file = "audit.html";
+
+/// Critical findings of the audit, where no certificate has them among its own findings; then how many there are of each
+/// severity.
+void report_audit(const app::Evaluation& evaluation, const CommonOptions& common) {
+    const audit::AuditReport& report = *evaluation.audit;
+    for (const audit::AuditFinding& finding : report.findings) {
+        if (evaluation.record.certificate || finding.severity != certificate::FindingSeverity::critical ||
+            audit::waiver_of(finding, report.subject.waivers) != nullptr) {
+            continue;
+        }
+        print_message({.code = "GC-AUDIT-0020",
+                       .where = "audit " + finding.rule + ", " + finding.where,
+                       .what = finding.what,
+                       .rule = "a critical finding: an assessor would not accept this result",
+                       .action = finding.correction,
+                       .severity = gum::Severity::warning},
+                      common);
+    }
+}
+
+void print_audit(const audit::AuditReport& report, const fs::path& where_to_read) {
+    std::array<int, 4> counts{};
+    for (const audit::AuditFinding& finding : report.findings) {
+        ++counts.at(static_cast<std::size_t>(finding.severity));
+    }
+    fmt::print("Audit: {} critical, {} major, {} minor, {} to know; {}\n", counts[3], counts[2], counts[1], counts[0],
+               where_to_read.string());
+}
+
 /// Documents of a kind of records as they stand in a folder.
 std::vector<fs::path> document_files(const app::Kind& kind, const fs::path& folder) {
     std::vector<fs::path> files;
@@ -174,6 +208,9 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
     if (!evaluation.covariance.empty()) {
         files.push_back({folder / evaluation.covariance_file, evaluation.covariance});
     }
+    files.push_back({folder / k_audit_file,
+                     reports::audit_as_html(app::audit_view(*evaluation.audit, record.job_files.front().sha256),
+                                            issuer.options().assets)});
     const bool held_back = withheld(record, options.draft);
     if (!held_back) {
         progress("documents");
@@ -192,14 +229,17 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
     }
     report_diagnostics(record, common);
     report_findings(record, common);
+    report_audit(evaluation, common);
     if (held_back) {
         report_withheld(job.string(), documents, common);
     }
     if (!common.quiet) {
         print_summary(record);
+        print_audit(*evaluation.audit, folder / k_audit_file);
         print_written(files);
     }
-    return evaluation.negative || evaluation.blocked || (record.certificate && record.certificate->blocked);
+    return evaluation.negative || evaluation.blocked || app::is_refuted_by_audit(evaluation) ||
+           (record.certificate && record.certificate->blocked);
 }
 
 fs::path folder_of(const fs::path& job, const std::string& output, bool several) {
@@ -284,7 +324,7 @@ ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& o
     inputs.insert(inputs.end(), jobs.begin(), jobs.end());
     std::vector<fs::path> outputs;
     for (const fs::path& folder : folders) {
-        outputs.insert(outputs.end(), {folder / "record.json", folder / "covariance.csv"});
+        outputs.insert(outputs.end(), {folder / "record.json", folder / "covariance.csv", folder / k_audit_file});
         for (const app::Kind& kind : app::program_kinds()) {
             const std::vector<fs::path> documents = document_files(kind, folder);
             outputs.insert(outputs.end(), documents.begin(), documents.end());
@@ -330,10 +370,12 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
     progress.clear();
     const bool blocked =
         evaluation.blocked || (evaluation.record.certificate && evaluation.record.certificate->blocked);
-    const ExitCode code = evaluation.negative || blocked ? negative_answer : done;
+    const bool negative = evaluation.negative || blocked || app::is_refuted_by_audit(evaluation);
+    const ExitCode code = negative ? negative_answer : done;
     if (to_stdout) {
         report_diagnostics(evaluation.record, common);
         report_findings(evaluation.record, common);
+        report_audit(evaluation, common);
         write_to_stdout(text);
         return code;
     }
@@ -347,8 +389,10 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
     app::write_files(files, inputs);
     report_diagnostics(evaluation.record, common);
     report_findings(evaluation.record, common);
+    report_audit(evaluation, common);
     if (!common.quiet) {
         print_summary(evaluation.record);
+        print_audit(*evaluation.audit, "gumcert audit " + record_file.string() + " -o audit.html shows them");
         print_written(files);
         fmt::print("Next: gumcert render {} --format pdf{}\n", record_file.string(), blocked ? " --draft" : "");
     }

@@ -231,7 +231,7 @@ private:
             return;
         }
         Rows lines;
-        for (const Waiver& waiver : view_.waivers) {
+        for (const PrintedWaiver& waiver : view_.waivers) {
             lines.push_back({waiver.rule, waiver.where.empty() ? words_("all") : waiver.where, waiver.by, waiver.when,
                              waiver.reason});
         }

@@ -362,7 +362,7 @@ private:
 
     json waivers() const {
         json all = json::array();
-        for (const Waiver& waiver : view_.waivers) {
+        for (const PrintedWaiver& waiver : view_.waivers) {
             all.push_back({{"rule", waiver.rule},
                            {"where", waiver.where.empty() ? words_("all") : waiver.where},
                            {"by", waiver.by},

@@ -82,7 +82,7 @@ json finding(const AuditFindingView& one, const AuditedFileView& file, const Aud
                                  {"u_for_verdict", number(one.missing_term->number.u_for_verdict)}};
     }
     if (one.waiver) {
-        const Waiver& waiver = view.waivers[*one.waiver];
+        const PrintedWaiver& waiver = view.waivers[*one.waiver];
         entry["waiver"] = {{"by", waiver.by}, {"when", waiver.when}, {"reason", waiver.reason}};
     }
     return entry;

@@ -120,7 +120,7 @@ json result_json(const AuditFindingView& finding, std::size_t file, const AuditV
         entry["ruleIndex"] = rule - rules.begin();
     }
     if (finding.waiver) {
-        const Waiver& waiver = view.waivers[*finding.waiver];
+        const PrintedWaiver& waiver = view.waivers[*finding.waiver];
         entry["suppressions"] =
             json::array({{{"kind", "external"},
                           {"status", "accepted"},

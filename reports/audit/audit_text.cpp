@@ -106,7 +106,7 @@ std::string finding_text(const AuditFindingView& finding, std::size_t position, 
 
 std::string waivers_of(const AuditView& view, const AuditWords& words) {
     std::string out;
-    for (const Waiver& waiver : view.waivers) {
+    for (const PrintedWaiver& waiver : view.waivers) {
         out += paragraph_of("  " + waiver.rule + "  ", (waiver.where.empty() ? "" : waiver.where + ": ") +
                                                            waiver.reason + " (" + waiver.by + ", " + waiver.when + ")");
     }

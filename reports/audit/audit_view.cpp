@@ -311,13 +311,23 @@ const audit::Rule* rule_of(const std::string& id, std::span<const audit::Rule> r
     return found == rules.end() ? nullptr : &*found;
 }
 
-std::optional<std::size_t> waiver_of(const audit::AuditFinding& finding, const std::vector<Waiver>& waivers) {
-    for (std::size_t i = 0; i < waivers.size(); ++i) {
-        if (waivers[i].rule == finding.rule && (waivers[i].where.empty() || waivers[i].where == finding.where)) {
-            return i;
-        }
+PrintedWaiver printed_waiver(const certificate::Waiver& waiver) {
+    return {.rule = printable(waiver.finding),
+            .where = printable(waiver.where),
+            .by = printable(waiver.by),
+            .when = printable(waiver.date),
+            .reason = printable(waiver.reason.in("en"))};
+}
+
+/// Position of the waiver of a finding among those that are printed.
+std::optional<std::size_t> position_of_waiver(const audit::AuditFinding& finding, const audit::AuditReport& report,
+                                              const std::vector<PrintedWaiver>& printed) {
+    const certificate::Waiver* waiver = audit::waiver_of(finding, report.subject.waivers);
+    if (waiver == nullptr) {
+        return std::nullopt;
     }
-    return std::nullopt;
+    return static_cast<std::size_t>(std::find(printed.begin(), printed.end(), printed_waiver(*waiver)) -
+                                    printed.begin());
 }
 
 /// Positions of results by positions of budgets.
@@ -331,7 +341,7 @@ std::optional<std::size_t> result_at(const audit::AuditReport& report, std::size
 }
 
 AuditFindingView finding_view(const audit::AuditFinding& finding, const audit::AuditReport& report,
-                              std::span<const audit::Rule> rules, const std::vector<Waiver>& waivers) {
+                              std::span<const audit::Rule> rules, const std::vector<PrintedWaiver>& waivers) {
     AuditFindingView view;
     view.id = printable(finding.rule);
     if (const audit::Rule* rule = rule_of(finding.rule, rules)) {
@@ -375,7 +385,7 @@ AuditFindingView finding_view(const audit::AuditFinding& finding, const audit::A
             .u_for_verdict = term.u_for_verdict ? rounded(*term.u_for_verdict, 2) : "",
             .unit = finding.budgets.empty() ? "" : unit_text(report.subject.budgets[finding.budgets.front()].unit)};
     }
-    view.waiver = waiver_of(finding, waivers);
+    view.waiver = position_of_waiver(finding, report, waivers);
     return view;
 }
 
@@ -412,7 +422,7 @@ std::vector<RuleAnswer> linearity_of(const AuditedFileView& file) {
 }
 
 AuditedFileView file_view(const audit::AuditReport& report, std::span<const audit::Rule> rules,
-                          const std::vector<Waiver>& waivers) {
+                          const std::vector<PrintedWaiver>& waivers) {
     AuditedFileView file;
     file.name = printable(report.subject.name);
     file.kind = name_of(report.subject.kind);
@@ -501,16 +511,17 @@ AuditView make_audit_view(std::span<const audit::AuditReport> reports, std::span
                           const AuditContext& context) {
     AuditView view;
     view.program = printable(context.program);
-    for (const Waiver& waiver : context.waivers) {
-        view.waivers.push_back({.rule = printable(waiver.rule),
-                                .where = printable(waiver.where),
-                                .by = printable(waiver.by),
-                                .when = printable(waiver.when),
-                                .reason = printable(waiver.reason)});
+    for (const audit::AuditReport& report : reports) {
+        for (const certificate::Waiver& waiver : report.subject.waivers) {
+            PrintedWaiver printed = printed_waiver(waiver);
+            if (std::find(view.waivers.begin(), view.waivers.end(), printed) == view.waivers.end()) {
+                view.waivers.push_back(std::move(printed));
+            }
+        }
     }
     view.files.reserve(reports.size());
     for (std::size_t i = 0; i < reports.size(); ++i) {
-        view.files.push_back(file_view(reports[i], rules, context.waivers));
+        view.files.push_back(file_view(reports[i], rules, view.waivers));
         view.files.back().sha256 = i < context.digests.size() ? printable(context.digests[i]) : "";
         view.worst = rank_of(view.files[i]) > rank_of(view.files[view.worst]) ? i : view.worst;
     }

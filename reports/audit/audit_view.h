@@ -16,18 +16,18 @@ namespace gumcert::reports {
 // texts have a point as decimal sign and '-' as minus sign, "" where there is nothing to print. Texts that come from a
 // file or name one are printable() here already; every form still escapes them for its own language.
 
-/// A finding that a person accepted, with a name under it.
-struct Waiver {
+/// A finding that a person accepts, with a name under it, as it is printed.
+struct PrintedWaiver {
     std::string rule;        ///< "U10"
     std::string where = {};  ///< as the finding has it; "" the rule as a whole
     std::string by, when, reason;
+    friend bool operator==(const PrintedWaiver&, const PrintedWaiver&) = default;
 };
 
 /// What the caller knows beside the reports.
 struct AuditContext {
     std::string program = {};               ///< "gumcert 0.1.0"
     std::vector<std::string> digests = {};  ///< SHA-256 of the files, in the order of the reports; empty: not printed
-    std::vector<Waiver> waivers = {};
 };
 
 struct PrintedOutcome {
@@ -165,8 +165,8 @@ struct AuditedFileView {
 struct AuditView {
     std::string program;
     std::vector<AuditedFileView> files;
-    std::size_t worst = 0;  ///< of `files`
-    std::vector<Waiver> waivers;
+    std::size_t worst = 0;               ///< of `files`
+    std::vector<PrintedWaiver> waivers;  ///< of all files, each once
 };
 
 /// "critical", "major", "minor", "information": the order of AuditedFileView::counts.

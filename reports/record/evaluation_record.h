@@ -469,7 +469,7 @@ struct Comparison {
     std::string unit = "um";            ///< of a comparison of methods
     std::string position_name = {}, position_unit = {};
     std::string organiser = {};
-    std::vector<BudgetRow> method_budget = {};  ///< of one value of the laboratory's side, where a budget job gives it
+    std::vector<BudgetRow> method_budget = {};  ///< of one value of the laboratory's side, from its budget or sources
     std::string correlation = {};               ///< of the two methods: "none", "given", "unknown", "shared_sources"
     std::optional<double> correlation_given = {};
     std::vector<SharedSource> shared_sources = {};
@@ -537,6 +537,8 @@ struct EvaluationRecord {
     std::optional<Comparison> comparison;
     std::optional<certificate::Certificate> certificate;  ///< where the job states certificate data
     std::vector<gum::Diagnostic> diagnostics;
+    /// What the audit of the job found, canonical JSON text of schema gumcert/audit/1; "" in records of earlier releases
+    std::string audit_json;
     /// Every sentence that the program put into this record, each once, sorted by its text
     std::vector<IdentifiedSentence> statements;
     /// SHA-256 that the record stated of itself when it was read; "" for one that states none, or was not read.

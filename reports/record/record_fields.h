@@ -1038,7 +1038,7 @@ void describe(Archive& a, Struct& r) {
     a("diagnostics", r.diagnostics);
     a.added("statements", r.statements);
     a.digest("digest", r.digest);
-    a.null("audit");  // the record of this version holds no audit
+    a.object_or_null("audit", r.audit_json);
 }
 
 }  // namespace gumcert::reports

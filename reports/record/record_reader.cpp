@@ -139,12 +139,6 @@ public:
 
     void constant(const char* key, const char*) { static_cast<void>(find(key)); }  // the caller has looked at it
 
-    void null(const char* key) {
-        if (const json* item = find(key); item != nullptr && !item->is_null()) {
-            wrong_type(*item, "null in records of this version", place_.child(key));
-        }
-    }
-
     /// Records of earlier releases state none.
     void digest(const char* key, std::string& value) {
         const json* item = find_if_there(key);
@@ -180,6 +174,16 @@ public:
     void document(const char* key, std::string& text) {
         if (const json* item = find(key)) {
             text = canonical_json(*item);
+        }
+    }
+
+    /// The text of an object; "" for null.
+    void object_or_null(const char* key, std::string& text) {
+        const json* item = find(key);
+        if (item != nullptr && item->is_object()) {
+            text = canonical_json(*item);
+        } else if (item != nullptr && !item->is_null()) {
+            wrong_type(*item, "an object or null", place_.child(key));
         }
     }
 

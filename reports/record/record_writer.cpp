@@ -127,7 +127,6 @@ public:
     }
 
     void constant(const char* key, const char* v) { object[key] = v; }
-    void null(const char* key) { object[key] = nullptr; }
     void digest(const char*, const std::string&) {}  // with_digest() adds it to the finished record
 
     void severity(const char* key, gum::Severity v) { object[key] = k_severities.at(static_cast<std::size_t>(v)); }
@@ -135,10 +134,12 @@ public:
     void document(const char* key, const std::string& text) {
         json value = text.empty() ? json() : json::parse(text, nullptr, false);
         if (value.is_discarded()) {
-            refuse_record(place_.child(key), "text that is not JSON", "the job and the options are JSON texts");
+            refuse_record(place_.child(key), "text that is not JSON", "job, options and audit are JSON texts");
         }
         object[key] = std::move(value);
     }
+
+    void object_or_null(const char* key, const std::string& text) { document(key, text); }
 
     void results(const char* key, const std::vector<Result>& v) {
         json all = json::object();

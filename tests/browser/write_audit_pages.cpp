@@ -18,12 +18,12 @@ int main(int count, char** arguments) {
     }
     try {
         const std::filesystem::path folder = arguments[1];
-        const std::vector<audit::AuditReport> reports = {test::sample_audit(), test::sample_audit_of_points()};
+        std::vector<audit::AuditReport> reports = {test::sample_audit(), test::sample_audit_of_points()};
+        reports.front().subject.waivers = {
+            {.finding = "B05", .where = {}, .by = "A. N.", .date = "2026-03-04", .reason = "one operator only"}};
         const reports::AuditView view = reports::make_audit_view(
             reports, test::sample_rules(),
-            {.program = "gumcert 0.1.0",
-             .digests = {std::string(64, 'a'), std::string(64, 'b')},
-             .waivers = {{.rule = "B05", .by = "A. N.", .when = "2026-03-04", .reason = "one operator only"}}});
+            {.program = "gumcert 0.1.0", .digests = {std::string(64, 'a'), std::string(64, 'b')}});
         reports::RenderAssets assets;
         assets.templates = std::filesystem::path(GUMCERT_SOURCE_DIR) / "templates";
         for (const std::string language : {"en", "de", "es", "zh-Hant"}) {

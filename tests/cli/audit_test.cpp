@@ -120,6 +120,48 @@ TEST_F(AuditProgram, ARecordIsHeldAgainstItsOwnJob) {
     EXPECT_NE(audit_json(record)["not_read"].dump().find("was not held against its own job"), std::string::npos);
 }
 
+TEST_F(AuditProgram, WaiversAreShownAndDecideOnTheExitCode) {
+    const fs::path table = example("paper_fixture_budget/budget.csv");
+    json waivers = json::array();
+    for (const json& one : audit_json(table)["findings"]) {
+        if (one["severity"] == "critical") {
+            waivers.push_back({{"finding", one["id"]},
+                               {"by", "Head of laboratory"},
+                               {"date", "2026-11-20"},
+                               {"reason", "The table is that of a published paper, and is not used."}});
+        }
+    }
+    ASSERT_FALSE(waivers.empty());
+    const fs::path file = folder() / "waivers.json";
+    write_bytes(file, waivers.dump());
+    const Ended accepted = audit({table.string(), "--waivers", file.string()});
+    EXPECT_EQ(accepted.code, 0) << accepted.err;
+    EXPECT_NE(accepted.out.find("Head of laboratory"), std::string::npos);
+    waivers[0]["by"] = "-";
+    write_bytes(file, waivers.dump());
+    const Ended refused = audit({table.string(), "--waivers", file.string()});
+    EXPECT_EQ(refused.code, 3);
+    EXPECT_NE(refused.err.find("GC-AUDIT-0012"), std::string::npos) << refused.err;
+    write_bytes(file, "{}");
+    EXPECT_EQ(audit({table.string(), "--waivers", file.string()}).code, 3);
+}
+
+TEST_F(AuditProgram, RunAuditsTheJobAndWritesThePage) {
+    const fs::path job = example("paper_fixture_budget/budget.json");
+    const Ended ended =
+        gumcert({"evaluate", job.string(), "-o", (folder() / "record.json").string(), "--share", GUMCERT_SOURCE_DIR});
+    EXPECT_EQ(ended.code, 1) << "S15 is critical";
+    EXPECT_NE(ended.err.find("GC-AUDIT-0020"), std::string::npos) << ended.err;
+    const json record = json::parse(bytes_of(folder() / "record.json"));
+    EXPECT_NE(finding(record["audit"], "S15"), nullptr);
+    if (!why_no_pdf().empty()) {
+        GTEST_SKIP() << why_no_pdf();
+    }
+    EXPECT_EQ(run(job, folder() / "out").code, 1);
+    EXPECT_NE(bytes_of(folder() / "out" / "audit.html").find("S15"), std::string::npos);
+    EXPECT_EQ(json::parse(bytes_of(folder() / "out" / "record.json"))["audit"], record["audit"]);
+}
+
 TEST_F(AuditProgram, SameFileSameBytes) {
     const std::vector<std::string> words = {example("planted_workbook/planted.xlsx").string(), "--format", "json"};
     EXPECT_EQ(audit(words).out, audit(words).out);

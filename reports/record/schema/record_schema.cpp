@@ -140,11 +140,11 @@ public:
         add(key, inner.schema());
     }
     void constant(const char* key, const char* v) { add(key, {{"const", v}}); }
-    void null(const char* key) { add(key, {{"type", "null"}}); }
     void severity(const char* key, gum::Severity) {
         add(key, {{"enum", std::vector<std::string>(k_severities.begin(), k_severities.end())}});
     }
     void document(const char* key, const std::string&) { add(key, ordered_json::object()); }
+    void object_or_null(const char* key, const std::string&) { add(key, {{"type", {"object", "null"}}}); }
     void digest(const char* key, const std::string& v) {
         SchemaWriter inner(definitions_);
         inner("algorithm", v, {k_digest_algorithm});

@@ -16,7 +16,7 @@ inline constexpr SentenceOfValue k_sentences_of_values[] = {
     {"/job/document", "the job as read"},
     {"/options", "every tolerance and option in force"},
     {"/digest", "of the canonical text of the record without this member; records of earlier releases have none"},
-    {"/audit", "the audit comes with a later version"},
+    {"/audit", "what the audit of the job found: schemas/audit-1.schema.json; null in records of earlier releases"},
     {"input_file/content", "the bytes of the file, as `encoding` says; null where the record does not hold them"},
 
     {"printed/U", "empty where the value has no uncertainty by definition"},

@@ -43,8 +43,8 @@ struct IndicatorUncertainty {
     }
 };
 
-reports::BudgetRow indicator_row(const std::string& input, double u, const std::string& distribution, double u_total,
-                                 const std::string& source) {
+reports::BudgetRow budget_row(const std::string& input, double u, const std::string& distribution, double u_total,
+                              const std::string& source) {
     reports::BudgetRow row;
     row.input = input;
     row.value = 0.0;
@@ -99,7 +99,7 @@ MethodSide side_of_indicator(const RotaryTableJob& job, const std::vector<Refere
     }
 
     const auto row = [&](const std::string& input, double u, const std::string& distribution) {
-        side.budget.push_back(indicator_row(input, u, distribution, indicator.of_mean(runs), reference.name));
+        side.budget.push_back(budget_row(input, u, distribution, indicator.of_mean(runs), reference.name));
     };
     row("maximum permissible error of the indicator", indicator.mpe, "uniform");
     row("resolution of the indication", indicator.resolution, "uniform");
@@ -165,6 +165,28 @@ gum::MethodComparison method_comparison(const RotaryTableJob& job, const gum::Qu
     return comparison;
 }
 
+/// What each source contributes to the displacement of the contact point where |E_n| is largest.
+std::vector<reports::BudgetRow> budget_of_displacement(const gum::UncertaintyBudget& budget,
+                                                       const std::vector<ReferencePoint>& points,
+                                                       const reports::Comparison& record) {
+    const auto largest = std::max_element(record.points.begin(), record.points.end(), [](const auto& a, const auto& b) {
+        return std::abs(a.En.number.value_or(0.0)) < std::abs(b.En.number.value_or(0.0));
+    });
+    std::vector<reports::BudgetRow> rows;
+    if (largest == record.points.end()) {
+        return rows;
+    }
+    const ReferencePoint& at = points[static_cast<std::size_t>(largest - record.points.begin())];
+    const auto output = static_cast<Eigen::Index>(3 * at.angle + at.direction);
+    for (const gum::BudgetContribution& source : budget.shares_by_source) {
+        if (source.variance[output] > 0.0) {
+            rows.push_back(budget_row(source.name, std::sqrt(source.variance[output]) / gum::k_micrometre, "normal",
+                                      budget.standard_uncertainty[output] / gum::k_micrometre, ""));
+        }
+    }
+    return rows;
+}
+
 void add_published(const ReferenceMethod& reference, reports::Comparison& record) {
     for (reports::ComparisonSummary& row : record.summary) {
         for (std::size_t d = 0; d < k_directions.size(); ++d) {
@@ -212,6 +234,7 @@ reports::Comparison reference_comparison(const RotaryTableJob& job, const gum::Q
                                                                        "reference_method/correlation", record.remarks);
     }
     add_method_comparison(comparison, "um", record);
+    record.method_budget = budget_of_displacement(displacement.budget, points, record);
     add_published(reference, record);
     return record;
 }

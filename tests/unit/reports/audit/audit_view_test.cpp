@@ -16,9 +16,9 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-AuditView view_of(const audit::AuditReport& report, const std::vector<Waiver>& waivers = {}) {
+AuditView view_of(const audit::AuditReport& report) {
     return make_audit_view(std::vector{report}, test::sample_rules(),
-                           {.program = "gumcert 0.1.0", .digests = {std::string(64, 'a')}, .waivers = waivers});
+                           {.program = "gumcert 0.1.0", .digests = {std::string(64, 'a')}});
 }
 
 TEST(AuditViewOfABudget, HoldsNumbersBesideTheirTexts) {
@@ -131,9 +131,13 @@ TEST(AuditViewOfABudget, HasEffectsBoundsAndQuestions) {
 }
 
 TEST(AuditViewOfABudget, FindsTheWaiverOfAFinding) {
-    const Waiver by_rule{.rule = "B05", .by = "A. N.", .when = "2026-03-04", .reason = "one operator"};
-    const Waiver elsewhere{.rule = "U10", .where = "row 9", .by = "A. N.", .when = "2026-03-04", .reason = "other"};
-    const AuditView view = view_of(test::sample_audit(), {by_rule, elsewhere});
+    audit::AuditReport report = test::sample_audit();
+    report.subject.waivers = {
+        {.finding = "B05", .where = {}, .by = "A. N.", .date = "2026-03-04", .reason = "one operator"},
+        {.finding = "U10", .where = "row 9", .by = "A. N.", .date = "2026-03-04", .reason = "other"}};
+    const AuditView view = view_of(report);
+    ASSERT_EQ(view.waivers.size(), 2U);
+    EXPECT_EQ(view.waivers[0].reason, "one operator");
     EXPECT_EQ(view.files[0].findings[2].waiver, 0U);
     EXPECT_FALSE(view.files[0].findings[1].waiver);
 }

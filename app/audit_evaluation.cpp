@@ -1,0 +1,77 @@
+#include "app/audit_evaluation.h"
+
+#include <gumcert_build_info.h>
+
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "audit/rules/registry.h"
+#include "audit/sources/record_subject.h"
+#include "certificate/gates/gates.h"
+#include "certificate/waiver.h"
+#include "reports/audit/audit_json.h"
+
+namespace gumcert::app {
+
+namespace {
+
+using certificate::Finding;
+using certificate::FindingSeverity;
+
+/// What the audit alone found, and nobody accepts, as findings of the certificate.
+std::vector<Finding> critical_findings(const audit::AuditReport& report, std::span<const audit::Rule> rules) {
+    std::vector<Finding> critical;
+    for (const audit::AuditFinding& found : report.findings) {
+        if (found.severity != FindingSeverity::critical || found.of_gate ||
+            audit::waiver_of(found, report.subject.waivers) != nullptr) {
+            continue;
+        }
+        std::string clause;
+        for (const audit::Rule& rule : rules) {
+            clause = rule.id == found.rule ? std::string(rule.clause.text) : clause;
+        }
+        critical.push_back({.id = "audit-" + found.rule,
+                            .clause = std::move(clause),
+                            .severity = FindingSeverity::critical,
+                            .where = found.where,
+                            .what = found.what,
+                            .action = found.correction});
+    }
+    return critical;
+}
+
+}  // namespace
+
+reports::AuditView audit_view(const audit::AuditReport& report, const std::string& digest) {
+    reports::AuditContext context;
+    context.program = "gumcert " + std::string(k_version);
+    if (!digest.empty()) {
+        context.digests = {digest};
+    }
+    return reports::make_audit_view(std::span(&report, 1), audit::all_rules(), context);
+}
+
+bool is_refuted_by_audit(const Evaluation& evaluation) {
+    return evaluation.audit && !evaluation.record.comparison && evaluation.audit->has_critical();
+}
+
+void audit_evaluation(Evaluation& evaluation, const std::string& job_file) {
+    const std::span<const audit::Rule> rules = audit::all_rules();
+    audit::AuditSubject subject = audit::subject_of(evaluation.record, job_file);
+    subject.kind = audit::AuditSubject::Kind::job;
+    for (const certificate::Waiver& waiver : evaluation.waivers) {
+        if (certificate::has_effect(waiver, "")) {
+            subject.waivers.push_back(waiver);
+        }
+    }
+    auto report = std::make_shared<audit::AuditReport>(audit::audit(std::move(subject), rules));
+    evaluation.record.audit_json = reports::audit_as_json(audit_view(*report));
+    if (evaluation.record.certificate) {
+        certificate::add_findings(*evaluation.record.certificate, critical_findings(*report, rules));
+        evaluation.blocked = evaluation.record.certificate->blocked;
+    }
+    evaluation.audit = std::move(report);
+}
+
+}  // namespace gumcert::app

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/evaluation_task.h"
+#include "reports/audit/audit_view.h"
+
+namespace gumcert::app {
+
+/// Audits what was evaluated of a job: the audit stands in the record from then on, and its critical findings, unless
+/// somebody accepts them, are findings of the certificate, which they block. The record is not a certificate where the
+/// job states no certificate data; then nothing is blocked.
+/// \param job_file  its name in its source
+void audit_evaluation(Evaluation& evaluation, const std::string& job_file);
+
+/// Whether the audit left a critical finding that nobody accepts. Of a comparison the scores are the answer, and what the
+/// audit says of them is not another one: false.
+[[nodiscard]] bool is_refuted_by_audit(const Evaluation& evaluation);
+
+/// The audit as documents show it.
+/// \param digest  SHA-256 of the audited file; "" it is not printed
+[[nodiscard]] reports::AuditView audit_view(const audit::AuditReport& report, const std::string& digest = {});
+
+}  // namespace gumcert::app
