@@ -154,7 +154,7 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
         AuditedResult result{.name = budget.name, .unit = budget.unit, .budget = i};
         try {
             AuditedBudget of_rows = budget;
-            of_rows.u_c_over_rows = of_rows.U_over_k_u_c = 1.0;
+            of_rows.u_c_over_rows = of_rows.k_over_rows = of_rows.U_over_k_u_c = 1.0;
             result.recomputed = evaluate(of_rows);
             const BudgetOutcome evaluated = evaluate(budget);
             result.claimed = claimed_outcome(budget, evaluated);

@@ -65,7 +65,7 @@ struct AuditedRow {
     Origin origin = Origin::not_stated;
     Contributor contributor = Contributor::other;
     /// The number that the origin gives, read of the comment or the job, in the unit of the row: half-width, MPE, step,
-    /// or U of the certificate.
+    /// U of the certificate, or s of single readings.
     std::optional<double> origin_value;
     std::optional<double> certificate_k, certificate_probability;
     std::optional<bool> type_a;
@@ -157,10 +157,10 @@ struct AuditedBudget {
     CoverageRule coverage;
     /// What correlations that are not listed add to the variance, as the evaluation of the job has it: it stays as it is.
     double correlation_variance = 0.0;
-    /// What the claimed numbers have beyond the rows: u_c of the claim over that of the rows, and U of the claim over k u_c.
-    /// 1 where rows and claims agree within their rounding; a finding of its own (K01) where they do not. They stay while
-    /// other findings are corrected.
-    double u_c_over_rows = 1.0, U_over_k_u_c = 1.0;
+    /// What the claimed numbers have beyond the rows: u_c of the claim over that of the rows, k of the claim over that of
+    /// ν_eff of the rows, and U of the claim over k u_c. 1 where rows and claims agree within their rounding; a finding of
+    /// its own (K01) where they do not. They stay while other findings are corrected.
+    double u_c_over_rows = 1.0, k_over_rows = 1.0, U_over_k_u_c = 1.0;
     /// Evaluated by this program from its measurement model: sensitivities, sum and k come from there and need no second
     /// look; what was stated of the inputs does.
     bool evaluated_here = false;

@@ -127,7 +127,7 @@ BudgetOutcome evaluate(const AuditedBudget& budget) {
     const double u_of_rows = std::sqrt(variance);
     outcome.u_c = u_of_rows * budget.u_c_over_rows;
     outcome.nu_eff = effective_degrees_of_freedom(budget, u_of_rows);
-    outcome.k = coverage_factor_of(budget, u_of_rows, outcome.nu_eff);
+    outcome.k = coverage_factor_of(budget, u_of_rows, outcome.nu_eff) * budget.k_over_rows;
     outcome.U = outcome.k * outcome.u_c * budget.U_over_k_u_c;
     if (budget.floor_applied && budget.capability && *budget.capability > outcome.U) {
         outcome.U = *budget.capability;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <iterator>
+#include <optional>
 #include <vector>
 
 #include "audit/budget_outcome.h"
+#include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::audit {
@@ -13,10 +15,6 @@ namespace {
 
 /// What arithmetic and copies between programs may leave.
 constexpr double k_arithmetic = 1e-6;
-
-bool is_whole_text(const std::string& text) {
-    return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-}
 
 Interval hull(const Interval& a, const Interval& b) {
     return {std::min(a.low, b.low), std::max(a.high, b.high)};
@@ -33,19 +31,14 @@ Interval before_rounding_up(const StatedNumber& U) {
     return {printed.low - 0.5 * (printed.high - printed.low), printed.high};
 }
 
-/// Rules of coverage that the claims leave open, that of the budget first.
-std::vector<CoverageRule> possible_coverage(const AuditedBudget& budget) {
-    std::vector<CoverageRule> rules = {budget.coverage};
-    if (budget.claims.k) {
-        rules.push_back(budget.coverage);
-        rules.back().kind = CoverageRule::Kind::fixed;
-        rules.back().k = budget.claims.k->value;
-    }
+/// t_p(ν_eff) with the probabilities that the claims leave open, ν_eff as it is or cut.
+std::vector<CoverageRule> student_rules(const AuditedBudget& budget) {
     const double p = budget.claims.coverage_probability.value_or(budget.coverage.probability);
     std::vector<double> probabilities = {p};
     if (p > 0.94 && p < 0.96) {  // "95 %" is said of both
         probabilities = {p, 0.9545, 0.95};
     }
+    std::vector<CoverageRule> rules;
     for (const double probability : probabilities) {
         for (const bool truncate : {false, true}) {
             rules.push_back({.kind = CoverageRule::Kind::student_t,
@@ -55,6 +48,34 @@ std::vector<CoverageRule> possible_coverage(const AuditedBudget& budget) {
         }
     }
     return rules;
+}
+/// Rules of coverage that take a k whatever ν_eff, that of the budget first.
+std::vector<CoverageRule> fixed_rules(const AuditedBudget& budget) {
+    std::vector<CoverageRule> rules = {budget.coverage};
+    if (budget.claims.k) {
+        rules.push_back(budget.coverage);
+        rules.back().kind = CoverageRule::Kind::fixed;
+        rules.back().k = budget.claims.k->value;
+    }
+    return rules;
+}
+
+/// Whether k is claimed with two decimals: "2" is what laboratories take whatever ν_eff.
+bool has_decimals(const std::optional<StatedNumber>& k) {
+    constexpr double k_two_decimals = 0.0051;
+    return k && k->half_step > 0.0 && k->half_step < k_two_decimals;
+}
+/// Whether a claimed k may have been taken from ν_eff by a rule: it has decimals, and is none of the numbers that stand for
+/// all budgets, or ν_eff or the very probability of the rule stand beside it.
+bool may_be_of_rule(const Claims& claims, const CoverageRule& rule) {
+    if (!has_decimals(claims.k)) {
+        return false;
+    }
+    constexpr double k_for_all[] = {1.645, 1.65, 1.96, 2.0, 2.576, 2.58, 3.0};
+    const bool usual = std::any_of(std::begin(k_for_all), std::end(k_for_all), [&claims](double k) {
+        return std::abs(claims.k->value - k) <= 0.1 * claims.k->half_step;
+    });
+    return !usual || claims.nu_eff || claims.coverage_probability == rule.probability;
 }
 
 Interval allowed_k(const AuditedBudget& budget, const CoverageRule& rule) {
@@ -67,12 +88,31 @@ Interval allowed_k(const AuditedBudget& budget, const CoverageRule& rule) {
     return outcome_intervals(by_rule).k;
 }
 
+/// What a printed ν_eff may have been: rounded, or cut to a whole number.
+Interval before_cutting(const StatedNumber& nu_eff) {
+    const Interval rounded = printed_interval(nu_eff);
+    return {rounded.low, nu_eff.half_step == 0.0 ? std::max(rounded.high, nu_eff.value + 1.0) : rounded.high};
+}
+
+/// t_p of a printed ν_eff.
+Interval factors_of(const CoverageRule& rule, const StatedNumber& nu_eff) {
+    const Interval nu = printed_interval(nu_eff);
+    return {gum::coverage_factor(rule.probability, std::max(1.0, nu.high)),
+            gum::coverage_factor(rule.probability, std::max(1.0, rule.truncate ? std::floor(nu.low) : nu.low))};
+}
+
 Interval allowed_U(const AuditedBudget& budget, const Interval& k, const Interval& u_c) {
     Interval U{k.low * u_c.low, k.high * u_c.high};
     if (budget.floor_applied && budget.capability) {
         U = {std::max(U.low, *budget.capability), std::max(U.high, *budget.capability)};
     }
     return wide(U);
+}
+
+/// Whether a printed U is what remains of a larger one when the digits behind its last are cut.
+bool is_cut(const StatedNumber& U, const Interval& uncut) {
+    const double step = 2.0 * printed_half_step(U);
+    return step > 0.0 && uncut.low > U.value && uncut.low < U.value + step;
 }
 
 /// Σ |c| u of the rows, as wide as their digits allow.
@@ -91,19 +131,12 @@ Interval linear_sum_of(const AuditedBudget& budget) {
 }  // namespace
 
 Interval printed_interval(const StatedNumber& number) {
-    double half = number.half_step;
-    if (half == 0.0 && is_whole_text(number.text) && number.value != 0.0) {
-        // Of "100" two digits are taken to be meant: no more than those are printed of an uncertainty.
-        const std::size_t last = number.text.find_last_not_of('0');
-        const std::size_t zeros =
-            std::min(number.text.size() - 1 - last, number.text.size() - std::min<std::size_t>(number.text.size(), 2));
-        half = 0.5 * std::pow(10.0, static_cast<double>(zeros));
-    }
-    half += k_arithmetic * std::abs(number.value);
+    const double half = printed_half_step(number) + k_arithmetic * std::abs(number.value);
     return {number.value - half, number.value + half};
 }
 
 ClaimCheck check_claims(const AuditedBudget& budget) {
+    const Claims& claims = budget.claims;
     ClaimCheck check;
     check.coverage = budget.coverage;
     OutcomeIntervals allowed;
@@ -114,24 +147,71 @@ ClaimCheck check_claims(const AuditedBudget& budget) {
         return check;
     }
     check.u_c = wide(allowed.u_c);
+    check.nu_eff = allowed.nu_eff;
     Interval u_c = check.u_c;
-    if (budget.claims.u_c) {
-        const Interval claimed = printed_interval(*budget.claims.u_c);
+    if (claims.u_c) {
+        const Interval claimed = printed_interval(*claims.u_c);
         check.u_c_outside = !claimed.meets(check.u_c);
-        u_c = check.u_c_outside ? claimed : hull(claimed, check.u_c);
+        // Where both hold, u_c is what both allow; U may have been computed from the printed one as well.
+        u_c = check.u_c_outside ? claimed
+                                : hull({std::max(claimed.low, check.u_c.low), std::min(claimed.high, check.u_c.high)},
+                                       {claims.u_c->value, claims.u_c->value});
         check.linear_sum = check.u_c_outside && budget.rows.size() > 1 && claimed.meets(linear_sum_of(budget));
     }
     check.U = allowed_U(budget, allowed.k, u_c);
+    const auto gives_U = [&](const Interval& k) {
+        return !claims.U || before_rounding_up(*claims.U).meets(allowed_U(budget, k, u_c));
+    };
+    const auto gives_k = [&](const Interval& k) { return !claims.k || wide(k).meets(claims.k->interval()); };
+    const auto take = [&](const CoverageRule& rule, const Interval& k) {
+        check.coverage = rule;
+        check.U = allowed_U(budget, k, u_c);
+    };
+    const std::vector<CoverageRule> student = student_rules(budget);
+    // The k of a ν_eff that the rows do not give: the claimed one.
+    const bool nu_apart = claims.nu_eff && std::isfinite(claims.nu_eff->value) && claims.nu_eff->value >= 1.0 &&
+                          !before_cutting(*claims.nu_eff).meets(wide(allowed.nu_eff));
+    for (const CoverageRule& rule : student) {
+        if (nu_apart && may_be_of_rule(claims, rule) && gives_k(factors_of(rule, *claims.nu_eff)) &&
+            !gives_k(allowed_k(budget, rule)) && gives_U(claims.k->interval())) {
+            take(rule, claims.k->interval());
+            check.nu_eff_outside = true;
+            return check;
+        }
+    }
+    std::optional<CoverageRule> nearest;  // of those that give k and U, the one that gives k best
+    double distance = 0.0;
+    for (const CoverageRule& rule : student) {
+        const Interval k = allowed_k(budget, rule);
+        if (!may_be_of_rule(claims, rule) || !gives_k(k) || !gives_U(k)) {
+            continue;
+        }
+        AuditedBudget by_rule = budget;
+        by_rule.coverage = rule;
+        by_rule.k_over_rows = 1.0;
+        // Within the digits of the claimed k all rules give it alike, and the first of them is taken.
+        const double off = std::max(0.0, std::abs(evaluate(by_rule).k - claims.k->value) - claims.k->half_step);
+        if (!nearest || off < distance - claims.k->half_step * k_arithmetic) {
+            nearest = rule;
+            distance = off;
+        }
+    }
+    if (nearest) {
+        take(*nearest, allowed_k(budget, *nearest));
+        return check;
+    }
     // A rule that gives the claimed k and U is the one that was used; else one that gives U.
-    const std::vector<CoverageRule> rules = possible_coverage(budget);
+    std::vector<CoverageRule> rules = fixed_rules(budget);
+    rules.insert(rules.end(), student.begin(), student.end());
     for (const bool with_k : {true, false}) {
+        if (!with_k && claims.U && has_decimals(claims.k) &&
+            is_cut(*claims.U, allowed_U(budget, claims.k->interval(), u_c))) {
+            break;  // no other k is needed to explain it
+        }
         for (const CoverageRule& rule : rules) {
-            const Interval k = allowed_k(budget, rule), U = allowed_U(budget, k, u_c);
-            const bool gives_k = !budget.claims.k || wide(k).meets(budget.claims.k->interval());
-            const bool gives_U = !budget.claims.U || before_rounding_up(*budget.claims.U).meets(U);
-            if (gives_U && (gives_k || !with_k)) {
-                check.coverage = rule;
-                check.U = U;
+            const Interval k = allowed_k(budget, rule);
+            if (gives_U(k) && (!with_k || gives_k(k))) {
+                take(rule, k);
                 return check;
             }
         }
@@ -141,15 +221,14 @@ ClaimCheck check_claims(const AuditedBudget& budget) {
 }
 
 void note_unexplained(AuditedBudget& budget) {
-    budget.u_c_over_rows = budget.U_over_k_u_c = 1.0;
+    budget.u_c_over_rows = budget.k_over_rows = budget.U_over_k_u_c = 1.0;
     const ClaimCheck check = check_claims(budget);
     budget.coverage = check.coverage;
-    if (!check.u_c_outside && !check.U_outside) {
-        return;
-    }
     if (check.u_c_outside) {
-        const double of_rows = evaluate(budget).u_c, claimed = budget.claims.u_c->value;
-        budget.u_c_over_rows = claimed / of_rows;
+        budget.u_c_over_rows = budget.claims.u_c->value / evaluate(budget).u_c;
+    }
+    if (check.nu_eff_outside) {
+        budget.k_over_rows = budget.claims.k->value / evaluate(budget).k;
     }
     if (check.U_outside) {
         const BudgetOutcome outcome = evaluate(budget);

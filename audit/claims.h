@@ -9,23 +9,27 @@ namespace gumcert::audit {
 /// its last digit that is not 0. A number without text is known to all digits, but for a relative 1e-6 of arithmetic.
 [[nodiscard]] Interval printed_interval(const StatedNumber& number);
 
-/// The claimed u_c and U against the rows.
+/// The claimed u_c, ν_eff and U against the rows.
 struct ClaimCheck {
-    Interval u_c, U;  ///< what the rows allow of the claims
+    Interval u_c, nu_eff, U;  ///< what the rows allow of the claims
     bool u_c_outside = false, U_outside = false;
+    /// The claimed k is t_p of the claimed ν_eff, and ν_eff of the rows is another one that gives another k.
+    bool nu_eff_outside = false;
     bool linear_sum = false;  ///< u_c is Σ |c| u of the rows, not the root of the sum of squares
     CoverageRule coverage;  ///< the rule of coverage that gives the claimed k and U; that of the budget where none does
 };
 
 /// Holds claims against what the printed digits of the rows allow (outcome_intervals()). U follows from the claimed u_c
 /// where there is one, and by any rule of coverage that the claims leave open: the stated k, or t_p(ν_eff) with p
-/// as stated, ν_eff as it is or cut. U may be rounded up. Nothing is outside where a budget gives no outcome.
+/// as stated, ν_eff as it is or cut. A k with decimals that is t_p(ν_eff) within its digits was taken from ν_eff; "2" is
+/// what laboratories take whatever ν_eff. U may be rounded up. Nothing is outside where a budget gives no outcome.
 [[nodiscard]] ClaimCheck check_claims(const AuditedBudget& budget);
 
 /// For readers, after rows, claims and coverage are filled: takes over the rule of coverage that the claims show, and
 /// sets what they have beyond the rows, so that the budget evaluates to what it claims: u_c_over_rows where the
-/// claimed u_c lies outside of what the rows allow, U_over_k_u_c where the claimed U is not k u_c. Both are 1 where
-/// rows and claims agree within their rounding, and where the budget gives no outcome.
+/// claimed u_c lies outside of what the rows allow, k_over_rows where k follows a ν_eff that the rows do not give,
+/// U_over_k_u_c where the claimed U is not k u_c. They are 1 where rows and claims agree within their rounding, and where
+/// the budget gives no outcome.
 void note_unexplained(AuditedBudget& budget);
 
 }  // namespace gumcert::audit

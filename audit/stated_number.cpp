@@ -1,7 +1,9 @@
 #include "audit/stated_number.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <system_error>
@@ -299,6 +301,18 @@ std::optional<StatedNumber> take_number(Walk& walk) {
 }
 
 }  // namespace
+
+double printed_half_step(const StatedNumber& number) {
+    const std::string& text = number.text;
+    if (number.half_step != 0.0 || number.value == 0.0 || text.empty() ||
+        text.find_first_not_of("0123456789") != std::string::npos) {
+        return number.half_step;
+    }
+    // Of "100" two digits are taken to be meant: no more than those are printed of an uncertainty.
+    const std::size_t last = text.find_last_not_of('0');
+    const std::size_t zeros = std::min(text.size() - 1 - last, text.size() - std::min<std::size_t>(text.size(), 2));
+    return 0.5 * std::pow(10.0, static_cast<double>(zeros));
+}
 
 StatedNumber exact_number(double value, std::string place) {
     StatedNumber number;

@@ -27,6 +27,11 @@ struct StatedNumber {
     [[nodiscard]] Interval interval() const { return {value - half_step, value + half_step}; }
 };
 
+/// Half a unit of the last digit that a printed number is meant to have: half_step, and for a whole number the half unit of
+/// its last digit that is not 0, of two digits at most: "120" stands for 115 to 125, "100" for 95 to 105. 0 for a number
+/// without text, and for 0.
+[[nodiscard]] double printed_half_step(const StatedNumber& number);
+
 /// A number that is known to all of its digits.
 [[nodiscard]] StatedNumber exact_number(double value, std::string place);
 

@@ -50,10 +50,36 @@ std::string claimed_in_words(const StatedNumber& number, const std::string& unit
     return number.text.empty() ? in_words(number.value, unit) : number.text + (unit.empty() ? "" : " " + unit);
 }
 
-const Correction k_trust_rows = [](AuditedBudget& budget) { budget.u_c_over_rows = budget.U_over_k_u_c = 1.0; };
+const Correction k_trust_rows = [](AuditedBudget& budget) {
+    budget.u_c_over_rows = budget.k_over_rows = budget.U_over_k_u_c = 1.0;
+};
+
+/// K01 of a row: |c| u beside a column of contributions that says otherwise, and that the sum was taken of.
+void contribution_not_reproducible(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        const AuditedRow& row = at.is;
+        if (at.of.evaluated_here || !row.sensitivity || !row.contribution ||
+            is_about(row.used_sensitivity, row.sensitivity->value, 1e-12)) {
+            return;
+        }
+        const double c = row.sensitivity->value;
+        AuditFinding finding = finding_at(at, "contribution",
+                                          "the contribution " + claimed_in_words(*row.contribution, at.of.unit) +
+                                              " is not |c| u = " + in_words(std::abs(c) * row.used_u, at.of.unit));
+        finding.evidence = {"c = " + in_words(c), "u = " + in_words(row.used_u, row.unit)};
+        if (is_about(std::abs(row.contribution->value), c * c * row.used_u, 0.01)) {
+            finding.evidence.emplace_back("it is c² u: the coefficient was multiplied twice");
+        }
+        finding.expected = in_words(std::abs(c) * row.used_u, at.of.unit);
+        finding.actual = claimed_in_words(*row.contribution, at.of.unit);
+        finding.correct = set_sensitivity(at.row, c);
+        findings.add(std::move(finding));
+    });
+}
 
 /// K01
 void not_reproducible(const AuditSubject& subject, FindingCollector& findings) {
+    contribution_not_reproducible(subject, findings);
     for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
         const AuditedBudget& budget = subject.budgets[b];
         if (budget.evaluated_here) {
@@ -68,7 +94,20 @@ void not_reproducible(const AuditSubject& subject, FindingCollector& findings) {
             finding.expected = range_in_words(check.u_c, budget.unit);
             finding.actual = claimed_in_words(*budget.claims.u_c, budget.unit);
             finding.kind = "u_c";
-            finding.correct = [](AuditedBudget& corrected) { corrected.u_c_over_rows = 1.0; };
+            // ν_eff of the sum that is claimed goes with it.
+            finding.correct = [](AuditedBudget& corrected) { corrected.u_c_over_rows = corrected.k_over_rows = 1.0; };
+            findings.add(std::move(finding));
+        }
+        if (check.nu_eff_outside && !check.u_c_outside) {
+            AuditFinding finding = finding_of(subject, b,
+                                              "k = " + claimed_in_words(*budget.claims.k, "") +
+                                                  " is that of ν_eff = " + claimed_in_words(*budget.claims.nu_eff, "") +
+                                                  ", which the rows do not give, whatever their rounding");
+            finding.evidence = {"the rows allow ν_eff = " + range_in_words(check.nu_eff, "")};
+            finding.expected = range_in_words(check.nu_eff, "");
+            finding.actual = claimed_in_words(*budget.claims.nu_eff, "");
+            finding.kind = "nu_eff";
+            finding.correct = [](AuditedBudget& corrected) { corrected.k_over_rows = 1.0; };
             findings.add(std::move(finding));
         }
         if (check.U_outside) {
@@ -510,7 +549,8 @@ std::vector<Rule> coverage_rules() {
          .needs = {Need::rows, Need::claims},
          .detection =
              "the claimed u_c or U lies outside of what the printed digits of all rows allow; U may be rounded up, "
-             "and k may be any that the claims leave open",
+             "and k may be any that the claims leave open. The same of a ν_eff that k was taken from, and of a "
+             "contribution that is not |c| u",
          .correction = "Compute u_c and U again from the rows, or complete the rows.",
          .question =
              "The rows give another number than the sheet claims. Which row is missing, or which number is old?",

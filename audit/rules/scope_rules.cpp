@@ -24,7 +24,7 @@ constexpr double k_noise = 1e-9;  // of a conversion of units
 std::optional<double> computed_U(const AuditedBudget& budget) {
     AuditedBudget of_rows = budget;
     of_rows.floor_applied = false;
-    of_rows.u_c_over_rows = of_rows.U_over_k_u_c = 1.0;
+    of_rows.u_c_over_rows = of_rows.k_over_rows = of_rows.U_over_k_u_c = 1.0;
     const std::optional<BudgetOutcome> outcome = outcome_or_none(of_rows);
     return outcome ? std::optional(outcome->U) : std::nullopt;
 }

@@ -43,7 +43,6 @@ void mark_sum(AuditedBudget& budget, const AuditedWorkbook& held) {
     for (AuditedRow& row : budget.rows) {
         row.in_sum = reached(row);
     }
-    budget.u_c_over_rows = budget.U_over_k_u_c = 1.0;
     note_unexplained(budget);
 }
 

@@ -112,5 +112,71 @@ TEST(Claims, AreNotHeldAgainstRowsWithoutAnOutcome) {
     EXPECT_EQ(budget.u_c_over_rows, 1.0);
 }
 
+/// ν_eff = 4.94 with every digit, k = t_95.45(4.94) = 2.66.
+AuditedBudget budget_of_few() {
+    AuditedBudget budget = budget_of({row("a", 0.300, 1.0, 4.0), row("b", 0.100)});
+    budget.coverage = {.kind = CoverageRule::Kind::fixed, .k = 2.66, .probability = 0.9545, .truncate = false};
+    const BudgetOutcome outcome = evaluate(budget);
+    const double k = gum::coverage_factor(0.9545, outcome.nu_eff);
+    budget.claims.u_c = exact_number(outcome.u_c, "");
+    budget.claims.nu_eff = printed("4.9");
+    budget.claims.k = printed("2.66");
+    budget.claims.U = exact_number(k * outcome.u_c, "");
+    budget.claims.coverage_probability = 0.9545;
+    return budget;
+}
+
+TEST(Claims, TakeAFactorWithDecimalsFromNuWhereItIsThat) {
+    AuditedBudget budget = budget_of_few();
+    note_unexplained(budget);
+    EXPECT_EQ(budget.coverage.kind, CoverageRule::Kind::student_t);
+    EXPECT_FALSE(budget.coverage.truncate) << "within the digits of k the first rule is taken";
+    EXPECT_EQ(budget.k_over_rows, 1.0);
+    // A factor that no ν_eff gives is the one that is stated.
+    budget.claims.k = printed("2.30");
+    budget.claims.U = exact_number(2.30 * evaluate(budget).u_c, "");
+    budget.claims.nu_eff.reset();
+    budget.coverage.kind = CoverageRule::Kind::fixed;
+    budget.coverage.k = 2.30;
+    note_unexplained(budget);
+    EXPECT_EQ(budget.coverage.kind, CoverageRule::Kind::fixed);
+}
+
+TEST(Claims, KnowAFactorOfAnotherNu) {
+    AuditedBudget budget = budget_of_few();
+    const double u_c = evaluate(budget).u_c;
+    budget.claims.nu_eff = printed("14.0");
+    budget.claims.k = printed("2.20");
+    budget.claims.U = exact_number(2.1953 * u_c, "");
+    note_unexplained(budget);
+    EXPECT_TRUE(check_claims(budget).nu_eff_outside);
+    EXPECT_EQ(budget.coverage.kind, CoverageRule::Kind::student_t);
+    EXPECT_NEAR(evaluate(budget).k, 2.20, 1e-12) << "as claimed, until it is corrected";
+}
+
+TEST(Claims, DoNotExplainACutUByAnotherFactor) {
+    AuditedBudget budget = claimed_budget();
+    budget.claims.u_c = printed("0.500");
+    budget.claims.k = printed("2.05");
+    budget.claims.U = printed("1.03");
+    EXPECT_FALSE(check_claims(budget).U_outside);  // rounded: 1.025
+    budget.claims.u_c = printed("0.5000");
+    budget.claims.U = printed("1.0");  // of 1.025 the digits behind the last are cut, and that is 1.0 rounded as well
+    EXPECT_FALSE(check_claims(budget).U_outside);
+    budget.claims.k = printed("2.16");
+    budget.claims.U = printed("1.0");  // 1.08 cut
+    EXPECT_TRUE(check_claims(budget).U_outside);
+}
+
+TEST(Claims, BelieveANuThatWasCut) {
+    AuditedBudget budget = budget_of_few();
+    const double u_c = evaluate(budget).u_c;  // ν_eff = 4.94
+    budget.claims.nu_eff = printed("4");
+    budget.claims.k = printed("2.87");
+    budget.claims.U = exact_number(gum::coverage_factor(0.9545, 4.0) * u_c, "");
+    EXPECT_FALSE(check_claims(budget).nu_eff_outside);
+    EXPECT_TRUE(check_claims(budget).coverage.truncate);
+}
+
 }  // namespace
 }  // namespace gumcert::audit

@@ -81,5 +81,16 @@ TEST(StatedNumber, IsAnInterval) {
     EXPECT_EQ(exact_number(0.29, "x").place, "x");
 }
 
+TEST(PrintedHalfStep, TakesWholeNumbersForRounded) {
+    const auto half = [](const char* text) { return printed_half_step(*read_number(text, "")); };
+    EXPECT_DOUBLE_EQ(half("0.29"), 0.005);
+    EXPECT_DOUBLE_EQ(half("12"), 0.5);
+    EXPECT_DOUBLE_EQ(half("120"), 5.0);
+    EXPECT_DOUBLE_EQ(half("125"), 0.5);
+    EXPECT_DOUBLE_EQ(half("100"), 5.0);
+    EXPECT_DOUBLE_EQ(half("0"), 0.0);
+    EXPECT_DOUBLE_EQ(printed_half_step(exact_number(12.0, "")), 0.0);
+}
+
 }  // namespace
 }  // namespace gumcert::audit

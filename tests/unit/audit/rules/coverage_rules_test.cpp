@@ -206,5 +206,29 @@ TEST(CoverageRules, K13SeesWhatAFormatHides) {
     EXPECT_TRUE(findings_of("K13", subject_of(budget)).empty());
 }
 
+TEST(CoverageRules, K01HoldsContributionsAndNuAgainstTheRows) {
+    AuditedRow squared = row("height", 0.2, 3.0);
+    squared.contribution = printed("1.80");
+    squared.used_sensitivity = 9.0;  // as the sum was made
+    AuditedBudget of_contributions = budget_of({squared, row("another", 0.01)});
+    of_contributions.claims.u_c = printed("1.80");
+    std::vector<AuditFinding> findings = findings_of("K01", subject_of(of_contributions));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_NEAR(findings[0].effect->alone.u_c, std::hypot(0.6, 0.01), 1e-12);
+    EXPECT_NE(findings[0].evidence.back().find("twice"), std::string::npos);
+
+    AuditedBudget budget = budget_of({row("a", 0.300, 1.0, 4.0), row("b", 0.100)});
+    const double u_c = evaluate(budget).u_c, nu = evaluate(budget).nu_eff;
+    budget.claims.u_c = exact_number(u_c, "");
+    budget.claims.nu_eff = printed("14.0");
+    budget.claims.k = printed("2.20");
+    budget.claims.U = exact_number(2.1953 * u_c, "");
+    budget.claims.coverage_probability = 0.9545;
+    note_unexplained(budget);
+    findings = findings_of("K01", subject_of(budget));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_NEAR(findings[0].effect->alone.U, gum::coverage_factor(0.9545, nu) * u_c, 1e-9);
+}
+
 }  // namespace
 }  // namespace gumcert::audit
