@@ -59,8 +59,8 @@ Contributor kind_of_effect(const WordLine& words, std::string_view raw) {
                    : Contributor::environment;
     }
     if (words.has_any({"drift", "stability", "instability", "stabilitat", "instabilitat", "langzeit", "long term",
-                       "ageing", "aging", "alterung", "since last", "since the last", "seit letzter",
-                       "seit der letzten"})) {
+                       "ageing", "aging", "alterung", "since last", "since the last", "since its", "seit letzter",
+                       "seit der letzten", "seit seiner", "seit ihrer"})) {
         return names_item(words) ? Contributor::item : Contributor::reference_drift;
     }
     if (words.has_any({"reproducib", "reproduzier", "vergleichprazision", "vergleichsprazision", "intermediate prec",
@@ -115,7 +115,8 @@ struct Piece {
     std::string word;  ///< small letters without accents
     std::string raw;   ///< a word or sign as it stands
     double value = 0.0;
-    std::string unit;  ///< of a number: what stands behind it, if it may be a unit
+    std::string unit;    ///< of a number: what stands behind it, if it may be a unit
+    std::string behind;  ///< of a number: the beginning of what follows, for units of several words
     bool percent = false, plus_minus = false;
 
     [[nodiscard]] bool is_sign(std::string_view sign) const { return kind == Kind::sign && raw == sign; }
@@ -200,6 +201,12 @@ std::optional<std::pair<Piece, std::size_t>> number_piece(std::string_view text)
     piece.percent = taken.find('%') != std::string_view::npos;
     piece.plus_minus = taken.find("±") != std::string_view::npos || taken.find("+/-") != std::string_view::npos;
     piece.unit = unit_behind(text.substr(end));
+    std::string_view behind = text.substr(end);
+    while (behind.starts_with(' ')) {
+        behind.remove_prefix(1);
+    }
+    constexpr std::size_t k_longest_unit = 24;
+    piece.behind = cut(behind, k_longest_unit);
     return std::pair(std::move(piece), end);
 }
 
@@ -286,7 +293,8 @@ std::optional<NumberOfRow> in_unit_of_row(const Piece& piece, const AuditedRow& 
     if (piece.unit.empty() || std::find(k_words.begin(), k_words.end(), piece.unit) != k_words.end()) {
         return NumberOfRow{size, piece.unit == row.unit && !row.unit.empty()};
     }
-    if (piece.unit == row.unit) {
+    const bool several_words = row.unit.find(' ') != std::string::npos && piece.behind.starts_with(row.unit);
+    if (piece.unit == row.unit || several_words) {
         return NumberOfRow{size, true};
     }
     const std::optional<gum::Unit> unit = unit_of(piece.unit);
@@ -614,6 +622,29 @@ std::optional<double> pooled_deviation(const Pieces& pieces, const AuditedRow& r
     return std::nullopt;
 }
 
+/// "standard deviation 0.12 µm" of single readings; nothing for that of their mean, nor for one that is pooled.
+std::optional<double> deviation_of_readings(const Pieces& pieces, const AuditedRow& row) {
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const bool two_words =
+            pieces[i].word == "standard" && i + 1 < pieces.size() && pieces[i + 1].begins("deviation");
+        const bool symbol = pieces[i].raw == "s" && i + 1 < pieces.size() && pieces[i + 1].is_sign("=");
+        if (!two_words && !symbol && !pieces[i].begins("standardabweich")) {
+            continue;
+        }
+        std::size_t next = i + (two_words ? 2 : 1);
+        while (next < pieces.size() && is_filler(pieces[next])) {
+            ++next;
+        }
+        if (next < pieces.size() && pieces[next].kind == Piece::Kind::number) {
+            const std::optional<NumberOfRow> number = in_unit_of_row(pieces[next], row);
+            if (number && (number->has_unit || symbol)) {
+                return number->value;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
 /// "±1 K", or "±0.5" without a unit.
 std::optional<double> plus_minus(const Pieces& pieces, const AuditedRow& row) {
     for (const Piece& piece : pieces) {
@@ -863,6 +894,7 @@ void read_comment(AuditedRow& row) {
         for (const Pieces& pieces : texts) {
             row.n = row.n ? row.n : count_of_readings(pieces);
             row.pooled_s = row.pooled_s ? row.pooled_s : pooled_deviation(pieces, row);
+            row.origin_value = row.origin_value ? row.origin_value : deviation_of_readings(pieces, row);
         }
     }
     if (!row.nu) {
@@ -924,6 +956,34 @@ void complete_row(AuditedRow& row) {
     row.sensitivity_half_step = sensitivity.half_step;
     const bool finite = row.nu && std::isfinite(row.nu->value) && row.nu->value > 0.0;
     row.used_nu = finite ? row.nu->value : std::numeric_limits<double>::infinity();
+}
+
+void settle_contributions(AuditedBudget& budget) {
+    constexpr double k_beyond_digits = 0.01;
+    std::vector<AuditedRow*> other;
+    std::size_t columns = 0;
+    for (AuditedRow& row : budget.rows) {
+        if (!is_usable(row.sensitivity) || !is_usable(row.u) || !is_usable(row.contribution)) {
+            continue;
+        }
+        ++columns;
+        StatedNumber own = product(*row.sensitivity, *row.u);
+        own.half_step += k_beyond_digits * std::abs(own.value);
+        if (!agree(own, *row.contribution)) {
+            other.push_back(&row);
+        }
+    }
+    constexpr std::size_t k_few = 3;  // no more than every third row
+    const bool is_error = other.size() * k_few <= columns;
+    for (AuditedRow* row : other) {
+        if (!is_error) {
+            row->contribution.reset();
+        } else if (row->used_u > 0.0) {
+            const StatedNumber implied = quotient(*row->contribution, *row->u);
+            row->used_sensitivity = std::copysign(implied.value, row->sensitivity->value);
+            row->sensitivity_half_step = implied.half_step;
+        }
+    }
 }
 
 }  // namespace gumcert::audit

@@ -34,4 +34,9 @@ void read_comment(AuditedRow& row);
 /// certificate, or by that of its shape. Degrees of freedom that no column states are infinite.
 void complete_row(AuditedRow& row);
 
+/// Settles, once all rows are read, what a column of contributions is where it is not |c| u of the row's own columns. In
+/// a few rows it is an error that the sum was made of: such a row is evaluated with the sensitivity that its contribution
+/// has. In most rows it is a column of something else (shares, variances), and is taken away.
+void settle_contributions(AuditedBudget& budget);
+
 }  // namespace gumcert::audit

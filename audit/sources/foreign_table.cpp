@@ -161,6 +161,11 @@ public:
         if (!read.type_a && (read.shape_text == "A" || read.shape_text == "B")) {
             read.type_a = read.shape_text == "A";
         }
+        for (std::optional<StatedNumber>* rounded : {&read.u, &read.contribution}) {
+            if (*rounded) {
+                (*rounded)->half_step = printed_half_step(**rounded);  // "12" of an uncertainty was rounded as well
+            }
+        }
         read.contributor = contributor_of(read.quantity, read.comment, read.source);
         read_comment(read);
         complete_row(read);
@@ -227,7 +232,14 @@ std::optional<Statement> take_statement(const SheetView& sheet, const std::vecto
     if (!statement) {
         return std::nullopt;
     }
+    const auto follows_number = [&](std::size_t i) {
+        return i + 1 < row.size() && sheet.number(*row[i + 1]).has_value();
+    };
     for (std::size_t i = named + 1; i < row.size(); ++i) {
+        if (sheet.words(*row[i]) == "1" && follows_number(i)) {
+            statements.unit = statements.unit.empty() ? "1" : statements.unit;  // of a quantity without dimension
+            continue;
+        }
         if (std::optional<StatedNumber> number = sheet.number(*row[i])) {
             statements.numbers.emplace(*statement, std::move(*number));
             continue;
@@ -382,7 +394,7 @@ private:
             budget_.place = sheet_.place({.row = number, .column = row.front()->address.column});
             return;
         }
-        if (take_statement(sheet_, row, statements_)) {
+        if (!is_row_of_numbers(row) && take_statement(sheet_, row, statements_)) {
             in_rows_ = false;
             return;
         }
@@ -393,6 +405,22 @@ private:
         if (read.u || read.stated || read.contribution || has_formula_of_uncertainty(row)) {
             budget_.rows.push_back(std::move(read));
         }
+    }
+
+    /// Whether a line below heads has numbers in several of their columns: a quantity may be named "p" or "k", and what
+    /// states a result has one number.
+    [[nodiscard]] bool is_row_of_numbers(const std::vector<const Cell*>& row) const {
+        if (!in_rows_ || !heads_) {
+            return false;
+        }
+        std::size_t numbers = 0;
+        for (const Column column : {Column::estimate, Column::stated, Column::divisor, Column::u, Column::sensitivity,
+                                    Column::contribution, Column::nu}) {
+            const auto position = heads_->columns.find(column);
+            const Cell* cell = position == heads_->columns.end() ? nullptr : cell_in(row, position->second);
+            numbers += cell != nullptr && sheet_.number(*cell) ? 1U : 0U;
+        }
+        return numbers > 1;
     }
 
     /// A row whose numbers could not be evaluated is still a row: its divisor and formulas are looked at.
@@ -411,10 +439,17 @@ private:
         if (heads_ && !budget_.rows.empty()) {
             budget_.name = name_;
             state_claims(budget_, statements_);
+            const std::optional<double> p = budget_.claims.coverage_probability;
+            if (p && !(*p > 0.0 && *p < 1.0)) {
+                tables_.not_read.push_back(budget_.place + ": a coverage probability of " + text::shortest(*p) +
+                                           " cannot be; what is meant?");
+                budget_.claims.coverage_probability.reset();
+            }
             state_coverage(budget_);
             if (checklist_of(budget_.method) == nullptr) {
                 budget_.method = method_in_title(budget_.method + " " + budget_.name);
             }
+            settle_contributions(budget_);
             note_unexplained(budget_);
             tables_.budgets.push_back(std::move(budget_));
         }

@@ -78,5 +78,18 @@ TEST(RowFacts, KeepWhatIsSetAndLeaveLongTexts) {
     EXPECT_EQ(in_small_letters("FS \u00C4"), "fs \u00C4");
 }
 
+TEST(RowFacts, ReadASingleReading) {
+    const auto averaged = [](const std::string& comment) {
+        AuditedRow row;
+        row.comment = comment;
+        note_row_facts(row);
+        return row.averaged;
+    };
+    EXPECT_EQ(averaged("s of 10 readings of a study; the result is a single reading"), 1U);
+    EXPECT_EQ(averaged("das Ergebnis ist eine Einzelmessung"), 1U);
+    EXPECT_EQ(averaged("single readings; mean of 4"), 4U);
+    EXPECT_FALSE(averaged("10 readings"));
+}
+
 }  // namespace
 }  // namespace gumcert::audit

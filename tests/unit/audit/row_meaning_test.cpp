@@ -270,5 +270,38 @@ TEST(CompleteRow, takes_degrees_of_freedom_as_stated) {
     EXPECT_TRUE(std::isinf(row.used_nu));
 }
 
+TEST(ReadComment, reads_the_deviation_of_single_readings) {
+    EXPECT_EQ(row_with("standard deviation 0.12 um; mean of 5 readings").origin_value, 0.12);
+    EXPECT_EQ(row_with("Standardabweichung 0,12 um, n = 5").origin_value, 0.12);
+    EXPECT_EQ(row_with("s = 0.12 of 5 readings").origin_value, 0.12);
+    EXPECT_FALSE(row_with("standard deviation of the mean of 5 readings 0.12 um").origin_value);
+}
+
+TEST(ReadComment, knows_a_unit_of_two_words) {
+    EXPECT_EQ(row_with("resolution 0.005 N m", "N m").origin_value, 0.005);
+    EXPECT_FALSE(row_with("resolution 0.005 N", "N m").origin_value);
+}
+
+TEST(SettleContributions, keeps_what_the_sum_was_made_of) {
+    const auto with = [](double u, double c, double contribution) {
+        AuditedRow row;
+        row.u = exact_number(u, "");
+        row.sensitivity = exact_number(c, "");
+        row.contribution = exact_number(contribution, "");
+        complete_row(row);
+        return row;
+    };
+    AuditedBudget budget;
+    budget.rows = {with(1.0, 2.0, 2.0), with(1.0, 3.0, 9.0), with(2.0, 1.0, 2.0)};
+    settle_contributions(budget);
+    EXPECT_DOUBLE_EQ(budget.rows[0].used_sensitivity, 2.0);
+    EXPECT_DOUBLE_EQ(budget.rows[1].used_sensitivity, 9.0) << "one row is an error";
+    // A column of shares is none of contributions.
+    budget.rows = {with(1.0, 2.0, 0.40), with(1.0, 3.0, 0.60), with(2.0, 1.0, 0.10)};
+    settle_contributions(budget);
+    EXPECT_DOUBLE_EQ(budget.rows[0].used_sensitivity, 2.0);
+    EXPECT_FALSE(budget.rows[0].contribution);
+}
+
 }  // namespace
 }  // namespace gumcert::audit

@@ -47,5 +47,11 @@ TEST(StatementOf, KnowsTheRowsOfTheContractAndTheirSynonyms) {
     EXPECT_FALSE(statement_of("resolution"));
 }
 
+TEST(ColumnOf, KnowsShortFormsOfDistribution) {
+    for (const char* head : {"prob. distribution", "probability dist.", "prob. dist."}) {
+        EXPECT_EQ(column_of(head), Column::distribution) << head;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::audit

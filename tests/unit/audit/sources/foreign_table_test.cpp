@@ -113,5 +113,43 @@ TEST(BudgetsIn, SaysWhatCouldNotBeRead) {
     ASSERT_EQ(none.not_read.size(), 1U);
 }
 
+TEST(BudgetsIn, TakesWholeUncertaintiesForRounded) {
+    const ForeignTables tables = tables_of(
+        "quantity,unit,u,divisor,contribution\nstandard,nm,12,2,12\nresolution,nm,5.8,,5.8\nU,,nm,27\nk,,,2\n");
+    ASSERT_EQ(tables.budgets.size(), 1U);
+    EXPECT_DOUBLE_EQ(tables.budgets[0].rows[0].u_half_step, 0.5);
+    EXPECT_DOUBLE_EQ(tables.budgets[0].rows[1].u_half_step, 0.05);
+}
+
+TEST(BudgetsIn, KnowsOneAsAUnit) {
+    const ForeignTables tables =
+        tables_of("quantity,unit,u\nbuffer,1,0.005\njunction,1,0.004\nresult,,1,0.03\nU,,1,0.013\nk,,,2\n");
+    ASSERT_EQ(tables.budgets.size(), 1U);
+    EXPECT_EQ(tables.budgets[0].unit, "1");
+    ASSERT_TRUE(tables.budgets[0].claims.U && tables.budgets[0].claims.value);
+    EXPECT_DOUBLE_EQ(tables.budgets[0].claims.U->value, 0.013);
+    EXPECT_DOUBLE_EQ(tables.budgets[0].claims.value->value, 0.03);
+}
+
+TEST(BudgetsIn, TakesARowNamedLikeAStatementForARow) {
+    const ForeignTables tables = tables_of(
+        "quantity,estimate,unit,u,sensitivity,contribution\np,1014,hPa,0.5,0.2,0.10\nk,3,1,0.1,1,0.1\nt,21,K,0.2,1,0."
+        "2\n"
+        "U,,K,0.49\nk,2\np,95 %\n");
+    ASSERT_EQ(tables.budgets.size(), 1U);
+    EXPECT_EQ(tables.budgets[0].rows.size(), 3U);
+    EXPECT_EQ(tables.budgets[0].claims.coverage_probability, 0.95);
+    EXPECT_EQ(tables.budgets[0].claims.k->value, 2.0);
+}
+
+TEST(BudgetsIn, AsksForACoverageProbabilityThatCannotBe) {
+    const ForeignTables tables =
+        tables_of("quantity,unit,u\na,mm,0.1\nb,mm,0.2\nU,,mm,0.45\ncoverage probability,950\n");
+    ASSERT_EQ(tables.budgets.size(), 1U);
+    EXPECT_FALSE(tables.budgets[0].claims.coverage_probability);
+    ASSERT_EQ(tables.not_read.size(), 1U);
+    EXPECT_NE(tables.not_read[0].find("coverage probability of 9.5"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace gumcert::audit
