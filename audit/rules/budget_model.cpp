@@ -91,7 +91,6 @@ std::optional<BudgetModel> BudgetModel::of(const AuditedBudget& budget) {
     } catch (const gum::DiagnosedError&) {
         return std::nullopt;
     }
-    std::vector<gum::InputSymbol> inputs;
     bool units_known = true, any_unit = !budget.unit.empty() && budget.unit != "1", estimates_known = true;
     for (const std::string& name : used) {
         if (defined.contains(name)) {
@@ -110,7 +109,6 @@ std::optional<BudgetModel> BudgetModel::of(const AuditedBudget& budget) {
         model.quantities_.push_back(name);
         model.rows_.push_back(*row);
         model.units_.push_back(unit.value_or(gum::Unit()));
-        inputs.push_back({.name = name, .unit = model.units_.back(), .constant = std::nullopt});
     }
     if (model.rows_.empty()) {
         return std::nullopt;
@@ -118,6 +116,27 @@ std::optional<BudgetModel> BudgetModel::of(const AuditedBudget& budget) {
     const std::optional<gum::Unit> result_unit = unit_of(budget.unit);
     if (!model.without_row_.empty() || !estimates_known || (any_unit && (!units_known || !result_unit))) {
         return model;
+    }
+    model.result_unit_ = result_unit.value_or(gum::Unit());
+    model.compile(equations, budget);
+    if (any_unit && budget.value && !model.gives_value(budget)) {
+        BudgetModel of_numbers = model;
+        of_numbers.system_.reset();
+        of_numbers.units_.assign(model.units_.size(), gum::Unit());
+        of_numbers.result_unit_ = gum::Unit();
+        of_numbers.compile(equations, budget);
+        if (of_numbers.gives_value(budget)) {
+            return of_numbers;
+        }
+    }
+    return model;
+}
+
+/// Leaves the model without a system where units do not balance: the numbers of the table cannot be told then.
+void BudgetModel::compile(const std::vector<gum::EquationText>& equations, const AuditedBudget& budget) {
+    std::vector<gum::InputSymbol> inputs;
+    for (std::size_t i = 0; i < quantities_.size(); ++i) {
+        inputs.push_back({.name = quantities_[i], .unit = units_[i], .constant = std::nullopt});
     }
     try {
         gum::EquationSystem system = gum::EquationSystem::compile(equations, inputs);
@@ -127,17 +146,33 @@ std::optional<BudgetModel> BudgetModel::of(const AuditedBudget& budget) {
                 output = i;
             }
         }
-        if (!output || !(system.output_unit(*output).dimension() == result_unit->dimension())) {
-            return model;
+        if (output && system.output_unit(*output).dimension() == result_unit_.dimension()) {
+            output_ = *output;
+            system_ = std::move(system);
         }
-        model.output_ = *output;
-        model.result_unit_ = *result_unit;
-        model.system_ = std::move(system);
     } catch (const gum::DiagnosedError&) {
-        // Units that do not balance: the numbers of the table cannot be told.
-        return model;
+        system_.reset();
     }
-    return model;
+}
+
+/// Whether the equation gives the value that the budget states, within 0.1 % and U.
+bool BudgetModel::gives_value(const AuditedBudget& budget) const {
+    const std::vector<double> x = estimates(budget);
+    Eigen::VectorXd at(static_cast<Eigen::Index>(units_.size()));
+    for (std::size_t i = 0; i < units_.size(); ++i) {
+        at(static_cast<Eigen::Index>(i)) = units_[i].to_si(x[i]);
+    }
+    if (!system_ || !budget.value || !at.allFinite()) {
+        return false;
+    }
+    try {
+        const double y = result_unit_.from_si(system_->evaluate(at)(static_cast<Eigen::Index>(output_)));
+        constexpr double k_rounded = 1e-3;
+        const double U = budget.claims.U ? std::abs(budget.claims.U->value) : 0.0;
+        return std::abs(y - *budget.value) <= k_rounded * std::abs(*budget.value) + U;
+    } catch (const gum::DiagnosedError&) {
+        return false;
+    }
 }
 
 std::vector<double> BudgetModel::estimates(const AuditedBudget& budget) const {

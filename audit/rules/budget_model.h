@@ -14,7 +14,8 @@ namespace gumcert::audit {
 class BudgetModel {
 public:
     /// Equations stand on lines of their own, or between semicolons. A row stands for a quantity where its name, or the
-    /// first word of its name, is that of the quantity.
+    /// first word of its name, is that of the quantity. Where the numbers of the table give the stated value and its
+    /// quantities with their units do not, the equation is one of numbers ("60000 m/(ρ t)" in L/min).
     /// \return nothing where the equation cannot be read, or no row stands for any of its quantities
     [[nodiscard]] static std::optional<BudgetModel> of(const AuditedBudget& budget);
 
@@ -34,6 +35,9 @@ public:
     [[nodiscard]] std::optional<std::vector<double>> second_derivatives(const std::vector<double>& x) const;
 
 private:
+    void compile(const std::vector<gum::EquationText>& equations, const AuditedBudget& budget);
+    [[nodiscard]] bool gives_value(const AuditedBudget& budget) const;
+
     std::vector<std::string> quantities_, without_row_;
     std::vector<std::size_t> rows_;
     std::vector<gum::Unit> units_;

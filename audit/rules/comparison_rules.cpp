@@ -167,8 +167,47 @@ void passes_by_inflation_only(const AuditSubject& subject, std::span<const Audit
     }
 }
 
+/// N02 of a table: the claimed E_n against value, U and reference as they are printed.
+void score_does_not_follow(const AuditSubject& subject, FindingCollector& findings) {
+    for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
+        const AuditedBudget& budget = subject.budgets[i];
+        const std::optional<double> U = stated_U(budget);
+        if (budget.evaluated_here || !budget.claims.en || !budget.reference || !budget.claims.value || !U) {
+            continue;
+        }
+        const double U_ref = budget.reference->expanded_uncertainty;
+        const double difference = budget.claims.value->value - budget.reference->value;
+        const double U_difference = gum::uncertainty_of_difference(*U, U_ref, budget.reference->correlation);
+        if (!(U_difference > 0.0)) {
+            continue;
+        }
+        // The score may have been computed of unrounded numbers.
+        const double right = difference / U_difference, stated = budget.claims.en->value;
+        const double digits = budget.claims.value->half_step / U_difference + budget.claims.en->half_step +
+                              std::abs(right) * (budget.claims.U ? printed_half_step(*budget.claims.U) / *U : 0.0);
+        if (std::abs(std::abs(stated) - std::abs(right)) <= digits + 0.01 * std::abs(right)) {
+            continue;
+        }
+        const auto is_stated = [&](double other) { return std::abs(std::abs(stated) - std::abs(other)) <= digits; };
+        const std::string of_what = U_ref > 0.0 && is_stated(difference / U_ref)
+                                        ? " That is the difference over U_ref alone."
+                                    : is_stated(difference / *U) ? " That is the difference over U alone."
+                                    : is_stated(2.0 * right)     ? " That is the score of u in place of U."
+                                                                 : "";
+        AuditFinding finding = finding_of(subject, i,
+                                          "E_n is stated as " + short_number(stated) + ", and follows as " +
+                                              short_number(right) + " from both expanded uncertainties." + of_what);
+        finding.evidence = {"difference = " + in_words(difference, budget.unit), "U = " + in_words(*U, budget.unit),
+                            "U_ref = " + in_words(U_ref, budget.unit)};
+        finding.expected = short_number(right);
+        finding.actual = short_number(stated);
+        findings.add(std::move(finding));
+    }
+}
+
 /// N02
 void factors_mixed(const AuditSubject& subject, FindingCollector& findings) {
+    score_does_not_follow(subject, findings);
     for (const AuditedScore& score : scores_of(subject)) {
         const double difference = score.value - score.reference_value;
         const double squares = score.U * score.U + score.reference_U * score.reference_U;

@@ -11,6 +11,7 @@
 
 #include "audit/rules/registry.h"
 #include "audit/rules/row_edits.h"
+#include "audit/rules/stated_outcome.h"
 #include "text/numbers.h"
 
 namespace gumcert::audit {
@@ -54,6 +55,18 @@ bool columns_divide_by(const AuditedRow& row, double divisor) {
            !u_differs(row, std::abs(row.stated->value) / divisor, 0.01, row.stated->half_step / divisor);
 }
 
+/// Whether the column of what is divided has the number of the words twice, or its decimal sign at another place: no such
+/// two numbers mean the same by chance. Half of a number is not looked for: that of a full width.
+bool is_slip_of(const AuditedRow& row, double words) {
+    if (!row.stated || !(words > 0.0)) {
+        return false;
+    }
+    constexpr double k_factors[] = {2.0, 10.0, 0.1, 100.0, 0.01, 1000.0, 0.001};
+    const double ratio = std::abs(row.stated->value) / words;
+    return std::any_of(std::begin(k_factors), std::end(k_factors),
+                       [ratio](double factor) { return is_about(ratio, factor, 1e-9); });
+}
+
 /// "u = 0.4 µm", and what it comes from.
 std::vector<std::string> evidence_of(const AuditedRow& row, std::string_view base_name, double base) {
     return {"u = " + in_words(row.used_u, row.unit), std::string(base_name) + " = " + in_words(base, row.unit)};
@@ -72,8 +85,9 @@ void add_other_u(const RowAt& at, FindingCollector& findings, std::string what, 
 
 /// U08
 void wrong_divisor(const AuditSubject& subject, FindingCollector& findings) {
-    static const std::array<NamedRatio, 7> k_ratios = {{
+    static const std::array<NamedRatio, 8> k_ratios = {{
         {1.0, "not divided at all"},
+        {2.0 / k_root_3, "divided as its double: the whole width stands where the half belongs"},
         {0.5, "divided by 2"},
         {1.0 / 3.0, "divided by 3: the root was not taken"},
         {1.0 / std::numbers::sqrt2, "divided by √2, as an arcsine distribution"},
@@ -115,7 +129,9 @@ void wrong_divisor(const AuditSubject& subject, FindingCollector& findings) {
         }
         const bool consistent =
             row.divisor && row.stated && is_about(row.used_u, std::abs(row.stated->value) / row.divisor->value, 0.003);
-        if (consistent && !is_about(row.divisor->value, std::sqrt(12.0), 0.003)) {
+        const bool slip = mentions(row, {"\u00B1", "+/-"}) && is_slip_of(row, half_width);
+        if (consistent && !slip && row.shape != Shape::not_stated &&
+            !is_about(row.divisor->value, std::sqrt(12.0), 0.003)) {
             return;  // W02: the table shows the divisor that it used
         }
         if (has_formulas && row.divisor && is_about(half_width / row.used_u, std::pow(3.0, 0.25), 2e-3)) {
@@ -133,29 +149,32 @@ void wrong_divisor(const AuditSubject& subject, FindingCollector& findings) {
         const NamedRatio* ratio = named(k_ratios, row, half_width);
         const bool right_divisor =
             row.divisor && std::abs(row.divisor->value - divisor) <= row.divisor->half_step + 0.01 * divisor;
-        if (columns_divide_by(row, divisor) || (right_divisor && ratio == nullptr)) {
+        if (!slip && (columns_divide_by(row, divisor) || (right_divisor && ratio == nullptr))) {
             return;
         }
-        if (row.shape == Shape::not_stated && (!unity || row.origin != Origin::limits)) {
-            return;  // any other divisor may belong to a distribution that nobody states
+        // Any other divisor may belong to a distribution that nobody states; √12 of a half-width belongs to none.
+        if (row.shape == Shape::not_stated && !((unity || full_width) && row.origin == Origin::limits)) {
+            return;
         }
         const std::string shape = row.shape == Shape::triangular ? "triangular"
                                   : row.shape == Shape::arcsine  ? "arcsine"
                                                                  : "rectangular";
-        add_other_u(
-            at, findings,
-            "the half-width " + in_words(half_width, row.unit) + " of a " + shape + " distribution is " +
-                (ratio != nullptr ? std::string(ratio->name) : "divided by " + in_words(half_width / row.used_u)),
-            evidence_of(row, "a", half_width), expected);
+        add_other_u(at, findings,
+                    "the half-width " + in_words(half_width, row.unit) + " of a " + shape + " distribution is " +
+                        (ratio != nullptr ? std::string(ratio->name)
+                         : slip ? in_words(std::abs(row.stated->value), row.unit) + " in the column that is divided"
+                                : "divided by " + in_words(half_width / row.used_u)),
+                    evidence_of(row, "a", half_width), expected);
     });
 }
 
 /// U09: d/√12, and √2 d/√12 for a difference of two readings.
 void wrong_resolution(const AuditSubject& subject, FindingCollector& findings) {
-    static const std::array<NamedRatio, 4> k_ratios = {{
+    static const std::array<NamedRatio, 5> k_ratios = {{
         {1.0, "the whole step stands as a standard uncertainty"},
         {1.0 / k_root_3, "the whole step is divided by √3, where half of it is the limit"},
         {0.5, "half of the step stands as a standard uncertainty"},
+        {1.0 / 6.0, "half of the step is divided by 3: the root was taken twice, or not at all"},
         {0.5 / std::sqrt(12.0), "half of the step is divided by √12, which belongs to the whole step"},
     }};
     for_each_row(subject, [&findings](const RowAt& at) {
@@ -269,10 +288,14 @@ void certificate_by_wrong_k(const AuditSubject& subject, FindingCollector& findi
             return;
         }
         const double U = *row.origin_value, k = *row.certificate_k;
-        if (!u_differs(row, U / k, 0.01, left_open(row, U) / k)) {
+        // U with one digit leaves much open, but not by what the table divides it.
+        const bool other_divisor = row.divisor && row.stated && is_about(row.stated->value, U, 1e-9) &&
+                                   std::abs(row.divisor->value - k) > row.divisor->half_step + 0.01 * k &&
+                                   columns_divide_by(row, row.divisor->value);
+        if (!other_divisor && !u_differs(row, U / k, 0.01, left_open(row, U) / k)) {
             return;
         }
-        if (columns_divide_by(row, k)) {
+        if (columns_divide_by(row, k) && !is_slip_of(row, U)) {
             return;
         }
         const NamedRatio* ratio = named(k_ratios, row, U);
@@ -474,6 +497,12 @@ void value_as_its_own_uncertainty(const AuditSubject& subject, FindingCollector&
         AuditFinding finding = finding_at(at, "u", "the value of the quantity stands as its own uncertainty");
         finding.evidence = {"estimate = " + in_words(row.estimate->value, row.unit),
                             "u = " + in_words(row.used_u, row.unit)};
+        // How well the value is known, nobody but the laboratory can say; U is at least what the other rows give.
+        AuditedBudget without = at.of;
+        leave_out(at.row)(without);
+        if (const std::optional<BudgetOutcome> outcome = outcome_or_none(without)) {
+            finding.evidence.push_back("without this row U = " + in_words(outcome->U, at.of.unit));
+        }
         findings.add(std::move(finding));
     });
 }
@@ -498,7 +527,7 @@ std::vector<Rule> type_b_rules() {
          .clause = {.text = "JCGM 100:2008, F.2.2.1", .verified = true},
          .needs = {Need::rows},
          .detection =
-             "a row of a resolution d with u = d, d/√3, d/2 or d/(2√12); d/√12, and √2 d/√12 of a difference, are "
+             "a row of a resolution d with u = d, d/√3, d/2, d/6 or d/(2√12); d/√12, and √2 d/√12 of a difference, are "
              "right",
          .correction = "u = d/√12 of a display with the step d; √2 times that for a difference of two readings.",
          .question = "Is the number in the table the step of the display, or half of it?",

@@ -72,11 +72,14 @@ void unit_of_sensitivity(const AuditSubject& subject, FindingCollector& findings
             findings.add(std::move(finding));
             return;
         }
-        // No coefficient at all: u is added as it stands.
-        if (at.is.sensitivity || at.is.contribution || at.is.used_sensitivity != 1.0) {
+        // u is added as it stands: no coefficient, or 1.
+        if (at.is.used_sensitivity != 1.0) {
             return;
         }
         if (!expected.is_one()) {
+            if (at.is.sensitivity || at.is.contribution) {
+                return;  // 1 of a unit per another may be right
+            }
             AuditFinding finding = finding_at(
                 at, "sensitivity coefficient",
                 "u in " + at.is.unit + " is added to a budget in " + at.of.unit + " without a sensitivity coefficient");
@@ -470,15 +473,29 @@ bool have_correlation(const AuditedBudget& budget, std::size_t a, std::size_t b)
         return (pair.first == a && pair.second == b) || (pair.first == b && pair.second == a);
     });
 }
+/// What a row comes from: its source; in a table without such a column the whole comment, where it has words enough and
+/// a number to be that of one document or one history.
+std::string source_of(const AuditedRow& row) {
+    if (!row.source.empty()) {
+        return gum::without_spelling(row.source);
+    }
+    constexpr std::size_t k_least = 20;  // bytes
+    const bool is_source = row.comment.size() >= k_least &&
+                           row.comment.find_first_of("0123456789") != std::string::npos &&
+                           (row.origin == Origin::certificate || row.contributor == Contributor::reference_drift);
+    return is_source ? gum::without_spelling(row.comment) : std::string();
+}
+const std::string& named_source(const AuditedRow& row) {
+    return row.source.empty() ? row.comment : row.source;
+}
 std::vector<SharedSource> shared_sources(const AuditSubject& subject) {
     std::vector<SharedSource> shared;
     for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
         const std::vector<AuditedRow>& rows = subject.budgets[b].rows;
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            const std::string source = gum::without_spelling(rows[i].source);
+            const std::string source = source_of(rows[i]);
             for (std::size_t j = i + 1; j < rows.size() && !source.empty(); ++j) {
-                if (contribution_of(rows[i]) > 0.0 && contribution_of(rows[j]) > 0.0 &&
-                    gum::without_spelling(rows[j].source) == source) {
+                if (contribution_of(rows[i]) > 0.0 && contribution_of(rows[j]) > 0.0 && source_of(rows[j]) == source) {
                     shared.push_back({b, i, j});
                 }
             }
@@ -508,14 +525,15 @@ void counted_twice(const AuditSubject& subject, FindingCollector& findings) {
             }
         }
         const bool drifts = budget.rows[kept].contributor == Contributor::reference_drift;
+        const std::string& name = named_source(budget.rows[left]);
         AuditFinding finding =
             finding_at({.budget = pair.budget, .row = left, .of = budget, .is = budget.rows[left]}, "",
-                       (drifts ? "the drift of " + budget.rows[left].source + " stands in the budget twice, also as "
-                               : "the drift of " + budget.rows[left].source + " is within the limit of error, ") +
+                       (drifts ? "the drift of " + name + " stands in the budget twice, also as "
+                               : "the drift of " + name + " is within the limit of error, ") +
                            name_of_row(budget, kept));
         finding.evidence = {"|c| u = " + in_words(contribution_of(budget.rows[kept]), budget.unit) + " and " +
                                 in_words(contribution_of(budget.rows[left]), budget.unit),
-                            "source " + budget.rows[left].source};
+                            "source " + name};
         finding.correct = leave_out(left);
         findings.add(std::move(finding));
     }
@@ -535,7 +553,7 @@ void add_neglected_correlation(const AuditSubject& subject, const SharedSource& 
     const std::optional<BudgetOutcome> outcome = outcome_of(budget);
     AuditFinding finding =
         finding_at({.budget = pair.budget, .row = pair.second, .of = budget, .is = budget.rows[pair.second]}, "",
-                   what + " " + budget.rows[pair.second].source + " as " + name_of_row(budget, pair.first) +
+                   what + " " + named_source(budget.rows[pair.second]) + " as " + name_of_row(budget, pair.first) +
                        ", and no correlation is stated");
     finding.evidence = {"u_c with r = 0: " + (outcome ? in_words(outcome->u_c, budget.unit) : std::string("none")),
                         "with r = 1: " + u_with_correlation(budget, pair.first, pair.second, 1.0),
@@ -785,9 +803,9 @@ std::vector<Rule> model_rules() {
          .clause = {.text = "JCGM 100:2008, 5.1.3", .verified = true},
          .severity = critical,
          .needs = {Need::rows},
-         .detection =
-             "the unit of a coefficient is not that of the result per that of the row; or no coefficient, and two "
-             "units",
+         .detection = "the unit of a coefficient is not that of the result per that of the row; or no coefficient, or "
+                      "1, and two "
+                      "units",
          .correction = "State the coefficient in the unit of the result per unit of the row.",
          .question = "How does a number in the unit of the row become one in the unit of the result?",
          .examine = unit_of_sensitivity},

@@ -107,6 +107,12 @@ void other_number_of_readings(const AuditSubject& subject, FindingCollector& fin
             if (std::abs(*root - right) <= at.is.divisor->half_step + 0.01 * right) {
                 return;
             }
+        } else if (at.is.origin_value && *at.is.origin_value > 0.0 && at.is.readings.empty()) {
+            s = at.is.origin_value;
+            root = *s / at.is.used_u;
+            if (!u_differs(at.is, *s / right)) {
+                return;
+            }
         } else if (at.is.readings.size() >= 2 && !at.is.pooled_s) {
             s = deviation_of(at.is.readings);
             root = *s / at.is.used_u;

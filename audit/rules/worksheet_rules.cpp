@@ -194,6 +194,9 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
         if (expected) {
             finding.expected = text::significant(*expected, 6);
             finding.correct = scale_u(at.row, divisor / *expected);
+        } else if (at.is.certificate_k && *at.is.certificate_k > 0.0) {
+            finding.expected = "k = " + in_words(*at.is.certificate_k) + " of the certificate";
+            finding.correct = scale_u(at.row, divisor / *at.is.certificate_k);
         } else {
             finding.expected = "k of the normal distribution, e.g. 2";
         }

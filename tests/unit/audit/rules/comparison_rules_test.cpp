@@ -180,5 +180,21 @@ TEST(ComparisonRules, N10_asks_for_a_joint_statement) {
     EXPECT_EQ(found_by(comparison_rules(), "N10", subject), "");
 }
 
+TEST(ComparisonRules, N02_computes_the_score_of_a_table_again) {
+    AuditedBudget budget;
+    budget.rows.resize(1);
+    budget.rows[0].used_u = 0.5;
+    budget.value = 1.6;
+    budget.claims.value = read_number("1.6", "");
+    budget.claims.U = read_number("1.0", "");
+    budget.reference = ComparedReference{.value = 0.8, .expanded_uncertainty = 0.75, .name = "reference value"};
+    budget.claims.en = read_number("0.64", "");
+    EXPECT_EQ(found_by(comparison_rules(), "N02", subject_with({budget})), "");
+    budget.claims.en = read_number("0.80", "");
+    EXPECT_THAT(found_by(comparison_rules(), "N02", subject_with({budget})), HasSubstr("over U alone"));
+    budget.claims.en = read_number("1.28", "");
+    EXPECT_THAT(found_by(comparison_rules(), "N02", subject_with({budget})), HasSubstr("u in place of U"));
+}
+
 }  // namespace
 }  // namespace gumcert::audit

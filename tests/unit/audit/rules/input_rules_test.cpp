@@ -251,5 +251,61 @@ TEST(InputRules, U23FindsAValueThatIsItsOwnUncertainty) {
     EXPECT_FALSE(fires("U23", one));
 }
 
+TEST(InputRules, U08AndU13SeeASlipBetweenWordsAndColumn) {
+    AuditedRow one = row_from("temperature", Origin::limits, 0.05, 0.5 / k_root_of_3, Shape::rectangular);
+    one.comment = "\u00B10.05 K";
+    one.stated = test::printed("0.5");
+    one.divisor = exact_number(k_root_of_3, "");
+    const std::vector<AuditFinding> findings = findings_of("U08", subject_of(one));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_NEAR(findings[0].effect->alone.u_c, beside(0.05 / k_root_of_3), 1e-12);
+    one.stated = test::printed("0.10");  // the whole width
+    one.used_u = 0.10 / k_root_of_3;
+    EXPECT_TRUE(fires("U08", one));
+    one.stated = test::printed("0.06");  // another number is meant
+    one.used_u = 0.06 / k_root_of_3;
+    EXPECT_FALSE(fires("U08", one));
+    AuditedRow standard = row_from("standard", Origin::certificate, 0.042, 0.21);
+    standard.certificate_k = 2.0;
+    standard.stated = test::printed("0.42");
+    standard.divisor = test::printed("2");
+    EXPECT_TRUE(fires("U13", standard));
+}
+
+TEST(InputRules, U08KnowsDivisorsThatNoDistributionHas) {
+    AuditedRow one = row_from("drift", Origin::limits, 0.6, 0.6 / std::sqrt(12.0));
+    one.comment = "\u00B10.6";
+    EXPECT_TRUE(fires("U08", one));
+    one.used_u = 0.2;  // three standard deviations
+    EXPECT_FALSE(fires("U08", one));
+}
+
+TEST(InputRules, U09SeesTheRootTakenTwice) {
+    AuditedRow one = row_from("resolution", Origin::resolution, 0.1, 0.05 / 3.0);
+    one.comment = "resolution 0.1 um";
+    const std::vector<AuditFinding> findings = findings_of("U09", subject_of(one));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_NEAR(findings[0].effect->alone.u_c, beside(0.1 / std::sqrt(12.0)), 1e-12);
+}
+
+TEST(InputRules, U13ReadsTheDivisorOfTheColumn) {
+    // U = 0.3 has one digit: 0.173 would be half of a number that is printed so, but the column says √3.
+    AuditedRow one = row_from("standard", Origin::certificate, 0.3, 0.3 / k_root_of_3);
+    one.certificate_k = 2.0;
+    one.stated = test::printed("0.3");
+    one.divisor = test::printed("1.732");
+    ASSERT_EQ(findings_of("U13", subject_of(one)).size(), 1U);
+    EXPECT_NEAR(findings_of("U13", subject_of(one))[0].effect->alone.u_c, beside(0.15), 1e-12);
+}
+
+TEST(InputRules, U23SaysWhatTheOtherRowsGive) {
+    AuditedRow one = row("correction", 0.3 / k_root_of_3);
+    one.estimate = test::printed("0.3");
+    one.stated = test::printed("0.3");
+    const std::vector<AuditFinding> findings = findings_of("U23", subject_of(one));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_EQ(findings[0].evidence.back(), "without this row U = 0.02 um");
+}
+
 }  // namespace
 }  // namespace gumcert::audit

@@ -282,5 +282,37 @@ TEST(ModelRules, S17FindsTheCoefficientOfAnotherPoint) {
     EXPECT_TRUE(findings_of("S02", subject_of({low, high})).empty());
 }
 
+TEST(ModelRules, S01SeesAnotherUnitBesideACoefficientOfOne) {
+    AuditedRow slip = row("drift", 0.0116);
+    slip.unit = "mm";  // beside micrometres, with c = 1
+    const std::vector<AuditFinding> findings = findings_of("S01", subject_of(slip));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_NEAR(findings[0].effect->alone.u_c, std::hypot(11.6, 0.01), 1e-9);
+    slip.sensitivity = exact_number(1000.0, "");
+    slip.used_sensitivity = 1000.0;
+    EXPECT_TRUE(findings_of("S01", subject_of(slip)).empty());
+}
+
+TEST(ModelRules, S02TakesAnEquationOfNumbersWhereItGivesTheValue) {
+    // 60000 kg/(kg/m³ · s) is meant in litres per minute.
+    AuditedBudget budget = model_of("q = 60000*m/(rho*t)", {quantity("m", "50.00", 0.01, 1.0, "kg"),
+                                                            quantity("rho", "1000.0", 0.1, -0.05, "kg/m^3"),
+                                                            quantity("t", "60.00", 0.01, -0.8333, "s")});
+    budget.unit = "L/min";
+    budget.value = 50.0;
+    EXPECT_TRUE(findings_of("S02", subject_of(budget)).empty());
+    budget.rows[2].used_sensitivity = -1.6667;
+    EXPECT_EQ(findings_of("S02", subject_of(budget)).size(), 1U);
+}
+
+TEST(ModelRules, S09KnowsOneHistoryByItsWords) {
+    AuditedRow drift = row("drift", 0.1), change = row("change of the standard", 0.1);
+    drift.contributor = change.contributor = Contributor::reference_drift;
+    drift.comment = change.comment = "history of 5 calibrations since 2019";
+    EXPECT_EQ(findings_of("S09", subject_of(budget_of({drift, change}))).size(), 1U);
+    change.comment = "specification of the maker, 1 year";
+    EXPECT_TRUE(findings_of("S09", subject_of(budget_of({drift, change}))).empty());
+}
+
 }  // namespace
 }  // namespace gumcert::audit

@@ -142,5 +142,20 @@ TEST(TypeARules, U25WantsARangeForARange) {
     EXPECT_TRUE(findings_of("U25", subject_of(one)).empty());
 }
 
+TEST(TypeARules, U03ReadsTheDeviationOfTheWords) {
+    AuditedRow one = row("repeatability", 0.12, 1.0, 4.0);
+    one.origin = Origin::readings;
+    one.type_a = true;
+    one.n = one.averaged = 5;
+    one.origin_value = 0.12;
+    const std::vector<AuditFinding> findings = findings_of("U03", subject_of(one));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_NEAR(findings[0].effect->alone.u_c, std::hypot(0.12 / std::sqrt(5.0), 0.01), 1e-12);
+    one.used_u = 0.12 / std::sqrt(5.0);
+    EXPECT_TRUE(findings_of("U03", subject_of(one)).empty());
+    one.averaged = 1;  // the result is a single reading
+    EXPECT_EQ(findings_of("U03", subject_of(one)).size(), 1U);
+}
+
 }  // namespace
 }  // namespace gumcert::audit
