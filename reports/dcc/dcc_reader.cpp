@@ -521,6 +521,24 @@ std::string Reader::base_name(const XmlElement& quantity, const Context& context
     return base.empty() ? "quantity" : base;
 }
 
+/// The statement of conformity of one row of a quantity.
+void add_conformity(const XmlElement& quantity, std::size_t row, std::size_t rows, ImportedQuantity& imported) {
+    const XmlElement* const meta = quantity.child("dcc:measurementMetaData");
+    if (meta == nullptr) {
+        return;
+    }
+    for (const XmlElement* data : meta->children_named("dcc:metaData")) {
+        const XmlElement* const list = data->child("dcc:conformityXMLList");
+        const XmlElement* const one = list == nullptr ? data->child("dcc:conformity") : list;
+        const std::optional<std::string> word = one == nullptr ? std::nullopt : entry(xml_list(one->text), row, rows);
+        if (word && (imported.conformity.empty() || imported.conformity == "noPass")) {
+            imported.conformity = *word;
+            imported.conformity_id = data->attribute("refId");
+            imported.conformity_declaration = content_in(data->child("dcc:declaration"), "en");
+        }
+    }
+}
+
 void Reader::add_rows(const XmlElement& quantity, const Context& context, const Form& main,
                       const std::vector<const Form*>& others, const std::string& note) {
     const std::size_t rows = main.numbers.size();
@@ -552,6 +570,7 @@ void Reader::add_rows(const XmlElement& quantity, const Context& context, const 
             imported.also.push_back(other->numbers[row]);
         }
         imported.remark = note;
+        add_conformity(quantity, row, rows, imported);
         out_.quantities.push_back(std::move(imported));
     }
 }

@@ -36,6 +36,10 @@ struct ImportedQuantity : ImportedNumber {
     std::size_t table = 0;           ///< quantities of one dcc:list share a number; 0 outside of any
     std::vector<ImportedNumber> also;
     std::string remark;
+    /// dcc:conformity of its row ("pass", "fail", "conditionalPass" …), the first that is not "noPass"; "" without one
+    std::string conformity;
+    std::string conformity_id;           ///< refId of it: the statement with the decision rule
+    std::string conformity_declaration;  ///< what is declared beside it, in English where it is
 };
 
 /// A column of words beside columns of numbers, such as the names of the points.
