@@ -12,12 +12,17 @@
 #include "app/recompute_record.h"
 #include "audit/row_facts.h"
 #include "audit/rules/registry.h"
+#include "audit/sources/certificate_subject.h"
 #include "audit/sources/record_subject.h"
 #include "audit/sources/workbook_subject.h"
 #include "certificate/waiver.h"
 #include "encoding/sha2.h"
 #include "gum/monte_carlo/worker_threads.h"
 #include "jobs/certificate/certificate_statement.h"
+#include "imports/foreign_certificate.h"
+#include "reports/dcc/dcc_element.h"
+#include "reports/dcc/dcc_reader.h"
+#include "signing/verify.h"
 #include "workbook/read_csv.h"
 #include "workbook/read_xlsx.h"
 
@@ -27,18 +32,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 4> k_endings = {".json", ".csv", ".xlsx", ".xlsm"};
+constexpr std::array<std::string_view, 5> k_endings = {".json", ".csv", ".xlsx", ".xlsm", ".xml"};
 
-enum class Contents { job, record, workbook, table, other };
+enum class Contents { job, record, workbook, table, certificate, pdf, other };
 
 Contents contents_of(const std::string& bytes) {
     if (bytes.starts_with("PK\x03\x04")) {
         return Contents::workbook;
     }
+    if (bytes.starts_with("%PDF")) {
+        return Contents::pdf;
+    }
     const std::size_t first = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-    if (first == std::string::npos || bytes[first] == '<' || bytes.starts_with("\xD0\xCF\x11\xE0") ||
-        bytes.starts_with("%PDF")) {
+    if (first == std::string::npos || bytes.starts_with("\xD0\xCF\x11\xE0")) {
         return Contents::other;
+    }
+    if (bytes[first] == '<') {
+        return Contents::certificate;
     }
     if (bytes[first] == '{' || bytes[first] == '/') {
         return bytes.find("\"gumcert/record/") != std::string::npos ? Contents::record : Contents::job;
@@ -66,6 +76,36 @@ std::optional<std::vector<std::string>> disagreements_of(reports::EvaluationReco
     }
 }
 
+/// The digital certificate that is attached to a PDF; "" without one.
+std::string certificate_in_pdf(const std::string& bytes, const std::string& name) {
+    try {
+        const std::vector<signing::Bytes> attachments =
+            signing::verify_signatures(bytes, name, signing::TrustedMaterial(), 0).attachments;
+        return attachments.empty() ? "" : attachments.front();
+    } catch (const gum::InputError&) {  // no PDF that can be read
+        return "";
+    }
+}
+
+audit::AuditSubject subject_of_certificate(const std::string& bytes, const std::string& name) {
+    const reports::ImportedCertificate certificate = reports::read_dcc(bytes, name);
+    return audit::subject_of(certificate, reports::read_dcc_root(bytes, name),
+                             imports::check_certificate(bytes, name, {}), name);
+}
+
+/// Whether a file of a folder is one that an audit looks at. A PDF is one where a digital certificate is attached that
+/// does not lie beside it.
+bool is_audited(const fs::path& file) {
+    const std::string ending = audit::in_small_letters(file.extension().string());
+    if (ending != ".pdf") {
+        return std::find(k_endings.begin(), k_endings.end(), ending) != k_endings.end();
+    }
+    fs::path beside = file;
+    std::error_code error;
+    return !fs::exists(beside.replace_extension(".xml"), error) &&
+           !certificate_in_pdf(read_file(file), file.string()).empty();
+}
+
 }  // namespace
 
 std::vector<fs::path> files_to_audit(const std::vector<fs::path>& named) {
@@ -79,18 +119,17 @@ std::vector<fs::path> files_to_audit(const std::vector<fs::path>& named) {
         std::vector<fs::path> found;
         for (const fs::directory_entry& entry :
              fs::recursive_directory_iterator(name, fs::directory_options::skip_permission_denied)) {
-            const std::string ending = audit::in_small_letters(entry.path().extension().string());
-            if (entry.is_regular_file() && std::find(k_endings.begin(), k_endings.end(), ending) != k_endings.end()) {
+            if (entry.is_regular_file() && is_audited(entry.path())) {
                 found.push_back(entry.path());
             }
         }
         if (found.empty()) {
-            throw gum::InputError(gum::Diagnostic{
-                .code = "GC-AUDIT-0010",
-                .where = name.string(),
-                .what = "no file in this folder can be audited",
-                .rule = "gumcert audit reads jobs and records (JSON), tables (CSV) and workbooks (.xlsx)",
-                .action = "name the files themselves"});
+            throw gum::InputError(gum::Diagnostic{.code = "GC-AUDIT-0010",
+                                                  .where = name.string(),
+                                                  .what = "no file in this folder can be audited",
+                                                  .rule = "gumcert audit reads jobs and records (JSON), tables (CSV), "
+                                                          "workbooks (.xlsx) and digital certificates (XML)",
+                                                  .action = "name the files themselves"});
         }
         std::sort(found.begin(), found.end());
         files.insert(files.end(), found.begin(), found.end());
@@ -144,15 +183,23 @@ AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& t
         case Contents::table:
             subject = audit::subject_of(workbook::read_csv(bytes, file.string(), file.stem().string()), name);
             break;
+        case Contents::certificate:
+            subject = subject_of_certificate(bytes, name);
+            break;
+        case Contents::pdf:
+            if (const std::string attached = certificate_in_pdf(bytes, name); !attached.empty()) {
+                subject = subject_of_certificate(attached, name);
+                break;
+            }
+            [[fallthrough]];
         case Contents::other:
             throw gum::InputError(gum::Diagnostic{
                 .code = "GC-AUDIT-0011",
                 .where = file.string(),
-                .what = "neither a job, a record, a table nor a workbook",
-                .rule = "gumcert audit reads jobs and records (JSON), tables (CSV) and workbooks (.xlsx)",
-                .action =
-                    "store an old workbook (.xls) as .xlsx, copy the table of a PDF into a CSV file; for a digital "
-                    "certificate use gumcert check dcc"});
+                .what = "neither a job, a record, a table, a workbook nor a digital certificate",
+                .rule = "gumcert audit reads jobs and records (JSON), tables (CSV), workbooks (.xlsx) and digital "
+                        "certificates (XML)",
+                .action = "store an old workbook (.xls) as .xlsx, copy the table of a PDF into a CSV file"});
     }
     subject.waivers.insert(subject.waivers.end(), waivers.begin(), waivers.end());
     audited.report = audit::audit(std::move(subject), audit::all_rules());

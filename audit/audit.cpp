@@ -136,7 +136,7 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
         if (!because.empty()) {
             report.not_checked.push_back({.rule = std::string(rule.id), .because = std::move(because)});
         } else {
-            if (rule.examine != nullptr) {
+            if (rule.examine != nullptr && rule.examine != rule.examine_gates) {
                 rule.examine(subject, collector);
             }
             if (rule.conclude != nullptr) {

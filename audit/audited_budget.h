@@ -156,6 +156,7 @@ struct AuditedBudget {
     std::vector<RowCorrelation> correlations;
     CoverageRule coverage;
     /// What correlations that are not listed add to the variance, as the evaluation of the job has it: it stays as it is.
+    /// Of a result of a certificate, which has no rows, all of u_c².
     double correlation_variance = 0.0;
     /// What the claimed numbers have beyond the rows: u_c of the claim over that of the rows, k of the claim over that of
     /// ν_eff of the rows, and U of the claim over k u_c. 1 where rows and claims agree within their rounding; a finding of

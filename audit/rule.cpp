@@ -15,6 +15,8 @@ bool has(const AuditSubject& subject, Need need) {
     switch (need) {
         case Need::rows:
             return any([](const AuditedBudget& budget) { return !budget.rows.empty(); });
+        case Need::results:
+            return has(subject, Need::rows) || has(subject, Need::claims);
         case Need::claims:
             return any([](const AuditedBudget& budget) { return budget.claims.u_c || budget.claims.U; });
         case Need::readings:
@@ -24,6 +26,8 @@ bool has(const AuditSubject& subject, Need need) {
             });
         case Need::certificate:
             return subject.certificate.has_value();
+        case Need::gates:
+            return subject.certificate && subject.kind != AuditSubject::Kind::certificate;
         case Need::capability:
             return any([](const AuditedBudget& budget) { return budget.capability.has_value(); });
         case Need::limits:
@@ -45,12 +49,16 @@ std::string_view missing(Need need) {
     switch (need) {
         case Need::rows:
             return "no rows of an uncertainty budget were found";
+        case Need::results:
+            return "no results were found";
         case Need::claims:
             return "no u_c and no U are claimed";
         case Need::readings:
             return "no readings are stated";
         case Need::certificate:
             return "no certificate data are stated";
+        case Need::gates:
+            return "no certificate data are stated that passed the gates of this program";
         case Need::capability:
             return "no capability (CMC) is stated";
         case Need::limits:

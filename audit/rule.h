@@ -19,7 +19,22 @@ struct Clause {
 };
 
 /// What a rule needs of a subject. Without it the rule is listed as not checked.
-enum class Need { rows, claims, readings, certificate, capability, limits, comparison, model, workbook, recomputed };
+/// `results`: rows, or claims of a result that has none, as on a certificate. `gates`: a certificate of ours, whose data
+/// passed the gates before it was issued.
+enum class Need {
+    rows,
+    results,
+    claims,
+    readings,
+    certificate,
+    gates,
+    capability,
+    limits,
+    comparison,
+    model,
+    workbook,
+    recomputed,
+};
 
 /// How the severity of a finding is decided.
 enum class SeverityPolicy {

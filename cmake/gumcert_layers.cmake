@@ -10,11 +10,11 @@ set(GUMCERT_LAYER_FOLDERS text encoding gum/quantity json gum/expression gum gum
                           engine/rotary_table/trials engine/rotary_table/studies gum/budget gum/circle_closure
                           gum/rotary_table gum/rotary_table/studies workbook audit audit/rules jobs jobs/certificate jobs/budget
                           jobs/circle_closure jobs/rotary_table jobs/comparison jobs/schema reports/record
-                          reports/record/schema audit/sources reports/record/make reports/record/make/budget
+                          reports/record/schema reports/record/make reports/record/make/budget
                           reports/record/make/comparison
                           reports/record/make/rotary_table reports/record/make/circle_closure
                           reports/record/make/certificate reports reports/plots reports/view reports/forms
-                          reports/audit reports/studies reports/dcc signing imports app app/cli)
+                          reports/audit reports/studies reports/dcc audit/sources signing imports app app/cli)
 
 # Our own layers whose headers a layer may include and whose library it may link.
 set(GUMCERT_EDGES_text)
@@ -58,8 +58,6 @@ set(GUMCERT_EDGES_jobs_schema                        json jobs jobs/budget jobs/
                                                      jobs/comparison)
 set(GUMCERT_EDGES_reports_record                     text encoding gum/quantity json gum certificate)
 set(GUMCERT_EDGES_reports_record_schema              json reports/record)
-set(GUMCERT_EDGES_audit_sources                      text gum/quantity gum gum/conformity certificate workbook
-                                                     audit reports/record)
 set(GUMCERT_EDGES_reports_record_make                text encoding gum/quantity json gum gum/monte_carlo certificate
                                                      engine/rotary_table reports/record)
 set(GUMCERT_EDGES_reports_record_make_budget         text gum/quantity gum gum/monte_carlo certificate engine
@@ -90,6 +88,8 @@ set(GUMCERT_EDGES_reports_studies                    text gum/quantity json gum 
                                                      gum/rotary_table/studies reports/plots reports/forms)
 set(GUMCERT_EDGES_reports_dcc                        text encoding gum/quantity json gum certificate reports/record
                                                      reports reports/view reports/forms)
+set(GUMCERT_EDGES_audit_sources                      text gum/quantity gum gum/conformity certificate workbook
+                                                     audit reports/record reports/dcc)
 set(GUMCERT_EDGES_signing                            text encoding gum/quantity json)
 set(GUMCERT_EDGES_imports                            gum/quantity json gum/expression certificate reports reports/dcc
                                                      signing)
@@ -101,7 +101,7 @@ set(GUMCERT_EDGES_app                                text encoding gum/quantity 
                                                      reports/record/make/comparison reports/record/make/rotary_table
                                                      reports/record/make/circle_closure reports/record/make/certificate
                                                      reports reports/forms reports/audit reports/studies reports/dcc signing
-                                                     workbook audit audit/rules audit/sources)
+                                                     imports workbook audit audit/rules audit/sources)
 set(GUMCERT_EDGES_app_cli                            text encoding gum/quantity certificate/gates reports/record
                                                      reports/record/make reports reports/view reports/forms signing
                                                      imports app audit/rules reports/audit)

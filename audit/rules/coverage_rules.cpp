@@ -572,7 +572,7 @@ std::vector<Rule> coverage_rules() {
          .clause = {.text = "ILAC-P14:09/2020, 5.2", .verified = false},
          .policy = fixed,
          .severity = major,
-         .needs = {Need::rows, Need::claims},
+         .needs = {Need::claims},
          .detection = "the stated k is not the one that was used, by more than 1 %; or k and p do not belong together",
          .correction = "State the k that was used, and the probability that belongs to it.",
          .question = "Which coverage factor was used, and which probability is meant?",
@@ -612,7 +612,7 @@ std::vector<Rule> coverage_rules() {
          .clause = {.text = "ILAC-P14:09/2020, 5.2", .verified = false},
          .policy = fixed,
          .severity = major,
-         .needs = {Need::rows},
+         .needs = {Need::results},
          .detection =
              "the ends of a Monte Carlo interval differ in their distance from the value by more than 10 % of its "
              "width",
@@ -624,7 +624,7 @@ std::vector<Rule> coverage_rules() {
          .clause = {.text = "JCGM 101:2008", .verified = false},
          .policy = fixed,
          .severity = minor,
-         .needs = {Need::rows},
+         .needs = {Need::results},
          .detection =
              "value − U below 0 of a form error, a roughness or a concentration, or below a stated least value",
          .correction = "State an interval that ends at the limit.",
@@ -666,7 +666,7 @@ std::vector<Rule> coverage_rules() {
          .clause = {.text = "JCGM 100:2008, 7.2.3", .verified = false},
          .policy = fixed,
          .severity = major,
-         .needs = {Need::rows, Need::claims},
+         .needs = {Need::claims},
          .detection = "k is printed as a whole number that differs from the used one by more than 5 %",
          .correction = "Print k with two decimals.",
          .question =

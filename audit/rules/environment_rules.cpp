@@ -204,7 +204,7 @@ std::vector<Rule> environment_rules() {
          .clause = k_sensor_calibrated,
          .policy = SeverityPolicy::fixed,
          .severity = FindingSeverity::major,
-         .needs = {Need::certificate},
+         .needs = {Need::gates},
          .detection = "a condition without U whose sensor is not among the standards",
          .correction = "State U of the sensor, or list it with its certificate.",
          .question = "When was the sensor calibrated, and with which U?",

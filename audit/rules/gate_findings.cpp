@@ -104,6 +104,17 @@ constexpr std::array k_gate_findings{
     GateFinding{"X13", "X05"},
     GateFinding{"X14", "X08"},
     GateFinding{"X15", "X06"},
+    // checks of digital certificates (docs/messages.md)
+    GateFinding{"GC-DCC-0040", "R07"},
+    GateFinding{"GC-DCC-0041", "P01"},
+    GateFinding{"GC-DCC-0042", "P01"},
+    GateFinding{"DCC-form", "R07"},
+    GateFinding{"GC-DCC-0046", "K03"},
+    GateFinding{"GC-DCC-0047", "R07"},
+    GateFinding{"GC-DCC-0048", "P05"},
+    GateFinding{"GC-DCC-0049", "R07"},
+    GateFinding{"GC-DCC-0116", "D04"},
+    GateFinding{"GC-DCC-0117", "K03"},
 };
 
 }  // namespace
@@ -140,7 +151,8 @@ void take_gate_findings(const AuditSubject& subject, FindingCollector& findings)
         finding.where = gate.where;
         finding.what = gate.what;
         finding.correction = gate.action;
-        finding.evidence = {"gate " + gate.id + ", " + gate.clause};
+        finding.evidence = {(gate.id.find("DCC-") != std::string::npos ? "check " : "gate ") + gate.id + ", " +
+                            gate.clause};
         // Equal capability and U is what a floor does: to know, and no fault (see X07).
         const FindingSeverity severity = gate.id == "X03" ? FindingSeverity::information : gate.severity;
         findings.add(std::move(finding), severity);

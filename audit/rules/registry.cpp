@@ -1,5 +1,6 @@
 #include "audit/rules/registry.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -18,7 +19,10 @@ std::span<const Rule> all_rules() {
         }
         // Which rule reports which finding of the gates stands in one table (gate_findings.cpp), for all families.
         for (Rule& rule : all) {
-            if (rule.examine != take_gate_findings && takes_gate_findings(rule.id)) {
+            if (rule.examine == take_gate_findings) {
+                std::replace(rule.needs.begin(), rule.needs.end(), Need::certificate, Need::gates);
+            }
+            if (takes_gate_findings(rule.id)) {
                 rule.examine_gates = take_gate_findings;
             }
         }

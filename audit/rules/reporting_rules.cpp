@@ -300,7 +300,7 @@ std::vector<Rule> reporting_rules() {
          .clause = k_clear_reports,
          .policy = SeverityPolicy::fixed,
          .severity = FindingSeverity::minor,
-         .needs = {Need::rows},
+         .needs = {Need::results},
          .detection = "the texts of the numbers; finding R06 of the gates",
          .correction = "Print zero without a sign, and powers of ten as such.",
          .question = "Which number is meant?",

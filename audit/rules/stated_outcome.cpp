@@ -9,9 +9,6 @@
 namespace gumcert::audit {
 
 std::optional<BudgetOutcome> outcome_or_none(const AuditedBudget& budget) {
-    if (budget.rows.empty()) {
-        return std::nullopt;
-    }
     try {
         return evaluate(budget);
     } catch (const gum::DiagnosedError&) {

@@ -162,6 +162,30 @@ TEST_F(AuditProgram, RunAuditsTheJobAndWritesThePage) {
     EXPECT_EQ(json::parse(bytes_of(folder() / "out" / "record.json"))["audit"], record["audit"]);
 }
 
+TEST_F(AuditProgram, ReadsACertificateAndTheOneInItsPdf) {
+    const fs::path out = folder() / "certificate";
+    ASSERT_EQ(gumcert({"run", (fs::path(GUMCERT_SOURCE_DIR) / "examples/certificate/end_gauge.json").string(), "-o",
+                       out.string(), "--share", GUMCERT_SOURCE_DIR, "-q"})
+                  .code,
+              0);
+    const json of_xml = audit_json(out / "certificate.xml"), of_pdf = audit_json(out / "certificate.pdf");
+    EXPECT_EQ(of_xml["kind"], "certificate");
+    EXPECT_EQ(of_xml["findings"], json::array()) << of_xml["findings"].dump(1);
+    EXPECT_EQ(of_xml["claimed"]["k"], 2.13);
+    EXPECT_EQ(of_pdf["results"], of_xml["results"]);
+    // In a folder the PDF is the same certificate again.
+    fs::remove(out / "record.json");
+    const json folder_of_both = json::parse(audit({out.string(), "--format", "json"}).out);
+    EXPECT_EQ(folder_of_both["file"], "certificate.xml");
+    EXPECT_FALSE(folder_of_both.contains("files")) << "one file";
+    std::string planted = bytes_of(out / "certificate.xml");
+    const std::string k = "<si:coverageFactor>2.13</si:coverageFactor>";
+    ASSERT_NE(planted.find(k), std::string::npos);
+    planted.replace(planted.find(k), k.size(), "<si:coverageFactor>3.13</si:coverageFactor>");
+    write_bytes(out / "planted.xml", planted);
+    EXPECT_NE(finding(audit_json(out / "planted.xml"), "K03"), nullptr);
+}
+
 TEST_F(AuditProgram, SameFileSameBytes) {
     const std::vector<std::string> words = {example("planted_workbook/planted.xlsx").string(), "--format", "json"};
     EXPECT_EQ(audit(words).out, audit(words).out);
