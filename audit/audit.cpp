@@ -147,6 +147,12 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
             report.findings.push_back(std::move(finding));
             policies.push_back(rule.policy);
         }
+        for (const std::string& reason : collector.unchecked()) {
+            report.not_checked.push_back({.rule = std::string(rule.id), .because = reason});
+        }
+        for (const std::string& sentence : collector.notes()) {
+            report.notes.push_back({.rule = std::string(rule.id), .what = sentence});
+        }
     }
     look_again(subject, rules, report.findings, policies);
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {

@@ -18,6 +18,12 @@ struct RuleNotChecked {
     std::string because;
 };
 
+/// What a rule answers although it finds nothing.
+struct RuleNote {
+    std::string rule;
+    std::string what;
+};
+
 /// One result before and after the audit.
 struct AuditedResult {
     std::string name, unit;
@@ -34,6 +40,7 @@ struct AuditReport {
     std::vector<AuditedResult> results;  ///< one a budget that has an outcome, in their order
     std::vector<AuditFinding> findings;  ///< the gravest first, then by effect, then by rule
     std::vector<RuleNotChecked> not_checked;
+    std::vector<RuleNote> notes;
 
     /// Whether a critical finding is left that nobody accepts.
     [[nodiscard]] bool has_critical() const;

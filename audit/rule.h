@@ -76,12 +76,19 @@ public:
     void add(AuditFinding finding) { add(std::move(finding), rule_.severity); }
     /// \param severity  in place of that of the rule, where the case decides it
     void add(AuditFinding finding, FindingSeverity severity);
+    /// What the rule answers although it finds nothing: a bound that it proved.
+    void note(std::string sentence) { notes_.push_back(std::move(sentence)); }
+    /// What of the subject it could not look at, and why.
+    void leave_unchecked(std::string because) { unchecked_.push_back(std::move(because)); }
     [[nodiscard]] std::string_view rule() const { return rule_.id; }
     [[nodiscard]] std::vector<AuditFinding> take();
+    [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+    [[nodiscard]] const std::vector<std::string>& unchecked() const { return unchecked_; }
 
 private:
     const Rule& rule_;
     std::vector<AuditFinding> findings_;
+    std::vector<std::string> notes_, unchecked_;
 };
 
 /// "the table names no distributions" … why a rule cannot be applied to a subject; "" where it can.

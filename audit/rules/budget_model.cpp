@@ -149,6 +149,8 @@ void BudgetModel::compile(const std::vector<gum::EquationText>& equations, const
         if (output && system.output_unit(*output).dimension() == result_unit_.dimension()) {
             output_ = *output;
             system_ = std::move(system);
+            equations_ = equations;
+            inputs_ = std::move(inputs);
         }
     } catch (const gum::DiagnosedError&) {
         system_.reset();
@@ -230,6 +232,31 @@ std::optional<std::vector<double>> BudgetModel::second_derivatives(const std::ve
     } catch (const gum::DiagnosedError&) {
         return std::nullopt;
     }
+}
+
+gum::OutputBound BudgetModel::tangent_bound(const std::vector<double>& x, const std::vector<double>& reach) const {
+    gum::OutputBound none{.bound = std::nullopt, .why_not = "the equation cannot be evaluated"};
+    const auto n = static_cast<Eigen::Index>(units_.size());
+    Eigen::VectorXd at(n), low(n), high(n);
+    constexpr double k_outside = 1.0 + 1e-9;  // what conversions of units round
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const auto position = static_cast<std::size_t>(i);
+        const double d = units_[position].difference_to_si(reach[position]) * k_outside;
+        at(i) = units_[position].to_si(x[position]);
+        low(i) = at(i) - d;
+        high(i) = at(i) + d;
+    }
+    if (!system_ || !low.allFinite() || !high.allFinite()) {
+        return none;
+    }
+    gum::OutputBound bound = gum::tangent_bounds(equations_, inputs_, at, low, high)[output_];
+    if (bound.bound) {
+        const auto converted = [this](double si) { return result_unit_.difference_from_si(si); };
+        bound.bound = gum::TangentBound{.low = converted(bound.bound->low),
+                                        .high = converted(bound.bound->high),
+                                        .certain = converted(bound.bound->certain)};
+    }
+    return bound;
 }
 
 }  // namespace gumcert::audit

@@ -7,6 +7,7 @@
 
 #include "audit/audited_budget.h"
 #include "gum/expression/equation_system.h"
+#include "gum/expression/tangent_bound.h"
 
 namespace gumcert::audit {
 
@@ -34,6 +35,10 @@ public:
     /// ∂²y/∂x_i∂x_j at x, row by row, n².
     [[nodiscard]] std::optional<std::vector<double>> second_derivatives(const std::vector<double>& x) const;
 
+    /// What the tangent at x leaves out over x ± reach, in the unit of the result (gum/expression/tangent_bound.h).
+    /// \return without a bound, the reason
+    [[nodiscard]] gum::OutputBound tangent_bound(const std::vector<double>& x, const std::vector<double>& reach) const;
+
 private:
     void compile(const std::vector<gum::EquationText>& equations, const AuditedBudget& budget);
     [[nodiscard]] bool gives_value(const AuditedBudget& budget) const;
@@ -44,6 +49,8 @@ private:
     gum::Unit result_unit_;
     std::size_t output_ = 0;
     std::optional<gum::EquationSystem> system_;
+    std::vector<gum::EquationText> equations_;  ///< of the system
+    std::vector<gum::InputSymbol> inputs_;
 };
 
 }  // namespace gumcert::audit

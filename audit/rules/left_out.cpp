@@ -13,8 +13,6 @@ constexpr std::array k_left_out{
                 "tables hold the readings that are left; a job demands the reason itself"},
     RuleLeftOut{"S14", "Budget linearised at the nominal value",
                 "no table states the point of linearisation; S02 and S17 find coefficients of another point"},
-    RuleLeftOut{"S19", "Certified bound of the linearisation",
-                "the equation language has no interval arithmetic; S05 and S18 estimate the same by second order"},
     RuleLeftOut{"K10", "Budget older than method, instrument or software", "budgets carry no dates of changes"},
     RuleLeftOut{"W15", "One quantity with two values in a file",
                 "names alone do not tell whether two numbers belong to one quantity or to two points"},

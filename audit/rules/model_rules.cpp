@@ -972,6 +972,7 @@ std::vector<Rule> model_rules() {
          .correction = "Correct the value by the term of second order, or say that it stands for f of the estimates.",
          .question = "Is the stated value meant as f of the estimates or as the mean of what the quantity may be?",
          .examine = value_beside_mean},
+        certified_bound_rule(),
     };
 }
 

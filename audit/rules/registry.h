@@ -13,6 +13,7 @@ namespace gumcert::audit {
 [[nodiscard]] std::vector<Rule> input_rules();         ///< U: inputs, Type A and Type B
 [[nodiscard]] std::vector<Rule> type_a_rules();        ///< U of readings, a part of input_rules()
 [[nodiscard]] std::vector<Rule> model_rules();         ///< S: model and sensitivity
+[[nodiscard]] Rule certified_bound_rule();             ///< S19, the last of model_rules()
 [[nodiscard]] std::vector<Rule> coverage_rules();      ///< K: combination and coverage
 [[nodiscard]] std::vector<Rule> contributor_rules();   ///< B: completeness of contributors
 [[nodiscard]] std::vector<Rule> scope_rules();         ///< X: capability and scope

@@ -19,7 +19,6 @@
 #include "certificate/waiver.h"
 #include "gum/conformity/decision_rule.h"
 #include "gum/coverage.h"
-#include "text/lists.h"
 
 namespace gumcert::audit {
 namespace {
@@ -299,7 +298,9 @@ AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::
     budget.evaluated_here = true;
     add_rows(budget, result.budget, budget.place + "/budget", &record, &job, result.point);
     if (record.model) {
-        budget.equation = text::listed(record.model->equations);
+        for (const std::string& equation : record.model->equations) {
+            budget.equation += (budget.equation.empty() ? "" : "; ") + equation;
+        }
     }
     if (record.certificate) {
         budget.method = record.certificate->data.method.identification;

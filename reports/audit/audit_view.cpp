@@ -404,7 +404,8 @@ void tie_findings_to_results(AuditedFileView& file) {
 }
 
 /// What is known of the law of propagation against Monte Carlo.
-std::vector<RuleAnswer> linearity_of(const AuditedFileView& file) {
+std::vector<RuleAnswer> linearity_of(const AuditedFileView& file, const audit::AuditReport& report,
+                                     std::span<const audit::Rule> rules) {
     std::vector<RuleAnswer> answers;
     for (const char* rule : {"S04", "S05", "S06", "S07", "S18", "S19"}) {
         for (const AuditFindingView& finding : file.findings) {
@@ -418,6 +419,12 @@ std::vector<RuleAnswer> linearity_of(const AuditedFileView& file) {
             }
         }
     }
+        for (const audit::RuleNote& note : report.notes) {
+            if (const audit::Rule* of = note.rule == rule ? rule_of(note.rule, rules) : nullptr) {
+                answers.push_back(
+                    {.id = printable(note.rule), .title = std::string(of->title), .answer = printable(note.what)});
+            }
+        }
     return answers;
 }
 
@@ -464,7 +471,7 @@ AuditedFileView file_view(const audit::AuditReport& report, std::span<const audi
                                     .title = rule == nullptr ? "" : std::string(rule->title),
                                     .because = printable(one.because)});
     }
-    file.linearity = linearity_of(file);
+    file.linearity = linearity_of(file, report, rules);
     for (const std::string& sentence : report.subject.not_read) {
         file.not_read.push_back(printable(sentence));
     }

@@ -46,5 +46,29 @@ TEST(Rule, AppliesWhereItsNeedsAreMet) {
     EXPECT_EQ(why_not_applicable(needs, test::subject_of(budget)), "");
 }
 
+TEST(Rule, KnowsResultsWithoutRowsAndCertificatesOfOthers) {
+    const Rule results{.id = "Z01", .title = "", .clause = {.text = ""}, .needs = {Need::results}};
+    const Rule gates{.id = "Z02", .title = "", .clause = {.text = ""}, .needs = {Need::gates}};
+    AuditSubject subject = test::subject_of(test::budget_of({}));
+    EXPECT_EQ(why_not_applicable(results, subject), "no results were found");
+    subject.budgets.front().claims.U = exact_number(1.0, "");
+    EXPECT_EQ(why_not_applicable(results, subject), "");
+    EXPECT_NE(why_not_applicable(gates, subject), "");
+    subject.certificate.emplace();
+    EXPECT_EQ(why_not_applicable(gates, subject), "");
+    subject.kind = AuditSubject::Kind::certificate;
+    EXPECT_NE(why_not_applicable(gates, subject), "");
+}
+
+TEST(Rule, AnswersAndSaysWhatItLeftUnchecked) {
+    const Rule rule{.id = "Z01", .title = "", .clause = {.text = ""}};
+    FindingCollector collector(rule);
+    collector.note("bounded");
+    collector.leave_unchecked("y: a kink");
+    EXPECT_EQ(collector.notes(), std::vector<std::string>{"bounded"});
+    EXPECT_EQ(collector.unchecked(), std::vector<std::string>{"y: a kink"});
+    EXPECT_TRUE(collector.take().empty());
+}
+
 }  // namespace
 }  // namespace gumcert::audit

@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "audit/rules/budget_model.h"
+#include "audit/rules/registry.h"
+#include "audit/rules/row_edits.h"
+#include "audit/rules/stated_outcome.h"
+#include "text/lists.h"
+
+namespace gumcert::audit {
+namespace {
+
+/// How far from its estimate a quantity is looked at: to the limits of a bounded one, else k u.
+double reach_of(const AuditedRow& row, double k) {
+    if (!row.in_sum) {
+        return 0.0;
+    }
+    switch (row.shape) {
+        case Shape::rectangular:
+            return std::numbers::sqrt3 * row.used_u;
+        case Shape::triangular:
+            return std::sqrt(6.0) * row.used_u;
+        case Shape::arcsine:
+            return std::numbers::sqrt2 * row.used_u;
+        default:
+            return k * row.used_u;
+    }
+}
+
+// Four digits are printed: a bound is made larger, and what is certain smaller, than they may be off.
+constexpr double k_of_digits = 6e-4;
+std::string at_most_in_words(double bound, const std::string& unit) {
+    return in_words(bound * (1.0 + k_of_digits), unit);
+}
+std::string at_least_in_words(double certain, const std::string& unit) {
+    return in_words(certain * (1.0 - k_of_digits), unit);
+}
+
+/// The bound of one result, or why there is none.
+struct BoundOfResult {
+    std::size_t budget = 0;
+    gum::OutputBound bound;
+    double k = 0.0, U = 0.0, delta = 0.0;  ///< delta: half a unit of the last digit of U
+};
+
+BoundOfResult bound_of(const AuditSubject& subject, std::size_t position) {
+    const AuditedBudget& budget = subject.budgets[position];
+    BoundOfResult result;
+    result.budget = position;
+    const std::optional<BudgetOutcome> outcome = outcome_or_none(budget);
+    if (budget.equation.empty() || !outcome || !(outcome->U > 0.0)) {
+        result.bound.why_not = budget.equation.empty() ? "no equation is stated" : "the rows give no u_c";
+        return result;
+    }
+    result.k = outcome->k;
+    result.U = outcome->U;
+    result.delta = 0.5 * std::pow(10.0, std::floor(std::log10(outcome->U)) - budget.digits + 1);
+    const std::optional<BudgetModel> model = BudgetModel::of(budget);
+    if (!model) {
+        result.bound.why_not = "the equation is implicit, cannot be read, or has no quantity that a row stands for";
+        return result;
+    }
+    if (!model->can_be_evaluated()) {
+        result.bound.why_not = model->without_row().empty()
+                                   ? "an estimate is missing, or the units do not balance"
+                                   : "no row, or more than one, stands for " + text::listed(model->without_row(), 4);
+        return result;
+    }
+    std::vector<double> reach;
+    for (const std::size_t row : model->rows()) {
+        reach.push_back(reach_of(budget.rows[row], outcome->k));
+    }
+    result.bound = model->tangent_bound(model->estimates(budget), reach);
+    return result;
+}
+
+std::string region_in_words(const BoundOfResult& result) {
+    return "within the region of all inputs at once (limits of bounded ones, else ±k u with k = " + in_words(result.k) +
+           ")";
+}
+
+bool is_validated(const AuditedBudget& budget) {
+    return budget.evaluated_here || budget.monte_carlo ||
+           std::any_of(budget.rows.begin(), budget.rows.end(), [](const AuditedRow& row) {
+               return mentions(row, {"second order", "second-order", "2nd order", "zweiter ordnung", "higher order"});
+           });
+}
+
+void add_bound(const AuditSubject& subject, const BoundOfResult& result, FindingCollector& findings) {
+    const AuditedBudget& budget = subject.budgets[result.budget];
+    const gum::TangentBound& bound = *result.bound.bound;
+    const bool certain = bound.certain > result.delta;
+    AuditFinding finding = finding_of(
+        subject, result.budget,
+        certain ? "the equation leaves its tangent by " + at_least_in_words(bound.certain, budget.unit) +
+                      " at least, " + region_in_words(result) + ": more than half a unit of the last digit of U"
+                : "it is not proved that the law of propagation keeps the last digit of U: " + region_in_words(result) +
+                      " what the tangent leaves out is bounded by " + at_most_in_words(bound.largest(), budget.unit));
+    finding.evidence = {"f − tangent from " + in_words(bound.low) + " to " + in_words(bound.high, budget.unit),
+                        "U = " + in_words(result.U, budget.unit),
+                        "half a unit of the last digit = " + in_words(result.delta, budget.unit)};
+    finding.kind = certain ? "certain" : "possible";
+    findings.add(std::move(finding),
+                 certain && !is_validated(budget) ? FindingSeverity::major : FindingSeverity::information);
+}
+
+/// S19
+void certified_bound(const AuditSubject& subject, FindingCollector& findings) {
+    std::map<std::string, std::vector<std::string>> reasons;
+    std::optional<BoundOfResult> worst;
+    std::size_t bounded = 0;
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        BoundOfResult result = bound_of(subject, b);
+        if (!result.bound.bound) {
+            reasons[result.bound.why_not].push_back(subject.budgets[b].name);
+        } else if (result.bound.bound->largest() > result.delta) {
+            add_bound(subject, result, findings);
+        } else {
+            ++bounded;
+            const auto share = [](const BoundOfResult& one) { return one.bound.bound->largest() / one.delta; };
+            if (!worst || share(result) > share(*worst)) {
+                worst = std::move(result);
+            }
+        }
+    }
+    if (worst) {
+        const AuditedBudget& budget = subject.budgets[worst->budget];
+        findings.note(budget.name + ": " + region_in_words(*worst) + " what the tangent leaves out is bounded by " +
+                      at_most_in_words(worst->bound.bound->largest(), budget.unit) +
+                      "; half a unit of the last digit of U is " + in_words(worst->delta, budget.unit) +
+                      (bounded > 1 ? "; the worst of " + std::to_string(bounded) + " results" : ""));
+    }
+    for (const auto& [reason, names] : reasons) {
+        findings.leave_unchecked(text::listed(names, 4) + ": " + reason);
+    }
+}
+
+}  // namespace
+
+Rule certified_bound_rule() {
+    return {
+        .id = "S19",
+        .title = "Certified bound of the linearisation",
+        .clause = {.text = "JCGM 100:2008, 5.1.2 (note)", .verified = true},
+        .policy = SeverityPolicy::fixed,
+        .severity = FindingSeverity::information,
+        .needs = {Need::rows, Need::model},
+        .detection =
+            "the second derivatives of the equation, enclosed by interval arithmetic over the region of all "
+            "inputs at once, bound what the tangent leaves out; a bound above half a unit of the last digit "
+            "of U is told. Major where the equation certainly leaves its tangent by more, and nothing says "
+            "that the law of propagation was validated",
+        .correction = "Use Monte Carlo, or add the terms of second order; where they are known to be small, nothing.",
+        .question = "How was it seen that the equation is linear enough over its uncertainties?",
+        .examine = certified_bound};
+}
+
+}  // namespace gumcert::audit
