@@ -17,8 +17,10 @@ struct RequiredContributor {
 };
 
 struct MethodChecklist {
-    std::string_view method;                    ///< id, AuditedBudget::method
-    std::string_view title;                     ///< for people
+    std::string_view method;  ///< id, AuditedBudget::method
+    std::string_view title;   ///< for people
+    /// Documents that the list follows, with their titles; which clause of them asks for what was not verified.
+    std::string_view source;
     std::vector<std::string_view> words;        ///< by which the name of a budget tells its method
     std::vector<RequiredContributor> required;  ///< beside the six of every method
 };
@@ -31,6 +33,8 @@ struct MethodChecklist {
 
 /// The checklist of a method; nullptr where there is none.
 [[nodiscard]] const MethodChecklist* checklist_of(std::string_view method);
+/// A method in words: the title of its checklist, else what the budget says itself.
+[[nodiscard]] std::string method_in_words(std::string_view method);
 /// Id of the method that a title names, in English or German: "Calibration of micrometers"; "" where it names none.
 [[nodiscard]] std::string method_in_title(std::string_view title);
 

@@ -131,8 +131,10 @@ void required_contributor_missing(const AuditSubject& subject, FindingCollector&
     }
     for (auto& [what, budgets] : gaps) {
         const MethodChecklist* checklist = checklist_of(subject.budgets[budgets.front()].method);
-        std::vector<std::string> evidence{"checklist: " +
-                                          std::string(checklist == nullptr ? "every method" : checklist->title)};
+        std::vector<std::string> evidence{
+            "checklist: " + (checklist == nullptr ? "every method"
+                                                  : std::string(checklist->title) + ", after " +
+                                                        std::string(checklist->source) + " (clauses to be verified)")};
         add_missing_contribution(subject, std::move(budgets), what, FindingSeverity::major, std::move(evidence),
                                  findings);
     }

@@ -3,6 +3,10 @@
 #include <array>
 #include <string_view>
 #include <utility>
+#include <vector>
+
+#include "audit/checklists.h"
+#include "text/lists.h"
 
 namespace gumcert::audit {
 namespace {
@@ -75,6 +79,27 @@ std::string row_of(const Rule& rule) {
     return row;
 }
 
+constexpr std::string_view k_checklists = R"(
+## Contributors by method
+
+What B01 asks of the budgets of a method, beside the minimum of every method. A row stands for a contributor by what it is
+or by its words, in English or German; the method is that which the file names, or which the name of budget, certificate
+or file has in its words. The lists follow the documents named; no list was held against their clauses (clauses to be
+verified).
+
+| method | id | contributors | after |
+|---|---|---|---|
+)";
+
+std::string row_of(const MethodChecklist& checklist) {
+    std::vector<std::string> names;
+    for (const RequiredContributor& required : checklist.required) {
+        names.emplace_back(required.name);
+    }
+    return "| " + cell(checklist.title) + " | `" + std::string(checklist.method) + "` | " + cell(text::listed(names)) +
+           " | " + cell(checklist.source) + " |\n";
+}
+
 }  // namespace
 
 std::string rules_page(std::span<const Rule> rules, std::span<const RuleLeftOut> left_out) {
@@ -98,6 +123,10 @@ std::string rules_page(std::span<const Rule> rules, std::span<const RuleLeftOut>
         for (const RuleLeftOut& rule : left_out) {
             page += "| " + cell(rule.id) + " | " + cell(rule.title) + " | " + cell(rule.because) + " |\n";
         }
+    }
+    page += k_checklists;
+    for (const MethodChecklist& checklist : method_checklists()) {
+        page += row_of(checklist);
     }
     return page;
 }

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "audit/checklists.h"
 #include "audit/severity.h"
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/unit.h"
@@ -228,7 +229,7 @@ AuditedResultView result_view(const audit::AuditedResult& result, const AuditedB
     view.unit = unit_text(result.unit);
     view.place = printable(budget.place);
     view.equation = printable(budget.equation);
-    view.method = printable(budget.method);
+    view.method = printable(audit::method_in_words(budget.method));
     view.capability = plain_number(budget.capability);
     view.capability_number = budget.capability;
     view.coverage = name_of(budget.coverage.kind);
@@ -418,13 +419,13 @@ std::vector<RuleAnswer> linearity_of(const AuditedFileView& file, const audit::A
                 answers.push_back({.id = one.id, .title = one.title, .answer = one.because});
             }
         }
-    }
         for (const audit::RuleNote& note : report.notes) {
             if (const audit::Rule* of = note.rule == rule ? rule_of(note.rule, rules) : nullptr) {
                 answers.push_back(
                     {.id = printable(note.rule), .title = std::string(of->title), .answer = printable(note.what)});
             }
         }
+    }
     return answers;
 }
 

@@ -1,7 +1,10 @@
 #include "audit/checklists.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -13,13 +16,14 @@ TEST(Checklists, have_ids_and_contributors_that_a_row_can_be) {
     for (const MethodChecklist& checklist : method_checklists()) {
         EXPECT_TRUE(ids.insert(checklist.method).second) << checklist.method;
         EXPECT_FALSE(checklist.title.empty());
+        EXPECT_FALSE(checklist.source.empty()) << checklist.method;
         EXPECT_FALSE(checklist.required.empty());
         for (const RequiredContributor& required : checklist.required) {
             EXPECT_FALSE(required.by.empty() && required.words.empty()) << required.name;
         }
         EXPECT_EQ(checklist_of(checklist.method), &checklist);
     }
-    EXPECT_EQ(ids.size(), 9U);
+    EXPECT_EQ(ids.size(), 16U);
     EXPECT_EQ(minimum_contributors().size(), 6U);
     EXPECT_EQ(checklist_of("unknown"), nullptr);
 }
@@ -30,7 +34,66 @@ TEST(Checklists, know_their_method_by_its_title) {
     EXPECT_EQ(method_in_title("Bügelmessschraube, Messschraube 25 mm"), "caliper_micrometer");
     EXPECT_EQ(method_in_title("Messuhr"), "dial_indicator");
     EXPECT_EQ(method_in_title("weights F1"), "weights");
+    EXPECT_EQ(method_in_title("Kalibrierung einer Präzisionswaage mit Gewichten"), "balance");
+    EXPECT_EQ(method_in_title("Calibration of a balance"), "balance");
+    EXPECT_EQ(method_in_title("Rohrfedermanometer 10 bar"), "pressure");
+    EXPECT_EQ(method_in_title("Druckaufnehmer"), "pressure");
+    EXPECT_EQ(method_in_title("Kolbenhubpipette 100 µL"), "pipette");
+    EXPECT_EQ(method_in_title("digital oscilloscope, vertical deflection"), "oscilloscope");
+    EXPECT_EQ(method_in_title("Stoppuhr"), "time_interval");
+    EXPECT_EQ(method_in_title("Härteprüfmaschine Rockwell C"), "hardness");
+    EXPECT_EQ(method_in_title("Zugprüfmaschine 100 kN"), "force");
+    EXPECT_EQ(method_in_title("load cell 5 kN"), "force");
     EXPECT_EQ(method_in_title("viscosity"), "");
+}
+
+TEST(Checklists, name_a_method_in_words) {
+    EXPECT_EQ(method_in_words("cmm_fixture"), "Measurement of a fixture by CMM");
+    EXPECT_EQ(method_in_words("SOP 17"), "SOP 17");
+    EXPECT_EQ(method_in_words(""), "");
+}
+
+TEST(Checklists, know_the_rows_of_everyday_budgets_by_their_words) {
+    const auto missing = [](const char* method, const std::vector<std::pair<const char*, Contributor>>& rows) {
+        std::string names;
+        for (const RequiredContributor& required : checklist_of(method)->required) {
+            const bool there = std::any_of(rows.begin(), rows.end(), [&](const auto& named) {
+                AuditedRow row;
+                row.quantity = named.first;
+                row.contributor = named.second;
+                return stands_for(row, required);
+            });
+            names += there ? "" : std::string(required.name) + "; ";
+        }
+        return names;
+    };
+    using enum Contributor;
+    EXPECT_EQ(missing("balance", {{"Prüfgewichte", reference},
+                                  {"Teilungswert d", item_resolution},
+                                  {"Wiederholpräzision", repeatability},
+                                  {"Exzentrische Belastung", other},
+                                  {"Luftauftrieb", environment},
+                                  {"Konvektion", other}}),
+              "")
+        << "parts of compound words count";
+    EXPECT_EQ(missing("pipette", {{"Waage", reference},
+                                  {"water temperature", temperature},
+                                  {"air buoyancy", environment},
+                                  {"evaporation", other},
+                                  {"cubic expansion", expansion},
+                                  {"repeatability", repeatability}}),
+              "");
+    EXPECT_EQ(missing("pressure", {{"pressure balance", reference},
+                                   {"Höhendifferenz", other},
+                                   {"Nullpunkt", other},
+                                   {"Umkehrspanne", other},
+                                   {"repeatability", repeatability},
+                                   {"temperature", temperature}}),
+              "");
+    EXPECT_EQ(
+        missing("force", {{"transfer standard", reference}}),
+        "drift of the force standard; repeatability and reproducibility (mounting positions); reversibility; zero "
+        "point; resolution; temperature; ");
 }
 
 TEST(Checklists, accept_a_row_by_contributor_or_word) {

@@ -130,6 +130,21 @@ TEST(AuditViewOfABudget, HasEffectsBoundsAndQuestions) {
     EXPECT_NEAR(whole, first.effect->audited.number.U / first.effect->claimed.number.U - 1.0, 1e-9);
 }
 
+TEST(AuditViewOfABudget, ShowsWhatARuleAnswersBesideTheLinearModel) {
+    audit::AuditReport report = test::sample_audit();
+    report.notes.push_back({.rule = "S05", .what = "bounded by 1e-9 m"});
+    const std::vector<RuleAnswer> answers = view_of(report).files[0].linearity;
+    ASSERT_EQ(answers.size(), 2U);
+    EXPECT_EQ(answers[1].id, "S05");
+    EXPECT_EQ(answers[1].answer, "bounded by 1e-9 m");
+}
+
+TEST(AuditViewOfABudget, NamesAMethodInWords) {
+    audit::AuditReport report = test::sample_audit();
+    report.subject.budgets.front().method = "cmm_fixture";
+    EXPECT_EQ(view_of(report).files[0].results.front().method, "Measurement of a fixture by CMM");
+}
+
 TEST(AuditViewOfABudget, FindsTheWaiverOfAFinding) {
     audit::AuditReport report = test::sample_audit();
     report.subject.waivers = {
