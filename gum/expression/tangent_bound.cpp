@@ -201,16 +201,25 @@ double certain_remainder(BoxedTape& tape, const Box& box) {
         }
         certain = remainder.is_finite() ? std::max(certain, remainder.smallest()) : certain;
     };
-    std::vector<Enclosure> up = box.centre, down = box.centre;
+    double length = 0.0;  // of the slope in units of the reach of each leaf
+    const auto reach = [&](std::size_t i) { return std::min(-box.deviation[i].low, box.deviation[i].high); };
+    const auto middle = [&](std::size_t i) { return 0.5 * (slope[i].low + slope[i].high); };
     for (const std::size_t i : box.moving) {
         for (const double end : {box.leaves[i].low, box.leaves[i].high}) {
             std::vector<Enclosure> point = box.centre;
             point[i] = enclosure_of(end);
             look_at(point);
         }
-        const bool rises = slope[i].high > 0.0;
-        up[i] = enclosure_of(rises ? box.leaves[i].high : box.leaves[i].low);
-        down[i] = enclosure_of(rises ? box.leaves[i].low : box.leaves[i].high);
+        length = std::hypot(length, middle(i) * reach(i));
+    }
+    if (!(length > 0.0)) {
+        return certain;
+    }
+    std::vector<Enclosure> up = box.centre, down = box.centre;
+    for (const std::size_t i : box.moving) {
+        const double x = box.centre[i].low, d = middle(i) * reach(i) / length * reach(i);
+        up[i] = enclosure_of(std::clamp(x + d, box.leaves[i].low, box.leaves[i].high));
+        down[i] = enclosure_of(std::clamp(x - d, box.leaves[i].low, box.leaves[i].high));
     }
     look_at(up);
     look_at(down);

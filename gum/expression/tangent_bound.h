@@ -33,8 +33,9 @@ struct TapeBound {
 /// Taylor's theorem with the remainder of Lagrange: f(x) − f(x0) − J (x − x0) = ½ Σ_ij H_ij(ξ) d_i d_j for a ξ between x0
 /// and x. The Hessian is enclosed over the whole box by the rules of derivation in interval arithmetic
 /// (R. E. Moore, R. B. Kearfott, M. J. Cloud: Introduction to Interval Analysis, SIAM 2009), every rounding on the
-/// outside. `certain` is the smallest |f − tangent| at the ends of each input alone, and at the two corners towards which
-/// all inputs raise or lower f.
+/// outside. `certain` is the largest |f − tangent| that is sure at the ends of each input alone, and at the two points
+/// x ± V c/u_r where the tangent changes by u_r: c the slope, r half the box, V = diag(r²), u_r² = cᵀ V c. With r = k u
+/// these are the ends of the coverage interval, where a normal distribution is densest.
 /// \param x          centre, n leaves
 /// \param low, high  the box, low ≤ x ≤ high; a leaf with low = high does not vary
 [[nodiscard]] std::vector<TapeBound> tangent_bounds(const Tape& tape, const Eigen::VectorXd& x,
