@@ -211,7 +211,8 @@ std::vector<AuditAttempt> audit_files(const std::vector<fs::path>& files, unsign
     std::vector<AuditAttempt> attempts(files.size());
     std::vector<std::size_t> tables, others;
     for (std::size_t i = 0; i < files.size(); ++i) {
-        (audit::in_small_letters(files[i].extension().string()) == ".json" ? others : tables).push_back(i);
+        const std::string ending = audit::in_small_letters(files[i].extension().string());
+        (ending == ".csv" || ending == ".xlsx" || ending == ".xlsm" ? tables : others).push_back(i);
     }
     const auto attempt = [&](std::size_t file, const gum::Progress& told) {
         try {
