@@ -103,6 +103,10 @@ private:
 
     void rows(const AuditedResultView& result) {
         section("section_rows");
+        if (result.rows.empty()) {  // of a certificate
+            builder_.paragraph(words_("not_stated"));
+            return;
+        }
         Rows lines;
         const std::size_t single =
             result.rows.size() > k_rows_of_document ? k_rows_of_document - 1 : result.rows.size();
