@@ -229,4 +229,9 @@ std::vector<AuditAttempt> audit_files(const std::vector<fs::path>& files, unsign
     return attempts;
 }
 
+void run_in_workers(unsigned threads, std::size_t tasks, const std::function<void(std::size_t)>& task) {
+    gum::WorkerThreads workers(threads);
+    workers.run(tasks, [&task](unsigned, std::size_t one) { task(one); });
+}
+
 }  // namespace gumcert::app

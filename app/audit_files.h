@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,5 +54,8 @@ struct AuditAttempt {
                                                     const std::filesystem::path& templates,
                                                     const gum::Progress& progress = {},
                                                     std::span<const certificate::Waiver> waivers = {});
+
+/// Does tasks 0 … n − 1 on some threads (0: as many as the machine has), and throws what the first of them throws.
+void run_in_workers(unsigned threads, std::size_t tasks, const std::function<void(std::size_t)>& task);
 
 }  // namespace gumcert::app

@@ -7,6 +7,7 @@
 #include <array>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
@@ -89,9 +90,10 @@ Destination destination_of(const AuditOptions& options, const fs::path& first) {
     return to;
 }
 
-std::string rendered(const reports::AuditView& view, const std::string& form, const AuditOptions& options) {
+std::string rendered(const reports::AuditView& view, const std::string& form, const AuditOptions& options,
+                     const reports::TaskRunner& run) {
     if (form == "json") {
-        return reports::audit_as_json(view);
+        return reports::audit_as_json(view, run);
     }
     if (form == "sarif") {
         return reports::audit_as_sarif(view, audit::all_rules());
@@ -144,14 +146,17 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
     if (reports.empty()) {
         return code;
     }
-    const reports::AuditView view = reports::make_audit_view(reports, audit::all_rules(), context);
+    const reports::TaskRunner run = [&common](std::size_t n, const std::function<void(std::size_t)>& task) {
+        app::run_in_workers(static_cast<unsigned>(common.threads), n, task);
+    };
+    const reports::AuditView view = reports::make_audit_view(reports, audit::all_rules(), context, run);
     if (!to.to_stdout.empty()) {
-        write_to_stdout(rendered(view, to.to_stdout, options));
+        write_to_stdout(rendered(view, to.to_stdout, options, run));
         return code;
     }
     std::vector<app::OutputFile> written;
     for (const auto& [form, file] : to.files) {
-        written.push_back({.path = file, .bytes = rendered(view, form, options)});
+        written.push_back({.path = file, .bytes = rendered(view, form, options, run)});
     }
     std::vector<fs::path> inputs = all;
     if (!options.waivers.empty()) {

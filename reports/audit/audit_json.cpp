@@ -1,8 +1,12 @@
 #include "reports/audit/audit_json.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "json/canonical_json.h"
 
@@ -125,20 +129,50 @@ json file_json(const AuditedFileView& file, const AuditView& view) {
     return all;
 }
 
+/// The text of one file as it stands in the array of all: two blanks deeper, without LF at its end.
+std::string text_in_array(const json& file) {
+    const std::string own = gumcert::json::canonical_json(file);
+    std::string text;
+    text.reserve(own.size() + own.size() / 4);
+    for (std::size_t at = 0; at < own.size();) {
+        const std::size_t end = std::min(own.find('\n', at), own.size());
+        text += at == 0 ? "  " : "\n  ";
+        text.append(own, at, end - at);
+        at = end + 1;
+    }
+    return text;
+}
+
 }  // namespace
 
-std::string audit_as_json(const AuditView& view) {
-    json files = json::array();
-    for (const AuditedFileView& file : view.files) {
-        files.push_back(file_json(file, view));
-    }
-    json all = files.empty() ? json::object() : files[view.worst];
+std::string audit_as_json(const AuditView& view, const TaskRunner& run) {
+    json all = view.files.empty() ? json::object() : file_json(view.files[view.worst], view);
     all["schema"] = "gumcert/audit/1";
     all["program"] = view.program;
-    if (files.size() > 1) {
-        all["files"] = std::move(files);
+    if (view.files.size() < 2) {
+        return gumcert::json::canonical_json(all);
     }
-    return gumcert::json::canonical_json(all);
+    // The files of a folder are written one by one: together as one value they would take many times their text.
+    std::vector<std::string> texts(view.files.size());
+    run_tasks(run, texts.size(), [&](std::size_t i) { texts[i] = text_in_array(file_json(view.files[i], view)); });
+    constexpr std::string_view k_key = "\n \"files\": ", k_nothing = "null";  // keys of the top alone have one blank
+    all["files"] = nullptr;
+    std::string text = gumcert::json::canonical_json(all);
+    const std::size_t at = text.find(k_key) + k_key.size();
+    const std::string behind = text.substr(at + k_nothing.size());
+    text.resize(at);
+    std::size_t size = text.size() + behind.size();
+    for (const std::string& one : texts) {
+        size += one.size() + 2;
+    }
+    text.reserve(size + 8);
+    text += "[";
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        text += i == 0 ? "\n" : ",\n";
+        text += texts[i];
+    }
+    text += "\n ]" + behind;
+    return text;
 }
 
 }  // namespace gumcert::reports

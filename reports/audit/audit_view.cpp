@@ -515,8 +515,18 @@ AuditedRowView summed_rows(const AuditedResultView& result, std::size_t from) {
     return sum;
 }
 
+void run_tasks(const TaskRunner& run, std::size_t n, const std::function<void(std::size_t)>& task) {
+    if (run) {
+        run(n, task);
+        return;
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        task(i);
+    }
+}
+
 AuditView make_audit_view(std::span<const audit::AuditReport> reports, std::span<const audit::Rule> rules,
-                          const AuditContext& context) {
+                          const AuditContext& context, const TaskRunner& run) {
     AuditView view;
     view.program = printable(context.program);
     for (const audit::AuditReport& report : reports) {
@@ -527,10 +537,12 @@ AuditView make_audit_view(std::span<const audit::AuditReport> reports, std::span
             }
         }
     }
-    view.files.reserve(reports.size());
+    view.files.resize(reports.size());
+    run_tasks(run, reports.size(), [&](std::size_t i) {
+        view.files[i] = file_view(reports[i], rules, view.waivers);
+        view.files[i].sha256 = i < context.digests.size() ? printable(context.digests[i]) : "";
+    });
     for (std::size_t i = 0; i < reports.size(); ++i) {
-        view.files.push_back(file_view(reports[i], rules, view.waivers));
-        view.files.back().sha256 = i < context.digests.size() ? printable(context.digests[i]) : "";
         view.worst = rank_of(view.files[i]) > rank_of(view.files[view.worst]) ? i : view.worst;
     }
     return view;

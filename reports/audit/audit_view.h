@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -175,6 +176,11 @@ inline constexpr std::array<const char*, 4> k_audit_severities{"critical", "majo
 /// Rows from a position on as one: root of the sum of the squares of their contributions, and the sum of their shares.
 [[nodiscard]] AuditedRowView summed_rows(const AuditedResultView& result, std::size_t from);
 
+/// Does tasks 0 … n − 1, in any order and several at once where it can; empty: one after the other. It makes no difference
+/// to what comes out.
+using TaskRunner = std::function<void(std::size_t n, const std::function<void(std::size_t)>& task)>;
+void run_tasks(const TaskRunner& run, std::size_t n, const std::function<void(std::size_t)>& task);
+
 /// The view of the audits of one file or of a folder.
 ///
 /// The worst result of a file is the one that the corrections change most: a verdict or |E_n| > 1 that turns counts
@@ -183,6 +189,6 @@ inline constexpr std::array<const char*, 4> k_audit_severities{"critical", "majo
 /// \param reports  one or more, in the order in which they are shown
 /// \param rules    for titles and clauses: those that the audits were made with
 [[nodiscard]] AuditView make_audit_view(std::span<const audit::AuditReport> reports, std::span<const audit::Rule> rules,
-                                        const AuditContext& context);
+                                        const AuditContext& context, const TaskRunner& run = {});
 
 }  // namespace gumcert::reports

@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "json/canonical_json.h"
 #include "tests/support/hostile_strings.h"
 #include "tests/support/json_schema.h"
 #include "tests/support/sample_audit.h"
@@ -111,6 +113,20 @@ TEST(AuditJson, SurvivesHostileTextsAndGivesTheSameBytes) {
         EXPECT_EQ(text.find('\x1B'), std::string::npos);
     }
     EXPECT_EQ(json_text({test::sample_audit()}), json_text({test::sample_audit()}));
+}
+
+TEST(AuditJson, OfManyFilesIsCanonicalHoweverItsTasksAreDone) {
+    const std::vector<audit::AuditReport> reports(3, test::sample_audit());
+    const TaskRunner backwards = [](std::size_t n, const std::function<void(std::size_t)>& task) {
+        for (std::size_t i = n; i > 0; --i) {
+            task(i - 1);
+        }
+    };
+    const AuditView view = make_audit_view(reports, test::sample_rules(), {.program = "gumcert 0.1.0"}, backwards);
+    const std::string text = audit_as_json(view, backwards);
+    EXPECT_EQ(text, json_text(reports));
+    EXPECT_EQ(text, gumcert::json::canonical_json(json::parse(text)));
+    EXPECT_EQ(json::parse(text).at("files").size(), 3U);
 }
 
 }  // namespace
