@@ -30,8 +30,8 @@ bool all_digits(std::string_view text) {
 /// Splits a checked text into records and fields.
 class Scanner {
 public:
-    Scanner(std::string_view text, Storage& storage, ProblemList& problems)
-        : text_(text), storage_(storage), problems_(problems) {}
+    Scanner(std::string_view text, Storage& storage, ProblemList& problems, char separator = ',')
+        : text_(text), storage_(storage), problems_(problems), separator_(separator) {}
 
     [[nodiscard]] bool at_end() const { return offset_ >= text_.size(); }
 
@@ -56,7 +56,7 @@ public:
                 return false;
             }
             fields.push_back(field);
-            if (at(',')) {
+            if (at(separator_)) {
                 advance();
                 continue;
             }
@@ -104,7 +104,7 @@ private:
 
     bool plain_field(CsvCell& field) {
         const std::size_t start = offset_;
-        while (!at(',') && !at_line_end()) {
+        while (!at(separator_) && !at_line_end()) {
             if (at('"')) {
                 return refuse_quote(line_, column_, "a double quote inside a field that does not begin with one");
             }
@@ -136,7 +136,7 @@ private:
                 copied = offset_;
                 continue;
             }
-            if (!at(',') && !at_line_end()) {
+            if (!at(separator_) && !at_line_end()) {
                 return refuse_quote(line_, column_, "text after a closing double quote");
             }
             if (copy != nullptr) {
@@ -152,6 +152,7 @@ private:
     std::string_view text_;
     Storage& storage_;
     ProblemList& problems_;
+    char separator_;
     std::size_t offset_ = 0;
     std::uint32_t line_ = 1;
     std::uint32_t column_ = 1;
@@ -213,8 +214,30 @@ void refuse_ragged(const std::vector<CsvCell>& fields, std::size_t expected, std
                                              : "add the missing fields; is the file cut off?");
 }
 
+/// A number with a decimal comma and nothing else: 10,5 or -0,3e-6.
+bool has_decimal_comma(std::string_view text) {
+    if (!text.empty() && (text.front() == '-' || text.front() == '+')) {
+        text.remove_prefix(1);
+    }
+    const std::size_t comma = text.find(',');
+    if (comma == std::string_view::npos || (comma > 0 && !all_digits(text.substr(0, comma)))) {
+        return false;
+    }
+    text.remove_prefix(comma + 1);
+    const std::size_t end = text.find_first_of("eE");
+    if (!all_digits(text.substr(0, end)) || end == std::string_view::npos) {
+        return all_digits(text);
+    }
+    text.remove_prefix(end + 1);
+    if (!text.empty() && (text.front() == '-' || text.front() == '+')) {
+        text.remove_prefix(1);
+    }
+    return all_digits(text);
+}
+
+/// \param decimal_comma  the table has decimal commas: none of its numbers has a point
 std::optional<double> parse_number(const CsvCell& cell, std::string_view column, const NumberRange& range,
-                                   ProblemList& problems) {
+                                   ProblemList& problems, bool decimal_comma = false) {
     const std::string of_column = column.empty() ? std::string{} : " in column " + text::visible(column);
     const auto refuse = [&](const InputCode& code, const std::string& rule, const std::string& action) {
         problems.refuse(code, where_is(cell, problems), shown(cell.text) + of_column, rule, action);
@@ -222,6 +245,16 @@ std::optional<double> parse_number(const CsvCell& cell, std::string_view column,
     };
     const std::string must_be_number = "must be a number with a decimal point";
     std::string_view text = cell.text;
+    std::string with_point;
+    if (decimal_comma && has_decimal_comma(text)) {
+        with_point = text;
+        with_point[with_point.find(',')] = '.';
+        text = with_point;
+    } else if (decimal_comma && text.find('.') != std::string_view::npos &&
+               text.find_first_not_of("0123456789,.+-eE") == std::string_view::npos) {
+        return refuse(k_csv_decimal_comma, "the numbers of this table have decimal commas and no other separators",
+                      "write it with a decimal comma");
+    }
     if (text.empty()) {
         problems.refuse(k_csv_missing_value, where_is(cell, problems), "an empty cell" + of_column, must_be_number,
                         "state the value, or remove the row");
@@ -291,6 +324,27 @@ bool refuse_other_separator(const std::vector<CsvCell>& header, ProblemList& pro
 
 }  // namespace
 
+char csv_separator(std::string_view text) {
+    bool is_quoted = false;
+    bool has_semicolon = false;
+    bool has_begun = false;
+    for (const char c : text) {
+        if ((c == '\n' || c == '\r') && !is_quoted) {
+            if (has_begun) {
+                break;
+            }
+            continue;
+        }
+        has_begun = true;
+        is_quoted = is_quoted != (c == '"');
+        if (c == ',' && !is_quoted) {
+            return ',';
+        }
+        has_semicolon = has_semicolon || (c == ';' && !is_quoted);
+    }
+    return has_semicolon ? ';' : ',';
+}
+
 std::optional<CsvTable> read_csv_table(std::string bytes, std::span<const std::string_view> required,
                                        std::span<const std::string_view> optional, ProblemList& problems,
                                        const CsvLimits& limits) {
@@ -300,7 +354,8 @@ std::optional<CsvTable> read_csv_table(std::string bytes, std::span<const std::s
     if (!text) {
         return std::nullopt;
     }
-    Scanner scanner(*text, *storage, problems);
+    const char separator = csv_separator(*text);
+    Scanner scanner(*text, *storage, problems, separator);
     std::vector<CsvCell> fields;
     while (fields.empty() && !scanner.at_end()) {
         if (!scanner.next(fields)) {
@@ -389,6 +444,9 @@ std::optional<CsvTable> read_csv_table(std::string bytes, std::span<const std::s
         }
         table.cells_.insert(table.cells_.end(), fields.begin(), fields.end());
     }
+    table.decimal_comma_ =
+        separator == ';' && std::any_of(table.cells_.begin(), table.cells_.end(),
+                                        [](const CsvCell& cell) { return has_decimal_comma(cell.text); });
     if (row_count == 0) {
         problems.refuse(k_csv_no_rows, text::visible(problems.file()), "a header and no rows",
                         "a table has at least one row", "check that the file is complete");
@@ -406,7 +464,18 @@ std::string CsvTable::where(const CsvCell& cell) const {
 }
 
 std::optional<double> CsvTable::number(std::size_t row, std::size_t column, const NumberRange& range) const {
-    return parse_number(cell(row, column), names_[column], range, *problems_);
+    return parse_number(cell(row, column), names_[column], range, *problems_, decimal_comma_);
+}
+
+std::string CsvTable::number_text(std::size_t row, std::size_t column) const {
+    std::string text{cell(row, column).text};
+    if (text.starts_with('+')) {
+        text.erase(0, 1);
+    }
+    if (decimal_comma_ && has_decimal_comma(text)) {
+        text[text.find(',')] = '.';
+    }
+    return text;
 }
 
 std::optional<double> CsvTable::number_if_any(std::size_t row, std::size_t column, const NumberRange& range) const {

@@ -27,6 +27,11 @@ struct CsvCell {
     std::uint32_t column = 1;
 };
 
+/// What separates the fields of a table: a semicolon where the first line that is not blank has one and no comma outside
+/// of double quotes, as spreadsheets of countries with a decimal comma write it; else a comma.
+/// \param text  without byte order mark
+[[nodiscard]] char csv_separator(std::string_view text);
+
 /// A table with named columns from a CSV file (RFC 4180), read strictly.
 ///
 /// Columns are asked for by number: the required ones first, then the optional ones, in the order in which the reader
@@ -45,6 +50,8 @@ public:
 
     /// The whole cell as a number, by std::from_chars; a leading plus sign is accepted.
     [[nodiscard]] std::optional<double> number(std::size_t row, std::size_t column, const NumberRange& range) const;
+    /// A number as it was written, with a decimal point and without a plus sign.
+    [[nodiscard]] std::string number_text(std::size_t row, std::size_t column) const;
     /// Nothing when the column is absent or its cell is empty.
     [[nodiscard]] std::optional<double> number_if_any(std::size_t row, std::size_t column,
                                                       const NumberRange& range) const;
@@ -68,11 +75,12 @@ private:
     std::vector<std::optional<std::size_t>> positions_;  ///< of the columns asked for, in the file
     std::size_t width_ = 0;                              ///< columns of the file
     bool is_complete_ = true;
+    bool decimal_comma_ = false;  ///< of its numbers; columns are separated by semicolons then
     std::vector<CsvCell> cells_;  ///< row by row
 };
 
 /// Reads a table: UTF-8, LF or CRLF, comma, decimal point, a header with names, at least one row. Blank lines are
-/// skipped.
+/// skipped. Where columns are separated by semicolons (csv_separator), numbers may have decimal commas: all of them then.
 ///
 /// A column that nobody asked for is a warning. Rows that are ragged are refused and left out of the table.
 /// \return nothing when the text cannot be read as this table; with problems in single rows, the table *and* refusals

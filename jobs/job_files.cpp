@@ -1,4 +1,5 @@
 #include "jobs/job_files.h"
+#include "jobs/csv_table.h"
 #include "text/visible_text.h"
 
 #include <algorithm>
@@ -103,6 +104,7 @@ std::vector<CsvHeaderField> csv_header(std::string_view bytes) {
     while (start < bytes.size() && (bytes[start] == '\n' || bytes[start] == '\r')) {
         ++start;
     }
+    const char separator = csv_separator(bytes);
     text::PlaceFinder finder(bytes);
     std::vector<CsvHeaderField> fields;
     for (std::size_t i = start; i < bytes.size();) {
@@ -114,11 +116,11 @@ std::vector<CsvHeaderField> csv_header(std::string_view bytes) {
             }
             ++i;
         }
-        for (; i < bytes.size() && bytes[i] != ',' && bytes[i] != '\n' && bytes[i] != '\r'; ++i) {
+        for (; i < bytes.size() && bytes[i] != separator && bytes[i] != '\n' && bytes[i] != '\r'; ++i) {
             field.name += bytes[i];
         }
         fields.push_back(std::move(field));
-        if (i >= bytes.size() || bytes[i] != ',') {
+        if (i >= bytes.size() || bytes[i] != separator) {
             break;
         }
         if (++i == bytes.size()) {

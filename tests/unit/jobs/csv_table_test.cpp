@@ -72,7 +72,6 @@ TEST(CsvTable, RefusesWhatIsNotATable) {
     expect_refusal("", k_empty_file, "t.csv", "the file is empty");
     expect_refusal("\n\n", k_empty_file, "t.csv", "the file is empty");
     expect_refusal("name,x_mm,run\n", k_csv_no_rows, "t.csv", "a header and no rows");
-    expect_refusal("name;x_mm;run\na;1,5;2\n", k_csv_separator, "t.csv:1:1", "separated by semicolons");
     expect_refusal("name\tx_mm\trun\na\t1\t2\n", k_csv_separator, "t.csv:1:1", "separated by tabs");
     expect_refusal("name,x_mm,run\ra,1,2\r", k_lone_carriage_return, "t.csv:1:14", "carriage return");
     expect_refusal("name,x_mm,run\n\xE4,1,2\n", k_not_utf8, "t.csv:2:1", "byte 0xE4 at byte offset 14");
@@ -105,6 +104,38 @@ TEST(CsvTable, RefusesRaggedRowsAndDecimalCommas) {
                    "\"808,831212\" looks like a number with a decimal comma");
     expect_refusal("name,x_mm,run\na,\"1,234\",2\n", k_csv_decimal_comma, "t.csv:2:3", "\"1,234\" in column x_mm");
     expect_refusal("name,x_mm,run\na,\"1,234.5\",2\n", k_csv_decimal_comma, "t.csv:2:3", "thousands separators");
+}
+
+TEST(CsvTable, ReadsSemicolonsWithDecimalCommas) {
+    ProblemList problems("t.csv");
+    constexpr std::array<std::string_view, 3> k_columns{"name", "x_mm", "run"};
+    const auto table = read_csv_table("\xEF\xBB\xBF\r\nname;x_mm;run\r\n\"a;b\";+10,50;2\r\nc,d;-,5e-3;3\r\n",
+                                      k_columns, {}, problems);
+    ASSERT_TRUE(table);
+    EXPECT_EQ(table->name(0, 0), "a;b");
+    EXPECT_EQ(table->name(1, 0), "c,d");
+    EXPECT_EQ(table->number(0, 1, {}), 10.5);
+    EXPECT_EQ(table->number_text(0, 1), "10.50");
+    EXPECT_EQ(table->number(1, 1, {}), -0.0005);
+    EXPECT_EQ(table->integer(1, 2, {}), 3);
+    EXPECT_EQ(problems.refusals(), 0U);
+}
+
+TEST(CsvTable, ReadsSemicolonsWithDecimalPoints) {
+    ProblemList problems("t.csv");
+    constexpr std::array<std::string_view, 1> k_columns{"x_mm"};
+    const auto table = read_csv_table("x_mm;y\n1.234;a\n", k_columns, {}, problems);
+    ASSERT_TRUE(table);
+    EXPECT_EQ(table->number(0, 0, {}), 1.234);
+    EXPECT_EQ(table->number_text(0, 0), "1.234");
+}
+
+TEST(CsvTable, RefusesPointsAmongDecimalCommas) {
+    expect_refusal("name;x_mm;run\na;1.234;2\nb;1,5;2\n", k_csv_decimal_comma, "t.csv:2:3",
+                   "the numbers of this table have decimal commas");
+    expect_refusal("name;x_mm;run\na;1.234,5;2\nb;1,5;2\n", k_csv_decimal_comma, "t.csv:2:3",
+                   "the numbers of this table have decimal commas");
+    expect_refusal("name,x_mm;run\na,1;2\n", k_csv_missing_column, "t.csv:1:1", "\"x_mm\" is missing");
 }
 
 TEST(CsvTable, RefusesBadQuotes) {
